@@ -1,0 +1,189 @@
+"""The network: patch encoder, latent rotation, invariant pre-processing, decoder heads. neuralsvcd.h does the same, in C.
+
+Degree-1 and degree-2 blocks stand side by side on the last axis, 3 + 5 = 8 components, as in FER-VN.
+"""
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import torch
+from torch import Tensor, nn
+
+from data import Geometry
+
+ROOT3 = 3 ** 0.5
+
+
+def degree2(a: Tensor, b: Tensor) -> Tensor:
+    """Symmetric traceless part of a b^T in the basis of the real spherical harmonics; |degree2(a, a)| = |a|^2."""
+    ax, ay, az, bx, by, bz = *a.unbind(-1), *b.unbind(-1)
+    return torch.stack([0.5 * ROOT3 * (ax * by + ay * bx), 0.5 * ROOT3 * (ay * bz + az * by),
+                        az * bz - 0.5 * (ax * bx + ay * by), 0.5 * ROOT3 * (ax * bz + az * bx),
+                        0.5 * ROOT3 * (ax * bx - ay * by)], -1)
+
+
+def wigner2(m: Tensor) -> Tensor:
+    """D of degree 2 of an orthogonal matrix m (..., 3, 3) -> (..., 5, 5): the columns are the images of the basis."""
+    s = 3 ** -0.5
+    c = m.unbind(-1)  # columns
+    q = lambda i, j: degree2(c[i], c[j])
+    return torch.stack([2 * s * q(0, 1), 2 * s * q(1, 2), (2 * q(2, 2) - q(0, 0) - q(1, 1)) / 3, 2 * s * q(0, 2),
+                        s * (q(0, 0) - q(1, 1))], -1)
+
+
+@dataclass
+class Shape:
+    """Sizes, baked into weights.h."""
+    context: int = 6
+    point_hidden: int = 32
+    pooled: int = 12
+    pooled_scalars: int = 8
+    hidden: int = 24
+    patch_hidden: int = 48
+    channels: int = 8
+    scalars: int = 8
+    heads: tuple[tuple[str, tuple[int, ...]], ...] = (("tiny", (24, 16)), ("small", (64, 40)), ("base", (128, 128, 32)))
+
+    @property
+    def latent(self) -> int:
+        return 8 * self.channels + self.scalars
+
+
+def mlp(sizes: list[int]) -> nn.Sequential:
+    layers: list[nn.Module] = []
+    for i, (a, b) in enumerate(zip(sizes, sizes[1:])):
+        layers += [nn.Linear(a, b)] + ([nn.ReLU()] if i + 2 < len(sizes) else [])
+    return nn.Sequential(*layers)
+
+
+class Encoder(nn.Module):
+    """Vector-Neuron encoder of one patch. Two passes over the points: fixed moments make context vectors; then every
+    point's degree-1 and degree-2 vectors are gated by a network of invariants (among them their products with the
+    context) and averaged. A gated VN layer mixes the averages into the latent, every vector shorter than 1."""
+
+    def __init__(self, s: Shape):
+        super().__init__()
+        self.s = s
+        weight = lambda o, i: nn.Parameter(torch.randn(o, i) / i ** 0.5)
+        self.context1, self.context2 = weight(s.context, 4), weight(s.context, 4)
+        self.point = mlp([2 + 5 * s.context, s.point_hidden, s.point_hidden, 5 * s.pooled + s.pooled_scalars])
+        wide = s.pooled + s.context
+        self.mix1, self.mix2 = weight(s.hidden, wide), weight(s.hidden, wide)
+        self.patch = mlp([2 * wide + s.pooled_scalars, s.patch_hidden, 2 * s.hidden + s.scalars])
+        self.out1, self.out2 = weight(s.channels, s.hidden), weight(s.channels, s.hidden)
+
+    def forward(self, u: Tensor, n: Tensor) -> Tensor:
+        """u (..., P, 3) points about the centre over the radius, n (..., P, 3) unit normals -> (..., latent)."""
+        s = self.s
+        un = (u * n).sum(-1, keepdim=True)
+        uu = (u * u).sum(-1, keepdim=True)
+        q = torch.stack([degree2(u, u), degree2(u, n), degree2(n, n)], -2)  # (..., P, 3, 5)
+        m1 = torch.stack([n.mean(-2), (uu * n).mean(-2), (un * u).mean(-2), (uu * u).mean(-2)], -2)
+        m2 = torch.cat([q.mean(-3), (un[..., None] * q[..., 1, :][..., None, :]).mean(-3)], -2)
+        c1, c2 = self.context1 @ m1, self.context2 @ m2  # (..., G, 3), (..., G, 5)
+        invariant = torch.cat([uu, un, u @ c1.mT, n @ c1.mT, (q @ c2.mT.unsqueeze(-3)).flatten(-2)], -1)
+        g = self.point(invariant)  # (..., P, 5 C + S)
+        gu, gn, g2, gs = g.split([s.pooled, s.pooled, 3 * s.pooled, s.pooled_scalars], -1)
+        points = u.shape[-2]
+        v1 = (gu.mT @ u + gn.mT @ n) / points  # (..., C, 3)
+        g2 = g2.unflatten(-1, (3, s.pooled))
+        v2 = sum(g2[..., k, :].mT @ q[..., k, :] for k in range(3)) / points  # (..., C, 5)
+        a1, a2 = torch.cat([v1, c1], -2), torch.cat([v2, c2], -2)
+        h = self.patch(torch.cat([(a1 * a1).sum(-1), (a2 * a2).sum(-1), gs.mean(-2)], -1))
+        gate1, gate2, scalars = h.split([s.hidden, s.hidden, s.scalars], -1)
+        z1 = self.out1 @ (gate1[..., None] * (self.mix1 @ a1))
+        z2 = self.out2 @ (gate2[..., None] * (self.mix2 @ a2))
+        shorten = lambda z: z / (1 + (z * z).sum(-1, keepdim=True)).sqrt()
+        return torch.cat([shorten(z1).flatten(-2), shorten(z2).flatten(-2), torch.tanh(scalars)], -1)
+
+
+FACTS = 12
+
+
+def invariants(s: Shape, z1: Tensor, z2: Tensor, g: Geometry, scaling: str = "sum", roll: str = "velocity",
+               canonical: bool = True) -> Tensor:
+    """Inputs of the decoder, invariant to rigid motion, scale, swap, mirror and time reversal (appendix F, and DESIGN.md).
+
+    z1, z2 (..., latent) in their bodies' frames; g of shape (...). Larger patch first; the line between the centres is
+    axis 1; the velocity across it, with a little of the difference of the mean directions so that it has a limit where
+    the velocity vanishes, is axis 2; time runs, and axis 3 points, so that this difference has positive components."""
+    c = s.channels
+    split = lambda z: (z[..., : 3 * c].unflatten(-1, (c, 3)), z[..., 3 * c : 8 * c].unflatten(-1, (c, 5)), z[..., 8 * c :])
+    q = g.q
+    x, y, zz, w = q.unbind(-1)
+    rot = torch.stack([1 - 2 * (y * y + zz * zz), 2 * (x * y - zz * w), 2 * (x * zz + y * w),
+                       2 * (x * y + zz * w), 1 - 2 * (x * x + zz * zz), 2 * (y * zz - x * w),
+                       2 * (x * zz - y * w), 2 * (y * zz + x * w), 1 - 2 * (x * x + y * y)], -1).unflatten(-1, (3, 3))
+    a1, b1, s1 = split(z1)
+    a2, b2, s2 = split(z2)
+    reach = g.r1 + g.r2
+    d, v, turn = (g.p2 - g.p1) / reach[..., None], g.v / reach[..., None], g.w
+    swap = (g.r2 > g.r1)[..., None]
+    d = torch.where(swap, -d, d)
+    lean = (rot @ a1[..., 0, :, None])[..., 0] * (g.r1 / reach)[..., None] - a2[..., 0, :] * (g.r2 / reach)[..., None]
+    lean = torch.where(swap, -lean, lean)
+    # Body 2 seen from body 1 moves the other way; time reversal makes the sign free, so the swap leaves v and w alone.
+    length = d.norm(dim=-1, keepdim=True)
+    fallback = lean + torch.tensor([1e-6, 0, 0], dtype=d.dtype, device=d.device)
+    e1 = torch.where(length > 1e-5, d / length.clamp_min(1e-5), fallback / fallback.norm(dim=-1, keepdim=True).clamp_min(1e-9))
+    across = lambda a: a - (a * e1).sum(-1, keepdim=True) * e1
+    lean_across, v_across = across(lean), across(v)
+    if canonical:
+        back = ((lean_across * v_across).sum(-1, keepdim=True) < 0)
+        v, turn, v_across = (torch.where(back, -a, a) for a in (v, turn, v_across))
+    ref = v_across + 0.05 * lean_across if roll == "velocity" else lean_across
+    tiny = ref.norm(dim=-1, keepdim=True) < 1e-7
+    least = torch.nn.functional.one_hot(e1.abs().argmin(-1), 3).to(d.dtype)  # any axis across the line
+    ref = torch.where(tiny, across(least), ref)
+    e2 = ref / ref.norm(dim=-1, keepdim=True).clamp_min(1e-9)
+    e3 = torch.linalg.cross(e1, e2)
+    mirror = torch.ones_like(length)
+    if canonical:
+        mirror = torch.where((lean * e3).sum(-1, keepdim=True) < 0, -mirror, mirror)
+    frame = torch.stack([e1, e2, mirror * e3], -2)  # (..., 3, 3) world -> pair; improper where mirrored
+    f1 = frame @ rot
+    turned = lambda a, b, m: (a @ m.mT, b @ wigner2(m).mT)
+    a1, b1 = turned(a1, b1, f1)
+    a2, b2 = turned(a2, b2, frame)
+    if scaling == "sum":
+        k1, k2 = (g.r1 / reach)[..., None], (g.r2 / reach)[..., None]
+    else:  # appendix F: by the larger latent
+        n1, n2 = (torch.cat([a.flatten(-2), b.flatten(-2)], -1).norm(dim=-1) * r for a, b, r in ((a1, b1, g.r1), (a2, b2, g.r2)))
+        top = torch.maximum(n1, n2).clamp_min(1e-9)
+        k1, k2 = (g.r1 / top)[..., None], (g.r2 / top)[..., None]
+    full = lambda a, b, k: torch.cat([a.flatten(-2), b.flatten(-2)], -1) * k
+    x1, x2 = full(a1, b1, k1), full(a2, b2, k2)
+    x1, x2 = torch.where(swap, x2, x1), torch.where(swap, x1, x2)
+    s1, s2 = torch.where(swap, s2, s1), torch.where(swap, s1, s2)
+    vf = (frame @ v[..., None])[..., 0]
+    wf = (frame @ turn[..., None])[..., 0] * mirror  # an axial vector
+    speed2 = (v * v).sum(-1, keepdim=True)
+    tau = (-(d * -v).sum(-1, keepdim=True) / (speed2 + 1e-6)).clamp(-1, 1)  # nearest approach of the two centres
+    near = (d - tau * v).norm(dim=-1, keepdim=True)
+    ratio = torch.maximum(g.r1, g.r2)[..., None] / reach[..., None]
+    facts = torch.cat([length, ratio, near, tau, vf, wf, speed2.sqrt(), turn.norm(dim=-1, keepdim=True)], -1)
+    return torch.cat([x1, x2, s1, s2, facts], -1)
+
+
+class Network(nn.Module):
+    def __init__(self, s: Shape = Shape(), scaling: str = "sum", roll: str = "velocity", canonical: bool = True):
+        super().__init__()
+        self.s, self.options = s, dict(scaling=scaling, roll=roll, canonical=canonical)
+        self.encoder = Encoder(s)
+        inputs = 2 * s.latent + FACTS
+        self.heads = nn.ModuleDict({name: mlp([inputs, *sizes, 1]) for name, sizes in s.heads})
+        # Training only: the distance of the pair, off the last hidden layer.
+        self.distance = nn.ModuleDict({name: nn.Linear(sizes[-1], 1) for name, sizes in s.heads})
+
+    def decode(self, z1: Tensor, z2: Tensor, g: Geometry) -> dict[str, tuple[Tensor, Tensor]]:
+        x = invariants(self.s, z1, z2, g, **self.options)
+        out = {}
+        for name, head in self.heads.items():
+            h = head[:-1](x)
+            out[name] = (head[-1](h)[..., 0], self.distance[name](h)[..., 0])
+        return out
+
+
+def quantise(z: Tensor) -> Tensor:
+    """int8 latents, as a body stores them."""
+    return torch.round(z * 127) / 127
