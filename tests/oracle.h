@@ -174,11 +174,11 @@ typedef struct oracle_node {
 
 typedef struct oracle_mesh {
   oracle_triangle *triangles;
-  oracle_node *nodes;     // 2 triangle_count - 1, the root first
-  double *seeds;          // (seed_count, 3): one vertex of every connected component
+  oracle_node *nodes;  // 2 triangle_count - 1, the root first
+  double *seeds;       // (seed_count, 3): one vertex of every connected component
   size_t triangle_count, node_count, seed_count;
-  double low[3], high[3];       // bounds
-  double center[3], radius;     // of the bounds; the radius reaches the farthest vertex
+  double low[3], high[3];    // bounds
+  double center[3], radius;  // of the bounds; the radius reaches the farthest vertex
 } oracle_mesh;
 
 ORACLE_DEF void oracle_mesh_free(oracle_mesh *mesh) {
@@ -267,7 +267,8 @@ ORACLE_DEF int oracle_seeds(oracle_mesh *mesh, const double *positions, size_t v
   free(parent), free(welded), free(seen);
   return ok;
 }
-// positions: (vertices, 3), multiplied by scale; indices: (triangles, 3), valid, triangles >= 1. Returns 0 without memory.
+// positions: (vertices, 3), multiplied by scale; indices: (triangles, 3), valid, triangles >= 1. Returns 0 without
+// memory.
 ORACLE_DEF int oracle_mesh_init(oracle_mesh *mesh, const double *positions, size_t vertices, const uint32_t *indices,
                                 size_t triangles, double scale) {
   memset(mesh, 0, sizeof *mesh);
@@ -301,7 +302,8 @@ ORACLE_DEF int oracle_mesh_init(oracle_mesh *mesh, const double *positions, size
 
 ORACLE_DEF double oracle_clamp01(double x) { return x < 0 ? 0 : x > 1 ? 1 : x; }
 
-// Squared distance of segments p0 p1 and q0 q1, with the closest points (Ericson, Real-Time Collision Detection, 5.1.9).
+// Squared distance of segments p0 p1 and q0 q1, with the closest points (Ericson, Real-Time Collision
+// Detection, 5.1.9).
 ORACLE_DEF double oracle_segments(const double *p0, const double *p1, const double *q0, const double *q1, double *on_p,
                                   double *on_q) {
   double d1[3], d2[3], r[3], s = 0, t = 0;
@@ -347,7 +349,8 @@ ORACLE_DEF double oracle_heights(const oracle_triangle *a, const oracle_triangle
   return low > 0 ? low : high < 0 ? -high : 0;
 }
 // Does an edge of b pass through a? Then x is where.
-ORACLE_DEF int oracle_edge_crosses(const oracle_triangle *a, const oracle_triangle *b, const double *heights, double *x) {
+ORACLE_DEF int oracle_edge_crosses(const oracle_triangle *a, const oracle_triangle *b, const double *heights,
+                                   double *x) {
   for (int k = 0; k < 3; k++) {
     double h0 = heights[k], h1 = heights[(k + 1) % 3];
     if ((h0 > 0) == (h1 > 0)) continue;
@@ -364,7 +367,8 @@ ORACLE_DEF double oracle_triangles(const oracle_triangle *a, const oracle_triang
   double gap_a = oracle_heights(a, b, over_a), gap_b = oracle_heights(b, a, over_b), gap = fmax(gap_a, gap_b);
   if (gap * gap >= limit) return gap * gap;
   int flat_a = oracle_dot(a->normal, a->normal) > 0, flat_b = oracle_dot(b->normal, b->normal) > 0;
-  if (gap <= 0 && ((flat_a && oracle_edge_crosses(a, b, over_a, x)) || (flat_b && oracle_edge_crosses(b, a, over_b, x)))) {
+  if (gap <= 0 &&
+      ((flat_a && oracle_edge_crosses(a, b, over_a, x)) || (flat_b && oracle_edge_crosses(b, a, over_b, x)))) {
     memcpy(on_a, x, sizeof x), memcpy(on_b, x, sizeof x);
     return 0;
   }
@@ -489,7 +493,8 @@ ORACLE_DEF double oracle_distance(const oracle_mesh *a, const oracle_pose *pose_
 // -------------------------------------------------------------------------------------------------- containment
 
 // Generalised winding number (Jacobson et al. 2013) of the mesh about a point in its body frame: the solid angles of
-// all triangles (van Oosterom and Strackee 1983) over 4 pi. 1 inside, 0 outside, in between only where the mesh is open.
+// all triangles (van Oosterom and Strackee 1983) over 4 pi. 1 inside, 0 outside, in between only where the mesh is
+// open.
 ORACLE_DEF double oracle_winding(const oracle_mesh *mesh, const double *point) {
   double sum = 0;
   for (size_t i = 0; i < mesh->triangle_count; i++) {
@@ -498,7 +503,8 @@ ORACLE_DEF double oracle_winding(const oracle_mesh *mesh, const double *point) {
     oracle_sub(mesh->triangles[i].v[2], point, c);
     oracle_cross(b, c, bc);
     double la = oracle_length(a), lb = oracle_length(b), lc = oracle_length(c);
-    sum += atan2(oracle_dot(a, bc), la * lb * lc + oracle_dot(a, b) * lc + oracle_dot(b, c) * la + oracle_dot(c, a) * lb);
+    sum +=
+        atan2(oracle_dot(a, bc), la * lb * lc + oracle_dot(a, b) * lc + oracle_dot(b, c) * la + oracle_dot(c, a) * lb);
   }
   return sum / 6.283185307179586;
 }
@@ -550,7 +556,8 @@ ORACLE_DEF double oracle_path_bound(const oracle_mesh *mesh, const oracle_pose *
   }
   return oracle_length(velocity) + angle * angle * oracle_length(spin) / 2 + angle * fmin(reach, mesh->radius);
 }
-ORACLE_DEF int oracle_motion_init(oracle_motion *motion, const oracle_mesh *mesh, const oracle_pose *poses, size_t count) {
+ORACLE_DEF int oracle_motion_init(oracle_motion *motion, const oracle_mesh *mesh, const oracle_pose *poses,
+                                  size_t count) {
   motion->poses = poses, motion->count = count;
   motion->u = (double *)calloc(count, sizeof(double));
   for (size_t i = 1; motion->u && i < count; i++)
@@ -566,8 +573,10 @@ ORACLE_DEF double oracle_motion_time(const oracle_motion *motion, double u) {
   size_t low = 0, high = motion->count - 1;
   while (high - low > 1) {
     size_t middle = (low + high) / 2;
-    if (motion->u[middle] <= u) low = middle;
-    else high = middle;
+    if (motion->u[middle] <= u)
+      low = middle;
+    else
+      high = middle;
   }
   double length = motion->u[high] - motion->u[low];
   double f = length > 0 ? oracle_clamp01((u - motion->u[low]) / length) : 0;
@@ -662,15 +671,17 @@ ORACLE_DEF int oracle_minimize(oracle_sweep_state *s, const oracle_options *opti
     oracle_interval in = oracle_pop(s);
     double goal = r->distance - options->tolerance;  // intervals that cannot fall below it do not matter
     if (options->enough > 0) goal = fmin(goal, options->enough);
+    goal = fmax(goal, 0);  // this near, only a true intersection settles the matter
     r->lower = fmin(r->distance, in.lower);
     if (in.lower > goal) break;
-    if (in.u1 - in.u0 <= 2e-3 * options->tolerance) continue;  // only where distance <= tolerance: undecided
+    if (in.u1 - in.u0 <= 0.02 * options->tolerance) continue;  // only where distance <= tolerance: undecided
     double u = oracle_clamp01(0.5 + (in.d0 - in.d1) / (in.u1 - in.u0) / 2) * (in.u1 - in.u0) + in.u0;
     // Keep off the ends: there the distance is known (or bounded) already.
     double margin = fmin(0.05 * (in.u1 - in.u0), options->tolerance / 4);
     u = fmin(fmax(u, in.u0 + margin), in.u1 - margin);
     // A distance above this proves both halves to be of no interest: no need to know it exactly.
-    double limit = fmax(fmax(2 * goal + (u - in.u0) - in.d0, 2 * goal + (in.u1 - u) - in.d1), goal) + 1e-3 * options->tolerance;
+    double limit =
+        fmax(fmax(2 * goal + (u - in.u0) - in.d0, 2 * goal + (in.u1 - u) - in.d1), goal) + 1e-3 * options->tolerance;
     double d = oracle_evaluate(s, u, fmax(limit, 0.1 * options->tolerance));
     if (!oracle_push(s, in.u0, u, in.d0, d) || !oracle_push(s, u, in.u1, d, in.d1)) return 0;
   }
@@ -707,9 +718,12 @@ ORACLE_DEF oracle_result oracle_sweep(const oracle_mesh *moving, const oracle_po
   r.status = !ok ? ORACLE_NO_MEMORY : r.distance <= 0 ? ORACLE_COLLIDES : ORACLE_FREE;
   if (r.status != ORACLE_FREE) return r;
   if (!o.no_inside)
-    r.winding = fmax(oracle_inside(moving, &poses[0], fixed, fixed_pose), oracle_inside(fixed, fixed_pose, moving, &poses[0]));
-  if (r.distance <= o.tolerance) r.status = ORACLE_UNDECIDED;
-  else if (r.winding > 0.5) r.status = ORACLE_INSIDE;
+    r.winding =
+        fmax(oracle_inside(moving, &poses[0], fixed, fixed_pose), oracle_inside(fixed, fixed_pose, moving, &poses[0]));
+  if (r.distance <= o.tolerance)
+    r.status = ORACLE_UNDECIDED;
+  else if (r.winding > 0.5)
+    r.status = ORACLE_INSIDE;
   return r;
 }
 

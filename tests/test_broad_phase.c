@@ -22,7 +22,7 @@ typedef union blob {
   uint64_t align[BLOB / 8];
   char bytes[BLOB];
 } blob;
-static blob blob_a_memory, blob_b_memory, blob_c_memory;
+static blob blob_a_memory, blob_b_memory;
 static char *aligned(blob *b) { return b->bytes + (16 - (uintptr_t)b->bytes % 16) % 16; }
 static const size_t blob_capacity = BLOB - 16;
 
@@ -124,7 +124,7 @@ static void body_corruption(void) {
   char *copy = aligned(&blob_b_memory);
   size_t tried = 0, refused = 0;
   for (size_t at = 0; at < size; at++) {
-    for (int flip = 1; flip < 256; flip += 3) {
+    for (int flip = 1; flip < 256; flip++) {
       memcpy(copy, body, size);
       copy[at] = (char)(copy[at] ^ flip);
       tried++, refused += nsvcd_body_load(copy, size, &loaded) == NSVCD_ERROR_BODY;
@@ -491,6 +491,67 @@ static void conservative_sizes(void) {
   conservative("micrometre", 100, 1, 2, 2, 40, 1e-6, 1e-6, 0);
 }
 
+// The bound itself: the true place of a point against its place on the chord, in double, at most dev apart. The points
+// lie across the axis of rotation too, where the bound is attained: a bound that is a little too small fails here.
+static void deviation_is_bounded(void) {
+  const double paths[4] = {0, 1, 0, 0}, aways[4] = {0, 0, 1000, 0};
+  double most = 0;
+  rng_state = 7;
+  for (int trial = 0; trial < 2000; trial++) {
+    size_t count = trial % 4 == 3 ? 2 : pick(1, 60);
+    nsvcd_pose fixed = {{0, 0, 0}, {0, 0, 0, 1}};
+    double middle[3];
+    random_quat(fixed.rotation);
+    for (int k = 0; k < 3; k++) {
+      fixed.position[k] = (float)(uniform(0.5, 1) * aways[trial % 4]);
+      middle[k] = (double)fixed.position[k] + uniform(-1, 1);
+    }
+    random_motion(count, trial % 4 == 1 ? trial % 3 : 0, trial % 2 ? uniform(0, 12) : 0, paths[trial % 4], middle);
+    nsvcd__motion motion;
+    CHECK_EQ(nsvcd__motion_init(poses, count, &fixed, &motion), NSVCD_OK);
+    nsvcd__cut_motion(&motion, 1, &work);
+    pose64 f = to_double(&fixed);
+    for (int n = 0; n < 200; n++) {
+      float q[4], c[3];
+      random_quat(q);
+      double length = sqrt((double)(q[0] * q[0] + q[1] * q[1] + q[2] * q[2])) * 2, p[3], c64[3], square = 0;
+      for (int k = 0; k < 3; k++) c[k] = (float)((double)q[k] / length), c64[k] = (double)c[k];
+      size_t s = pick(0, work.segments - 1), l = s % 8;
+      double tau = uniform(0.4, 0.6);
+      const nsvcd__segments *b = &work.blocks[s / 8];
+      pose64 at = pose_at(poses, count, ((double)s + tau) / (double)work.segments);
+      place64(&at, &f, c64, p);
+      nsvcd__chords chords;
+      nsvcd__chords_of_sphere(b, c[0], c[1], c[2], 0, &chords);
+      const float x[3] = {chords.x[l], chords.y[l], chords.z[l]}, v[3] = {chords.vx[l], chords.vy[l], chords.vz[l]};
+      for (int k = 0; k < 3; k++) square += pow((double)x[k] + tau * (double)v[k] - p[k], 2);
+      CHECK_LE(sqrt(square), chords.reach[l]);
+      if (trial % 4 == 3) most = fmax(most, sqrt(square) / (double)chords.reach[l]);
+    }
+  }
+  printf("  the bound is attained to %.4f\n", most);
+  CHECK_GE(most, 0.98);
+}
+
+// With all depths equal, which pairs are kept must not depend on the order in which they were found.
+static void ties(void) {
+  memset(centres, 0, sizeof centres), memset(areas, 0, sizeof areas), memset(latents, 0, sizeof latents);
+  for (size_t i = 0; i < 40; i++) radii[i] = 1;
+  const nsvcd_body *a = build(40, &blob_a_memory), *b = build(40, &blob_b_memory);
+  nsvcd_pose fixed = {{0.5f, 0, 0}, {0, 0, 0, 1}};
+  nsvcd__motion motion;
+  nsvcd__candidates all, best;
+  poses[0] = fixed, poses[0].position[0] = 0;
+  CHECK_EQ(nsvcd__motion_init(poses, 1, &fixed, &motion), NSVCD_OK);
+  nsvcd__broad_phase(a, b, &motion, &work, items, 1600, &all);
+  CHECK_EQ(all.total, 1600);
+  for (size_t limit = 1; limit <= 64; limit++) {
+    nsvcd__broad_phase(a, b, &motion, &work, few, limit, &best);
+    CHECK(memcmp(few, items, limit * sizeof *few) == 0);
+    for (size_t n = 0; n < limit; n++) CHECK_EQ(few[n].moving * 40 + few[n].fixed, n);
+  }
+}
+
 // A known case: two unit spheres, one passes the other at distance 1.5 along x from -5 to 5.
 static void closed_form(void) {
   memset(latents, 0, sizeof latents), memset(areas, 0, sizeof areas), memset(centres, 0, sizeof centres);
@@ -572,10 +633,9 @@ static void containment(void) {
     CHECK(!nsvcd__is_contained(inner, outer, eye, far));
     CHECK(nsvcd__is_contained(inner, outer, eye, none));
   }
-  printf("  winding number, worst error at 0.75-1 / 1-1.5 / 1.5-2 / over 2 patch radii: %.3f %.3f %.3f %.4f\n", error[0],
-         error[1], error[2], error[3]);
-  CHECK_LE(error[0], 0.45);
-  CHECK_LE(error[1], 0.3);
+  printf("  winding number, worst error from 0.75 / 1 / 1.5 / 2 patch radii on: %.3f %.3f %.3f %.4f\n", error[0], error[1],
+         error[2], error[3]);
+  CHECK_LE(error[1], 0.3);  // from NSVCD__CLEARANCE on; the first bin is why it is not less
   CHECK_LE(error[3], 0.02);
 }
 
@@ -598,42 +658,41 @@ static void containment_in_a_cavity(void) {
 
 // ------------------------------------------------------------------------------------------------------------ speed
 
-static double microseconds(void) {
-  struct timespec now;
-  timespec_get(&now, TIME_UTC);
-  return 1e6 * (double)now.tv_sec + 1e-3 * (double)now.tv_nsec;
-}
-
 static int by_value(const void *a, const void *b) {
   double x = *(const double *)a, y = *(const double *)b;
   return x < y ? -1 : x > y ? 1 : 0;
 }
 
-// Not a check: two shells of 0.15 m that graze, path 0.4 m, up to 120 degrees, 17 poses, K = 8.
-static void broad_phase_speed(void) {
+// Not a check: two shells of 0.1 m radius, path up to 0.4 m, turning up to 120 degrees, 17 poses, K = 8; a near miss
+// to a graze (`gap` to 0.08 m between them at the middle), or nested deeply.
+static void time_broad_phase(const char *name, double least_gap, double most_gap) {
   for (size_t points = 64; points <= 512; points *= 2) {
     double times[300], runs[300];
     rng_state = 99;
-    const nsvcd_body *a = shell_body(points, 0.15, &blob_a_memory), *b = shell_body(points, 0.15, &blob_b_memory);
+    const nsvcd_body *a = shell_body(points, 0.1, &blob_a_memory), *b = shell_body(points, 0.1, &blob_b_memory);
     for (int n = 0; n < 300; n++) {
-      double middle[3] = {uniform(0.29, 0.35), 0, 0};
+      double middle[3] = {0.2 + uniform(least_gap, most_gap), 0, 0};
       nsvcd_pose fixed = {{0, 0, 0}, {0, 0, 0, 1}};
       random_motion(17, 0, uniform(0, 120) * degrees, 0.2, middle);
       nsvcd__motion motion;
       nsvcd__candidates kept;
-      times[n] = 1e9;
-      for (int repeat = 0; repeat < 5; repeat++) {
-        double start = microseconds();
+      clock_t start = clock();
+      for (int repeat = 0; repeat < 50; repeat++) {
         nsvcd__motion_init(poses, 17, &fixed, &motion);
         nsvcd__broad_phase(a, b, &motion, &work, few, 8, &kept);
-        times[n] = fmin(times[n], microseconds() - start);
       }
+      times[n] = 1e6 * (double)(clock() - start) / CLOCKS_PER_SEC / 50;
       runs[n] = (double)kept.total;
     }
     qsort(times, 300, sizeof *times, by_value), qsort(runs, 300, sizeof *runs, by_value);
-    printf("  N = %3zu: median %.2f us, 90 %% %.2f us, worst %.2f us; median %.0f runs, worst %.0f\n", points,
+    printf("  %s, N = %3zu: median %.2f us, 90 %% %.2f us, worst %.2f us; median %.0f runs, worst %.0f\n", name, points,
            times[150], times[270], times[299], runs[150], runs[299]);
   }
+}
+
+static void broad_phase_speed(void) {
+  time_broad_phase("grazing", -0.01, 0.1);
+  time_broad_phase("deep", -0.1, 0);
 }
 
 void test_broad_phase(void) {
@@ -646,6 +705,8 @@ void test_broad_phase(void) {
   RUN(rotation_vector);
   RUN(bad_poses);
   RUN(closed_form);
+  RUN(ties);
+  RUN(deviation_is_bounded);
   RUN(runs_are_cut);
   RUN(conservative_smooth);
   RUN(conservative_wobble);

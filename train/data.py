@@ -4,6 +4,7 @@ A group is 32 bodies (shape and N) and PER_GROUP problems among them, so that on
 """
 from __future__ import annotations
 
+import importlib
 import time
 from dataclasses import dataclass
 from itertools import groupby
@@ -12,9 +13,9 @@ import torch
 from torch import Tensor
 
 import shapes
-from patches import COUNTS, Patches, make_patches
-from problems import (PAIRS, Problems, Solids, broad_phase, closest, conjugate, interpolate, least_gap, place, quaternion_log,
-                      quaternion_multiply, random_motions, rotate)
+from patches import COUNTS, Patches, furthest_points, make_patches
+from problems import (INTO_FIXED, INTO_MOVING, PAIRS, Problems, Solids, broad_phase, closest, conjugate, interpolate, least_gap, place, probe,
+                      quaternion_log, quaternion_multiply, random_motions, rotate)
 
 GENERAL_N = [512] * 5 + [256] * 6 + [128] * 6 + [64] * 4 + [32] * 3
 HOLLOW_N = [512] * 2 + [256] * 3 + [128] * 2 + [64] * 1
@@ -66,12 +67,12 @@ class Dataset:
     weight: Tensor  # (P,) 0 where the label cannot be trusted
 
 
-def build_solids(maker: shapes.Maker, count: int, families: tuple[str, ...], generator: torch.Generator, device: str, eval_sdf,
+def build_solids(maker: shapes.Maker, count: int, families: tuple[str, ...], generator: torch.Generator, device: str, kernels=None,
                  chunk: int = 256) -> tuple[Solids, Tensor, Tensor]:
     raw = maker.solids(count, families).to(device)
     points, normals, ok = [], [], []
     for part in raw.split(chunk):
-        p, n, k = shapes.sample_surface(part, POOL, generator, eval_sdf)
+        p, n, k = shapes.sample_surface(part, POOL, generator, (kernels or shapes).sdf, (kernels or shapes).trace)
         points.append(p), normals.append(n), ok.append(k)
     points, normals, ok = torch.cat(points), torch.cat(normals), torch.cat(ok)
     raw, points, normals = raw[ok], points[ok], normals[ok]
@@ -79,11 +80,11 @@ def build_solids(maker: shapes.Maker, count: int, families: tuple[str, ...], gen
     centre, scale = 0.5 * (lo + hi), 1 / (hi - lo).amax(-1)
     points = (points - centre[:, None]) * scale[:, None, None]
     coarse = torch.cat([make_patches(p, n, 32, 64, generator).points for p, n in zip(points.split(chunk), normals.split(chunk))])
-    return Solids(raw, centre, scale, coarse, (hi - lo) * scale[:, None], eval_sdf), points, normals
+    return Solids(raw, centre, scale, coarse, (hi - lo) * scale[:, None], kernels), points, normals
 
 
 def join(a: Solids, b: Solids) -> Solids:
-    return Solids(*(torch.cat([getattr(a, k), getattr(b, k)]) for k in ("parts", "centre", "scale", "groups", "extent")), a.eval_sdf)
+    return Solids(*(torch.cat([getattr(a, k), getattr(b, k)]) for k in ("parts", "centre", "scale", "groups", "extent")), a.kernels)
 
 
 def draw_problems(solids: Solids, moving: Tensor, fixed: Tensor, kind: Tensor, generator: torch.Generator) -> tuple[Problems, Tensor]:
@@ -106,20 +107,19 @@ def draw_problems(solids: Solids, moving: Tensor, fixed: Tensor, kind: Tensor, g
     return place(solids, Problems(moving, size_a, fixed, size_b, poses), reach, epsilon, generator)
 
 
-def pair_targets(solids: Solids, q: Problems, tables: dict[int, Patches], n1: int, n2: int, g: Geometry, i: Tensor, j: Tensor,
+def pair_targets(solids: Solids, q: Problems, tables: dict[int, Patches], n1: int, n2: int, i: Tensor, j: Tensor,
                  enter: Tensor, leave: Tensor, times: int = 5) -> Tensor:
     """Least implicit distance between the points of patch i and body B, and of patch j and body A, over the interval."""
     b, k = i.shape
     best = torch.full((b, k), 1e9, device=i.device)
     a = tables[n1].points[q.moving[:, None], i] * q.moving_size[:, None, None, None]  # (B, K, P, 3)
     c = tables[n2].points[q.fixed[:, None], j] * q.fixed_size[:, None, None, None]
+    spread = lambda x: x[..., None].expand(-1, -1, PER_PATCH).flatten(1)
     for s in torch.linspace(0, 1, times).tolist():
-        p, r = interpolate(q.poses, enter + s * (leave - enter))
-        world = p[:, :, None] + rotate(r[:, :, None].expand(-1, -1, a.shape[2], -1), a)
-        d = solids.sdf(q.fixed, q.fixed_size, world.view(b, -1, 3)).view(b, k, -1).amin(-1)
-        local = rotate(conjugate(r)[:, :, None].expand(-1, -1, c.shape[2], -1), c - p[:, :, None])
-        e = solids.sdf(q.moving, q.moving_size, local.view(b, -1, 3)).view(b, k, -1).amin(-1)
-        best = torch.minimum(best, torch.minimum(d, e))
+        t = spread(enter + s * (leave - enter))
+        d = probe(solids, q, a.flatten(1, 2), t, INTO_FIXED)
+        e = probe(solids, q, c.flatten(1, 2), t, INTO_MOVING)
+        best = torch.minimum(best, torch.minimum(d, e).view(b, k, -1).amin(-1))
     return best
 
 
@@ -127,18 +127,21 @@ def pair_targets(solids: Solids, q: Problems, tables: dict[int, Patches], n1: in
 def build(seed: int, shape_count: int, groups: int, device: str, compiled: bool, log=print, chunk: int = 8192) -> Dataset:
     started = time.time()
     generator = torch.Generator(device=device).manual_seed(seed)
-    eval_sdf = torch.compile(shapes.sdf, dynamic=True) if compiled else shapes.sdf
+    kernels = importlib.import_module("kernels") if device == "cuda" else None
     gap = torch.compile(least_gap, dynamic=True) if compiled else least_gap
     maker = shapes.Maker(seed)
     hollow_count = shape_count // 4
-    general, p1, n1 = build_solids(maker, shape_count - hollow_count, maker.GENERAL, generator, device, eval_sdf)
-    hollow, p2, n2 = build_solids(maker, hollow_count, maker.HOLLOW, generator, device, eval_sdf)
+    general, p1, n1 = build_solids(maker, shape_count - hollow_count, maker.GENERAL, generator, device, kernels)
+    hollow, p2, n2 = build_solids(maker, hollow_count, maker.HOLLOW, generator, device, kernels)
     solids, points, normals = join(general, hollow), torch.cat([p1, p2]), torch.cat([n1, n2])
     ng, nh = len(general.scale), len(hollow.scale)
     tables: dict[int, Patches] = {}
+    first = torch.cat([furthest_points(p, max(COUNTS)) for p in points.split(1024)])
     for n in COUNTS:
-        made = [make_patches(p, m, n, PER_PATCH, generator) for p, m in zip(points.split(256), normals.split(256))]
+        made = [make_patches(p, m, n, PER_PATCH, generator, f[:, :n]) for p, m, f in zip(points.split(256), normals.split(256), first.split(256))]
         tables[n] = Patches(*(torch.cat([getattr(x, k) for x in made]) for k in ("centre", "radius", "points", "normals", "area")))
+    sync = torch.cuda.synchronize if device == "cuda" else (lambda: None)
+    sync()
     log(f"{ng} + {nh} solids with patches, {time.time() - started:.0f} s")
     r = lambda hi, *s: torch.randint(hi, s, generator=generator, device=device)
     bodies = torch.cat([r(ng, groups, len(GENERAL_N)), ng + r(nh, groups, len(HOLLOW_N))], 1)
@@ -180,7 +183,7 @@ def build(seed: int, shape_count: int, groups: int, device: str, compiled: bool,
                 pick = lambda x, i: x.gather(1, i[..., None].expand(-1, -1, 3)) if x.dim() == 3 else x.gather(1, i)
                 g = pair_geometry(q.poses, pick(ca, pairs.moving), pick(cb, pairs.fixed), pick(ra, pairs.moving), pick(rb, pairs.fixed),
                                   pairs.enter, pairs.leave)
-                d = pair_targets(solids, q, tables, n1, n2, g, pairs.moving, pairs.fixed, pairs.enter, pairs.leave)
+                d = pair_targets(solids, q, tables, n1, n2, pairs.moving, pairs.fixed, pairs.enter, pairs.leave)
                 # The refined witness belongs to the pair of patches that own its two surface points.
                 position, rotation = interpolate(q.poses, moment[s][:, None])
                 local = rotate(conjugate(rotation), witness[s][:, None] - position)

@@ -30,10 +30,12 @@ def furthest_points(points: Tensor, count: int) -> Tensor:
     return chosen
 
 
-def make_patches(points: Tensor, normals: Tensor, count: int, per_patch: int, generator: torch.Generator) -> Patches:
-    """points, normals (S, n, 3) -> Patches of `count` per shape."""
+def make_patches(points: Tensor, normals: Tensor, count: int, per_patch: int, generator: torch.Generator,
+                 first: Tensor | None = None) -> Patches:
+    """points, normals (S, n, 3) -> Patches of `count` per shape; first (S, count): the furthest points, where known."""
     s, n, _ = points.shape
-    centre = points.gather(1, furthest_points(points, count)[..., None].expand(-1, -1, 3))
+    first = furthest_points(points, count) if first is None else first
+    centre = points.gather(1, first[..., None].expand(-1, -1, 3))
     ones = torch.ones(s, n, device=points.device)
     for _ in range(LLOYD_STEPS):
         owner = torch.cdist(points, centre).argmin(-1)  # (S, n)

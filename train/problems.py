@@ -12,6 +12,7 @@ from dataclasses import dataclass
 import torch
 from torch import Tensor
 
+import shapes
 from shapes import gradient
 
 SAMPLES = 33  # poses of a motion; between two: position linear, rotation slerp (FORMATS.md)
@@ -91,12 +92,12 @@ class Solids:
     scale: Tensor  # (S,) raw -> unit
     groups: Tensor  # (S, 32, G, 3) unit
     extent: Tensor  # (S, 3) of the unit shape's bounding box
-    eval_sdf: object
+    kernels: object = None  # the module kernels, on a GPU
 
     def sdf(self, shape: Tensor, size: Tensor, p: Tensor) -> Tensor:
         """shape, size (B,), p (B, n, 3) metres, body frame -> (B, n) metres."""
         k = (size * self.scale[shape])[:, None]
-        return k * self.eval_sdf(self.parts[shape], p / k[..., None] + self.centre[shape][:, None])
+        return k * (self.kernels or shapes).sdf(self.parts[shape], p / k[..., None] + self.centre[shape][:, None])
 
 
 @dataclass
@@ -111,11 +112,19 @@ class Problems:
         return Problems(self.moving[i], self.moving_size[i], self.fixed[i], self.fixed_size[i], self.poses[i])
 
 
-def overlap(solids: Solids, q: Problems, x: Tensor, t: Tensor) -> tuple[Tensor, Tensor]:
-    """sdf of A at t and of B, at points x (B, n, 3) of B's frame."""
+INTO_FIXED, INTO_MOVING, OVERLAP = 0, 1, 2
+
+
+def probe(solids: Solids, q: Problems, x: Tensor, t: Tensor, kind: int) -> Tensor:
+    """x (B, n, 3), t (B, n) or (B, 1) -> (B, n). INTO_FIXED: x in A's frame, sdf of B. INTO_MOVING: x in B's frame, sdf of A.
+    OVERLAP: x in B's frame, the greater of both."""
+    if solids.kernels:
+        return solids.kernels.probe(solids, q, x, t, kind)
     position, rotation = interpolate(q.poses, t)
-    local = rotate(conjugate(rotation), x - position)
-    return solids.sdf(q.moving, q.moving_size, local), solids.sdf(q.fixed, q.fixed_size, x)
+    if kind == INTO_FIXED:
+        return solids.sdf(q.fixed, q.fixed_size, position + rotate(rotation, x))
+    d = solids.sdf(q.moving, q.moving_size, rotate(conjugate(rotation), x - position))
+    return d if kind == INTO_MOVING else torch.maximum(d, solids.sdf(q.fixed, q.fixed_size, x))
 
 
 def coarse(solids: Solids, q: Problems, times: int, per_group: int, keep: int) -> tuple[Tensor, Tensor, Tensor]:
@@ -123,27 +132,23 @@ def coarse(solids: Solids, q: Problems, times: int, per_group: int, keep: int) -
     -> x (B, 2 keep, 3) in B's frame, t, value."""
     b, device = len(q.moving), q.poses.device
     out = []
-    stamps = torch.linspace(0, 1, times, device=device)
-    position, rotation = interpolate(q.poses, stamps[None].expand(b, -1))  # (B, T, .)
-    for own, size, forward in ((q.moving, q.moving_size, True), (q.fixed, q.fixed_size, False)):
-        g = solids.groups[own][:, :, :per_group] * size[:, None, None, None]
+    for own, size, kind in ((q.moving, q.moving_size, INTO_FIXED), (q.fixed, q.fixed_size, INTO_MOVING)):
+        g = (solids.groups[own][:, :, :per_group] * size[:, None, None, None]).flatten(1, 2)  # (B, 32 per_group, 3)
         best = torch.full((b, 32), 1e9, device=device)
-        best_x = torch.zeros(b, 32, 3, device=device)
+        best_i = torch.zeros(b, 32, dtype=torch.long, device=device)
         best_t = torch.zeros(b, 32, device=device)
-        flat = g.reshape(b, -1, 3)
         for k in range(times):
-            p, r = position[:, k : k + 1], rotation[:, k : k + 1]
-            world = p + rotate(r, flat) if forward else flat
-            probe = world if forward else rotate(conjugate(r), flat - p)
-            d = solids.sdf(q.fixed, q.fixed_size, probe) if forward else solids.sdf(q.moving, q.moving_size, probe)
-            value, i = d.view(b, 32, per_group).min(-1)
-            point = world.view(b, 32, per_group, 3).gather(2, i[..., None, None].expand(-1, -1, 1, 3))[:, :, 0]
+            t = torch.full((b, 1), k / (times - 1), device=device)
+            value, i = probe(solids, q, g, t, kind).view(b, 32, per_group).min(-1)
             better = value < best
-            best = torch.where(better, value, best)
-            best_x = torch.where(better[..., None], point, best_x)
-            best_t = torch.where(better, stamps[k].expand_as(best_t), best_t)
-        value, i = best.topk(keep, largest=False)
-        out.append((best_x.gather(1, i[..., None].expand(-1, -1, 3)), best_t.gather(1, i), value))
+            best, best_i, best_t = torch.where(better, value, best), torch.where(better, i, best_i), torch.where(better, t, best_t)
+        value, group = best.topk(keep, largest=False)
+        index = group * per_group + best_i.gather(1, group)
+        x, t = g.gather(1, index[..., None].expand(-1, -1, 3)), best_t.gather(1, group)
+        if kind == INTO_FIXED:
+            position, rotation = interpolate(q.poses, t)
+            x = position + rotate(rotation, x)
+        out.append((x, t, value))
     return tuple(torch.cat(z, 1) for z in zip(*out))
 
 
@@ -151,7 +156,7 @@ def refine(solids: Solids, q: Problems, x: Tensor, t: Tensor, spacing: Tensor, g
            rounds: int = 14, tries: int = 24) -> tuple[Tensor, Tensor, Tensor]:
     """Minimise max(sdf_A, sdf_B) about each candidate by a shrinking random search -> x (B, 3), t (B,), margin (B,)."""
     b, m = t.shape
-    value = torch.maximum(*overlap(solids, q, x, t))
+    value = probe(solids, q, x, t, OVERLAP)
     sigma_t = 0.7 / (SAMPLES - 1)
     for k in range(rounds):
         shrink = 0.66 ** k
@@ -159,7 +164,7 @@ def refine(solids: Solids, q: Problems, x: Tensor, t: Tensor, spacing: Tensor, g
         dt = torch.randn(b, m, tries, generator=generator, device=x.device) * (sigma_t * shrink)
         trial_x = (x[:, :, None] + dx).view(b, -1, 3)
         trial_t = (t[:, :, None] + dt).view(b, -1).clamp(0, 1)
-        trial = torch.maximum(*overlap(solids, q, trial_x, trial_t)).view(b, m, tries)
+        trial = probe(solids, q, trial_x, trial_t, OVERLAP).view(b, m, tries)
         best, i = trial.min(-1)
         better = best < value
         value = torch.where(better, best, value)

@@ -19,7 +19,7 @@ PARAMETERS = 32
 FAR = 1e3
 
 # Columns of a part's parameters.
-M, C, LIP, MODE, RING, HALF, ROUND, TAPER, SHELL, CUTS, OP, SMOOTH = 0, 9, 12, 13, 14, 15, 18, 19, 20, 21, 29, 30
+M, C, LIP, MODE, RING, HALF, ROUND, TAPER, SHELL, CUTS, OP, SMOOTH, COUNT = 0, 9, 12, 13, 14, 15, 18, 19, 20, 21, 29, 30, 31
 UNION, SUBTRACT = 0.0, 1.0
 
 
@@ -283,6 +283,7 @@ class Maker:
         for i in range(count):
             parts = getattr(self, families[i % len(families)])()[:PRIMITIVES]
             rows.append([p.row() for p in parts] + [nothing] * (PRIMITIVES - len(parts)))
+            rows[-1][0][COUNT] = len(parts)
         return torch.tensor(rows, dtype=torch.float32)
 
 
@@ -295,45 +296,51 @@ def gradient(f, p: Tensor, h: float) -> Tensor:
     return sum(k[i] * f(p + h * k[i])[..., None] for i in range(4)) / (4 * h)
 
 
-def sample_surface(part: Tensor, count: int, generator: torch.Generator, eval_sdf=sdf, steps: int = 128) -> tuple[Tensor, Tensor, Tensor]:
-    """Points uniform in area: random lines against the surface (Cauchy-Crofton), by sphere tracing through all crossings.
+def trace(part: Tensor, origin: Tensor, direction: Tensor, reach: float, step_floor: float, steps: int, hits: int) -> Tensor:
+    """Sphere tracing through all crossings: origin, direction (S, R, 3) -> parameters (S, R, hits), NaN where there are fewer."""
+    t = torch.full(origin.shape[:2], -reach, device=origin.device)
+    out = torch.full((*origin.shape[:2], hits), float("nan"), device=origin.device)
+    found = torch.zeros(origin.shape[:2], dtype=torch.long, device=origin.device)
+    d = sdf(part, origin + direction * t[..., None])
+    for _ in range(steps):
+        t2 = t + d.abs().clamp_min(step_floor) * 0.98
+        d2 = sdf(part, origin + direction * t2[..., None])
+        crossed = ((d < 0) != (d2 < 0)) & (t2 < reach) & (found < hits)
+        i, j = crossed.nonzero(as_tuple=True)
+        w = d[i, j] / (d[i, j] - d2[i, j])
+        out[i, j, found[i, j]] = t[i, j] * (1 - w) + t2[i, j] * w
+        found += crossed
+        t, d = t2, d2
+    return out
+
+
+def sample_surface(part: Tensor, count: int, generator: torch.Generator, eval_sdf=sdf, eval_trace=trace) -> tuple[Tensor, Tensor, Tensor]:
+    """Points uniform in area: random lines against the surface (Cauchy-Crofton).
 
     part (S, PRIMITIVES, PARAMETERS) -> points (S, count, 3), normals (S, count, 3), ok (S,) enough distinct points."""
     s, device = part.shape[0], part.device
     reach = 2.2  # every family fits into this ball
     points = torch.zeros(s, count, 3, device=device)
     filled = torch.zeros(s, dtype=torch.long, device=device)
-    for _ in range(24):
-        if bool((filled >= count).all()):
+    for _ in range(12):
+        todo = (filled < count).nonzero()[:, 0]
+        if not len(todo):
             break
         rays = 2 * count
-        direction = torch.nn.functional.normalize(torch.randn(s, rays, 3, generator=generator, device=device), dim=-1)
-        offset = torch.nn.functional.normalize(torch.linalg.cross(direction, torch.randn(s, rays, 3, generator=generator, device=device)), dim=-1)
-        origin = offset * reach * torch.rand(s, rays, 1, generator=generator, device=device).sqrt()
-        t = torch.full((s, rays), -reach, device=device)
-        d = eval_sdf(part, origin + direction * t[..., None])
-        hits_shape, hits_point = [], []
-        for _ in range(steps):
-            t2 = t + d.abs().clamp_min(2e-3) * 0.98
-            d2 = eval_sdf(part, origin + direction * t2[..., None])
-            crossed = ((d < 0) != (d2 < 0)) & (t2 < reach)
-            where = crossed.nonzero()
-            if len(where):
-                i, j = where[:, 0], where[:, 1]
-                w = (d[i, j] / (d[i, j] - d2[i, j]))[:, None]
-                hits_shape.append(i)
-                hits_point.append(origin[i, j] + direction[i, j] * (t[i, j][:, None] * (1 - w) + t2[i, j][:, None] * w))
-            t, d = t2, d2
-        if not hits_shape:
-            continue
-        shape, point = torch.cat(hits_shape), torch.cat(hits_point)
-        order = torch.argsort(shape + torch.rand(shape.shape, generator=generator, device=device, dtype=torch.float64))  # shuffled within a shape
-        shape, point = shape[order], point[order]
-        start = torch.searchsorted(shape, torch.arange(s, device=device))
-        slot = filled[shape] + torch.arange(len(shape), device=device) - start[shape]
+        normal = lambda: torch.randn(len(todo), rays, 3, generator=generator, device=device)
+        direction = torch.nn.functional.normalize(normal(), dim=-1)
+        offset = torch.nn.functional.normalize(torch.linalg.cross(direction, normal()), dim=-1)
+        origin = offset * reach * torch.rand(len(todo), rays, 1, generator=generator, device=device).sqrt()
+        t = eval_trace(part[todo], origin, direction, reach, 2e-3, 160, 8)
+        i, j, k = t.isfinite().nonzero(as_tuple=True)
+        point = origin[i, j] + direction[i, j] * t[i, j, k][:, None]
+        order = torch.argsort(i + torch.rand(i.shape, generator=generator, device=device, dtype=torch.float64))  # shuffled within a shape
+        i, point = i[order], point[order]
+        start = torch.searchsorted(i, torch.arange(len(todo), device=device))
+        slot = filled[todo[i]] + torch.arange(len(i), device=device) - start[i]
         keep = slot < count
-        points[shape[keep], slot[keep]] = point[keep]
-        filled += torch.bincount(shape[keep], minlength=s)
+        points[todo[i[keep]], slot[keep]] = point[keep]
+        filled += torch.bincount(todo[i[keep]], minlength=s)
     f = lambda p: eval_sdf(part, p)
     normals = torch.nn.functional.normalize(gradient(f, points, 5e-4), dim=-1)
     for _ in range(2):  # onto the surface

@@ -105,7 +105,7 @@ class ProblemTest(unittest.TestCase):
         self.assertLess((points.norm(dim=-1) - 0.5).abs().max().item(), 1e-4)
         self.assertLess(points.mean(1).norm().item(), 0.04)
         groups = patches.make_patches(points, normals, 32, 64, g).points
-        solids = Solids(part, torch.zeros(1, 3), torch.ones(1), groups, torch.ones(1, 3), shapes.sdf)
+        solids = Solids(part, torch.zeros(1, 3), torch.ones(1), groups, torch.ones(1, 3))
         h = torch.tensor([0.10, 0.145, 0.16, 0.2])
         poses = torch.zeros(4, 33, 7)
         poses[..., 6] = 1

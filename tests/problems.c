@@ -1,0 +1,578 @@
+// problems.c - writes labelled problem files (FORMATS.md), exact by tests/oracle.h. See `problems` without arguments.
+//
+// How a problem of the sets `standard` and `hollow` comes about (the paper's appendix B, conditioned on the boundary):
+//   1. two meshes, random sizes; a smooth random motion of one; the other placed at random within reach of it;
+//   2. if they touch or one contains the other, the fixed body marches in a random direction to the first place where
+//      they do not, which may well be a concavity; restart if there is none;
+//   3. delta, the shortest vector between the swept and the fixed surface, by the oracle. Moved along delta by its
+//      length, the fixed body just touches the motion, and nothing else touches: separation is 1-Lipschitz in the
+//      offset. Verified: 0.1 mm short of it the bodies are free and less than 0.3 mm apart, else rejected;
+//   4. the fixed body moves on by eps ~ N(0, sigma^2) along delta (positive: deeper), and the oracle relabels;
+//   5. labels within 0.1 mm of contact are thrown away; classes are balanced by rejection: eps is redrawn, at most
+//      four times, then the pair is dropped.
+// MARGIN: the least separation if free. If colliding: minus the depth, the shortest way back along delta (against the
+// sign of eps) after which the motion is free, found by eight steps and bisection; at most |eps|. It is an upper bound
+// of the true penetration depth, since another direction may be shorter. Set `inside`: one body wholly inside a solid
+// (label 1, nan), against controls in cavities of shells and cups (label 0).
+#define _XOPEN_SOURCE 700
+#include <dirent.h>
+#include <errno.h>
+#include <limits.h>
+#include <stdio.h>
+#include <sys/stat.h>
+#include <sys/types.h>
+#include <time.h>
+
+#include "../examples/shapes.h"
+#include "oracle.h"
+
+#define TOLERANCE 5e-5  // of the oracle, metres
+#define UNDECIDED 1e-4  // labels nearer to contact than this are thrown away
+#define MAX_SAMPLES 1025
+
+// ---------------------------------------------------------------------------------------------------- mesh sources
+
+typedef struct source {
+  char name[64];
+  char path[PATH_MAX];  // as written to the problem file
+  shapes_mesh mesh;
+  double extent;  // largest, in file units
+  int used;
+} source;
+
+typedef struct pool {
+  source *items;
+  size_t count, capacity;
+} pool;
+
+static source *pool_add(pool *p) {
+  if (p->count == p->capacity) {
+    p->capacity = p->capacity ? 2 * p->capacity : 64;
+    p->items = (source *)realloc(p->items, p->capacity * sizeof *p->items);
+    if (!p->items) exit(1);
+  }
+  memset(&p->items[p->count], 0, sizeof *p->items);
+  return &p->items[p->count++];
+}
+
+// A minimal OBJ reader for known good files: v and f lines only. To be replaced by nsvcd_obj_load.
+static int read_obj(const char *path, shapes_mesh *mesh) {
+  FILE *file = fopen(path, "r");
+  char line[4096];
+  if (!file) return 0;
+  while (fgets(line, sizeof line, file)) {
+    double x, y, z;
+    if (line[0] == 'v' && line[1] == ' ' && sscanf(line + 1, "%lf %lf %lf", &x, &y, &z) == 3)
+      shapes_vertex(mesh, x, y, z);
+    if (line[0] != 'f' || line[1] != ' ') continue;
+    uint32_t corner[3] = {0, 0, 0};
+    int n = 0;
+    for (char *at = strtok(line + 1, " \t\r\n"); at; at = strtok(NULL, " \t\r\n"), n++) {
+      long index = strtol(at, NULL, 10);
+      index = index < 0 ? (long)mesh->vertices + index : index - 1;
+      if (index < 0 || index >= (long)mesh->vertices) {
+        mesh->failed = 1;
+        break;
+      }
+      corner[n < 2 ? n : 2] = (uint32_t)index;
+      if (n >= 2) shapes_triangle(mesh, corner[0], corner[1], corner[2]);
+      if (n >= 2) corner[1] = corner[2];
+    }
+  }
+  fclose(file);
+  return !mesh->failed && mesh->triangles > 0;
+}
+
+static void measure(source *s) {
+  double low[3], high[3];
+  shapes_bounds(&s->mesh, low, high);
+  s->extent = fmax(fmax(high[0] - low[0], high[1] - low[1]), high[2] - low[2]);
+}
+
+// The path of `target` as seen from the folder `from`; both must exist.
+static void relative_path(const char *from, const char *target, char *out, size_t size) {
+  char a[PATH_MAX], b[PATH_MAX];
+  if (!realpath(from, a) || !realpath(target, b)) {
+    snprintf(out, size, "%s", target);
+    return;
+  }
+  size_t same = 0, i = 0;
+  for (; a[i] && a[i] == b[i]; i++)
+    if (a[i] == '/') same = i;
+  if (!a[i] && b[i] == '/') same = i;
+  size_t used = 0;
+  out[0] = 0;
+  for (const char *rest = a + same; *rest; rest++)
+    if (*rest == '/' && rest[1] && used + 4 < size) memcpy(out + used, "../", 4), used += 3;
+  snprintf(out + used, size - used, "%s", b + same + 1);
+}
+
+static int compare_names(const void *a, const void *b) { return strcmp(*(char *const *)a, *(char *const *)b); }
+
+// Names to read: the lines of `list`, or all *.obj of the folder in alphabetical order.
+static size_t list_names(const char *folder, const char *list, char ***names) {
+  size_t count = 0, capacity = 4096;
+  *names = (char **)calloc(capacity, sizeof **names);
+  DIR *directory = list ? NULL : opendir(folder);
+  FILE *file = list ? fopen(list, "r") : NULL;
+  char line[1024];
+  for (;;) {
+    if (directory) {
+      struct dirent *entry = readdir(directory);
+      if (!entry) break;
+      snprintf(line, sizeof line, "%s", entry->d_name);
+    } else if (!file || !fgets(line, sizeof line, file)) {
+      break;
+    }
+    line[strcspn(line, "\r\n")] = 0;
+    size_t n = strlen(line);
+    if (n < 5 || strcmp(line + n - 4, ".obj") != 0 || count == capacity) continue;
+    (*names)[count] = (char *)malloc(n + 1);
+    memcpy((*names)[count++], line, n + 1);
+  }
+  if (directory) closedir(directory);
+  if (file) fclose(file);
+  qsort(*names, count, sizeof **names, compare_names);
+  return count;
+}
+
+typedef enum open_policy { CLOSED_ONLY, OPEN_TOO, OPEN_ONLY } open_policy;
+
+static void load_folder(pool *p, const char *folder, const char *list, open_policy policy, const char *out_folder) {
+  char **names;
+  size_t count = list_names(folder, list, &names), refused = 0;
+  for (size_t i = 0; i < count; i++) {
+    source s;
+    char path[PATH_MAX];
+    memset(&s, 0, sizeof s);
+    snprintf(path, sizeof path, "%s/%s", folder, names[i]);
+    int good = read_obj(path, &s.mesh);
+    if (good) measure(&s);
+    int closed = good && oracle_is_closed(s.mesh.positions, s.mesh.vertices, s.mesh.indices, s.mesh.triangles);
+    if (!good || s.extent <= 0 || (policy == CLOSED_ONLY && !closed) || (policy == OPEN_ONLY && closed)) {
+      shapes_free(&s.mesh);
+      refused++;
+    } else {
+      snprintf(s.name, sizeof s.name, "%.*s", (int)(strlen(names[i]) > 67 ? 63 : strlen(names[i]) - 4), names[i]);
+      relative_path(out_folder, path, s.path, sizeof s.path);
+      *pool_add(p) = s;
+    }
+    free(names[i]);
+  }
+  free(names);
+  fprintf(stderr, "%s: %zu meshes, %zu refused\n", folder, p->count, refused);
+}
+
+typedef enum family { SOLIDS, HOLLOWS, SHELLS } family;
+
+// Makes `count` meshes of a family and writes them beside the problem file: NAME_meshes/PREFIXnnn.obj.
+static void make_procedural(pool *p, shapes_rng *rng, family kind, size_t count, const char *prefix,
+                            const char *out_path) {
+  char base[1024], folder[1100], path[1200];
+  snprintf(base, sizeof base, "%s", out_path);
+  char *dot = strrchr(base, '.'), *slash = strrchr(base, '/');
+  if (dot && dot > slash) *dot = 0;
+  snprintf(folder, sizeof folder, "%s_meshes", base);
+  if (mkdir(folder, 0777) != 0 && errno != EEXIST) exit(1);
+  for (size_t i = 0; i < count; i++) {
+    source *s = pool_add(p);
+    if (kind == SOLIDS)
+      shapes_random_solid(&s->mesh, rng, 0.3);
+    else if (kind == HOLLOWS)
+      shapes_random_hollow(&s->mesh, rng, (int)(i % SHAPES_HOLLOWS), 0.3);
+    else if (i % 3 == 2)
+      shapes_random_hollow(&s->mesh, rng, 0, 0.3);
+    else {
+      shapes_shell(&s->mesh, 1, shapes_uniform(rng, 0.7, 1), shapes_uniform(rng, 0.7, 1),
+                   shapes_uniform(rng, 0.04, 0.12), (int)(i % 3), 24 + 4 * shapes_pick(rng, 4));
+      shapes_fit(&s->mesh, 0.3);
+    }
+    measure(s);
+    snprintf(s->name, sizeof s->name, "%s%03zu", prefix, i);
+    snprintf(path, sizeof path, "%s/%s.obj", folder, s->name);
+    if (!shapes_write_obj(&s->mesh, path)) exit(1);
+    snprintf(s->path, sizeof s->path, "%s_meshes/%s.obj", slash ? base + (slash - base) + 1 : base, s->name);
+  }
+}
+
+// ---------------------------------------------------------------------------------------------------------- motion
+
+typedef struct problem {
+  source *moving_source, *fixed_source;
+  double moving_scale, fixed_scale;
+  oracle_mesh moving, fixed;
+  oracle_pose motion[MAX_SAMPLES], fixed_pose;
+  size_t samples;
+  int label;
+  double margin;
+} problem;
+
+// A cubic Bezier of arc length `length` from the origin, sampled evenly in its parameter.
+static void random_path(shapes_rng *rng, double length, double (*path)[3], size_t samples) {
+  double control[4][3] = {{0, 0, 0}, {0, 0, 0}, {0, 0, 0}, {0, 0, 0}}, along[3], total = 0,
+         bend = shapes_uniform(rng, 0, 0.5);
+  shapes_direction(rng, along);
+  for (int i = 1; i < 4; i++)
+    for (int k = 0; k < 3; k++) control[i][k] = along[k] * i / 3 + bend * shapes_normal(rng);
+  for (size_t s = 0; s < samples; s++) {
+    double t = samples > 1 ? (double)s / (double)(samples - 1) : 0, u = 1 - t, d[3];
+    for (int k = 0; k < 3; k++)
+      path[s][k] = 3 * u * u * t * control[1][k] + 3 * u * t * t * control[2][k] + t * t * t * control[3][k];
+    if (s) oracle_sub(path[s], path[s - 1], d), total += oracle_length(d);
+  }
+  for (size_t s = 0; s < samples && total > 0; s++)
+    for (int k = 0; k < 3; k++) path[s][k] *= length / total;
+}
+static void set_pose(oracle_pose *pose, const double *center, const double *q, const double *mesh_center) {
+  double m[9], c[3];
+  memcpy(pose->rotation, q, sizeof pose->rotation);
+  oracle_matrix(q, m);
+  oracle_rotate(m, mesh_center, c);
+  oracle_sub(center, c, pose->position);
+}
+// The centre of the moving body's bounds follows the path from `start`; it turns about a slowly changing axis.
+static void random_motion(shapes_rng *rng, problem *p, const double *start, double length, double turn) {
+  static double path[MAX_SAMPLES][3];
+  double q[4], axis[3], drift[3];
+  random_path(rng, length, path, p->samples);
+  shapes_quaternion(rng, q), shapes_direction(rng, axis), shapes_direction(rng, drift);
+  for (size_t s = 0; s < p->samples; s++) {
+    double center[3], now[3], step[4], next[4], n;
+    for (int k = 0; k < 3; k++) {
+      center[k] = start[k] + path[s][k];
+      now[k] = axis[k] + 0.7 * drift[k] * (double)s / (double)p->samples;
+    }
+    if (s) {
+      n = oracle_length(now);
+      for (int k = 0; k < 3; k++) now[k] /= n;
+      oracle_axis_angle(now, turn / (double)(p->samples - 1), step);
+      oracle_quat_mul(step, q, next);
+      oracle_quat_normalize(next);
+      memcpy(q, next, sizeof q);
+    }
+    set_pose(&p->motion[s], center, q, p->moving.center);
+  }
+}
+static void motion_center(const problem *p, size_t s, double *out) {
+  oracle_transform(&p->motion[s], p->moving.center, out);
+}
+
+// ---------------------------------------------------------------------------------------------------- the procedure
+
+typedef struct counts {
+  size_t accepted[2], placed, no_free_place, not_touching, undecided, unbalanced, other;
+  size_t histogram[2][6];
+} counts;
+
+static oracle_pose offset_pose(const oracle_pose *pose, const double *direction, double s) {
+  oracle_pose out = *pose;
+  for (int k = 0; k < 3; k++) out.position[k] += s * direction[k];
+  return out;
+}
+// The full answer if enough is 0; otherwise whether the separation exceeds `enough`.
+static oracle_result ask(const problem *p, const oracle_pose *fixed_pose, double enough) {
+  oracle_options o = {TOLERANCE, 0, 0, 0};
+  o.enough = enough;
+  return oracle_sweep(&p->moving, p->motion, p->samples, &p->fixed, fixed_pose, &o);
+}
+static int is_free(const problem *p, const oracle_pose *fixed_pose) {
+  return ask(p, fixed_pose, UNDECIDED).status == ORACLE_FREE;
+}
+// Step 2: the first free place along a random direction, at most 60 steps away.
+static int march_out(shapes_rng *rng, problem *p, double step) {
+  double direction[3];
+  shapes_direction(rng, direction);
+  for (int i = 0; i < 60; i++) {
+    oracle_pose here = offset_pose(&p->fixed_pose, direction, i * step);
+    if (!is_free(p, &here)) continue;
+    p->fixed_pose = here;
+    return 1;
+  }
+  return 0;
+}
+// Step 3: moves the fixed body until it just touches; direction (unit) then points deeper.
+static int touch(problem *p, double *direction) {
+  oracle_result r = ask(p, &p->fixed_pose, 0);
+  if (r.status != ORACLE_FREE) return 0;
+  oracle_sub(r.on_moving, r.on_fixed, direction);
+  double length = oracle_length(direction);
+  if (length < 1e-9) return 0;
+  for (int k = 0; k < 3; k++) direction[k] /= length;
+  oracle_pose just_short = offset_pose(&p->fixed_pose, direction, r.distance - UNDECIDED);
+  oracle_result check = ask(p, &just_short, 3e-4);
+  if ((check.status != ORACLE_FREE && check.status != ORACLE_UNDECIDED) || check.distance > 3e-4) return 0;
+  p->fixed_pose = offset_pose(&p->fixed_pose, direction, r.distance);
+  return 1;
+}
+// The shortest way back from the offset eps towards 0 along direction after which the motion is free.
+static double depth(const problem *p, const double *direction, double eps) {
+  double colliding = eps, open = 0;
+  for (int i = 1; i < 8; i++) {
+    double s = eps * (8 - i) / 8;
+    oracle_pose here = offset_pose(&p->fixed_pose, direction, s);
+    if (is_free(p, &here)) {
+      open = s;
+      break;
+    }
+    colliding = s;
+  }
+  while (fabs(colliding - open) > TOLERANCE) {
+    double s = (colliding + open) / 2;
+    oracle_pose here = offset_pose(&p->fixed_pose, direction, s);
+    if (is_free(p, &here))
+      open = s;
+    else
+      colliding = s;
+  }
+  return fabs(eps - open);
+}
+// Steps 4 and 5. Returns 1 with label and margin.
+static int perturb(shapes_rng *rng, problem *p, const double *direction, double sigma, counts *c) {
+  oracle_pose touching = p->fixed_pose;
+  for (int attempt = 0; attempt < 4; attempt++) {
+    double eps = sigma * shapes_normal(rng);
+    oracle_pose here = offset_pose(&touching, direction, eps);
+    oracle_result r = ask(p, &here, 0);
+    if (r.status == ORACLE_UNDECIDED || (r.winding > 0.25 && r.winding < 0.75)) {
+      c->undecided++;
+      continue;
+    }
+    p->label = r.status != ORACLE_FREE;
+    if (c->accepted[p->label] > c->accepted[!p->label] + 4) {
+      c->unbalanced++;
+      continue;
+    }
+    p->margin = p->label ? -depth(p, direction, eps) : r.distance;
+    if (fabs(p->margin) < UNDECIDED) {
+      c->undecided++;
+      continue;
+    }
+    p->fixed_pose = here;
+    return 1;
+  }
+  return 0;
+}
+static int load_body(oracle_mesh *mesh, source *s, double extent, double *scale) {
+  *scale = extent / s->extent;
+  return oracle_mesh_init(mesh, s->mesh.positions, s->mesh.vertices, s->mesh.indices, s->mesh.triangles, *scale);
+}
+static source *any(shapes_rng *rng, pool *p) { return &p->items[shapes_next(rng) % p->count]; }
+
+// Step 1 of `standard`: the fixed body's bounds overlap those of the swept volume.
+static void place_standard(shapes_rng *rng, problem *p) {
+  double low[3], high[3], q[4], center[3], origin[3] = {0, 0, 0};
+  random_motion(rng, p, origin, shapes_uniform(rng, 0.1, 0.6), shapes_uniform(rng, 0, 2 * SHAPES_PI / 3));
+  for (int k = 0; k < 3; k++) low[k] = HUGE_VAL, high[k] = -HUGE_VAL;
+  for (size_t s = 0; s < p->samples; s++) {
+    motion_center(p, s, center);
+    for (int k = 0; k < 3; k++) low[k] = fmin(low[k], center[k]), high[k] = fmax(high[k], center[k]);
+  }
+  double reach = 0.6 * (p->moving.radius + p->fixed.radius);
+  for (int k = 0; k < 3; k++) center[k] = shapes_uniform(rng, low[k] - reach, high[k] + reach);
+  shapes_quaternion(rng, q);
+  set_pose(&p->fixed_pose, center, q, p->fixed.center);
+}
+// A random place within the bounds of a posed mesh, in the world.
+static void within(shapes_rng *rng, const oracle_mesh *mesh, const oracle_pose *pose, double *out) {
+  double local[3];
+  for (int k = 0; k < 3; k++) local[k] = shapes_uniform(rng, mesh->low[k], mesh->high[k]);
+  oracle_transform(pose, local, out);
+}
+// Step 1 of `hollow`: the small body starts within the bounds of the hollow one, free there.
+static int place_hollow(shapes_rng *rng, problem *p) {
+  double q[4], start[3], origin[3] = {0, 0, 0};
+  shapes_quaternion(rng, q);
+  set_pose(&p->fixed_pose, origin, q, p->fixed.center);
+  within(rng, &p->fixed, &p->fixed_pose, start);
+  random_motion(rng, p, start, shapes_uniform(rng, 0.05, 0.3), shapes_uniform(rng, 0, 2 * SHAPES_PI / 3));
+  size_t samples = p->samples;
+  p->samples = 1;  // at t = 0
+  int ok = is_free(p, &p->fixed_pose);
+  p->samples = samples;
+  return ok;
+}
+// Does the moving body's centre pass through the bounds of the hollow, grown by a tenth?
+static int passes_through(const problem *p) {
+  double m[9];
+  oracle_matrix(p->fixed_pose.rotation, m);
+  for (size_t s = 0; s < p->samples; s++) {
+    double center[3], local[3];
+    int within_bounds = 1;
+    motion_center(p, s, center);
+    oracle_sub(center, p->fixed_pose.position, center);
+    oracle_rotate_back(m, center, local);
+    for (int k = 0; k < 3; k++)
+      within_bounds = within_bounds && fabs(local[k] - p->fixed.center[k]) < 0.6 * (p->fixed.high[k] - p->fixed.low[k]);
+    if (within_bounds) return 1;
+  }
+  return 0;
+}
+// One attempt at a problem of `standard` or `hollow`.
+static int attempt(shapes_rng *rng, problem *p, int hollow, double sigma, counts *c) {
+  double direction[3];
+  c->placed++;
+  if (!hollow)
+    place_standard(rng, p);
+  else if (!place_hollow(rng, p))
+    return c->no_free_place++, 0;
+  if (!march_out(rng, p, hollow ? shapes_uniform(rng, 0.001, 0.005) : shapes_uniform(rng, 0.002, 0.015)))
+    return c->no_free_place++, 0;
+  if (hollow && !passes_through(p)) return c->other++, 0;
+  if (!touch(p, direction)) return c->not_touching++, 0;
+  return perturb(rng, p, direction, sigma, c);
+}
+// One attempt at `inside`: a small body starts within the bounds of a large one; nothing may touch, with 1 mm to spare.
+static int attempt_inside(shapes_rng *rng, problem *p, int label, int large_moves, counts *c) {
+  double q[4], origin[3] = {0, 0, 0}, start[3];
+  double length = shapes_uniform(rng, 0.01, 0.1), turn = shapes_uniform(rng, 0, 2 * SHAPES_PI / 3);
+  c->placed++;
+  shapes_quaternion(rng, q);
+  if (large_moves) {
+    random_motion(rng, p, origin, length, turn);
+    within(rng, &p->moving, &p->motion[0], start);
+    set_pose(&p->fixed_pose, start, q, p->fixed.center);
+  } else {
+    set_pose(&p->fixed_pose, origin, q, p->fixed.center);
+    within(rng, &p->fixed, &p->fixed_pose, start);
+    random_motion(rng, p, start, length, turn);
+  }
+  oracle_result r = ask(p, &p->fixed_pose, label ? 1e-3 : 0);
+  if (r.status != (label ? ORACLE_INSIDE : ORACLE_FREE) || r.distance < 1e-3) return c->other++, 0;
+  p->label = label;
+  p->margin = label ? (double)NAN : r.distance;
+  return 1;
+}
+
+// ---------------------------------------------------------------------------------------------------------- output
+
+static void write_pose(FILE *file, const oracle_pose *pose) {
+  const double *p = pose->position, *q = pose->rotation;
+  fprintf(file, "%.9g %.9g %.9g %.9g %.9g %.9g %.9g", p[0], p[1], p[2], q[0], q[1], q[2], q[3]);
+}
+static void write_problem(FILE *file, const problem *p, size_t id) {
+  source *sources[2];
+  sources[0] = p->moving_source, sources[1] = p->fixed_source;
+  for (int i = 0; i < 2; i++) {
+    if (!sources[i]->used) fprintf(file, "mesh %s %s\n", sources[i]->name, sources[i]->path);
+    sources[i]->used = 1;
+  }
+  fprintf(file, "problem %zu %s %.9g %s %.9g ", id, sources[0]->name, p->moving_scale, sources[1]->name,
+          p->fixed_scale);
+  write_pose(file, &p->fixed_pose);
+  fprintf(file, " %d %.6g %zu\n", p->label, p->margin, p->samples);
+  for (size_t s = 0; s < p->samples; s++) write_pose(file, &p->motion[s]), fputc('\n', file);
+}
+static void tally(counts *c, const problem *p) {
+  static const double edges[5] = {1e-3, 2.5e-3, 5e-3, 10e-3, 20e-3};
+  int bin = 0;
+  while (bin < 5 && fabs(p->margin) > edges[bin]) bin++;
+  c->accepted[p->label]++;
+  if (p->margin < 0 || p->margin > 0) c->histogram[p->label][bin]++;
+}
+static void print_summary(const counts *c, double seconds) {
+  printf("%zu problems: %zu collide, %zu free; %.1f s, %.1f ms each\n", c->accepted[0] + c->accepted[1], c->accepted[1],
+         c->accepted[0], seconds, 1e3 * seconds / (double)(c->accepted[0] + c->accepted[1]));
+  printf("%zu placements; rejected: %zu no free place, %zu not touching, %zu undecided, %zu for balance, %zu other\n",
+         c->placed, c->no_free_place, c->not_touching, c->undecided, c->unbalanced, c->other);
+  printf("|margin| mm     0-1   1-2.5   2.5-5    5-10   10-20     >20\n");
+  for (int label = 1; label >= 0; label--) {
+    printf("%-9s", label ? "collide" : "free");
+    for (int i = 0; i < 6; i++) printf(" %7zu", c->histogram[label][i]);
+    printf("\n");
+  }
+}
+static int usage(void) {
+  fprintf(
+      stderr,
+      "problems --set standard|hollow|inside --meshes DIR|procedural [--list FILE] [--open too|only] --count N\n"
+      "         --seed S --out DIR/NAME.txt [--motion-samples 33] [--sigma METRES] [--pool MESHES]\n"
+      "  --list: use these file names of DIR only, one per line. --open: also, or only, meshes that are not closed.\n"
+      "  --pool: how many procedural meshes to make (default: a tenth of N, 40 to 400).\n");
+  return 2;
+}
+
+int main(int argc, char **argv) {
+  const char *set = NULL, *meshes = NULL, *list = NULL, *out = NULL;
+  size_t count = 0, samples = 33, pool_size = 0;
+  unsigned long long seed = 1;
+  double sigma = 0;
+  open_policy policy = CLOSED_ONLY;
+  for (int i = 1; i + 1 < argc; i += 2) {
+    const char *key = argv[i], *value = argv[i + 1];
+    if (!strcmp(key, "--set"))
+      set = value;
+    else if (!strcmp(key, "--meshes"))
+      meshes = value;
+    else if (!strcmp(key, "--list"))
+      list = value;
+    else if (!strcmp(key, "--out"))
+      out = value;
+    else if (!strcmp(key, "--count"))
+      count = (size_t)strtoul(value, NULL, 10);
+    else if (!strcmp(key, "--seed"))
+      seed = strtoull(value, NULL, 10);
+    else if (!strcmp(key, "--sigma"))
+      sigma = strtod(value, NULL);
+    else if (!strcmp(key, "--pool"))
+      pool_size = (size_t)strtoul(value, NULL, 10);
+    else if (!strcmp(key, "--motion-samples"))
+      samples = (size_t)strtoul(value, NULL, 10);
+    else if (!strcmp(key, "--open"))
+      policy = !strcmp(value, "only") ? OPEN_ONLY : OPEN_TOO;
+    else
+      return usage();
+  }
+  if (argc % 2 == 0 || !set || !meshes || !out || !count || !samples || samples > MAX_SAMPLES) return usage();
+  int hollow = !strcmp(set, "hollow"), inside = !strcmp(set, "inside");
+  if (!hollow && !inside && strcmp(set, "standard") != 0) return usage();
+  if (sigma <= 0) sigma = hollow ? 0.010 : 0.032;
+
+  clock_t begin = clock();
+  shapes_rng rng = {seed};
+  pool small = {NULL, 0, 0}, large = {NULL, 0, 0}, shells = {NULL, 0, 0};  // moving; fixed hollows or solids; cavities
+  char folder[PATH_MAX];
+  snprintf(folder, sizeof folder, "%s", strrchr(out, '/') ? out : "./");
+  *(strrchr(folder, '/') + 1) = 0;
+  FILE *file = fopen(out, "w");
+  if (!file) return fprintf(stderr, "%s: cannot be written\n", out), 1;
+  if (!pool_size) pool_size = count / 10 < 40 ? 40 : count / 10 > 400 ? 400 : count / 10;
+  if (strcmp(meshes, "procedural") != 0)
+    load_folder(&small, meshes, list, policy, folder);
+  else
+    make_procedural(&small, &rng, SOLIDS, pool_size, "solid", out);
+  if (hollow) make_procedural(&large, &rng, HOLLOWS, pool_size < 60 ? pool_size : 60, "hollow", out);
+  if (inside)
+    make_procedural(&large, &rng, SOLIDS, 40, "large", out), make_procedural(&shells, &rng, SHELLS, 30, "shell", out);
+  if (!small.count) return fprintf(stderr, "%s: no meshes\n", meshes), 1;
+
+  fprintf(file,
+          "nsvcd-problems 1\n# problems --set %s --meshes %s --count %zu --seed %llu --motion-samples %zu sigma %g\n",
+          set, meshes, count, seed, samples, sigma);
+  counts c;
+  memset(&c, 0, sizeof c);
+  static problem p;
+  p.samples = samples;
+  for (size_t id = 0; id < count;) {
+    int label = (int)(id % 2), large_moves = inside && shapes_pick(&rng, 10) < 3, done = 0;
+    source *a = any(&rng, &small), *b = any(&rng, hollow ? &large : inside ? (label ? &large : &shells) : &small);
+    double extent_a = hollow || inside ? shapes_uniform(&rng, 0.02, 0.08) : shapes_uniform(&rng, 0.1, 0.4);
+    double extent_b = shapes_uniform(&rng, hollow || inside ? 0.2 : 0.1, 0.4);
+    p.moving_source = large_moves ? b : a, p.fixed_source = large_moves ? a : b;
+    if (!load_body(&p.moving, p.moving_source, large_moves ? extent_b : extent_a, &p.moving_scale)) return 1;
+    if (!load_body(&p.fixed, p.fixed_source, large_moves ? extent_a : extent_b, &p.fixed_scale)) return 1;
+    for (int i = 0; i < (inside ? 100 : hollow ? 6 : 3) && !done; i++)
+      done = inside ? attempt_inside(&rng, &p, label, large_moves, &c) : attempt(&rng, &p, hollow, sigma, &c);
+    if (done) tally(&c, &p), write_problem(file, &p, id++);
+    oracle_mesh_free(&p.moving), oracle_mesh_free(&p.fixed);
+  }
+  int ok = !ferror(file);
+  if (fclose(file) != 0 || !ok) return fprintf(stderr, "%s: write error\n", out), 1;
+  print_summary(&c, (double)(clock() - begin) / CLOCKS_PER_SEC);
+  pool *pools[3];
+  pools[0] = &small, pools[1] = &large, pools[2] = &shells;
+  for (int i = 0; i < 3; i++) {
+    for (size_t k = 0; k < pools[i]->count; k++) shapes_free(&pools[i]->items[k].mesh);
+    free(pools[i]->items);
+  }
+  return 0;
+}
