@@ -522,10 +522,13 @@ SHAPES_DEF void shapes_random_part(shapes_mesh *mesh, shapes_rng *rng, double si
   double r = size / 2 * shapes_uniform(rng, 0.3, 1), h = size * shapes_uniform(rng, 0.4, 1);
   double thin = size * exp(shapes_uniform(rng, log(0.02), log(0.15)));
   double q = shapes_uniform(rng, 0.35, 0.8);
+  double u, v;  // drawn in their own statements: C leaves the order of a call's arguments open
+  int m;
   switch (shapes_pick(rng, 20)) {
     case 0:
     case 1:
-      shapes_box(mesh, size, size * shapes_uniform(rng, 0.15, 1), size * shapes_uniform(rng, 0.1, 1), cuts);
+      u = shapes_uniform(rng, 0.1, 1), v = shapes_uniform(rng, 0.15, 1);
+      shapes_box(mesh, size, size * v, size * u, cuts);
       break;
     case 2:
       shapes_box(mesh, size, size * shapes_uniform(rng, 0.3, 1), thin, cuts);
@@ -537,7 +540,8 @@ SHAPES_DEF void shapes_random_part(shapes_mesh *mesh, shapes_rng *rng, double si
       shapes_cylinder(mesh, thin, size, n);
       break;
     case 5:
-      shapes_capsule(mesh, size * shapes_uniform(rng, 0.06, 0.25), size * shapes_uniform(rng, 0.3, 0.7), n);
+      u = shapes_uniform(rng, 0.3, 0.7), v = shapes_uniform(rng, 0.06, 0.25);
+      shapes_capsule(mesh, size * v, size * u, n);
       break;
     case 6:
       shapes_cone(mesh, r, shapes_pick(rng, 2) ? 0 : r * q, h, n);
@@ -546,7 +550,8 @@ SHAPES_DEF void shapes_random_part(shapes_mesh *mesh, shapes_rng *rng, double si
       shapes_torus(mesh, 0.38 * size, 0.38 * size * shapes_uniform(rng, 0.1, 0.45), n, n / 2);
       break;
     case 8:
-      shapes_ellipsoid(mesh, size / 2, size * shapes_uniform(rng, 0.15, 0.5), size * shapes_uniform(rng, 0.15, 0.5), n);
+      u = shapes_uniform(rng, 0.15, 0.5), v = shapes_uniform(rng, 0.15, 0.5);
+      shapes_ellipsoid(mesh, size / 2, size * v, size * u, n);
       break;
     case 9:
       shapes_ring(mesh, size / 2, size / 2 * q, size * shapes_uniform(rng, 0.1, 0.9), n);
@@ -561,7 +566,8 @@ SHAPES_DEF void shapes_random_part(shapes_mesh *mesh, shapes_rng *rng, double si
       shapes_peg(mesh, size * shapes_uniform(rng, 0.06, 0.2), size, n);
       break;
     case 13:
-      shapes_gear(mesh, size / 2, size * shapes_uniform(rng, 0.05, 0.12), h / 2, 6 + shapes_pick(rng, 10));
+      m = 6 + shapes_pick(rng, 10), u = shapes_uniform(rng, 0.05, 0.12);
+      shapes_gear(mesh, size / 2, size * u, h / 2, m);
       break;
     case 14:
       shapes_slab(mesh, rng, size / 2, size * shapes_uniform(rng, 0.05, 0.6));
@@ -573,8 +579,8 @@ SHAPES_DEF void shapes_random_part(shapes_mesh *mesh, shapes_rng *rng, double si
       shapes_bowl(mesh, size / 2, size / 2 * q, fmax(thin, 0.02 * size), n);
       break;
     case 17:
-      shapes_cup(mesh, size * 0.35, size * shapes_uniform(rng, 0.5, 1), fmax(thin / 2, 0.015 * size),
-                 shapes_uniform(rng, 0.9, 1.3), n);
+      u = shapes_uniform(rng, 0.9, 1.3), v = shapes_uniform(rng, 0.5, 1);
+      shapes_cup(mesh, size * 0.35, size * v, fmax(thin / 2, 0.015 * size), u, n);
       break;
     case 18:
       shapes_prism(mesh, r, h, 3 + shapes_pick(rng, 4));
@@ -608,7 +614,7 @@ SHAPES_DEF void shapes_random_solid(shapes_mesh *mesh, shapes_rng *rng, double e
 // The 'hollow' family: kind in [0, SHAPES_HOLLOWS), random proportions, largest extent `extent`, centred.
 SHAPES_DEF void shapes_random_hollow(shapes_mesh *mesh, shapes_rng *rng, int kind, double extent) {
   double a = shapes_uniform(rng, 0.6, 1), b = shapes_uniform(rng, 0.5, 1), wall = shapes_uniform(rng, 0.015, 0.06);
-  int n = 16 + 4 * shapes_pick(rng, 5);
+  int n = 16 + 4 * shapes_pick(rng, 5), m, back;
   switch (kind) {
     case 0:
       shapes_cup(mesh, 0.45 * a, b, wall, shapes_uniform(rng, 0.9, 1.4), n);
@@ -617,19 +623,22 @@ SHAPES_DEF void shapes_random_hollow(shapes_mesh *mesh, shapes_rng *rng, int kin
       shapes_mug(mesh, 0.45 * a, b, fmax(wall, 0.025), n);
       break;
     case 2:
-      shapes_dish_rack(mesh, 1, a, 0.5 * b, shapes_uniform(rng, 0.008, 0.02), 4 + shapes_pick(rng, 5), 6);
+      m = 4 + shapes_pick(rng, 5);
+      shapes_dish_rack(mesh, 1, a, 0.5 * b, shapes_uniform(rng, 0.008, 0.02), m, 6);
       break;
     case 3:
       shapes_drawer(mesh, 1, a, 0.5 * b, wall);
       break;
     case 4:
-      shapes_shelf(mesh, a, 0.5 * b, 1, wall, 3 + shapes_pick(rng, 3), shapes_pick(rng, 2));
+      back = shapes_pick(rng, 2), m = 3 + shapes_pick(rng, 3);
+      shapes_shelf(mesh, a, 0.5 * b, 1, wall, m, back);
       break;
     case 5:
       shapes_chair(mesh, 0.6 * a, 1, fmax(wall, 0.03));
       break;
     case 6:
-      shapes_basket(mesh, 0.45 * a, 0.7 * b, shapes_uniform(rng, 0.008, 0.02), 8 + shapes_pick(rng, 9), n);
+      m = 8 + shapes_pick(rng, 9);
+      shapes_basket(mesh, 0.45 * a, 0.7 * b, shapes_uniform(rng, 0.008, 0.02), m, n);
       break;
     case 7:
       shapes_ring(mesh, 0.4 * a, 0.4 * a - wall, b, n);

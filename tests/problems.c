@@ -183,8 +183,10 @@ static void make_procedural(pool *p, shapes_rng *rng, family kind, size_t count,
     else if (i % 3 == 2)
       shapes_random_hollow(&s->mesh, rng, 0, 0.3);
     else {
-      shapes_shell(&s->mesh, 1, shapes_uniform(rng, 0.7, 1), shapes_uniform(rng, 0.7, 1),
-                   shapes_uniform(rng, 0.04, 0.12), (int)(i % 3), 24 + 4 * shapes_pick(rng, 4));
+      // One draw per statement: C leaves the order of a call's arguments open.
+      int segments = 24 + 4 * shapes_pick(rng, 4);
+      double wall = shapes_uniform(rng, 0.04, 0.12), z = shapes_uniform(rng, 0.7, 1), y = shapes_uniform(rng, 0.7, 1);
+      shapes_shell(&s->mesh, 1, y, z, wall, (int)(i % 3), segments);
       shapes_fit(&s->mesh, 0.3);
     }
     measure(s);
@@ -361,7 +363,8 @@ static source *any(shapes_rng *rng, pool *p) { return &p->items[shapes_next(rng)
 // Step 1 of `standard`: the fixed body's bounds overlap those of the swept volume.
 static void place_standard(shapes_rng *rng, problem *p) {
   double low[3], high[3], q[4], center[3], origin[3] = {0, 0, 0};
-  random_motion(rng, p, origin, shapes_uniform(rng, 0.1, 0.6), shapes_uniform(rng, 0, 2 * SHAPES_PI / 3));
+  double turn = shapes_uniform(rng, 0, 2 * SHAPES_PI / 3), length = shapes_uniform(rng, 0.1, 0.6);
+  random_motion(rng, p, origin, length, turn);
   for (int k = 0; k < 3; k++) low[k] = HUGE_VAL, high[k] = -HUGE_VAL;
   for (size_t s = 0; s < p->samples; s++) {
     motion_center(p, s, center);
@@ -384,7 +387,8 @@ static int place_hollow(shapes_rng *rng, problem *p) {
   shapes_quaternion(rng, q);
   set_pose(&p->fixed_pose, origin, q, p->fixed.center);
   within(rng, &p->fixed, &p->fixed_pose, start);
-  random_motion(rng, p, start, shapes_uniform(rng, 0.05, 0.3), shapes_uniform(rng, 0, 2 * SHAPES_PI / 3));
+  double turn = shapes_uniform(rng, 0, 2 * SHAPES_PI / 3), length = shapes_uniform(rng, 0.05, 0.3);
+  random_motion(rng, p, start, length, turn);
   size_t samples = p->samples;
   p->samples = 1;  // at t = 0
   int ok = is_free(p, &p->fixed_pose);

@@ -276,6 +276,7 @@ static void mesh_obj_refused(void) {
       {"v 0 0 0\nv 0 -NaN 0\nf 1 1 1\n", NSVCD_ERROR_NUMBER, 2},
       {"v 0 0 inf\nf 1 1 1\n", NSVCD_ERROR_NUMBER, 1},
       {"v 0 0 -Infinity\nf 1 1 1\n", NSVCD_ERROR_NUMBER, 1},
+      {"v 0 0 0 0.5 1e39 0\nf 1 1 1\n", NSVCD_ERROR_NUMBER, 1},  // a colour
       {"v 0 0 1e39\nf 1 1 1\n", NSVCD_ERROR_NUMBER, 1},
       {"v 0 0 1e999999999999999999999\nf 1 1 1\n", NSVCD_ERROR_NUMBER, 1},
       {"v 0 0 -1000001\nf 1 1 1\n", NSVCD_ERROR_NUMBER, 1},  // beyond NSVCD_MAX_COORDINATE
@@ -463,6 +464,13 @@ static void mesh_obj_files(void) {
     CHECK_EQ(result, fail_at >= 0 && fail_at < heap.calls ? NSVCD_ERROR_MEMORY : NSVCD_ERROR_INDEX);
     CHECK_EQ(line, result == NSVCD_ERROR_INDEX ? 40002 : 0);
     CHECK_EQ(heap.live, 0);
+  }
+  file = fopen(path, "wb");
+  fprintf(file, "v 0 0 0\nf 1 1 1");
+  fclose(file);
+  for (int i = 0; i < 2000; ++i) {  // more often than files can be open at once
+    CHECK_EQ(nsvcd_obj_load(path, NULL, &mesh, NULL), NSVCD_OK);
+    nsvcd_mesh_free(&mesh, NULL);
   }
   remove(path);
 }
@@ -686,7 +694,7 @@ static void mesh_samples_are_uniform(void) {
   double total = 0.02 + 0.06 + 0.03;  // of the three products of half extents
   for (size_t f = 0; f < 6; ++f) {
     double share = (f < 2 ? 0.06 : f < 4 ? 0.03 : 0.02) / (2 * total);
-    CHECK_NEAR(face[f], S * share, 1.01);  // stratified: to one sample at each end
+    CHECK_NEAR(face[f], (double)S * share, 1.01);  // stratified: to one sample at each end
     for (size_t k = 0; k < 2; ++k) CHECK_NEAR(mean[f][k] / face[f], 0, 0.02);
   }
   nsvcd_mesh_free(&mesh, NULL);
@@ -694,7 +702,7 @@ static void mesh_samples_are_uniform(void) {
   mesh = mesh_round(30, 40, 0.1, 0.04);  // every triangle gets its share, to one sample
   CHECK_EQ(nsvcd__sample_surface(&mesh, S, points, normals), NSVCD_OK);
   double z2 = 0, exact = 0;
-  for (size_t s = 0; s < S; ++s) z2 += (double)points[3 * s + 2] * (double)points[3 * s + 2] / S;
+  for (size_t s = 0; s < S; ++s) z2 += (double)points[3 * s + 2] * (double)points[3 * s + 2] / (double)S;
   for (size_t t = 0; t < mesh.triangle_count; ++t) {  // integral of z^2 over a triangle: mean over the edges' middles
     double c[3][3], v[3];
     nsvcd__triangle(&mesh, t, c);
@@ -725,7 +733,94 @@ static void mesh_samples_scale(void) {
   }
 }
 
+static void mesh_samples_lie_mid_stratum(void) {
+  float points[12], normals[12];
+  nsvcd_mesh mesh = mesh_fan(2, 1, 1);  // triangles of equal area,
+  mesh.positions[4] = 0.2f;             // now a fifth and four fifths of the whole
+  CHECK_EQ(nsvcd__sample_surface(&mesh, 4, points, normals), NSVCD_OK);
+  for (int i = 0; i < 4; ++i) CHECK_EQ(points[3 * i + 1] < 0.2f * points[3 * i], i == 0);  // at 1/8, 3/8, 5/8, 7/8
+  nsvcd_mesh_free(&mesh, NULL);
+}
+
 // ---------------------------------------------------------------------------------------------------- patches
+
+// Samples without a mesh: (n, 3) random points, some of them equal.
+static nsvcd__patches patches_of_points(size_t centres, size_t samples) {
+  nsvcd__patches p;
+  CHECK_EQ(nsvcd__patches_alloc(&p, centres, samples, NULL), NSVCD_OK);
+  for (size_t s = 0; s < samples; ++s) {
+    p.x[s] = (float)mesh_below(40), p.y[s] = (float)mesh_below(40), p.z[s] = (float)mesh_below(4);
+  }
+  return p;
+}
+
+// Each centre is, at its turn, a sample farthest from those before it; each sample goes to a nearest centre.
+static void mesh_farthest_points_are_farthest(void) {
+  mesh_rng = 51;
+  for (int round = 0; round < 20; ++round) {
+    nsvcd__patches p = patches_of_points(60, 1500);
+    nsvcd__farthest_points(&p);
+    CHECK_EQ(p.count, 60);
+    for (uint32_t i = 1; i <= p.count; ++i) {
+      float farthest = 0, centre = HUGE_VALF;
+      for (uint32_t j = 0; i < p.count && j < i; ++j) {
+        centre = fminf(centre, nsvcd__centre_distance(&p, j, p.centre_x[i], p.centre_y[i], p.centre_z[i]));
+      }
+      for (size_t s = 0; s < p.sample_count; ++s) {
+        float nearest = HUGE_VALF;
+        for (uint32_t j = 0; j < i; ++j)
+          nearest = fminf(nearest, nsvcd__centre_distance(&p, j, p.x[s], p.y[s], p.z[s]));
+        farthest = fmaxf(farthest, nearest);
+        if (i == p.count) CHECK_EQ(nearest, nsvcd__centre_distance(&p, p.owners[s], p.x[s], p.y[s], p.z[s]));
+      }
+      if (i < p.count) CHECK_EQ(centre, farthest);
+    }
+    nsvcd__patches_free(&p, NULL);
+  }
+  nsvcd__patches p = patches_of_points(10, 64);
+  for (size_t s = 0; s < 64; ++s) p.x[s] = (float)(s % 3), p.y[s] = p.z[s] = 5;  // three places for ten centres
+  nsvcd__farthest_points(&p);
+  CHECK_EQ(p.count, 3);
+  nsvcd__patches_free(&p, NULL);
+}
+
+static void mesh_centres_without_samples_are_dropped(void) {
+  nsvcd__patches p = patches_of_points(4, 64);
+  for (size_t s = 0; s < 64; ++s) p.x[s] = (float)s, p.owners[s] = s < 32 ? 3 : 1;
+  nsvcd__move_centres(&p);
+  CHECK_EQ(p.count, 2);
+  CHECK_EQ(p.centre_x[0], 47.5);
+  CHECK_EQ(p.centre_x[1], 15.5);
+  for (size_t s = 0; s < 64; ++s) CHECK_EQ(p.owners[s], s < 32);
+  // Of two centres at the same distance the first one is nearest, whatever the guess.
+  nsvcd__set_centre(&p, 0, 1, 0, 0);
+  nsvcd__set_centre(&p, 1, -1, 0, 0);
+  nsvcd__link_centres(&p);
+  CHECK_EQ(nsvcd__nearest_centre(&p, 0, 0, 0, 0), 0);
+  CHECK_EQ(nsvcd__nearest_centre(&p, 1, 0, 0, 0), 0);
+  nsvcd__patches_free(&p, NULL);
+}
+
+// r^2 N / area: 1/pi for discs that do not overlap, 0.385 for hexagons; all that exceeds it is wasted broad phase.
+static void mesh_patches_are_round(void) {
+  static const size_t counts[] = {64, 128, 256, 512};
+  for (int n = 0; n < 4; ++n) {
+    nsvcd_mesh mesh = mesh_kind(2);
+    nsvcd__patches p;
+    double samples = 0, balls = 0;
+    CHECK_EQ(nsvcd__patches_build(&mesh, counts[n], NULL, &p), NSVCD_OK);
+    for (size_t i = 0; i < p.count; ++i) {
+      samples += (double)p.sample_radii[i] / (double)p.count, balls += (double)p.radii[i] / (double)p.count;
+    }
+    double area = nsvcd__mesh_area(&mesh) / (double)p.count;
+    printf("N %d: r^2 N / area: samples %.3f, balls %.3f\n", (int)p.count, samples * samples / area,
+           balls * balls / area);
+    CHECK_LE(samples * samples / area, 0.38);
+    CHECK_LE(balls * balls / area, 0.53);
+    nsvcd__patches_free(&p, NULL);
+    nsvcd_mesh_free(&mesh, NULL);
+  }
+}
 
 static int patches_cover(const nsvcd__patches *p, const double *x) {
   for (size_t i = 0; i < p->count; ++i) {
@@ -915,6 +1010,10 @@ void test_mesh(void) {
   RUN(mesh_polygons_special);
   RUN(mesh_samples_are_uniform);
   RUN(mesh_samples_scale);
+  RUN(mesh_samples_lie_mid_stratum);
+  RUN(mesh_farthest_points_are_farthest);
+  RUN(mesh_centres_without_samples_are_dropped);
+  RUN(mesh_patches_are_round);
   RUN(mesh_patches_cover_the_surface);
   RUN(mesh_patches_are_consistent);
   RUN(mesh_nearest_centre_is_nearest);

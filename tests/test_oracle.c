@@ -311,8 +311,9 @@ static void oracle_sweep_agrees_with_dense_sampling(void) {
   int seen[2] = {0, 0};
   for (int trial = 0; trial < 40; trial++) {
     oracle_mesh a = random_solid(&rng), b = random_solid(&rng);
-    oracle_pose poses[9], here = random_pose(&rng, 0.4);
+    oracle_pose poses[9], here = random_pose(&rng, 0.2);
     random_walk(&rng, poses, 9, 0.04, 0.5);
+    if (trial % 2) here.position[0] = poses[8].position[0], here.position[1] = poses[8].position[1];
     oracle_options first = {0, 0, 1, 1}, decide = {0, 2e-3, 0, 1};
     oracle_result r = oracle_sweep(&a, poses, 9, &b, &here, &first),
                   quick = oracle_sweep(&a, poses, 9, &b, &here, &decide);

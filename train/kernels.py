@@ -143,7 +143,44 @@ def trace_kernel(parts, origin, direction, out, n, reach, step_floor, STEPS: tl.
         d = d2
 
 
+@triton.jit
+def gap_kernel(path, radius_a, centre_b, radius_b, depth, where, na, nb, stamps, BLOCK: tl.constexpr):
+    b = tl.program_id(2).to(tl.int64)
+    i = tl.program_id(1).to(tl.int64)
+    j = tl.program_id(0) * BLOCK + tl.arange(0, BLOCK)
+    live = j < nb
+    at = centre_b + (b * nb + j) * 3
+    cx, cy, cz = tl.load(at, live, 0.0), tl.load(at + 1, live, 0.0), tl.load(at + 2, live, 0.0)
+    reach = tl.load(radius_a + b * na + i) + tl.load(radius_b + b * nb + j, live, 1.0)
+    least = cx * 0 + 1e18
+    which = j * 0
+    row = path + (b * na + i) * stamps * 3
+    for k in range(stamps - 1):
+        ax, ay, az = tl.load(row + 3 * k), tl.load(row + 3 * k + 1), tl.load(row + 3 * k + 2)
+        sx, sy, sz = tl.load(row + 3 * k + 3) - ax, tl.load(row + 3 * k + 4) - ay, tl.load(row + 3 * k + 5) - az
+        dx, dy, dz = ax - cx, ay - cy, az - cz
+        along = dx * sx + dy * sy + dz * sz
+        square = sx * sx + sy * sy + sz * sz
+        tau = tl.minimum(tl.maximum(-along / tl.maximum(square, 1e-18), 0.0), 1.0)
+        d = dx * dx + dy * dy + dz * dz + tau * (2 * along + tau * square)
+        which = tl.where(d < least, k, which)
+        least = tl.minimum(least, d)
+    tl.store(depth + (b * na + i) * nb + j, 1 - tl.sqrt(tl.maximum(least, 0.0)) / reach, live)
+    tl.store(where + (b * na + i) * nb + j, which, live)
+
+
 BLOCK = 128
+
+
+def least_gap(path: Tensor, radius_a: Tensor, centre_b: Tensor, radius_b: Tensor) -> tuple[Tensor, Tensor]:
+    """As problems.least_gap."""
+    b, na, stamps, _ = path.shape
+    nb = centre_b.shape[1]
+    depth = torch.empty(b, na, nb, device=path.device)
+    where = torch.empty(b, na, nb, dtype=torch.int32, device=path.device)
+    gap_kernel[(triton.cdiv(nb, BLOCK), na, b)](path.contiguous(), radius_a.contiguous(), centre_b.contiguous(), radius_b.contiguous(), depth, where,
+                                                na, nb, stamps, BLOCK=BLOCK)
+    return depth, where
 
 
 def sdf(parts: Tensor, p: Tensor) -> Tensor:

@@ -121,7 +121,7 @@ def invariants(s: Shape, z1: Tensor, z2: Tensor, g: Geometry, scaling: str = "su
     swap = (g.r2 > g.r1)[..., None]
     d = torch.where(swap, -d, d)
     lean = (rot @ a1[..., 0, :, None])[..., 0] * (g.r1 / reach)[..., None] - a2[..., 0, :] * (g.r2 / reach)[..., None]
-    lean = torch.where(swap, -lean, lean)
+    lean = torch.where(swap, -lean, lean).detach()  # the frame is a choice, not a thing to learn
     # Body 2 seen from body 1 moves the other way; time reversal makes the sign free, so the swap leaves v and w alone.
     length = d.norm(dim=-1, keepdim=True)
     fallback = lean + torch.tensor([1e-6, 0, 0], dtype=d.dtype, device=d.device)

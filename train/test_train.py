@@ -116,7 +116,7 @@ class ProblemTest(unittest.TestCase):
         _, _, margin = problems.closest(solids, q, g)
         error = (margin - (h - 0.15)).abs()
         self.assertLess(error[1:3].max().item(), 3e-4)  # near contact, where labels are decided
-        self.assertLess(error.max().item(), 2e-3)  # far from it a search that ends early only errs in size, not in sign
+        self.assertLess(error.max().item(), 5e-3)  # far from it a search that ends early only errs in size, not in sign
 
     def test_broad_phase_finds_the_entry(self) -> None:
         poses = torch.zeros(1, 33, 7)

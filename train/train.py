@@ -94,8 +94,8 @@ def main() -> None:
     compiled = device == "cuda"
     torch.set_float32_matmul_precision("high")
     torch.manual_seed(a.seed)
-    d = training_data.build(a.seed, a.shapes, a.groups, device, compiled, log)
-    held = training_data.build(a.seed + 1000003, max(64, a.shapes // 12), max(2, a.groups // 60), device, compiled, log)
+    d = training_data.build(a.seed, a.shapes, a.groups, device, log)
+    held = training_data.build(a.seed + 1000003, max(64, a.shapes // 12), max(2, a.groups // 60), device, log)
     files = {n: load_problems(a.real / f"{n}.txt") for n in a.files} if a.real else {}
     log("validation files read", {n: len(f.label) for n, f in files.items()})
     if a.no_normals:
@@ -155,6 +155,9 @@ def main() -> None:
         loss, shown = step_loss(net, u, n, noise, *batch(d, g), pairs, a.pair_weight, a.gradient_weight)
         optimizer.zero_grad(set_to_none=True)
         loss.backward()
+        if step < 50 and not all(bool(torch.isfinite(p.grad).all()) for p in own):
+            odd = [k for k, v in (*vars(d.geometry).items(), ("target", d.target), ("margin", d.margin), ("u", u), ("n", n)) if not bool(torch.isfinite(v).all())]
+            raise SystemExit(f"step {step}: loss {loss.item()}, a gradient is not finite; not finite in the data: {odd}")
         torch.nn.utils.clip_grad_norm_(own, 1.0)
         optimizer.step()
         with torch.no_grad():

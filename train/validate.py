@@ -1,6 +1,7 @@
 """Accuracy on problem files (FORMATS.md) with exact labels, by N and by distance from contact. Same steps as the library."""
 from __future__ import annotations
 
+import importlib
 import math
 from dataclasses import dataclass
 from pathlib import Path
@@ -11,7 +12,7 @@ from torch import Tensor
 from data import PER_PATCH, pair_geometry
 from model import Network, quantise
 from patches import make_patches
-from problems import broad_phase
+from problems import broad_phase, least_gap
 
 BANDS = (0.0, 0.001, 0.0025, 0.005, 0.010, 0.020, math.inf)
 
@@ -77,7 +78,7 @@ def sample_mesh(vertices: Tensor, triangles: Tensor, count: int, generator: torc
 
 
 @torch.no_grad()
-def logits(net: Network, f: ProblemFile, n: int, device: str, head: str = "base", pairs: int = 8, slack: float = 1.06) -> Tensor:
+def logits(net: Network, f: ProblemFile, n: int, device: str, head: str = "base", pairs: int = 8, slack: float = 1.187) -> Tensor:
     generator = torch.Generator().manual_seed(1)
     sampled = [sample_mesh(v, t, 32 * n, generator) for v, t in f.meshes]
     points, normals = (torch.stack([s[k] for s in sampled]).to(device) for k in (0, 1))
@@ -90,11 +91,12 @@ def logits(net: Network, f: ProblemFile, n: int, device: str, head: str = "base"
         latents.append(quantise(net.encoder(u.flatten(0, 1), made.normals.flatten(0, 1))).view(len(p), n, -1))
         centres.append(made.centre), radii.append(radius)
     z, centre, radius = torch.cat(latents), torch.cat(centres), torch.cat(radii)
+    kernel = importlib.import_module("kernels").least_gap if device == "cuda" else least_gap
     out = []
     for s in torch.arange(len(f.label)).split(max(8, min(2048, 2 ** 25 // (n * n)))):
         m, x, s1, s2, poses = (a[s].to(device) for a in (f.moving, f.fixed, f.size1, f.size2, f.poses))
         ca, ra, cb, rb = centre[m] * s1[:, None, None], radius[m] * s1[:, None], centre[x] * s2[:, None, None], radius[x] * s2[:, None]
-        k = broad_phase(poses, ca, ra, cb, rb)
+        k = broad_phase(poses, ca, ra, cb, rb, kernel)
         i, j = k.moving[:, :pairs], k.fixed[:, :pairs]
         pick = lambda a, idx: a.gather(1, idx[..., None].expand(-1, -1, a.shape[2])) if a.dim() == 3 else a.gather(1, idx)
         geometry = pair_geometry(poses, pick(ca, i), pick(cb, j), pick(ra, i), pick(rb, j), k.enter[:, :pairs], k.leave[:, :pairs])
