@@ -1,0 +1,21 @@
+// The test binary. An argument runs only the tests whose name contains it.
+#include "check.h"
+
+check_state check;
+
+void test_mesh(void);
+void test_network(void);
+void test_broad_phase(void);
+void test_oracle(void);
+void test_query(void);
+
+int main(int argc, char **argv) {
+  check.filter = argc > 1 ? argv[1] : NULL;
+  test_mesh();
+  test_network();
+  test_broad_phase();
+  test_oracle();
+  test_query();
+  printf("%d passed, %d failed\n", check.passed, check.failed);
+  return check.failed > 0;
+}

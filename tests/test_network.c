@@ -1,0 +1,198 @@
+// The network: parity with the trainer, equivariance of the encoder, group laws of D(R), invariance of the logit.
+#define NSVCD_STATIC
+#define NEURALSVCD_IMPLEMENTATION
+#include "../neuralsvcd.h"
+
+#include "check.h"
+#include "data/golden.h"
+
+static uint32_t seed = 1;
+static float uniform(void) {  // [-1, 1)
+  seed = seed * 1664525u + 1013904223u;
+  return (float)(seed >> 8) / 8388608.0f - 1;
+}
+
+static void random_rotation(float *m) {
+  float q[4], length = 0;
+  do {
+    for (size_t k = 0; k < 4; k++) q[k] = uniform();
+    length = sqrtf(q[0] * q[0] + q[1] * q[1] + q[2] * q[2] + q[3] * q[3]);
+  } while (length > 1 || length < 0.1f);
+  for (size_t k = 0; k < 4; k++) q[k] /= length;
+  nsvcd__quat_to_matrix(q, m);
+}
+
+static float largest_difference(const float *a, const float *b, size_t count) {
+  float most = 0;
+  for (size_t k = 0; k < count; k++) most = fmaxf(most, fabsf(a[k] - b[k]));
+  return most;
+}
+
+static void encoder_matches_the_trainer(void) {
+  for (size_t i = 0; i < GOLDEN_PATCHES; i++) {
+    float latent[NSVCD__LATENT];
+    nsvcd__encode_patch(golden_points + 3 * GOLDEN_POINTS * i, golden_normals + 3 * GOLDEN_POINTS * i, GOLDEN_POINTS,
+                        golden_centre + 3 * i, golden_radius[i], latent);
+    CHECK_LE(largest_difference(latent, golden_latent + NSVCD__LATENT * i, NSVCD__LATENT), 1e-4);
+  }
+}
+
+// golden_pair rows: p1 p2 r1 r2 q v w, logits of tiny small base.
+#define GOLDEN_ROW 21
+static void golden_pair_at(size_t n, int8_t *z1, int8_t *z2, nsvcd__pair *pair) {
+  const float *row = golden_pair + GOLDEN_ROW * n;
+  for (size_t k = 0; k < NSVCD__LATENT; k++) {
+    z1[k] = (int8_t)lrintf(127 * golden_latent[NSVCD__LATENT * (size_t)golden_index[2 * n] + k]);
+    z2[k] = (int8_t)lrintf(127 * golden_latent[NSVCD__LATENT * (size_t)golden_index[2 * n + 1] + k]);
+  }
+  memcpy(pair->p1, row, sizeof pair->p1);
+  memcpy(pair->p2, row + 3, sizeof pair->p2);
+  pair->r1 = row[6], pair->r2 = row[7];
+  nsvcd__quat_to_matrix(row + 8, pair->rotation);
+  memcpy(pair->v, row + 12, sizeof pair->v);
+  memcpy(pair->w, row + 15, sizeof pair->w);
+  pair->z1 = z1, pair->z2 = z2;
+}
+
+static void heads_match_the_trainer(void) {
+  for (size_t n = 0; n < GOLDEN_PAIRS; n++) {
+    int8_t z1[NSVCD__LATENT], z2[NSVCD__LATENT];
+    nsvcd__pair pair;
+    float x[NSVCD__DECODER_IN];
+    golden_pair_at(n, z1, z2, &pair);
+    nsvcd__invariants(&pair, x);
+    for (size_t h = 0; h < 3; h++) {
+      float expected = golden_pair[GOLDEN_ROW * n + 18 + h];
+      CHECK_NEAR(nsvcd__head_logit(&nsvcd_w_heads[h], x), expected, 1e-4 * fmax(1, fabs((double)expected)));
+    }
+  }
+}
+
+// Random oriented points in the unit ball about a random centre.
+static void random_patch(float *points, float *normals, size_t count) {
+  float lean[3] = {uniform(), uniform(), uniform()};
+  for (size_t i = 0; i < count; i++) {
+    float n[3], length;
+    for (size_t k = 0; k < 3; k++) points[3 * i + k] = 0.57f * uniform(), n[k] = uniform() + lean[k];
+    length = nsvcd__length3(n);
+    for (size_t k = 0; k < 3; k++) normals[3 * i + k] = n[k] / length;
+  }
+}
+
+static void encoder_is_equivariant(void) {
+  for (int trial = 0; trial < 100; trial++) {
+    float points[3 * 40], normals[3 * 40], turned_points[3 * 40], turned_normals[3 * 40], m[9];
+    float latent[NSVCD__LATENT], expected[NSVCD__LATENT], turned[NSVCD__LATENT], zero[3] = {0, 0, 0}, centre[3];
+    random_patch(points, normals, 40);
+    random_rotation(m);
+    if (trial % 2) {  // mirrored as well: the degree-2 block is even, degree 1 odd
+      for (size_t k = 0; k < 9; k++) m[k] = -m[k];
+    }
+    const float scale = powf(10, 3 * uniform());
+    for (size_t k = 0; k < 3; k++) centre[k] = scale * uniform();
+    for (size_t i = 0; i < 40; i++) {
+      nsvcd__mul33_vec(m, points + 3 * i, turned_points + 3 * i);
+      nsvcd__mul33_vec(m, normals + 3 * i, turned_normals + 3 * i);
+      for (size_t k = 0; k < 3; k++) turned_points[3 * i + k] = scale * turned_points[3 * i + k] + centre[k];
+    }
+    nsvcd__encode_patch(points, normals, 40, zero, 1, latent);
+    nsvcd__encode_patch(turned_points, turned_normals, 40, centre, scale, turned);
+    nsvcd__rotate_latent(m, latent, expected);
+    memcpy(expected + NSVCD__VECTORS, latent + NSVCD__VECTORS, NSVCD_W_SCALARS * sizeof(float));
+    CHECK_LE(largest_difference(turned, expected, NSVCD__LATENT), 2e-4);  // float32, and gates that amplify
+    CHECK_GE(largest_difference(latent, turned, NSVCD__LATENT), 1e-3);    // it does depend on R
+  }
+}
+
+static void rotation_operator_is_a_group(void) {
+  const float half_turn[9] = {-1, 0, 0, 0, -1, 0, 0, 0, 1};
+  for (int trial = 0; trial < 200; trial++) {
+    float a[9], b[9], ab[9], z[NSVCD__VECTORS], x[NSVCD__VECTORS], y[NSVCD__VECTORS], w[NSVCD__VECTORS];
+    random_rotation(a);
+    random_rotation(b);
+    nsvcd__mul33(a, b, ab);
+    for (size_t k = 0; k < NSVCD__VECTORS; k++) z[k] = uniform();
+    nsvcd__rotate_latent(b, z, x);
+    nsvcd__rotate_latent(a, x, y);
+    nsvcd__rotate_latent(ab, z, w);
+    CHECK_LE(largest_difference(y, w, NSVCD__VECTORS), 3e-6);  // D(A) D(B) = D(AB)
+    nsvcd__rotate_latent(half_turn, z, x);
+    CHECK_GE(largest_difference(x, z, NSVCD__VECTORS), 0.1);
+    nsvcd__rotate_latent(half_turn, x, y);
+    CHECK_LE(largest_difference(y, z, NSVCD__VECTORS), 1e-6);  // twice 180 degrees is the identity
+    float back[9];
+    nsvcd__transpose33(a, back);
+    nsvcd__rotate_latent(a, z, x);
+    nsvcd__rotate_latent(back, x, y);
+    CHECK_LE(largest_difference(y, z, NSVCD__VECTORS), 2e-6);  // D(R)^T is the inverse
+  }
+}
+
+static void inputs_are_invariant(void) {
+  for (size_t n = 0; n < GOLDEN_PAIRS; n++) {
+    int8_t z1[NSVCD__LATENT], z2[NSVCD__LATENT];
+    nsvcd__pair pair, moved;
+    float x[NSVCD__DECODER_IN], y[NSVCD__DECODER_IN];
+    golden_pair_at(n, z1, z2, &pair);
+    nsvcd__invariants(&pair, x);
+    moved = pair;  // time runs backwards
+    for (size_t k = 0; k < 3; k++) moved.v[k] = -pair.v[k], moved.w[k] = -pair.w[k];
+    nsvcd__invariants(&moved, y);
+    CHECK_LE(largest_difference(x, y, NSVCD__DECODER_IN), 1e-5);
+    moved = pair;  // another unit of length
+    for (size_t k = 0; k < 3; k++) moved.p1[k] *= 8, moved.p2[k] *= 8, moved.v[k] *= 8;
+    moved.r1 *= 8, moved.r2 *= 8;
+    nsvcd__invariants(&moved, y);
+    CHECK_LE(largest_difference(x, y, NSVCD__DECODER_IN), 1e-6);
+  }
+}
+
+// Seen from body 1 at mid-interval, body 2 moves with the opposite twist: the inputs must be the same.
+static void inputs_do_not_depend_on_who_moves(void) {
+  for (size_t n = 0; n < GOLDEN_PAIRS; n++) {
+    int8_t z1[NSVCD__LATENT], z2[NSVCD__LATENT];
+    nsvcd__pair pair, other;
+    float x[NSVCD__DECODER_IN], y[NSVCD__DECODER_IN];
+    golden_pair_at(n, z1, z2, &pair);
+    nsvcd__invariants(&pair, x);
+    nsvcd__transpose33(pair.rotation, other.rotation);  // body 2 in the axes of body 1
+    nsvcd__mul33_vec(other.rotation, pair.p2, other.p1);
+    nsvcd__mul33_vec(other.rotation, pair.p1, other.p2);
+    nsvcd__mul33_vec(other.rotation, pair.v, other.v);
+    nsvcd__mul33_vec(other.rotation, pair.w, other.w);
+    for (size_t k = 0; k < 3; k++) other.v[k] = -other.v[k], other.w[k] = -other.w[k];
+    other.r1 = pair.r2, other.r2 = pair.r1, other.z1 = z2, other.z2 = z1;
+    nsvcd__invariants(&other, y);
+    CHECK_LE(largest_difference(x, y, NSVCD__DECODER_IN), 2e-4);  // where the lean is short, its direction is rough
+  }
+}
+
+static void degenerate_pairs_are_finite(void) {
+  int8_t z[NSVCD__LATENT] = {0}, other[NSVCD__LATENT];
+  for (size_t k = 0; k < NSVCD__LATENT; k++) other[k] = (int8_t)(k % 100);
+  for (int trial = 0; trial < 32; trial++) {
+    nsvcd__pair pair;
+    memset(&pair, 0, sizeof pair);
+    random_rotation(pair.rotation);
+    pair.z1 = trial & 1 ? z : other, pair.z2 = trial & 2 ? z : other;
+    pair.r1 = trial & 4 ? 0 : 0.1f, pair.r2 = 0;
+    for (size_t k = 0; k < 3; k++) {
+      pair.p1[k] = trial & 8 ? 0.01f * uniform() : 0;
+      pair.v[k] = trial & 16 ? 2 * pair.p1[k] : 0;  // along the line
+    }
+    float x[NSVCD__DECODER_IN];
+    nsvcd__invariants(&pair, x);
+    for (size_t k = 0; k < NSVCD__DECODER_IN; k++) CHECK(nsvcd__is_finite(x[k]));
+    for (size_t h = 0; h < 3; h++) CHECK(nsvcd__is_finite(nsvcd__head_logit(&nsvcd_w_heads[h], x)));
+  }
+}
+
+void test_network(void) {
+  RUN(encoder_matches_the_trainer);
+  RUN(heads_match_the_trainer);
+  RUN(encoder_is_equivariant);
+  RUN(rotation_operator_is_a_group);
+  RUN(inputs_are_invariant);
+  RUN(inputs_do_not_depend_on_who_moves);
+  RUN(degenerate_pairs_are_finite);
+}

@@ -1,0 +1,62 @@
+"""Thresholds of every head, on labelled problems that the library itself has answered.
+
+Usage: calibrate.py CHECKPOINT SVCD PROBLEMS... - runs `svcd check` (built with thresholds of zero) for each head at the
+default N and K, and writes into the checkpoint: the threshold at which misses and false alarms are equally frequent,
+and those that keep 99, 99.9 and 99.99 % of the collisions. Certified and inside answers are not the network's to move.
+"""
+from __future__ import annotations
+
+import math
+import subprocess
+import sys
+from pathlib import Path
+
+import torch
+
+from export import HEADS, RECALLS
+
+CERTAIN = 50.0  # |logit| above this is not the network's
+
+
+def answers(svcd: str, head: str, path: Path) -> tuple[list[float], list[int]]:
+    labels = {}
+    for line in path.read_text().splitlines():
+        w = line.split()
+        if w[:1] == ["problem"]:
+            labels[w[1]] = int(w[13])
+    out = subprocess.run([svcd, "check", "--model", head, str(path)], check=True, capture_output=True, text=True).stdout
+    rows = [line.split("\t") for line in out.splitlines() if line and not line.startswith(("#", "id", "ID"))]
+    return [float(r[1]) for r in rows], [labels[r[0]] for r in rows]
+
+
+def thresholds(logits: list[float], labels: list[int]) -> list[float]:
+    hit = sorted(v for v, k in zip(logits, labels) if k == 1)
+    free = sorted(v for v, k in zip(logits, labels) if k == 0)
+    grid = sorted({v for v in hit + free if abs(v) < CERTAIN})
+    def gap(t: float) -> float:
+        return abs(sum(v <= t for v in hit) / len(hit) - sum(v > t for v in free) / len(free))
+    coarse = grid[:: max(1, len(grid) // 400)]
+    balanced = min(coarse, key=gap)
+    return [balanced] + [hit[min(len(hit) - 1, math.floor((1 - r) * len(hit)))] - 1e-4 for r in RECALLS[1:]]
+
+
+def main() -> None:
+    path, svcd = Path(sys.argv[1]), sys.argv[2]
+    saved = torch.load(path, map_location="cpu")
+    rows = []
+    for head in HEADS:
+        logits, labels = [], []
+        for name in sys.argv[3:]:
+            a, b = answers(svcd, head, Path(name))
+            logits += a
+            labels += b
+        rows.append(thresholds(logits, labels))
+        free = [v for v, k in zip(logits, labels) if k == 0]
+        print(head, "thresholds", " ".join(f"{t:+.3f}" for t in rows[-1]), "false alarms %",
+              " ".join(f"{100 * sum(v > t for v in free) / len(free):.2f}" for t in rows[-1]), "on", len(labels))
+    saved["thresholds"] = rows
+    torch.save(saved, path)
+
+
+if __name__ == "__main__":
+    main()
