@@ -212,7 +212,7 @@ def group_patches(data: Dataset, g: int) -> tuple[Tensor, Tensor]:
         k = len(list(run))
         shape, table = data.bodies[g, body : body + k], data.tables[n]
         radius = table.radius[shape] * data.slack[g, body : body + k, None]
-        us.append(((table.points[shape] - table.centre[shape][:, :, None]) / radius.clamp_min(1e-6)[..., None, None]).flatten(0, 1))
+        us.append(((table.points[shape] - table.centre[shape][:, :, None]) / radius.clamp_min(1e-6)[..., None, None]).clamp(-1, 1).flatten(0, 1))
         ns.append(table.normals[shape].flatten(0, 1))
         body += k
     return torch.cat(us), torch.cat(ns)

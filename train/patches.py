@@ -56,5 +56,8 @@ def make_patches(points: Tensor, normals: Tensor, count: int, per_patch: int, ge
                        (torch.rand(s, count, per_patch, generator=generator, device=points.device) * few).floor())
     pick = (start[..., None] + pick).long().clamp_max(n - 1).view(s, -1)
     index = order.gather(1, pick)[..., None].expand(-1, -1, 3)
-    return Patches(centre, radius, points.gather(1, index).view(s, count, per_patch, 3),
-                   normals.gather(1, index).view(s, count, per_patch, 3), members / n)
+    # A patch without members (centres can coincide) must meet nothing and encode to something finite.
+    empty = (members == 0)[..., None]
+    centre = torch.where(empty, torch.full_like(centre, 1e3), centre)
+    inside = torch.where(empty[..., None], centre[:, :, None], points.gather(1, index).view(s, count, per_patch, 3))
+    return Patches(centre, radius, inside, normals.gather(1, index).view(s, count, per_patch, 3), members / n)

@@ -118,6 +118,15 @@ class ProblemTest(unittest.TestCase):
         self.assertLess(error[1:3].max().item(), 3e-4)  # near contact, where labels are decided
         self.assertLess(error.max().item(), 5e-3)  # far from it a search that ends early only errs in size, not in sign
 
+    def test_patches_without_members_are_harmless(self) -> None:
+        """64 places, each eight times, for 128 patches: half of them stay empty."""
+        g = torch.Generator().manual_seed(2)
+        points = torch.randn(1, 64, 3, generator=g).repeat(1, 8, 1)
+        normals = torch.nn.functional.normalize(points, dim=-1)
+        p = patches.make_patches(points, normals, 128, 32, g)
+        self.assertGreater((p.area == 0).sum().item(), 0)
+        self.assertLessEqual((p.points - p.centre[:, :, None]).norm(dim=-1).amax(-1).sub(p.radius).max().item(), 1e-6)
+
     def test_broad_phase_finds_the_entry(self) -> None:
         poses = torch.zeros(1, 33, 7)
         poses[..., 6] = 1

@@ -155,9 +155,8 @@ def main() -> None:
         loss, shown = step_loss(net, u, n, noise, *batch(d, g), pairs, a.pair_weight, a.gradient_weight)
         optimizer.zero_grad(set_to_none=True)
         loss.backward()
-        if step < 50 and not all(bool(torch.isfinite(p.grad).all()) for p in own):
-            odd = [k for k, v in (*vars(d.geometry).items(), ("target", d.target), ("margin", d.margin), ("u", u), ("n", n)) if not bool(torch.isfinite(v).all())]
-            raise SystemExit(f"step {step}: loss {loss.item()}, a gradient is not finite; not finite in the data: {odd}")
+        if step % 100 == 0 and not math.isfinite(loss.item()):
+            raise SystemExit(f"step {step}: the loss is not finite")
         torch.nn.utils.clip_grad_norm_(own, 1.0)
         optimizer.step()
         with torch.no_grad():
