@@ -140,12 +140,15 @@ NSVCDDEF const char *nsvcd_status_string(nsvcd_status status);  // as `svcd chec
 // The decoders, all on the same latents: about 4, 13 and 40 thousand multiplications per pair of patches.
 typedef enum nsvcd_model { NSVCD_MODEL_DEFAULT = 0, NSVCD_MODEL_TINY, NSVCD_MODEL_SMALL, NSVCD_MODEL_BASE } nsvcd_model;
 
+typedef enum nsvcd_precision { NSVCD_PRECISION_FLOAT = 0, NSVCD_PRECISION_INT8 } nsvcd_precision;  // of the decoder
+
 #define NSVCD_MAX_PAIRS 256
 #define NSVCD_LOGIT_CERTAIN 100.0f  // the logit of INSIDE; its negative is that of CERTIFIED_FREE
 
 typedef struct nsvcd_sweep_options {
   size_t pairs;       // K, pairs of patches that the network looks at, 1..NSVCD_MAX_PAIRS; 0: 8
   nsvcd_model model;  // 0: base
+  nsvcd_precision precision;
   float recall;       // share of collisions to be found: 0 (balanced errors), 0.99f, 0.999f or 0.9999f, as calibrated
 } nsvcd_sweep_options;
 
@@ -1103,6 +1106,8 @@ typedef struct nsvcd__head {
   const size_t *sizes;          // (layers + 1)
   const float *const *weights;  // (layers) of (sizes[l], sizes[l + 1])
   const float *const *biases;   // (layers) of (sizes[l + 1])
+  const int8_t *const *int8;    // (layers) of (sizes[l + 1], sizes[l]): the same weights over their row's scale
+  const float *const *scales;   // (layers) of (sizes[l + 1])
 } nsvcd__head;
 
 #include "weights.h"
@@ -2356,6 +2361,34 @@ static float nsvcd__head_logit(const nsvcd__head *head, const float *x) {
   return from[0];
 }
 
+// One layer in int8: x (inputs) over its largest component, w (outputs, inputs); sums are exact in int32.
+static void nsvcd__linear_int8(const int8_t *w, const float *scales, const float *bias, size_t inputs, size_t outputs,
+                               const float *x, float *y) {
+  int8_t q[NSVCD_W_WIDEST > NSVCD__DECODER_IN ? NSVCD_W_WIDEST : NSVCD__DECODER_IN];
+  float most = 1e-20f;
+  for (size_t i = 0; i < inputs; i++) most = fabsf(x[i]) > most ? fabsf(x[i]) : most;
+  const float inverse = 127 / most, step = most / 127;
+  for (size_t i = 0; i < inputs; i++) q[i] = (int8_t)(x[i] * inverse + (x[i] < 0 ? -0.5f : 0.5f));
+  for (size_t o = 0; o < outputs; o++) {
+    const int8_t *row = w + o * inputs;
+    int32_t sum = 0;
+    for (size_t i = 0; i < inputs; i++) sum += (int32_t)row[i] * (int32_t)q[i];
+    y[o] = bias[o] + (float)sum * step * scales[o];
+  }
+}
+
+static float nsvcd__head_logit_int8(const nsvcd__head *head, const float *x) {
+  float a[NSVCD_W_WIDEST], b[NSVCD_W_WIDEST];
+  const float *from = x;
+  float *to = a;
+  for (size_t l = 0; l < head->layers; l++) {
+    nsvcd__linear_int8(head->int8[l], head->scales[l], head->biases[l], head->sizes[l], head->sizes[l + 1], from, to);
+    if (l + 1 < head->layers) nsvcd__relu(head->sizes[l + 1], to);
+    from = to, to = to == a ? b : a;
+  }
+  return from[0];
+}
+
 // ------------------------------------------------------------------------------------------------------ query
 // In: a mesh -> a body; two bodies and a motion -> an answer. NeuralSVCD, algorithm 1.
 
@@ -2444,7 +2477,9 @@ NSVCDDEF nsvcd_result nsvcd_sweep(const nsvcd_body *moving, const nsvcd_pose *po
   if (!workspace || workspace_size < sizeof(nsvcd__query) || !nsvcd__is_aligned(workspace)) return NSVCD_ERROR_WORKSPACE;
   const size_t pairs = options && options->pairs ? options->pairs : 8;
   const int model = options && options->model ? (int)options->model : (int)NSVCD_MODEL_BASE;
+  const int int8 = options && options->precision == NSVCD_PRECISION_INT8;
   if (pairs > NSVCD_MAX_PAIRS || model < NSVCD_MODEL_TINY || model > NSVCD_MODEL_BASE) return NSVCD_ERROR_ARGUMENT;
+  if (options && options->precision != NSVCD_PRECISION_FLOAT && !int8) return NSVCD_ERROR_ARGUMENT;
   const nsvcd__head *head = &nsvcd_w_heads[model - NSVCD_MODEL_TINY];
   float threshold;
   if (!nsvcd__threshold((size_t)(model - NSVCD_MODEL_TINY), options ? options->recall : 0, &threshold)) {
@@ -2464,7 +2499,7 @@ NSVCDDEF nsvcd_result nsvcd_sweep(const nsvcd_body *moving, const nsvcd_pose *po
     float x[NSVCD__DECODER_IN];
     nsvcd__pair_of(moving, fixed, &motion, candidate, &pair);
     nsvcd__invariants(&pair, x);
-    float logit = nsvcd__head_logit(head, x) - threshold;
+    float logit = (int8 ? nsvcd__head_logit_int8(head, x) : nsvcd__head_logit(head, x)) - threshold;
     if (k > 0 && !(logit > found.logit)) continue;
     found.logit = logit, found.time = candidate->t_least;
     found.moving_patch = candidate->moving, found.fixed_patch = candidate->fixed;

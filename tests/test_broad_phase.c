@@ -1,5 +1,7 @@
 // Body blobs, the motion, the broad phase and containment. The reference is double precision and written apart.
-#include "../../h3/head.h"
+#define NSVCD_STATIC
+#define NEURALSVCD_IMPLEMENTATION
+#include "../neuralsvcd.h"
 
 #include "check.h"
 

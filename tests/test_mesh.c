@@ -1,6 +1,8 @@
 // Tests of OBJ loading, surface sampling, FPS and patches with their covering balls.
-#define WITH40
-#include "/work/h1/all.h"
+#define NSVCD_STATIC
+#define NEURALSVCD_IMPLEMENTATION
+#include "../neuralsvcd.h"
+
 #include "check.h"
 
 #include <locale.h>

@@ -41,6 +41,23 @@ def array(name: str, t: Tensor) -> str:
     return f"static const float {name}[{t.numel()}] = {{\n{numbers(t.flatten().tolist())}\n}};\n"
 
 
+def int8_rows(w: Tensor) -> tuple[Tensor, Tensor]:
+    """(inputs, outputs) -> int8 (outputs, inputs), scale (outputs): w = scale * int8, to half a step."""
+    scale = (w.abs().amax(0) / 127).clamp_min(1e-12)
+    return torch.round(w / scale).T.to(torch.int8).contiguous(), scale
+
+
+def int8_array(name: str, t: Tensor) -> str:
+    values, lines, line = t.flatten().tolist(), [], "   "
+    for v in values:
+        w = f" {v},"
+        if len(line) + len(w) > 118:
+            lines.append(line)
+            line = "   "
+        line += w
+    return f"static const int8_t {name}[{len(values)}] = {{\n" + "\n".join(lines + [line]) + "\n};\n"
+
+
 def tables(net: Network) -> dict[str, Tensor]:
     """Every matrix as (inputs, outputs)."""
     e = net.encoder
@@ -75,12 +92,17 @@ def write_weights(net: Network, saved: dict, thresholds: list[list[float]], path
     lines += [array("nsvcd_w_" + k, v) for k, v in t.items()]
     for h, sizes in s.heads:
         full = [2 * s.latent + FACTS, *sizes, 1]
+        for k in range(len(full) - 1):
+            rows, scale = int8_rows(t[f"{h}{k}"])
+            lines += [int8_array(f"nsvcd_w_{h}{k}_int8", rows), array(f"nsvcd_w_{h}{k}_scale", scale)]
         lines += [f"static const size_t nsvcd_w_{h}_sizes[{len(full)}] = {{{', '.join(map(str, full))}}};"]
-        for kind, suffix in (("weights", ""), ("biases", "_bias")):
+        names = ", ".join(f"nsvcd_w_{h}{k}_int8" for k in range(len(full) - 1))
+        lines += [f"static const int8_t *const nsvcd_w_{h}_int8[{len(full) - 1}] = {{{names}}};"]
+        for kind, suffix in (("weights", ""), ("biases", "_bias"), ("scales", "_scale")):
             names = ", ".join(f"nsvcd_w_{h}{k}{suffix}" for k in range(len(full) - 1))
             lines += [f"static const float *const nsvcd_w_{h}_{kind}[{len(full) - 1}] = {{{names}}};"]
     lines += ["", "static const nsvcd__head nsvcd_w_heads[3] = {"]
-    lines += [f"    {{{len(sizes) + 1}, nsvcd_w_{h}_sizes, nsvcd_w_{h}_weights, nsvcd_w_{h}_biases}}," for h, sizes in s.heads]
+    lines += [f"    {{{len(sizes) + 1}, nsvcd_w_{h}_sizes, nsvcd_w_{h}_weights, nsvcd_w_{h}_biases, nsvcd_w_{h}_int8, nsvcd_w_{h}_scales}}," for h, sizes in s.heads]
     lines += ["};", "", "#endif  // NSVCD_WEIGHTS_H", ""]
     path.write_text("\n".join(lines))
 

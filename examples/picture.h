@@ -1,0 +1,280 @@
+// picture.h - draws what the quickstart asked about, as SVG: the fixed mesh and the moving one along its motion, light
+// to dark, the place of contact marked. No part of the library. Include neuralsvcd.h first.
+//
+// In: meshes (metres), motions, answers. Out: one panel per motion. A parallel projection; nearer things cover farther
+// ones, where the fixed mesh is sorted triangle by triangle and each drawing of the moving one counts as one thing.
+#ifndef NSVCD_EXAMPLES_PICTURE_H
+#define NSVCD_EXAMPLES_PICTURE_H
+
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#define PICTURE_MAX_POSES 128
+#define PICTURE_WIDTH 640  // of a panel, pixels
+#define PICTURE_HEIGHT 470
+#define PICTURE_TOP 84  // of the panels
+#define PICTURE_GHOSTS 9
+#define PICTURE_SCALE 860.0  // pixels per metre
+
+typedef struct picture_panel {
+  const char *name;
+  nsvcd_pose poses[PICTURE_MAX_POSES];
+  size_t count;
+  nsvcd_answer answer;
+  float contact[3];
+  double microseconds;
+} picture_panel;
+
+static void picture_take(picture_panel *panel, const char *name, const nsvcd_pose *poses, size_t count,
+                         const nsvcd_answer *answer, const float *contact, double microseconds) {
+  panel->name = name, panel->count = count < PICTURE_MAX_POSES ? count : PICTURE_MAX_POSES;
+  memcpy(panel->poses, poses, panel->count * sizeof *poses);
+  memcpy(panel->contact, contact, sizeof panel->contact);
+  panel->answer = *answer, panel->microseconds = microseconds;
+}
+
+// ------------------------------------------------------------------------------------------------------- projection
+
+// World to the panel: x to the right and y down in pixels, z towards the viewer in metres. The camera stands at +x, 24
+// degrees towards -y, and looks down by 17 degrees.
+static void picture_project(const double *p, double *out) {
+  const double azimuth = -0.42, elevation = 0.30;
+  double ca = cos(azimuth), sa = sin(azimuth), ce = cos(elevation), se = sin(elevation);
+  out[0] = 425 + PICTURE_SCALE * (-sa * p[0] + ca * p[1]);
+  out[1] = 350 - PICTURE_SCALE * (-se * ca * p[0] - se * sa * p[1] + ce * p[2]);
+  out[2] = ce * ca * p[0] + ce * sa * p[1] + se * p[2];
+}
+static void picture_place(const nsvcd_pose *pose, const float *v, double *out) {
+  const float *q = pose->rotation;
+  double c[3] = {(double)(q[1] * v[2] - q[2] * v[1] + q[3] * v[0]), (double)(q[2] * v[0] - q[0] * v[2] + q[3] * v[1]),
+                 (double)(q[0] * v[1] - q[1] * v[0] + q[3] * v[2])};
+  for (int k = 0; k < 3; k++) {
+    int i = (k + 1) % 3, j = (k + 2) % 3;
+    out[k] = (double)v[k] + 2 * ((double)q[i] * c[j] - (double)q[j] * c[i]) + (double)pose->position[k];
+  }
+}
+
+typedef struct picture_triangle {
+  double corners[3][3];  // in world axes, then in the panel's
+  double depth;          // of the middle; greater is nearer
+  double light;          // 0 dark to 1 bright
+  double facing;         // > 0: seen from outside
+} picture_triangle;
+
+static picture_triangle picture_look(const nsvcd_mesh *mesh, size_t index, const nsvcd_pose *pose) {
+  const double to_light[3] = {0.45, -0.45, 0.77};
+  picture_triangle t;
+  double world[3][3], n[3], length;
+  for (int c = 0; c < 3; c++) {
+    picture_place(pose, mesh->positions + 3 * (size_t)mesh->indices[3 * index + (size_t)c], world[c]);
+    picture_project(world[c], t.corners[c]);
+  }
+  for (int k = 0; k < 3; k++) {
+    int i = (k + 1) % 3, j = (k + 2) % 3;
+    n[k] = (world[1][i] - world[0][i]) * (world[2][j] - world[0][j]) -
+           (world[1][j] - world[0][j]) * (world[2][i] - world[0][i]);
+  }
+  length = sqrt(n[0] * n[0] + n[1] * n[1] + n[2] * n[2]);
+  t.light = length > 0 ? 0.5 + 0.5 * (n[0] * to_light[0] + n[1] * to_light[1] + n[2] * to_light[2]) / length : 0.5;
+  t.depth = (t.corners[0][2] + t.corners[1][2] + t.corners[2][2]) / 3;
+  t.facing = -((t.corners[1][0] - t.corners[0][0]) * (t.corners[2][1] - t.corners[0][1]) -
+               (t.corners[1][1] - t.corners[0][1]) * (t.corners[2][0] - t.corners[0][0]));
+  return t;
+}
+static int picture_compare(const void *a, const void *b) {
+  double x = ((const picture_triangle *)a)->depth, y = ((const picture_triangle *)b)->depth;
+  return (x > y) - (x < y);
+}
+// All triangles that face the viewer, the farthest first. NULL without memory; the caller frees.
+static picture_triangle *picture_sort(const nsvcd_mesh *mesh, const nsvcd_pose *pose, size_t *count) {
+  picture_triangle *triangles = (picture_triangle *)malloc((mesh->triangle_count + 1) * sizeof *triangles);
+  *count = 0;
+  if (!triangles) return NULL;
+  for (size_t i = 0; i < mesh->triangle_count; i++) {
+    triangles[*count] = picture_look(mesh, i, pose);
+    if (triangles[*count].facing > 0) ++*count;
+  }
+  qsort(triangles, *count, sizeof *triangles, picture_compare);
+  return triangles;
+}
+
+// ---------------------------------------------------------------------------------------------------------- drawing
+
+typedef struct picture_colour {
+  double dark[3], bright[3];
+} picture_colour;
+
+static const picture_colour picture_steel = {{84, 98, 116}, {214, 222, 232}};
+static const picture_colour picture_red = {{132, 14, 22}, {255, 128, 116}};
+static const picture_colour picture_green = {{10, 92, 52}, {116, 222, 150}};
+
+static void picture_corner_list(FILE *svg, const picture_triangle *t) {
+  fprintf(svg, "M%.1f %.1fL%.1f %.1fL%.1f %.1fZ", t->corners[0][0], t->corners[0][1], t->corners[1][0],
+          t->corners[1][1], t->corners[2][0], t->corners[2][1]);
+}
+static void picture_rgb(FILE *svg, const picture_colour *colour, double light) {
+  fprintf(svg, "rgb(%.0f,%.0f,%.0f)", colour->dark[0] + light * (colour->bright[0] - colour->dark[0]),
+          colour->dark[1] + light * (colour->bright[1] - colour->dark[1]),
+          colour->dark[2] + light * (colour->bright[2] - colour->dark[2]));
+}
+// The thin edge of the same colour hides the seams between triangles.
+static void picture_shaded(FILE *svg, const picture_triangle *t, const picture_colour *colour) {
+  fprintf(svg, "<path d=\"");
+  picture_corner_list(svg, t);
+  fprintf(svg, "\" stroke-width=\".6\" fill=\"");
+  picture_rgb(svg, colour, t->light);
+  fprintf(svg, "\" stroke=\"");
+  picture_rgb(svg, colour, t->light);
+  fprintf(svg, "\"/>\n");
+}
+// One moving body: shaded if `solid`, else a silhouette. `light`: from 1, early, to 0, late.
+static void picture_moving(FILE *svg, const nsvcd_mesh *mesh, const nsvcd_pose *pose, const picture_colour *colour,
+                           double light, int solid) {
+  size_t count;
+  picture_triangle *triangles = picture_sort(mesh, pose, &count);
+  if (!triangles) return;
+  if (solid) {
+    for (size_t i = 0; i < count; i++) picture_shaded(svg, &triangles[i], colour);
+  } else {
+    fprintf(svg, "<path fill-opacity=\"%.2f\" fill=\"", 0.16 + 0.30 * (1 - light));
+    picture_rgb(svg, colour, 0.25 + 0.75 * light);
+    fprintf(svg, "\" d=\"");
+    for (size_t i = 0; i < count; i++) picture_corner_list(svg, &triangles[i]);
+    fprintf(svg, "\"/>\n");
+  }
+  free(triangles);
+}
+// The shadow on the table: light from straight above.
+static void picture_shadow(FILE *svg, const nsvcd_mesh *mesh, const nsvcd_pose *pose) {
+  fprintf(svg, "<path fill=\"#1b2430\" fill-opacity=\".13\" d=\"");
+  for (size_t i = 0; i < mesh->triangle_count; i++) {
+    picture_triangle t;
+    for (int c = 0; c < 3; c++) {
+      double p[3];
+      picture_place(pose, mesh->positions + 3 * (size_t)mesh->indices[3 * i + (size_t)c], p);
+      p[2] = 0;
+      picture_project(p, t.corners[c]);
+    }
+    double turn = (t.corners[1][0] - t.corners[0][0]) * (t.corners[2][1] - t.corners[0][1]) -
+                  (t.corners[1][1] - t.corners[0][1]) * (t.corners[2][0] - t.corners[0][0]);
+    if (turn < -0.05) picture_corner_list(svg, &t);
+  }
+  fprintf(svg, "\"/>\n");
+}
+static void picture_table(FILE *svg) {
+  const double corners[4][3] = {{0.29, -0.60, 0}, {0.29, 0.26, 0}, {-0.29, 0.26, 0}, {-0.29, -0.60, 0}};
+  fprintf(svg, "<path fill=\"#efe7da\" stroke=\"#ddd0bb\" d=\"");
+  for (int i = 0; i < 4; i++) {
+    double p[3];
+    picture_project(corners[i], p);
+    fprintf(svg, "%s%.1f %.1f", i ? "L" : "M", p[0], p[1]);
+  }
+  fprintf(svg, "Z\"/>\n");
+}
+// The path of the moving body's origin.
+static void picture_path(FILE *svg, const picture_panel *panel, const char *ink) {
+  fprintf(svg, "<path fill=\"none\" stroke=\"%s\" stroke-width=\"2\" stroke-dasharray=\"2 6\" stroke-linecap=\"round\" d=\"", ink);
+  for (size_t i = 0; i < panel->count; i++) {
+    double p[3], world[3] = {(double)panel->poses[i].position[0], (double)panel->poses[i].position[1],
+                             (double)panel->poses[i].position[2]};
+    picture_project(world, p);
+    fprintf(svg, "%s%.1f %.1f", i ? "L" : "M", p[0], p[1]);
+  }
+  fprintf(svg, "\"/>\n");
+}
+static void picture_contact(FILE *svg, const picture_panel *panel) {
+  double p[3], world[3] = {(double)panel->contact[0], (double)panel->contact[1], (double)panel->contact[2]};
+  picture_project(world, p);
+  fprintf(svg,
+          "<circle cx=\"%.1f\" cy=\"%.1f\" r=\"17\" fill=\"none\" stroke=\"#fff\" stroke-width=\"7\"/>"
+          "<circle cx=\"%.1f\" cy=\"%.1f\" r=\"17\" fill=\"none\" stroke=\"#ffb300\" stroke-width=\"4\"/>"
+          "<circle cx=\"%.1f\" cy=\"%.1f\" r=\"4\" fill=\"#ffb300\" stroke=\"#fff\" stroke-width=\"1.5\"/>\n",
+          p[0], p[1], p[0], p[1], p[0], p[1]);
+}
+
+// The rack with all drawings of the moving body in between, by depth. Drawn solid: the pose of contact, or the last.
+static void picture_scene(FILE *svg, const nsvcd_mesh *moving, const nsvcd_mesh *fixed, const picture_panel *panel) {
+  const nsvcd_pose origin = {{0, 0, 0}, {0, 0, 0, 1}};
+  const picture_colour *colour = panel->answer.collides ? &picture_red : &picture_green;
+  size_t count, next = 0, last = panel->count - 1, steps = PICTURE_GHOSTS;
+  size_t shown = panel->answer.collides ? (size_t)((double)panel->answer.time * (double)last + 0.5) : last;
+  picture_triangle *triangles = picture_sort(fixed, &origin, &count);
+  if (!triangles) return;
+  picture_shadow(svg, fixed, &origin);
+  picture_shadow(svg, moving, &panel->poses[shown]);
+  picture_path(svg, panel, panel->answer.collides ? "#b3202c" : "#12824c");
+  for (size_t step = 0; step <= steps; step++) {  // the ghosts, then the solid one
+    size_t at = step < steps ? step * last / (steps - 1) : shown;
+    double p[3], world[3] = {(double)panel->poses[at].position[0], (double)panel->poses[at].position[1], 0};
+    picture_project(world, p);
+    while (next < count && triangles[next].depth < p[2]) picture_shaded(svg, &triangles[next++], &picture_steel);
+    if (step < steps && at != shown)
+      picture_moving(svg, moving, &panel->poses[at], colour, 1 - (double)at / (double)last, 0);
+    if (step == steps) picture_moving(svg, moving, &panel->poses[at], colour, 0, 1);
+  }
+  while (next < count) picture_shaded(svg, &triangles[next++], &picture_steel);
+  free(triangles);
+  if (panel->answer.collides && panel->answer.status != NSVCD_STATUS_INSIDE) picture_contact(svg, panel);
+}
+
+static void picture_panel_frame(FILE *svg, const picture_panel *panel) {
+  const nsvcd_answer *a = &panel->answer;
+  const char *ink = a->collides ? "#b3202c" : "#12824c";
+  fprintf(svg, "<text x=\"26\" y=\"42\" font-size=\"19\" font-weight=\"600\" fill=\"#2b3440\">%s</text>\n",
+          panel->name);
+  fprintf(svg, "<rect x=\"24\" y=\"58\" width=\"%d\" height=\"34\" rx=\"17\" fill=\"%s\"/>\n", a->collides ? 150 : 120, ink);
+  fprintf(svg, "<text x=\"%d\" y=\"81\" font-size=\"18\" font-weight=\"700\" fill=\"#fff\" text-anchor=\"middle\">%s</text>\n",
+          a->collides ? 99 : 84, a->collides ? "HITS THE RACK" : "CLEARS IT");
+  fprintf(svg, "<text x=\"26\" y=\"116\" font-size=\"14\" fill=\"#5a6675\">");
+  if (a->collides) fprintf(svg, "at t = %.2f of the way, ", (double)a->time);
+  fprintf(svg, "logit %+.1f, answered in %.0f µs</text>\n", (double)a->logit, panel->microseconds);
+}
+
+static void picture_legend(FILE *svg, int x, int y) {
+  fprintf(svg, "<g transform=\"translate(%d %d)\" font-size=\"14\" fill=\"#5a6675\">\n", x, y);
+  for (int i = 0; i < 5; i++)
+    fprintf(svg, "<circle cx=\"%d\" cy=\"-5\" r=\"8\" fill=\"#46505e\" fill-opacity=\"%.2f\"/>", 10 + 13 * i, 0.14 + 0.14 * i);
+  fprintf(svg, "<text x=\"84\">the mug from start (light) to end (dark)</text>\n");
+  fprintf(svg, "<circle cx=\"368\" cy=\"-5\" r=\"9\" fill=\"none\" stroke=\"#ffb300\" stroke-width=\"4\"/>");
+  fprintf(svg, "<text x=\"386\">where the network sees the hit; solid: the mug at that time</text>\n");
+  fprintf(svg, "<path d=\"M786 -5H822\" stroke=\"#46505e\" stroke-width=\"2\" stroke-dasharray=\"2 6\" stroke-linecap=\"round\"/>");
+  fprintf(svg, "<text x=\"832\">its path</text>\n</g>\n");
+}
+
+// Returns 1, or 0 after a message.
+static int picture_write(const char *path, const nsvcd_mesh *moving, const nsvcd_mesh *fixed,
+                         const picture_panel *panels, int count) {
+  FILE *svg = fopen(path, "w");
+  if (!svg) return fprintf(stderr, "%s: cannot be written\n", path), 0;
+  int width = 24 + (PICTURE_WIDTH + 24) * count, height = PICTURE_TOP + PICTURE_HEIGHT + 56;
+  fprintf(svg,
+          "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"%d\" height=\"%d\" viewBox=\"0 0 %d %d\" "
+          "font-family=\"Helvetica, Arial, sans-serif\">\n<rect width=\"%d\" height=\"%d\" fill=\"#f6f7f9\"/>\n",
+          width, height, width, height, width, height);
+  fprintf(svg, "<text x=\"26\" y=\"38\" font-size=\"26\" font-weight=\"700\" fill=\"#1b2430\">"
+               "Does the mug, carried along this path, hit the dish rack?</text>\n");
+  fprintf(svg, "<text x=\"26\" y=\"64\" font-size=\"15\" fill=\"#5a6675\">"
+               "neuralsvcd.h: each mesh encoded once, each whole motion answered by one query</text>\n");
+  for (int i = 0; i < count; i++) {
+    fprintf(svg, "<g transform=\"translate(%d %d)\">\n", 24 + (PICTURE_WIDTH + 24) * i, PICTURE_TOP);
+    fprintf(svg, "<clipPath id=\"panel%d\"><rect width=\"%d\" height=\"%d\" rx=\"12\"/></clipPath>\n", i,
+            PICTURE_WIDTH, PICTURE_HEIGHT);
+    fprintf(svg, "<g clip-path=\"url(#panel%d)\"><rect width=\"%d\" height=\"%d\" fill=\"#fff\"/>\n", i,
+            PICTURE_WIDTH, PICTURE_HEIGHT);
+    picture_table(svg);
+    picture_scene(svg, moving, fixed, &panels[i]);
+    fprintf(svg, "</g>\n<rect width=\"%d\" height=\"%d\" rx=\"12\" fill=\"none\" stroke=\"#d5dae1\"/>\n", PICTURE_WIDTH,
+            PICTURE_HEIGHT);
+    picture_panel_frame(svg, &panels[i]);
+    fprintf(svg, "</g>\n");
+  }
+  picture_legend(svg, 26, height - 22);
+  fprintf(svg, "</svg>\n");
+  int good = !ferror(svg);
+  if (fclose(svg) == 0 && good) return 1;
+  return fprintf(stderr, "%s: cannot be written\n", path), 0;
+}
+
+#endif

@@ -1,0 +1,108 @@
+// quickstart.c - a mug is carried into a dish rack, once too low and once high enough. Which of the two motions hits?
+//
+// Two OBJ files, two encoded bodies, two motions, two answers, and a picture of them (`make demo`: build/demo.svg).
+#define _POSIX_C_SOURCE 199309L  // clock_gettime
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <time.h>
+
+#define NEURALSVCD_IMPLEMENTATION
+#include "../neuralsvcd.h"
+
+#include "picture.h"
+
+#define POSES 65  // per motion
+
+static double microseconds(void) {
+  struct timespec now;
+  clock_gettime(CLOCK_MONOTONIC, &now);
+  return 1e6 * (double)now.tv_sec + 1e-3 * (double)now.tv_nsec;
+}
+
+// Loads a mesh and encodes it, which is done once per mesh. NULL, with a message, if that fails.
+static const nsvcd_body *load(const char *path, nsvcd_mesh *mesh) {
+  size_t line = 0, size = nsvcd_body_size(NSVCD_DEFAULT_POINTS);
+  const nsvcd_body *body = NULL;
+  nsvcd_result result = nsvcd_obj_load(path, NULL, mesh, &line);
+  double start = microseconds();
+  // malloc's memory is aligned well enough on 64-bit machines; where it is not, nsvcd_encode says so.
+  if (!result) result = nsvcd_encode(mesh, NULL, NULL, malloc(size), size, &body);
+  if (result) return fprintf(stderr, "%s:%zu: %s\n", path, line, nsvcd_result_string(result)), NULL;
+  nsvcd_body_facts facts = nsvcd_body_describe(body);
+  printf("%-29s %zu triangles -> %zu patches, %zu bytes, in %.1f ms\n", path, mesh->triangle_count, facts.points,
+         facts.size, 1e-3 * (microseconds() - start));
+  return body;
+}
+
+// A cubic Bezier curve through the air, `height` metres high; the mug, at first tilted, comes upright on the way.
+static void carry(float height, nsvcd_pose *poses) {
+  const float control[4][3] = {{0.04f, -0.46f, 0.03f}, {0, -0.36f, height}, {0, -0.01f, height}, {0, 0, 0.014f}};
+  for (size_t i = 0; i < POSES; i++) {
+    float t = (float)i / (POSES - 1), s = 1 - t, yaw = -1.5708f + 0.5f * s, tilt = 0.9f * s * s;
+    float weights[4] = {s * s * s, 3 * s * s * t, 3 * s * t * t, t * t * t};
+    for (size_t k = 0; k < 3; k++) {
+      poses[i].position[k] = 0;
+      for (size_t c = 0; c < 4; c++) poses[i].position[k] += weights[c] * control[c][k];
+    }
+    float cy = cosf(yaw / 2), sy = sinf(yaw / 2), ct = cosf(tilt / 2), st = sinf(tilt / 2);
+    poses[i].rotation[0] = st * cy, poses[i].rotation[1] = -st * sy;  // about z by yaw, then about x by tilt
+    poses[i].rotation[2] = ct * sy, poses[i].rotation[3] = ct * cy;
+  }
+}
+
+// Where the bodies are said to meet: the centre of the fixed body's patch, in world axes. The rack stands at the origin.
+static void contact_point(const nsvcd_body *fixed, const nsvcd_answer *answer, float *point) {
+  float radius;
+  point[0] = point[1] = point[2] = 0;
+  nsvcd_body_patch(fixed, answer->fixed_patch, point, &radius);
+}
+
+int main(void) {
+  // Once per mesh: load and encode. A body is one block of bytes: keep it, save it, copy it.
+  nsvcd_mesh mug_mesh, rack_mesh;
+  const nsvcd_body *mug = load("examples/assets/mug.obj", &mug_mesh);
+  const nsvcd_body *rack = load("examples/assets/dish_rack.obj", &rack_mesh);
+  if (!mug || !rack) return 1;
+
+  // Once per thread: memory to work in. Queries allocate nothing.
+  size_t workspace_size = nsvcd_sweep_workspace_size();
+  void *workspace = malloc(workspace_size);
+
+  const char *const names[2] = {"carried low", "carried high"};
+  const float heights[2] = {0.15f, 0.36f};
+  const nsvcd_pose rack_pose = {{0, 0, 0}, {0, 0, 0, 1}};
+  picture_panel panels[2];
+  for (int i = 0; i < 2; i++) {
+    nsvcd_pose motion[POSES];
+    nsvcd_answer answer;
+    carry(heights[i], motion);
+
+    // Once per question.
+    nsvcd_result result = NSVCD_OK;
+    double least = HUGE_VAL;
+    for (int run = 0; run < 20 && !result; run++) {  // many times only to time it
+      double start = microseconds();
+      result = nsvcd_sweep(mug, motion, POSES, rack, &rack_pose, NULL, workspace, workspace_size, &answer);
+      least = fmin(least, microseconds() - start);
+    }
+    if (result) return fprintf(stderr, "%s\n", nsvcd_result_string(result)), 1;
+
+    float where[3];
+    contact_point(rack, &answer, where);
+    printf("%-12s -> %s (logit %+.2f, %s; %.0f us)", names[i], answer.collides ? "HITS" : "clears",
+           (double)answer.logit, nsvcd_status_string(answer.status), least);
+    if (answer.collides)
+      printf(" at t = %.2f near (%.3f, %.3f, %.3f)", (double)answer.time, (double)where[0], (double)where[1],
+             (double)where[2]);
+    printf("\n");
+    picture_take(&panels[i], names[i], motion, POSES, &answer, where, least);
+  }
+  if (!picture_write("build/demo.svg", &mug_mesh, &rack_mesh, panels, 2)) return 1;
+  printf("see build/demo.svg\n");
+
+  free(workspace);
+  free((void *)(uintptr_t)mug), free((void *)(uintptr_t)rack);  // a body begins where its memory does
+  nsvcd_mesh_free(&mug_mesh, NULL), nsvcd_mesh_free(&rack_mesh, NULL);
+  return 0;
+}
