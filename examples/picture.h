@@ -12,8 +12,8 @@
 #include <string.h>
 
 #define PICTURE_MAX_POSES 128
-#define PICTURE_WIDTH 640  // of a panel, pixels
-#define PICTURE_HEIGHT 470
+#define PICTURE_WIDTH 664  // of a panel, pixels
+#define PICTURE_HEIGHT 520
 #define PICTURE_TOP 84  // of the panels
 #define PICTURE_GHOSTS 9
 #define PICTURE_SCALE 860.0  // pixels per metre
@@ -42,8 +42,8 @@ static void picture_take(picture_panel *panel, const char *name, const nsvcd_pos
 static void picture_project(const double *p, double *out) {
   const double azimuth = -0.42, elevation = 0.30;
   double ca = cos(azimuth), sa = sin(azimuth), ce = cos(elevation), se = sin(elevation);
-  out[0] = 425 + PICTURE_SCALE * (-sa * p[0] + ca * p[1]);
-  out[1] = 350 - PICTURE_SCALE * (-se * ca * p[0] - se * sa * p[1] + ce * p[2]);
+  out[0] = 452 + PICTURE_SCALE * (-sa * p[0] + ca * p[1]);
+  out[1] = 356 - PICTURE_SCALE * (-se * ca * p[0] - se * sa * p[1] + ce * p[2]);
   out[2] = ce * ca * p[0] + ce * sa * p[1] + se * p[2];
 }
 static void picture_place(const nsvcd_pose *pose, const float *v, double *out) {
@@ -57,8 +57,9 @@ static void picture_place(const nsvcd_pose *pose, const float *v, double *out) {
 }
 
 typedef struct picture_triangle {
-  double corners[3][3];  // in world axes, then in the panel's
+  double corners[3][3];  // in the panel
   double depth;          // of the middle; greater is nearer
+  double top;            // highest z in world axes
   double light;          // 0 dark to 1 bright
   double facing;         // > 0: seen from outside
 } picture_triangle;
@@ -78,6 +79,7 @@ static picture_triangle picture_look(const nsvcd_mesh *mesh, size_t index, const
   }
   length = sqrt(n[0] * n[0] + n[1] * n[1] + n[2] * n[2]);
   t.light = length > 0 ? 0.5 + 0.5 * (n[0] * to_light[0] + n[1] * to_light[1] + n[2] * to_light[2]) / length : 0.5;
+  t.top = fmax(world[0][2], fmax(world[1][2], world[2][2]));
   t.depth = (t.corners[0][2] + t.corners[1][2] + t.corners[2][2]) / 3;
   t.facing = -((t.corners[1][0] - t.corners[0][0]) * (t.corners[2][1] - t.corners[0][1]) -
                (t.corners[1][1] - t.corners[0][1]) * (t.corners[2][0] - t.corners[0][0]));
@@ -164,7 +166,7 @@ static void picture_shadow(FILE *svg, const nsvcd_mesh *mesh, const nsvcd_pose *
   fprintf(svg, "\"/>\n");
 }
 static void picture_table(FILE *svg) {
-  const double corners[4][3] = {{0.29, -0.60, 0}, {0.29, 0.26, 0}, {-0.29, 0.26, 0}, {-0.29, -0.60, 0}};
+  const double corners[4][3] = {{0.25, -0.60, 0}, {0.25, 0.26, 0}, {-0.27, 0.26, 0}, {-0.27, -0.60, 0}};
   fprintf(svg, "<path fill=\"#efe7da\" stroke=\"#ddd0bb\" d=\"");
   for (int i = 0; i < 4; i++) {
     double p[3];
@@ -194,40 +196,63 @@ static void picture_contact(FILE *svg, const picture_panel *panel) {
           p[0], p[1], p[0], p[1], p[0], p[1]);
 }
 
-// The rack with all drawings of the moving body in between, by depth. Drawn solid: the pose of contact, or the last.
+// What of the fixed mesh covers the moving one, or all the rest. Seen from above, nothing that lies lower can cover it.
+static void picture_fixed(FILE *svg, const picture_triangle *triangles, size_t count, double depth, double lowest,
+                          int covering) {
+  for (size_t i = 0; i < count; i++) {
+    int covers = triangles[i].depth > depth && triangles[i].top > lowest;
+    if (covers == covering) picture_shaded(svg, &triangles[i], &picture_steel);
+  }
+}
+static double picture_lowest(const nsvcd_mesh *mesh, const nsvcd_pose *pose) {
+  double p[3], lowest = HUGE_VAL;
+  for (size_t i = 0; i < mesh->vertex_count; i++) {
+    picture_place(pose, mesh->positions + 3 * i, p);
+    lowest = fmin(lowest, p[2]);
+  }
+  return lowest;
+}
+// Back to front: what of the fixed mesh lies behind the moving one, the silhouettes, the moving body at the time of
+// contact or else at the end, the rest of the fixed mesh, the mark.
 static void picture_scene(FILE *svg, const nsvcd_mesh *moving, const nsvcd_mesh *fixed, const picture_panel *panel) {
   const nsvcd_pose origin = {{0, 0, 0}, {0, 0, 0, 1}};
-  const picture_colour *colour = panel->answer.collides ? &picture_red : &picture_green;
-  size_t count, next = 0, last = panel->count - 1, steps = PICTURE_GHOSTS;
-  size_t shown = panel->answer.collides ? (size_t)((double)panel->answer.time * (double)last + 0.5) : last;
+  const nsvcd_answer *a = &panel->answer;
+  const picture_colour *colour = a->collides ? &picture_red : &picture_green;
+  size_t count, last = panel->count - 1;
+  size_t shown = a->collides ? (size_t)((double)a->time * (double)last + 0.5) : last;
   picture_triangle *triangles = picture_sort(fixed, &origin, &count);
   if (!triangles) return;
   picture_shadow(svg, fixed, &origin);
   picture_shadow(svg, moving, &panel->poses[shown]);
-  picture_path(svg, panel, panel->answer.collides ? "#b3202c" : "#12824c");
-  for (size_t step = 0; step <= steps; step++) {  // the ghosts, then the solid one
-    size_t at = step < steps ? step * last / (steps - 1) : shown;
-    double p[3], world[3] = {(double)panel->poses[at].position[0], (double)panel->poses[at].position[1], 0};
-    picture_project(world, p);
-    while (next < count && triangles[next].depth < p[2]) picture_shaded(svg, &triangles[next++], &picture_steel);
-    if (step < steps && at != shown)
-      picture_moving(svg, moving, &panel->poses[at], colour, 1 - (double)at / (double)last, 0);
-    if (step == steps) picture_moving(svg, moving, &panel->poses[at], colour, 0, 1);
+  const float *at_origin = panel->poses[shown].position;
+  double p[3], foot[3] = {(double)at_origin[0], (double)at_origin[1], 0};
+  double lowest = picture_lowest(moving, &panel->poses[shown]);
+  picture_project(foot, p);
+  picture_fixed(svg, triangles, count, p[2], lowest, 0);
+  for (size_t i = 0; i < PICTURE_GHOSTS; i++) {
+    size_t at = i * last / (PICTURE_GHOSTS - 1);
+    if (at != shown) picture_moving(svg, moving, &panel->poses[at], colour, 1 - (double)at / (double)last, 0);
   }
-  while (next < count) picture_shaded(svg, &triangles[next++], &picture_steel);
+  picture_path(svg, panel, a->collides ? "#b3202c" : "#12824c");
+  picture_moving(svg, moving, &panel->poses[shown], colour, 0, 1);
+  picture_fixed(svg, triangles, count, p[2], lowest, 1);
   free(triangles);
-  if (panel->answer.collides && panel->answer.status != NSVCD_STATUS_INSIDE) picture_contact(svg, panel);
+  if (a->collides && a->status != NSVCD_STATUS_INSIDE) picture_contact(svg, panel);
 }
 
-static void picture_panel_frame(FILE *svg, const picture_panel *panel) {
+// Name and verdict above, facts below.
+static void picture_captions(FILE *svg, const picture_panel *panel) {
   const nsvcd_answer *a = &panel->answer;
-  const char *ink = a->collides ? "#b3202c" : "#12824c";
-  fprintf(svg, "<text x=\"26\" y=\"42\" font-size=\"19\" font-weight=\"600\" fill=\"#2b3440\">%s</text>\n",
-          panel->name);
-  fprintf(svg, "<rect x=\"24\" y=\"58\" width=\"%d\" height=\"34\" rx=\"17\" fill=\"%s\"/>\n", a->collides ? 150 : 120, ink);
-  fprintf(svg, "<text x=\"%d\" y=\"81\" font-size=\"18\" font-weight=\"700\" fill=\"#fff\" text-anchor=\"middle\">%s</text>\n",
-          a->collides ? 99 : 84, a->collides ? "HITS THE RACK" : "CLEARS IT");
-  fprintf(svg, "<text x=\"26\" y=\"116\" font-size=\"14\" fill=\"#5a6675\">");
+  int pill = a->collides ? 170 : 130;
+  fprintf(svg, "<text x=\"24\" y=\"41\" font-size=\"20\" font-weight=\"600\" fill=\"#2b3440\">%s</text>\n", panel->name);
+  fprintf(svg, "<rect x=\"%d\" y=\"18\" width=\"%d\" height=\"34\" rx=\"17\" fill=\"%s\"/>\n",
+          PICTURE_WIDTH - 20 - pill, pill, a->collides ? "#b3202c" : "#12824c");
+  fprintf(svg,
+          "<text x=\"%d\" y=\"41\" font-size=\"16\" font-weight=\"700\" fill=\"#fff\" text-anchor=\"middle\">%s</text>\n",
+          PICTURE_WIDTH - 20 - pill / 2, a->collides ? "HITS THE RACK" : "CLEARS IT");
+  fprintf(svg, "<rect y=\"%d\" width=\"%d\" height=\"44\" fill=\"#fff\" fill-opacity=\".9\"/>\n", PICTURE_HEIGHT - 44,
+          PICTURE_WIDTH);
+  fprintf(svg, "<text x=\"24\" y=\"%d\" font-size=\"15\" fill=\"#4a5564\">", PICTURE_HEIGHT - 17);
   if (a->collides) fprintf(svg, "at t = %.2f of the way, ", (double)a->time);
   fprintf(svg, "logit %+.1f, answered in %.0f µs</text>\n", (double)a->logit, panel->microseconds);
 }
@@ -235,12 +260,13 @@ static void picture_panel_frame(FILE *svg, const picture_panel *panel) {
 static void picture_legend(FILE *svg, int x, int y) {
   fprintf(svg, "<g transform=\"translate(%d %d)\" font-size=\"14\" fill=\"#5a6675\">\n", x, y);
   for (int i = 0; i < 5; i++)
-    fprintf(svg, "<circle cx=\"%d\" cy=\"-5\" r=\"8\" fill=\"#46505e\" fill-opacity=\"%.2f\"/>", 10 + 13 * i, 0.14 + 0.14 * i);
+    fprintf(svg, "<circle cx=\"%d\" cy=\"-5\" r=\"8\" fill=\"#46505e\" fill-opacity=\"%.2f\"/>", 10 + 13 * i,
+            0.14 + 0.14 * i);
   fprintf(svg, "<text x=\"84\">the mug from start (light) to end (dark)</text>\n");
-  fprintf(svg, "<circle cx=\"368\" cy=\"-5\" r=\"9\" fill=\"none\" stroke=\"#ffb300\" stroke-width=\"4\"/>");
-  fprintf(svg, "<text x=\"386\">where the network sees the hit; solid: the mug at that time</text>\n");
-  fprintf(svg, "<path d=\"M786 -5H822\" stroke=\"#46505e\" stroke-width=\"2\" stroke-dasharray=\"2 6\" stroke-linecap=\"round\"/>");
-  fprintf(svg, "<text x=\"832\">its path</text>\n</g>\n");
+  fprintf(svg, "<path d=\"M424 -5H462\" stroke=\"#46505e\" stroke-width=\"2\" stroke-dasharray=\"2 6\" "
+               "stroke-linecap=\"round\"/><text x=\"474\">the path it is carried along</text>\n");
+  fprintf(svg, "<circle cx=\"736\" cy=\"-5\" r=\"9\" fill=\"none\" stroke=\"#ffb300\" stroke-width=\"4\"/>"
+               "<text x=\"756\">where the network sees the hit; the solid mug: when</text>\n</g>\n");
 }
 
 // Returns 1, or 0 after a message.
@@ -265,9 +291,9 @@ static int picture_write(const char *path, const nsvcd_mesh *moving, const nsvcd
             PICTURE_WIDTH, PICTURE_HEIGHT);
     picture_table(svg);
     picture_scene(svg, moving, fixed, &panels[i]);
+    picture_captions(svg, &panels[i]);
     fprintf(svg, "</g>\n<rect width=\"%d\" height=\"%d\" rx=\"12\" fill=\"none\" stroke=\"#d5dae1\"/>\n", PICTURE_WIDTH,
             PICTURE_HEIGHT);
-    picture_panel_frame(svg, &panels[i]);
     fprintf(svg, "</g>\n");
   }
   picture_legend(svg, 26, height - 22);

@@ -88,7 +88,8 @@ def join(a: Solids, b: Solids) -> Solids:
     return Solids(*(torch.cat([getattr(a, k), getattr(b, k)]) for k in ("parts", "centre", "scale", "groups", "extent")), a.kernels)
 
 
-def draw_problems(solids: Solids, moving: Tensor, fixed: Tensor, kind: Tensor, generator: torch.Generator) -> tuple[Problems, Tensor]:
+def draw_problems(solids: Solids, moving: Tensor, fixed: Tensor, kind: Tensor, generator: torch.Generator,
+                  literal: bool = False) -> tuple[Problems, Tensor]:
     """kind (B,): 0 standard, 1 hollow, 2 anything -> boundary-conditioned problems, settled (B,)."""
     b, device = len(kind), kind.device
     u = lambda lo, hi: lo + (hi - lo) * torch.rand(b, generator=generator, device=device)
@@ -101,11 +102,13 @@ def draw_problems(solids: Solids, moving: Tensor, fixed: Tensor, kind: Tensor, g
     pick = torch.rand(b, generator=generator, device=device)
     sigma = torch.where(kind == 0, torch.where(pick < 0.4, 0.032, torch.where(pick < 0.75, 0.010, 0.004)),
                         torch.where(pick < 0.6, 0.010, 0.004))
+    if literal:
+        sigma = torch.full_like(sigma, 0.032)
     epsilon = sigma * torch.randn(b, generator=generator, device=device)
     poses = random_motions(b, length, angle, generator)
     half_a = 0.5 * solids.extent[moving].amax(-1, keepdim=True) * size_a[:, None]
     reach = 0.5 * solids.extent[fixed] * size_b[:, None] + torch.where(kind == 1, 0.0, 0.4)[:, None] * half_a
-    return place(solids, Problems(moving, size_a, fixed, size_b, poses), reach, epsilon, generator)
+    return place(solids, Problems(moving, size_a, fixed, size_b, poses), reach, epsilon, generator, literal)
 
 
 def pair_targets(solids: Solids, q: Problems, tables: dict[int, Patches], n1: int, n2: int, i: Tensor, j: Tensor,
@@ -125,7 +128,7 @@ def pair_targets(solids: Solids, q: Problems, tables: dict[int, Patches], n1: in
 
 
 @torch.no_grad()
-def build(seed: int, shape_count: int, groups: int, device: str, log=print, chunk: int = 8192) -> Dataset:
+def build(seed: int, shape_count: int, groups: int, device: str, log=print, chunk: int = 8192, literal: bool = False) -> Dataset:
     started = time.time()
     generator = torch.Generator(device=device).manual_seed(seed)
     kernels = importlib.import_module("kernels") if device == "cuda" else None
@@ -163,7 +166,7 @@ def build(seed: int, shape_count: int, groups: int, device: str, log=print, chun
     witness, moment = torch.empty(total, 3, device=device), f()
     for a in range(0, total, chunk):
         s = slice(a, min(a + chunk, total))
-        q, settled = draw_problems(solids, moving[s], fixed[s], kind[s], generator)
+        q, settled = draw_problems(solids, moving[s], fixed[s], kind[s], generator, literal)
         x, t, m = closest(solids, q, generator, times=33, per_group=64, keep=6)
         poses[s], size1[s], size2[s], margin[s], witness[s], moment[s] = q.poses, q.moving_size, q.fixed_size, m, x, t
         weight[s] = (settled & (m.abs() > 1e-4)).float()
@@ -200,6 +203,9 @@ def build(seed: int, shape_count: int, groups: int, device: str, log=print, chun
                 for name in ("p1", "p2", "r1", "r2", "q", "v", "w"):
                     getattr(geometry, name)[s] = getattr(g, name)
     weight = weight * valid.any(1)
+    if literal:  # balanced, as by rejection
+        share = (weight * (margin < 0)).sum() / weight.sum()
+        weight = weight * torch.where(margin < 0, 0.5 / share, 0.5 / (1 - share))
     shallow = (margin < 0) & (margin > -0.01) & (weight > 0)
     log(f"pairs done; touching pair among the {k}: {100 * found[shallow].mean():.1f} % of shallow contacts; {time.time() - started:.0f} s")
     return Dataset(tables, bodies, slack, slot1, slot2, geometry, valid, target, (margin < 0).float(), margin, weight)

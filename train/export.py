@@ -20,7 +20,7 @@ RECALLS = (0.0, 0.99, 0.999, 0.9999)
 def load(path: Path) -> tuple[Network, dict]:
     saved = torch.load(path, map_location="cpu")
     arguments = saved["arguments"]
-    net = Network(Shape(**saved["shape"]), arguments["scaling"], arguments["roll"], arguments["no_canonical"] != "True")
+    net = Network(Shape(**saved["shape"]), arguments["scaling"], arguments["roll"], arguments["no_canonical"] != "True", arguments.get("encoder", "context"))
     net.load_state_dict(saved["average"])
     return net.eval(), saved
 

@@ -97,6 +97,37 @@ class Encoder(nn.Module):
         return torch.cat([shorten(z1).flatten(-2), shorten(z2).flatten(-2), torch.tanh(scalars)], -1)
 
 
+class FerVn(nn.Module):
+    """The published encoder scaled down to a patch (FER-VN-OccNet: lifted features, VN linear layers, magnitude gates,
+    residual blocks that see the mean), for the ablation: the header implements Encoder only."""
+
+    def __init__(self, s: Shape, width: int = 32, blocks: int = 2):
+        super().__init__()
+        self.s = s
+        weight = lambda o, i: nn.Parameter(torch.randn(o, i) / i ** 0.5)
+        self.lift = weight(width, 2)
+        self.gates = nn.ModuleList(mlp([width, width // 2, width]) for _ in range(blocks + 2))
+        self.blocks = nn.ParameterList(weight(width, 2 * width) for _ in range(blocks))
+        self.out = weight(s.channels, width)
+        self.scalars = mlp([width, width, s.scalars])
+
+    def gate(self, k: int, x: Tensor) -> Tensor:
+        norm = (x * x).sum(-1).add(1e-8).sqrt()
+        return x * (self.gates[k](norm) / norm)[..., None]
+
+    def forward(self, u: Tensor, n: Tensor) -> Tensor:
+        length = (u * u).sum(-1, keepdim=True).add(1e-8).sqrt()
+        x = torch.stack([torch.cat([u, degree2(u, u) / length], -1), torch.cat([n, degree2(n, n)], -1)], -2)  # (..., P, 2, 8)
+        x = self.gate(0, self.lift @ x)
+        for k, w in enumerate(self.blocks):
+            x = x + self.gate(k + 1, w @ torch.cat([x, x.mean(-3, keepdim=True).expand_as(x)], -2))
+        x = self.gate(len(self.blocks) + 1, x.mean(-3))
+        z = self.out @ x
+        shorten = lambda a: a / (1 + (a * a).sum(-1, keepdim=True)).sqrt()
+        scalars = torch.tanh(self.scalars((x * x).sum(-1).add(1e-8).sqrt()))
+        return torch.cat([shorten(z[..., :3]).flatten(-2), shorten(z[..., 3:]).flatten(-2), scalars], -1)
+
+
 FACTS = 12
 
 
@@ -166,10 +197,11 @@ def invariants(s: Shape, z1: Tensor, z2: Tensor, g: Geometry, scaling: str = "su
 
 
 class Network(nn.Module):
-    def __init__(self, s: Shape = Shape(), scaling: str = "sum", roll: str = "velocity", canonical: bool = True):
+    def __init__(self, s: Shape = Shape(), scaling: str = "sum", roll: str = "velocity", canonical: bool = True,
+                 encoder: str = "context"):
         super().__init__()
         self.s, self.options = s, dict(scaling=scaling, roll=roll, canonical=canonical)
-        self.encoder = Encoder(s)
+        self.encoder = Encoder(s) if encoder == "context" else FerVn(s)
         inputs = 2 * s.latent + FACTS
         self.heads = nn.ModuleDict({name: mlp([inputs, *sizes, 1]) for name, sizes in s.heads})
         # Training only: the distance of the pair, off the last hidden layer.

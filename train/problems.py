@@ -196,10 +196,16 @@ def outward(solids: Solids, q: Problems, x: Tensor) -> Tensor:
 
 
 @torch.no_grad()
-def place(solids: Solids, q: Problems, reach: Tensor, epsilon: Tensor, generator: torch.Generator) -> tuple[Problems, Tensor]:
+def place(solids: Solids, q: Problems, reach: Tensor, epsilon: Tensor, generator: torch.Generator,
+          literal: bool = False) -> tuple[Problems, Tensor]:
     """Appendix B, conditioned: offset B at random (within `reach` (B, 3) of the path, then further out) until it is free;
     bring it back by the shortest vector until the bodies just touch; then go on by epsilon. -> problems, settled (B,)."""
     b, device = len(q.moving), q.poses.device
+    if literal:  # one random place, one shift, whatever still touches after it
+        q = shifted(q, reach * (2 * torch.rand(b, 3, generator=generator, device=device) - 1))
+        x, t, margin = closest(solids, q, generator)
+        normal = outward(solids, q, x)
+        return shifted(q, normal * (margin + epsilon)[:, None]), normal.norm(dim=-1) > 0.5
     best, best_gap = q, torch.full((b,), -1e9, device=device)
     for k in range(12):
         at = torch.randint(SAMPLES, (b,), generator=generator, device=device)

@@ -48,12 +48,17 @@ class NetworkTest(unittest.TestCase):
         self.assertLess((turned - (wigner2(m) @ degree2(a, b)[..., None])[..., 0]).abs().max().item(), 1e-12)
         self.assertLess((wigner2(m @ n) - wigner2(m) @ wigner2(n)).abs().max().item(), 1e-12)
 
-    def test_encoder_is_equivariant(self) -> None:
+    def test_encoders_are_equivariant(self) -> None:
+        for kind in ("context", "fervn"):
+            with self.subTest(kind):
+                self.check_equivariance(Network(encoder=kind).double())
+
+    def check_equivariance(self, net: Network) -> None:
         u, n = 0.5 * torch.randn(20, 32, 3, dtype=torch.float64), torch.nn.functional.normalize(torch.randn(20, 32, 3, dtype=torch.float64), dim=-1)
         m = matrix(random_quaternions(1))
         for k in (m, -m):  # mirrored as well
-            z, zr = self.net.encoder(u, n), self.net.encoder(u @ k.mT, n @ k.mT)
-            self.assertLess((zr - turn(z, k[0], self.net.s.channels)).abs().max().item(), 1e-10)
+            z, zr = net.encoder(u, n), net.encoder(u @ k.mT, n @ k.mT)
+            self.assertLess((zr - turn(z, k[0], net.s.channels)).abs().max().item(), 1e-10)
         self.assertGreater(z.abs().mean().item(), 1e-3)
 
     def test_inputs_are_invariant(self) -> None:

@@ -75,6 +75,8 @@ def main() -> None:
     p.add_argument("--gradient-weight", type=float, default=0.0)
     p.add_argument("--scaling", choices=["sum", "paper"], default="sum")
     p.add_argument("--roll", choices=["velocity", "lean"], default="velocity")
+    p.add_argument("--encoder", choices=["context", "fervn"], default="context")
+    p.add_argument("--literal-problems", action="store_true", help="appendix B as printed: one shift, then epsilon")
     p.add_argument("--no-canonical", action="store_true")
     p.add_argument("--no-normals", action="store_true")
     p.add_argument("--shape", type=json.loads, default={}, help="sizes of the network that differ, as JSON")
@@ -94,15 +96,15 @@ def main() -> None:
     compiled = device == "cuda"
     torch.set_float32_matmul_precision("high")
     torch.manual_seed(a.seed)
-    d = training_data.build(a.seed, a.shapes, a.groups, device, log)
+    d = training_data.build(a.seed, a.shapes, a.groups, device, log, literal=a.literal_problems)
     held = training_data.build(a.seed + 1000003, max(64, a.shapes // 12), max(2, a.groups // 60), device, log)
     files = {n: load_problems(a.real / f"{n}.txt") for n in a.files} if a.real else {}
     log("validation files read", {n: len(f.label) for n, f in files.items()})
     if a.no_normals:
         for t in (*d.tables.values(), *held.tables.values()):
             t.normals.zero_()
-    net = Network(Shape(**a.shape), a.scaling, a.roll, not a.no_canonical).to(device)
-    average = Network(Shape(**a.shape), a.scaling, a.roll, not a.no_canonical).to(device)
+    net = Network(Shape(**a.shape), a.scaling, a.roll, not a.no_canonical, a.encoder).to(device)
+    average = Network(Shape(**a.shape), a.scaling, a.roll, not a.no_canonical, a.encoder).to(device)
     average.load_state_dict(net.state_dict())
     optimizer = torch.optim.AdamW(net.parameters(), lr=a.rate, weight_decay=1e-4, fused=compiled)
     first = 0

@@ -1,0 +1,126 @@
+# neuralsvcd.h is one header: there is nothing to build in order to use it. This builds the examples and the tests.
+# `make help` lists the targets. A C compiler and make are enough; libccd is used by the tests where it is installed.
+CC ?= cc
+CXX ?= c++
+
+# -O3 -march=native: the decoder and the broad phase are loops over floats, and wider vectors halve their time. Such a
+# binary may not run on another machine: `make PORTABLE=1` leaves the instruction set at the compiler's default.
+ifdef PORTABLE
+CFLAGS ?= -O3
+else
+CFLAGS ?= -O3 -march=native
+endif
+WARNINGS = -Wall -Wextra
+ALL_CFLAGS = $(CFLAGS) -std=c99 $(WARNINGS)
+LIBRARY = neuralsvcd.h weights.h
+
+# libccd checks the oracle on convex pairs. Found by pkg-config, or by its header where that is not installed.
+HAVE_CCD := $(shell (pkg-config --exists ccd || echo '\#include <ccd/ccd.h>' | $(CC) -E -x c - >/dev/null) 2>/dev/null && echo 1)
+ifeq ($(HAVE_CCD),1)
+CCD_CFLAGS := -DHAVE_LIBCCD $(shell pkg-config --cflags ccd 2>/dev/null)
+CCD_LIBS := $(shell pkg-config --libs ccd 2>/dev/null || echo -lccd)
+endif
+
+.PHONY: all demo test assets problems accuracy weights format clean help check-header check-examples
+.DELETE_ON_ERROR:
+
+all: build/svcd build/quickstart  ## the examples: build/svcd and build/quickstart
+
+help:  ## this list
+	@sed -n 's/^\([a-z][a-z-]*\):.*##/\1:/p' $(MAKEFILE_LIST) | sort
+
+build:
+	mkdir -p build
+
+# ---------------------------------------------------------------------------------------------------------- examples
+
+build/svcd: examples/svcd.c $(LIBRARY) | build
+	$(CC) $(ALL_CFLAGS) -o $@ examples/svcd.c -lm
+build/quickstart: examples/quickstart.c examples/picture.h $(LIBRARY) | build
+	$(CC) $(ALL_CFLAGS) -o $@ examples/quickstart.c -lm
+build/make_assets: examples/make_assets.c examples/shapes.h | build
+	$(CC) $(ALL_CFLAGS) -o $@ examples/make_assets.c -lm
+
+demo: build/quickstart  ## a mug carried past a dish rack: two verdicts and build/demo.svg
+	build/quickstart
+
+assets: build/make_assets  ## writes examples/assets/*.obj, which are in the repository, anew
+	build/make_assets examples/assets
+
+# ------------------------------------------------------------------------------------------------------------- tests
+
+TESTS = main test_mesh test_network test_broad_phase test_oracle test_query
+TEST_OBJECTS = $(TESTS:%=build/%.o)
+# Each test file holds its own copy of the header, and uses only a part of its private functions.
+TEST_WARNINGS = -Wall -Wextra -Werror -Wno-unused-function
+
+build/%.o: tests/%.c tests/check.h tests/oracle.h examples/shapes.h $(wildcard tests/data/*.h) $(LIBRARY) | build
+	$(CC) $(CFLAGS) -std=c99 $(TEST_WARNINGS) $(CCD_CFLAGS) -c -o $@ $<
+build/tests: $(TEST_OBJECTS)
+	$(CC) $(CFLAGS) -o $@ $(TEST_OBJECTS) $(CCD_LIBS) -lm
+
+check-header: | build  # as C99 to C++17, strictly, and what it leaves in the namespace
+	CC="$(CC)" CXX="$(CXX)" tests/header.sh
+check-examples: all build/make_assets  # they run, and they say no as FORMATS.md demands
+	tests/examples.sh
+
+test: build/tests check-header check-examples  ## everything; the last line is `N passed, N failed`
+	build/tests
+
+# ---------------------------------------------------------------------------------------------------------- accuracy
+
+build/problems: tests/problems.c tests/oracle.h examples/shapes.h | build
+	$(CC) $(ALL_CFLAGS) -o $@ tests/problems.c -lm
+problems: build/problems  ## the generator of exactly labelled problems
+
+# The seeds and counts of the measured accuracy; COUNT=200 for a quick look. Labelling takes minutes.
+DATA = build/accuracy
+MESHES = ../shared/meshes
+REAL = $(patsubst $(MESHES)/%.tar.gz,%,$(wildcard $(MESHES)/random_urdfs.tar.gz $(MESHES)/metaworld.tar.gz))
+COUNT_standard = $(or $(COUNT),4000)
+COUNT_hollow = $(or $(COUNT),1000)
+COUNT_inside = $(or $(COUNT),400)
+COUNT_random_urdfs = $(or $(COUNT),2000)
+COUNT_metaworld = $(or $(COUNT),2000)
+COUNT_open = $(or $(COUNT),500)
+SETS = standard hollow inside $(REAL) $(if $(filter metaworld,$(REAL)),open)
+CHECK_FLAGS =
+
+$(DATA)/standard.txt: build/problems
+	@mkdir -p $(DATA)
+	build/problems --set standard --meshes procedural --count $(COUNT_standard) --seed 101 --out $@
+$(DATA)/hollow.txt: build/problems
+	@mkdir -p $(DATA)
+	build/problems --set hollow --meshes procedural --count $(COUNT_hollow) --seed 104 --out $@
+$(DATA)/inside.txt: build/problems
+	@mkdir -p $(DATA)
+	build/problems --set inside --meshes procedural --count $(COUNT_inside) --seed 105 --out $@
+$(DATA)/random_urdfs.txt: build/problems $(DATA)/meshes/random_urdfs
+	build/problems --set standard --meshes $(DATA)/meshes/random_urdfs --count $(COUNT_random_urdfs) --seed 102 --out $@
+$(DATA)/metaworld.txt: build/problems $(DATA)/meshes/metaworld
+	build/problems --set standard --meshes $(DATA)/meshes/metaworld --count $(COUNT_metaworld) --seed 103 --out $@
+$(DATA)/open.txt: build/problems $(DATA)/meshes/metaworld  # meshes that are not closed
+	build/problems --set standard --meshes $(DATA)/meshes/metaworld --open only --count $(COUNT_open) --seed 106 --out $@
+# All OBJ files of the archive, flat.
+$(DATA)/meshes/%: | $(MESHES)/%.tar.gz
+	mkdir -p $@.part
+	tar xzf $(MESHES)/$*.tar.gz -C $@.part
+	find $@.part -mindepth 2 -name '*.obj' -exec mv -n {} $@.part/ \;
+	mv $@.part $@
+.PRECIOUS: $(DATA)/%.txt $(DATA)/meshes/%
+
+accuracy: build/svcd $(SETS:%=$(DATA)/%.txt)  ## labels the problem sets (minutes, kept) and measures on each
+	@for set in $(SETS); do echo; build/svcd check $(CHECK_FLAGS) $(DATA)/$$set.txt >$(DATA)/$$set.tsv || exit 1; done
+
+# ---------------------------------------------------------------------------------------------------------- training
+
+TRAIN_FLAGS =
+weights:  ## trains anew on a GPU and writes weights.h (train/README.md)
+	cd train && python3 train.py --out ../build/train $(TRAIN_FLAGS)
+	cd train && python3 export.py ../build/train/checkpoint.pt ../weights.h ../tests/data/golden.h
+
+format:  ## clang-format on what is written by hand
+	clang-format -i neuralsvcd.h examples/*.[ch] tests/*.[ch]
+
+clean:  ## removes build/
+	rm -rf build

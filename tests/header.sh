@@ -1,0 +1,73 @@
+#!/bin/sh
+# The header alone: every standard and compiler at hand with strict warnings, included twice; then what it leaves in the
+# namespace (functions, macros) and whether it has mutable data. Ends with 1 at the first thing that is wrong.
+set -eu
+strict="-Wall -Wextra -Wpedantic -Wconversion -Wsign-conversion -Wshadow -Wcast-qual -Wdouble-promotion -Werror"
+dir=$(mktemp -d)
+trap 'rm -rf "$dir"' EXIT
+here=$(pwd)
+
+cat >"$dir/twice.c" <<END
+#include "$here/neuralsvcd.h"
+#include "$here/neuralsvcd.h"
+#define NEURALSVCD_IMPLEMENTATION
+#include "$here/neuralsvcd.h"
+#include "$here/neuralsvcd.h"
+END
+printf '#include "%s/neuralsvcd.h"\n' "$here" >"$dir/user.c"  # declarations only, in a second file
+cp "$dir/twice.c" "$dir/twice.cc"
+cp "$dir/user.c" "$dir/user.cc"
+
+fail() {
+  echo "header: $*" >&2
+  exit 1
+}
+compile() {  # compiler, suffix, standard, further flags
+  "$1" "-std=$3" $strict $4 -c "$dir/twice.$2" -o "$dir/twice.o" || fail "$1 -std=$3 $4"
+  "$1" "-std=$3" $strict -fsyntax-only "$dir/user.$2" || fail "$1 -std=$3, declarations"
+  echo "header: $1 -std=$3 $4"
+}
+
+# Only the first standard of each compiler is optimised: those warnings that need data flow, and the symbols.
+tried=0
+for cc in "${CC:-cc}" gcc clang; do
+  command -v "$cc" >/dev/null || continue
+  case " ${done_c:-} " in *" $cc "*) continue ;; esac
+  done_c="${done_c:-} $cc"
+  compile "$cc" c c99 "-O2 -fno-pic"
+  cp "$dir/twice.o" "$dir/c_$tried.o"
+  compile "$cc" c c11 -O0
+  compile "$cc" c c17 -O0
+  tried=$((tried + 1))
+done
+for cxx in "${CXX:-c++}" g++ clang++; do
+  command -v "$cxx" >/dev/null || continue
+  case " ${done_cxx:-} " in *" $cxx "*) continue ;; esac
+  done_cxx="${done_cxx:-} $cxx"
+  compile "$cxx" cc c++11 "-O2 -fno-pic"
+  cp "$dir/twice.o" "$dir/c_$tried.o"
+  compile "$cxx" cc c++17 -O0
+  tried=$((tried + 1))
+done
+test "$tried" -gt 0 || fail "no compiler"
+compile "${CC:-cc}" c c99 "-DNSVCD_NO_STDIO -O0"
+compile "${CC:-cc}" c c99 "-DNSVCD_STATIC -Wno-unused-function -O0"
+
+# -fno-pic: else tables of constant pointers count as data, for the loader relocates them.
+for object in "$dir"/c_*.o; do
+  bad=$(nm -g --defined-only "$object" | awk '$3 !~ /^_?nsvcd_[a-z]/ || $3 ~ /^_?nsvcd__/ { print $3 }')
+  test -z "$bad" || fail "symbols that are not public ones of ours: $bad"
+  bad=$(nm --defined-only "$object" | awk '$2 ~ /^[bBdDcCsSgG]$/ { print $3 }')
+  test -z "$bad" || fail "mutable data: $bad"
+  nm -g --defined-only "$object" | grep -q nsvcd_sweep || fail "nm shows no nsvcd_sweep: this check checks nothing"
+done
+echo "header: no unprefixed symbol, no mutable data"
+
+# Macros: what is there after the header and not after what it includes.
+includes=$(sed -n 's/^ *#include <\(.*\)>/#include <\1>/p' neuralsvcd.h)
+printf '%s\n' "$includes" >"$dir/none.c"
+"${CC:-cc}" -std=c99 -dM -E "$dir/none.c" | sort >"$dir/before"
+"${CC:-cc}" -std=c99 -dM -E "$dir/twice.c" | sort >"$dir/after"
+bad=$(comm -13 "$dir/before" "$dir/after" | awk '$2 !~ /^(NSVCD|NEURALSVCD)/ { print $2 }')
+test -z "$bad" || fail "macros without our prefix: $bad"
+echo "header: no unprefixed macro"
