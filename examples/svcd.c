@@ -516,7 +516,8 @@ static int usage(void) {
           "      --model M    decoder (base)\n"
           "      --recall R   share of collisions to be found: 0.99, 0.999, 0.9999 or 0: balanced errors (0)\n"
           "      --repeat R   time every query R times, report the least (5)\n"
-          "      --int8, --verify: not there yet\n"
+          "      --int8       the decoder in 8-bit integers\n"
+          "      --verify     exact verification: not there yet\n"
           "svcd encode IN.obj OUT.body|OUT.h [--points N | --radius METRES]\n"
           "    encodes a mesh, to a file or to a C array; --radius: as many points as make patches of that radius\n"
           "svcd info FILE.body\n"
@@ -578,7 +579,10 @@ static int parse_check(int argc, char **argv, check_options *options) {
   options->repeat = 5;
   for (int i = 0; i < argc; i++) {
     int status = DONE;
-    if (strcmp(argv[i], "--int8") == 0) return usage_error(argv[i], "int8 decoders are not in the library yet");
+    if (strcmp(argv[i], "--int8") == 0) {
+      options->sweep.precision = NSVCD_PRECISION_INT8;
+      continue;
+    }
     if (argv[i][0] != '-' && options->path) return usage_error(argv[i], "one problem file at a time");
     if (argv[i][0] != '-')
       options->path = argv[i];

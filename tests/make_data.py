@@ -58,7 +58,7 @@ def main() -> None:
         old.unlink()
     out = ["nsvcd-problems 1", "# made by tests/make_data.py: " + ", ".join(f"{c} {s} (seed {d})" for s, c, _, d in SETS)]
     for name, count, pool, seed in SETS:
-        subprocess.run(["build/problems", "--set", name, "--meshes", "procedural", "--count", str(2 * count), "--seed", str(seed),
+        subprocess.run(["build/problems", "--set", name, "--meshes", "procedural", "--count", str(3 * count), "--seed", str(seed),
                         "--pool", str(pool), "--motion-samples", str(SAMPLES), "--out", str(WORK / f"{name}.txt")], check=True)
         out += convert(name, count)
     (OUT / "problems.txt").write_text("\n".join(out) + "\n")

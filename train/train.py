@@ -80,6 +80,7 @@ def main() -> None:
     p.add_argument("--no-canonical", action="store_true")
     p.add_argument("--no-normals", action="store_true")
     p.add_argument("--shape", type=json.loads, default={}, help="sizes of the network that differ, as JSON")
+    p.add_argument("--every", type=int, default=15000, help="steps between validations")
     p.add_argument("--resume", type=Path)
     p.add_argument("--files", nargs="*", default=["standard", "urdfs", "metaworld", "hollow"])
     a = p.parse_args()
@@ -99,7 +100,6 @@ def main() -> None:
     d = training_data.build(a.seed, a.shapes, a.groups, device, log, literal=a.literal_problems)
     held = training_data.build(a.seed + 1000003, max(64, a.shapes // 12), max(2, a.groups // 60), device, log)
     files = {n: load_problems(a.real / f"{n}.txt") for n in a.files} if a.real else {}
-    log("validation files read", {n: len(f.label) for n, f in files.items()})
     if a.no_normals:
         for t in (*d.tables.values(), *held.tables.values()):
             t.normals.zero_()
@@ -127,15 +127,12 @@ def main() -> None:
     def validate(wide: bool) -> None:
         average.eval()
         log(f"step {step} loss {float(shown):.4f} {(time.time() - begun) / max(1, step - first) * 1e3:.1f} ms/step")
-        for head in ("tiny", "small", "base") if wide else ("base",):
-            log(report(f"held-out {head} K=8", *pooled_logits(average, held, head, 8)))
+        log(report("held-out base K=8", *pooled_logits(average, held, "base", 8)))
         for name, f in files.items():
-            for n in (64, 128, 256, 512) if wide else (256,):
-                log(report(f"{name} N={n}", logits(average, f, n, device), f.label, f.margin))
-        if wide:
-            for name, f in files.items():
-                for head, k in (("tiny", 8), ("small", 8), ("base", 16)):
-                    log(report(f"{name} N=256 {head} K={k}", logits(average, f, 256, device, head, k), f.label, f.margin))
+            for n in (128, 256, 512) if wide else (256,):
+                settings = [("base", 8)] + ([("base", 16)] if wide else []) + ([("tiny", 8), ("small", 8)] if wide and n == 256 else [])
+                for (head, k), value in zip(settings, logits(average, f, n, device, settings)):
+                    log(report(f"{name} N={n} {head} K={k}", value, f.label, f.margin))
 
     while step < a.steps:
         # The schedule follows the clock where time is short, else the steps.
@@ -167,11 +164,11 @@ def main() -> None:
         step += 1
         if step % 500 == 0 and step <= 1000:
             log(f"step {step} loss {float(shown):.4f} {(time.time() - begun) / (step - first) * 1e3:.1f} ms/step")
-        if step % 5000 == 0:
+        if step % a.every == 0:
             validate(False)
             save()
-    validate(True)
     save()
+    validate(True)
     log("done")
 
 

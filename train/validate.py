@@ -67,22 +67,23 @@ def load_problems(path: Path) -> ProblemFile:
 
 
 def sample_mesh(vertices: Tensor, triangles: Tensor, count: int, generator: torch.Generator) -> tuple[Tensor, Tensor]:
+    """Stratified by area, as the library does."""
     a, b, c = vertices[triangles].unbind(1)
     cross = torch.linalg.cross(b - a, c - a)
-    area = cross.norm(dim=-1).double().cumsum(0)
-    at = (torch.arange(count, dtype=torch.float64) + 0.5) / count * area[-1]
+    area = cross.double().norm(dim=-1).cumsum(0)
+    at = (torch.arange(count, dtype=torch.float64, device=a.device) + 0.5) / count * area[-1]
     k = torch.searchsorted(area, at).clamp_max(len(area) - 1)
-    r = torch.rand(count, 2, generator=generator)
+    r = torch.rand(count, 2, generator=generator, device=a.device)
     s = r[:, :1].sqrt()
     return a[k] * (1 - s) + b[k] * (s * (1 - r[:, 1:])) + c[k] * (s * r[:, 1:]), torch.nn.functional.normalize(cross[k], dim=-1)
 
 
 @torch.no_grad()
-def logits(net: Network, f: ProblemFile, n: int, device: str, head: str = "base", pairs: int = 8, slack: float = 1.187) -> Tensor:
-    generator = torch.Generator().manual_seed(1)
-    sampled = [sample_mesh(v, t, 32 * n, generator) for v, t in f.meshes]
-    points, normals = (torch.stack([s[k] for s in sampled]).to(device) for k in (0, 1))
+def logits(net: Network, f: ProblemFile, n: int, device: str, settings: list[tuple[str, int]], slack: float = 1.187) -> list[Tensor]:
+    """Pooled logits of every problem, for each (head, K) of `settings`; the radii are `slack` times the samples'."""
     g = torch.Generator(device=device).manual_seed(1)
+    sampled = [sample_mesh(v.to(device), t.to(device), 32 * n, g) for v, t in f.meshes]
+    points, normals = (torch.stack([s[k] for s in sampled]) for k in (0, 1))
     latents, centres, radii = [], [], []
     for p, m in zip(points.split(128), normals.split(128)):
         made = make_patches(p, m, n, PER_PATCH, g)
@@ -92,17 +93,18 @@ def logits(net: Network, f: ProblemFile, n: int, device: str, head: str = "base"
         centres.append(made.centre), radii.append(radius)
     z, centre, radius = torch.cat(latents), torch.cat(centres), torch.cat(radii)
     kernel = importlib.import_module("kernels").least_gap if device == "cuda" else least_gap
-    out = []
+    out: list[list[Tensor]] = [[] for _ in settings]
     for s in torch.arange(len(f.label)).split(max(8, min(2048, 2 ** 25 // (n * n)))):
         m, x, s1, s2, poses = (a[s].to(device) for a in (f.moving, f.fixed, f.size1, f.size2, f.poses))
         ca, ra, cb, rb = centre[m] * s1[:, None, None], radius[m] * s1[:, None], centre[x] * s2[:, None, None], radius[x] * s2[:, None]
         k = broad_phase(poses, ca, ra, cb, rb, kernel)
-        i, j = k.moving[:, :pairs], k.fixed[:, :pairs]
         pick = lambda a, idx: a.gather(1, idx[..., None].expand(-1, -1, a.shape[2])) if a.dim() == 3 else a.gather(1, idx)
-        geometry = pair_geometry(poses, pick(ca, i), pick(cb, j), pick(ra, i), pick(rb, j), k.enter[:, :pairs], k.leave[:, :pairs])
-        value = net.decode(pick(z[m], i), pick(z[x], j), geometry)[head][0]
-        out.append(torch.where(k.valid[:, :pairs], value, torch.full_like(value, -30)).amax(1).cpu())
-    return torch.cat(out)
+        geometry = pair_geometry(poses, pick(ca, k.moving), pick(cb, k.fixed), pick(ra, k.moving), pick(rb, k.fixed), k.enter, k.leave)
+        value = net.decode(pick(z[m], k.moving), pick(z[x], k.fixed), geometry)
+        for row, (head, pairs) in zip(out, settings):
+            v = value[head][0][:, :pairs]
+            row.append(torch.where(k.valid[:, :pairs], v, torch.full_like(v, -30)).amax(1).cpu())
+    return [torch.cat(row) for row in out]
 
 
 def report(name: str, logit: Tensor, label: Tensor, margin: Tensor) -> str:
