@@ -74,7 +74,7 @@ build/problems: tests/problems.c tests/oracle.h examples/shapes.h | build
 problems: build/problems  ## the generator of exactly labelled problems
 
 # The seeds and counts of the measured accuracy; COUNT=200 for a quick look. Labelling takes minutes.
-DATA = build/accuracy
+DATA = build/accuracy$(if $(COUNT),_$(COUNT))
 MESHES = ../shared/meshes
 REAL = $(patsubst $(MESHES)/%.tar.gz,%,$(wildcard $(MESHES)/random_urdfs.tar.gz $(MESHES)/metaworld.tar.gz))
 COUNT_standard = $(or $(COUNT),4000)
@@ -88,19 +88,19 @@ CHECK_FLAGS =
 
 $(DATA)/standard.txt: build/problems
 	@mkdir -p $(DATA)
-	build/problems --set standard --meshes procedural --count $(COUNT_standard) --seed 101 --out $@
+	build/problems --set standard --meshes procedural --count $(COUNT_standard) --seed 401 --out $@
 $(DATA)/hollow.txt: build/problems
 	@mkdir -p $(DATA)
-	build/problems --set hollow --meshes procedural --count $(COUNT_hollow) --seed 104 --out $@
+	build/problems --set hollow --meshes procedural --count $(COUNT_hollow) --seed 404 --out $@
 $(DATA)/inside.txt: build/problems
 	@mkdir -p $(DATA)
-	build/problems --set inside --meshes procedural --count $(COUNT_inside) --seed 105 --out $@
+	build/problems --set inside --meshes procedural --count $(COUNT_inside) --seed 405 --out $@
 $(DATA)/random_urdfs.txt: build/problems $(DATA)/meshes/random_urdfs
-	build/problems --set standard --meshes $(DATA)/meshes/random_urdfs --count $(COUNT_random_urdfs) --seed 102 --out $@
+	build/problems --set standard --meshes $(DATA)/meshes/random_urdfs --count $(COUNT_random_urdfs) --seed 402 --out $@
 $(DATA)/metaworld.txt: build/problems $(DATA)/meshes/metaworld
-	build/problems --set standard --meshes $(DATA)/meshes/metaworld --count $(COUNT_metaworld) --seed 103 --out $@
+	build/problems --set standard --meshes $(DATA)/meshes/metaworld --count $(COUNT_metaworld) --seed 403 --out $@
 $(DATA)/open.txt: build/problems $(DATA)/meshes/metaworld  # meshes that are not closed
-	build/problems --set standard --meshes $(DATA)/meshes/metaworld --open only --count $(COUNT_open) --seed 106 --out $@
+	build/problems --set standard --meshes $(DATA)/meshes/metaworld --open only --count $(COUNT_open) --seed 406 --out $@
 # All OBJ files of the archive, flat.
 $(DATA)/meshes/%: | $(MESHES)/%.tar.gz
 	mkdir -p $@.part

@@ -15,7 +15,7 @@ int main(int argc, char **argv) {
   const char *folder = argc > 1 ? argv[1] : "examples/assets";
   shapes_mesh mug, rack;
   memset(&mug, 0, sizeof mug), memset(&rack, 0, sizeof rack);
-  shapes_mug(&mug, 0.041, 0.095, 0.005, 40);                // radius, height, wall: the handle points along x
+  shapes_mug(&mug, 0.041, 0.095, 0.005, 40);               // radius, height, wall: the handle points along x
   shapes_dish_rack(&rack, 0.40, 0.30, 0.12, 0.003, 8, 8);  // length, width, height, wire: two rows of eight prongs
   int good = write_asset(&mug, folder, "mug.obj");
   good = write_asset(&rack, folder, "dish_rack.obj") && good;

@@ -177,7 +177,9 @@ static void picture_table(FILE *svg) {
 }
 // The path of the moving body's origin.
 static void picture_path(FILE *svg, const picture_panel *panel, const char *ink) {
-  fprintf(svg, "<path fill=\"none\" stroke=\"%s\" stroke-width=\"2\" stroke-dasharray=\"2 6\" stroke-linecap=\"round\" d=\"", ink);
+  fprintf(svg,
+          "<path fill=\"none\" stroke=\"%s\" stroke-width=\"2\" stroke-dasharray=\"2 6\" stroke-linecap=\"round\" d=\"",
+          ink);
   for (size_t i = 0; i < panel->count; i++) {
     double p[3], world[3] = {(double)panel->poses[i].position[0], (double)panel->poses[i].position[1],
                              (double)panel->poses[i].position[2]};
@@ -204,13 +206,19 @@ static void picture_fixed(FILE *svg, const picture_triangle *triangles, size_t c
     if (covers == covering) picture_shaded(svg, &triangles[i], &picture_steel);
   }
 }
-static double picture_lowest(const nsvcd_mesh *mesh, const nsvcd_pose *pose) {
-  double p[3], lowest = HUGE_VAL;
+// The lowest z of a moving body, and the depth of its middle. What touches it shall not be cut in two by that depth:
+// hence a little nearer than the middle.
+static void picture_stand(const nsvcd_mesh *mesh, const nsvcd_pose *pose, double *depth, double *lowest) {
+  double world[3], p[3], least = HUGE_VAL, most = -HUGE_VAL;
+  *lowest = HUGE_VAL;
   for (size_t i = 0; i < mesh->vertex_count; i++) {
-    picture_place(pose, mesh->positions + 3 * i, p);
-    lowest = fmin(lowest, p[2]);
+    picture_place(pose, mesh->positions + 3 * i, world);
+    *lowest = fmin(*lowest, world[2]);
+    world[2] = 0;
+    picture_project(world, p);
+    least = fmin(least, p[2]), most = fmax(most, p[2]);
   }
-  return lowest;
+  *depth = 0.35 * least + 0.65 * most;
 }
 // Back to front: what of the fixed mesh lies behind the moving one, the silhouettes, the moving body at the time of
 // contact or else at the end, the rest of the fixed mesh, the mark.
@@ -224,18 +232,16 @@ static void picture_scene(FILE *svg, const nsvcd_mesh *moving, const nsvcd_mesh 
   if (!triangles) return;
   picture_shadow(svg, fixed, &origin);
   picture_shadow(svg, moving, &panel->poses[shown]);
-  const float *at_origin = panel->poses[shown].position;
-  double p[3], foot[3] = {(double)at_origin[0], (double)at_origin[1], 0};
-  double lowest = picture_lowest(moving, &panel->poses[shown]);
-  picture_project(foot, p);
-  picture_fixed(svg, triangles, count, p[2], lowest, 0);
+  double depth, lowest;
+  picture_stand(moving, &panel->poses[shown], &depth, &lowest);
+  picture_fixed(svg, triangles, count, depth, lowest, 0);
   for (size_t i = 0; i < PICTURE_GHOSTS; i++) {
     size_t at = i * last / (PICTURE_GHOSTS - 1);
     if (at != shown) picture_moving(svg, moving, &panel->poses[at], colour, 1 - (double)at / (double)last, 0);
   }
   picture_path(svg, panel, a->collides ? "#b3202c" : "#12824c");
   picture_moving(svg, moving, &panel->poses[shown], colour, 0, 1);
-  picture_fixed(svg, triangles, count, p[2], lowest, 1);
+  picture_fixed(svg, triangles, count, depth, lowest, 1);
   free(triangles);
   if (a->collides && a->status != NSVCD_STATUS_INSIDE) picture_contact(svg, panel);
 }
@@ -244,12 +250,14 @@ static void picture_scene(FILE *svg, const nsvcd_mesh *moving, const nsvcd_mesh 
 static void picture_captions(FILE *svg, const picture_panel *panel) {
   const nsvcd_answer *a = &panel->answer;
   int pill = a->collides ? 170 : 130;
-  fprintf(svg, "<text x=\"24\" y=\"41\" font-size=\"20\" font-weight=\"600\" fill=\"#2b3440\">%s</text>\n", panel->name);
+  fprintf(svg, "<text x=\"24\" y=\"41\" font-size=\"20\" font-weight=\"600\" fill=\"#2b3440\">%s</text>\n",
+          panel->name);
   fprintf(svg, "<rect x=\"%d\" y=\"18\" width=\"%d\" height=\"34\" rx=\"17\" fill=\"%s\"/>\n",
           PICTURE_WIDTH - 20 - pill, pill, a->collides ? "#b3202c" : "#12824c");
-  fprintf(svg,
-          "<text x=\"%d\" y=\"41\" font-size=\"16\" font-weight=\"700\" fill=\"#fff\" text-anchor=\"middle\">%s</text>\n",
-          PICTURE_WIDTH - 20 - pill / 2, a->collides ? "HITS THE RACK" : "CLEARS IT");
+  fprintf(
+      svg,
+      "<text x=\"%d\" y=\"41\" font-size=\"16\" font-weight=\"700\" fill=\"#fff\" text-anchor=\"middle\">%s</text>\n",
+      PICTURE_WIDTH - 20 - pill / 2, a->collides ? "HITS THE RACK" : "CLEARS IT");
   fprintf(svg, "<rect y=\"%d\" width=\"%d\" height=\"44\" fill=\"#fff\" fill-opacity=\".9\"/>\n", PICTURE_HEIGHT - 44,
           PICTURE_WIDTH);
   fprintf(svg, "<text x=\"24\" y=\"%d\" font-size=\"15\" fill=\"#4a5564\">", PICTURE_HEIGHT - 17);
@@ -263,10 +271,12 @@ static void picture_legend(FILE *svg, int x, int y) {
     fprintf(svg, "<circle cx=\"%d\" cy=\"-5\" r=\"8\" fill=\"#46505e\" fill-opacity=\"%.2f\"/>", 10 + 13 * i,
             0.14 + 0.14 * i);
   fprintf(svg, "<text x=\"84\">the mug from start (light) to end (dark)</text>\n");
-  fprintf(svg, "<path d=\"M424 -5H462\" stroke=\"#46505e\" stroke-width=\"2\" stroke-dasharray=\"2 6\" "
-               "stroke-linecap=\"round\"/><text x=\"474\">the path it is carried along</text>\n");
-  fprintf(svg, "<circle cx=\"736\" cy=\"-5\" r=\"9\" fill=\"none\" stroke=\"#ffb300\" stroke-width=\"4\"/>"
-               "<text x=\"756\">where the network sees the hit; the solid mug: when</text>\n</g>\n");
+  fprintf(svg,
+          "<path d=\"M424 -5H462\" stroke=\"#46505e\" stroke-width=\"2\" stroke-dasharray=\"2 6\" "
+          "stroke-linecap=\"round\"/><text x=\"474\">the path it is carried along</text>\n");
+  fprintf(svg,
+          "<circle cx=\"736\" cy=\"-5\" r=\"9\" fill=\"none\" stroke=\"#ffb300\" stroke-width=\"4\"/>"
+          "<text x=\"756\">where the network sees the hit; the solid mug: when</text>\n</g>\n");
 }
 
 // Returns 1, or 0 after a message.
@@ -279,16 +289,18 @@ static int picture_write(const char *path, const nsvcd_mesh *moving, const nsvcd
           "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"%d\" height=\"%d\" viewBox=\"0 0 %d %d\" "
           "font-family=\"Helvetica, Arial, sans-serif\">\n<rect width=\"%d\" height=\"%d\" fill=\"#f6f7f9\"/>\n",
           width, height, width, height, width, height);
-  fprintf(svg, "<text x=\"26\" y=\"38\" font-size=\"26\" font-weight=\"700\" fill=\"#1b2430\">"
-               "Does the mug, carried along this path, hit the dish rack?</text>\n");
-  fprintf(svg, "<text x=\"26\" y=\"64\" font-size=\"15\" fill=\"#5a6675\">"
-               "neuralsvcd.h: each mesh encoded once, each whole motion answered by one query</text>\n");
+  fprintf(svg,
+          "<text x=\"26\" y=\"38\" font-size=\"26\" font-weight=\"700\" fill=\"#1b2430\">"
+          "Does the mug, carried along this path, hit the dish rack?</text>\n");
+  fprintf(svg,
+          "<text x=\"26\" y=\"64\" font-size=\"15\" fill=\"#5a6675\">"
+          "neuralsvcd.h: each mesh encoded once, each whole motion answered by one query</text>\n");
   for (int i = 0; i < count; i++) {
     fprintf(svg, "<g transform=\"translate(%d %d)\">\n", 24 + (PICTURE_WIDTH + 24) * i, PICTURE_TOP);
-    fprintf(svg, "<clipPath id=\"panel%d\"><rect width=\"%d\" height=\"%d\" rx=\"12\"/></clipPath>\n", i,
-            PICTURE_WIDTH, PICTURE_HEIGHT);
-    fprintf(svg, "<g clip-path=\"url(#panel%d)\"><rect width=\"%d\" height=\"%d\" fill=\"#fff\"/>\n", i,
-            PICTURE_WIDTH, PICTURE_HEIGHT);
+    fprintf(svg, "<clipPath id=\"panel%d\"><rect width=\"%d\" height=\"%d\" rx=\"12\"/></clipPath>\n", i, PICTURE_WIDTH,
+            PICTURE_HEIGHT);
+    fprintf(svg, "<g clip-path=\"url(#panel%d)\"><rect width=\"%d\" height=\"%d\" fill=\"#fff\"/>\n", i, PICTURE_WIDTH,
+            PICTURE_HEIGHT);
     picture_table(svg);
     picture_scene(svg, moving, fixed, &panels[i]);
     picture_captions(svg, &panels[i]);

@@ -51,7 +51,8 @@ static void carry(float height, nsvcd_pose *poses) {
   }
 }
 
-// Where the bodies are said to meet: the centre of the fixed body's patch, in world axes. The rack stands at the origin.
+// Where the bodies are said to meet: the centre of the fixed body's patch, in world axes. The rack stands at the
+// origin.
 static void contact_point(const nsvcd_body *fixed, const nsvcd_answer *answer, float *point) {
   float radius;
   point[0] = point[1] = point[2] = 0;

@@ -194,8 +194,7 @@ static int read_mesh_line(const reader *r, problem_file *file) {
   size_t found;
   if (r->field_count != 3) return refuse(r, "expected: mesh NAME PATH");
   if (find_mesh(file, r->fields[1], &found)) return refuse_field(r, "a second mesh of this name", r->fields[1]);
-  file->meshes =
-      (mesh_entry *)room_for_one(file->meshes, file->mesh_count, &file->mesh_capacity, sizeof *file->meshes);
+  file->meshes = (mesh_entry *)room_for_one(file->meshes, file->mesh_count, &file->mesh_capacity, sizeof *file->meshes);
   mesh_entry *mesh = &file->meshes[file->mesh_count++];
   memset(mesh, 0, sizeof *mesh);
   mesh->name = r->fields[1], mesh->path = r->fields[2], mesh->line = r->line;
@@ -543,11 +542,11 @@ static int parse_model(const char *name, nsvcd_model *model) {
 // Returns DONE or USAGE.
 static int parse_check_option(const char *key, const char *value, check_options *options) {
   if (strcmp(key, "--points") == 0)
-    return parse_count(value, 1, NSVCD_MAX_POINTS, &options->encode.points) ? DONE : usage_error(key, "not in 1..512");
+    return parse_count(value, 1, NSVCD_MAX_POINTS, &options->encode.points) ? DONE : usage_error(key, "out of range");
   if (strcmp(key, "--pairs") == 0)
-    return parse_count(value, 1, NSVCD_MAX_PAIRS, &options->sweep.pairs) ? DONE : usage_error(key, "not in 1..256");
+    return parse_count(value, 1, NSVCD_MAX_PAIRS, &options->sweep.pairs) ? DONE : usage_error(key, "out of range");
   if (strcmp(key, "--repeat") == 0)
-    return parse_count(value, 1, 1000000, &options->repeat) ? DONE : usage_error(key, "not in 1..1000000");
+    return parse_count(value, 1, 1000000, &options->repeat) ? DONE : usage_error(key, "out of range");
   if (strcmp(key, "--model") == 0)
     return parse_model(value, &options->sweep.model) ? DONE : usage_error(key, "none of tiny, small, base");
   if (strcmp(key, "--recall") == 0)
@@ -568,8 +567,7 @@ static int recall_is_known(const nsvcd_sweep_options *options) {
   void *memory = allocate(nsvcd_body_size(1)), *workspace = allocate(nsvcd_sweep_workspace_size());
   nsvcd_result result = nsvcd_encode(&mesh, &one_point, NULL, memory, nsvcd_body_size(1), &body);
   if (!result)
-    result =
-        nsvcd_sweep(body, &pose, 1, body, &pose, options, workspace, nsvcd_sweep_workspace_size(), &unused);
+    result = nsvcd_sweep(body, &pose, 1, body, &pose, options, workspace, nsvcd_sweep_workspace_size(), &unused);
   free(memory), free(workspace);
   return result == NSVCD_OK;
 }
@@ -685,7 +683,7 @@ static int encode(int argc, char **argv) {
       if (path_count == 2) return usage();
       paths[path_count++] = argv[i];
     } else if (strcmp(argv[i], "--points") == 0) {
-      if (!parse_count(value, 1, NSVCD_MAX_POINTS, &options.points)) return usage_error(argv[i], "not in 1..512");
+      if (!parse_count(value, 1, NSVCD_MAX_POINTS, &options.points)) return usage_error(argv[i], "out of range");
       i++;
     } else if (strcmp(argv[i], "--radius") == 0) {
       if (!parse_float(value, &options.patch_radius) || options.patch_radius <= 0)

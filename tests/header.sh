@@ -28,33 +28,35 @@ compile() {  # compiler, suffix, standard, further flags
   echo "header: $1 -std=$3 $4"
 }
 
-# Only the first standard of each compiler is optimised: those warnings that need data flow, and the symbols.
-tried=0
-for cc in "${CC:-cc}" gcc clang; do
-  command -v "$cc" >/dev/null || continue
-  case " ${done_c:-} " in *" $cc "*) continue ;; esac
-  done_c="${done_c:-} $cc"
+# The compilers there are, each once, whatever its names.
+compilers() {
+  for name in "$@"; do
+    path=$(command -v "$name") && echo "$(readlink -f "$path") $name"
+  done | sort -u -k1,1 | cut -d' ' -f2
+}
+# Only the first standard of each compiler is optimised: for warnings that follow the data, and for the symbols.
+objects=0
+keep() {
+  objects=$((objects + 1))
+  cp "$dir/twice.o" "$dir/kept_$objects.o"
+}
+for cc in $(compilers "${CC:-cc}" gcc clang); do
   compile "$cc" c c99 "-O2 -fno-pic"
-  cp "$dir/twice.o" "$dir/c_$tried.o"
+  keep
   compile "$cc" c c11 -O0
   compile "$cc" c c17 -O0
-  tried=$((tried + 1))
 done
-for cxx in "${CXX:-c++}" g++ clang++; do
-  command -v "$cxx" >/dev/null || continue
-  case " ${done_cxx:-} " in *" $cxx "*) continue ;; esac
-  done_cxx="${done_cxx:-} $cxx"
+for cxx in $(compilers "${CXX:-c++}" g++ clang++); do
   compile "$cxx" cc c++11 "-O2 -fno-pic"
-  cp "$dir/twice.o" "$dir/c_$tried.o"
+  keep
   compile "$cxx" cc c++17 -O0
-  tried=$((tried + 1))
 done
-test "$tried" -gt 0 || fail "no compiler"
+test "$objects" -gt 0 || fail "no compiler"
 compile "${CC:-cc}" c c99 "-DNSVCD_NO_STDIO -O0"
 compile "${CC:-cc}" c c99 "-DNSVCD_STATIC -Wno-unused-function -O0"
 
 # -fno-pic: else tables of constant pointers count as data, for the loader relocates them.
-for object in "$dir"/c_*.o; do
+for object in "$dir"/kept_*.o; do
   bad=$(nm -g --defined-only "$object" | awk '$3 !~ /^_?nsvcd_[a-z]/ || $3 ~ /^_?nsvcd__/ { print $3 }')
   test -z "$bad" || fail "symbols that are not public ones of ours: $bad"
   bad=$(nm --defined-only "$object" | awk '$2 ~ /^[bBdDcCsSgG]$/ { print $3 }')

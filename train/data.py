@@ -8,6 +8,7 @@ import importlib
 import time
 from dataclasses import dataclass
 from itertools import groupby
+from pathlib import Path
 
 import torch
 from torch import Tensor
@@ -18,8 +19,8 @@ from patches import COUNTS, Patches, furthest_points, make_patches
 from problems import (INTO_FIXED, INTO_MOVING, PAIRS, Problems, Solids, broad_phase, closest, conjugate, interpolate, place, probe,
                       quaternion_log, quaternion_multiply, random_motions, rotate)
 
-GENERAL_N = [512] * 5 + [256] * 6 + [128] * 6 + [64] * 4 + [32] * 3
-HOLLOW_N = [512] * 2 + [256] * 3 + [128] * 2 + [64] * 1
+GENERAL_N = [512] * 7 + [256] * 7 + [128] * 5 + [64] * 3 + [32] * 2
+HOLLOW_N = [512] * 3 + [256] * 3 + [128] * 1 + [64] * 1
 GROUP_N = GENERAL_N + HOLLOW_N
 PER_GROUP = 1024
 PER_PATCH = 32  # points an encoder sees
@@ -222,3 +223,22 @@ def group_patches(data: Dataset, g: int) -> tuple[Tensor, Tensor]:
         ns.append(table.normals[shape].flatten(0, 1))
         body += k
     return torch.cat(us), torch.cat(ns)
+
+
+def cached(path: Path | None, make, log=print) -> Dataset:
+    """make() once for all processes that name the same file: the first writes it, the others wait for it."""
+    if path is None:
+        return make()
+    try:
+        path.with_suffix(".lock").touch(exist_ok=False)
+    except FileExistsError:
+        while not path.exists():
+            time.sleep(1)
+        made = torch.load(path, map_location="cuda" if torch.cuda.is_available() else "cpu", weights_only=False)
+        log(f"read {path}")
+        return made
+    made = make()
+    torch.save(made, path.with_suffix(".part"))
+    path.with_suffix(".part").rename(path)
+    log(f"wrote {path}")
+    return made

@@ -97,6 +97,13 @@ class Encoder(nn.Module):
         return torch.cat([shorten(z1).flatten(-2), shorten(z2).flatten(-2), torch.tanh(scalars)], -1)
 
 
+class NoNormals(Encoder):
+    """Points only, for the ablation."""
+
+    def forward(self, u: Tensor, n: Tensor) -> Tensor:
+        return super().forward(u, torch.zeros_like(n))
+
+
 class FerVn(nn.Module):
     """The published encoder scaled down to a patch (FER-VN-OccNet: lifted features, VN linear layers, magnitude gates,
     residual blocks that see the mean), for the ablation: the header implements Encoder only."""
@@ -201,7 +208,7 @@ class Network(nn.Module):
                  encoder: str = "context"):
         super().__init__()
         self.s, self.options = s, dict(scaling=scaling, roll=roll, canonical=canonical)
-        self.encoder = Encoder(s) if encoder == "context" else FerVn(s)
+        self.encoder = {"context": Encoder, "fervn": FerVn, "no-normals": NoNormals}[encoder](s)
         inputs = 2 * s.latent + FACTS
         self.heads = nn.ModuleDict({name: mlp([inputs, *sizes, 1]) for name, sizes in s.heads})
         # Training only: the distance of the pair, off the last hidden layer.
