@@ -114,10 +114,26 @@ accuracy: build/svcd $(SETS:%=$(DATA)/%.txt)  ## labels the problem sets (minute
 
 # ---------------------------------------------------------------------------------------------------------- training
 
-TRAIN_FLAGS =
-weights:  ## trains anew on a GPU and writes weights.h (train/README.md)
-	cd train && python3 train.py --out ../build/train $(TRAIN_FLAGS)
-	cd train && python3 export.py ../build/train/checkpoint.pt ../weights.h ../tests/data/golden.h
+# The recipe of the shipped weights: train/README.md. CHECKPOINT=file skips the training.
+CHECKPOINT = build/train/checkpoint.pt
+PYTHON ?= python3
+CALIBRATION = build/calibration
+
+build/train/checkpoint.pt:
+	cd train && $(PYTHON) train.py --out ../build/train --groups 2000 --shapes 6000 --seed 11 --steps 60000
+$(CALIBRATION)/standard.txt: build/problems
+	@mkdir -p $(CALIBRATION)
+	build/problems --set standard --meshes procedural --count 8000 --pool 400 --seed 301 --out $@
+$(CALIBRATION)/hollow.txt: build/problems
+	@mkdir -p $(CALIBRATION)
+	build/problems --set hollow --meshes procedural --count 4000 --seed 302 --out $@
+.PRECIOUS: $(CALIBRATION)/%.txt
+
+weights: $(CHECKPOINT) $(CALIBRATION)/standard.txt $(CALIBRATION)/hollow.txt  ## trains anew on a GPU, calibrates, writes weights.h
+	cd train && $(PYTHON) export.py ../$(CHECKPOINT) ../weights.h ../tests/data/golden.h uncalibrated
+	$(MAKE) build/svcd
+	cd train && $(PYTHON) calibrate.py ../$(CHECKPOINT) ../build/svcd $(CALIBRATION:%=../%/standard.txt) $(CALIBRATION:%=../%/hollow.txt)
+	cd train && $(PYTHON) export.py ../$(CHECKPOINT) ../weights.h ../tests/data/golden.h
 
 format:  ## clang-format on what is written by hand
 	clang-format -i neuralsvcd.h examples/*.[ch] tests/*.[ch]

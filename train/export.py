@@ -1,4 +1,6 @@
-"""Checkpoint -> weights.h and the golden vectors of tests/data. Usage: export.py CHECKPOINT WEIGHTS_H GOLDEN_H"""
+"""Checkpoint -> weights.h and the golden vectors of tests/data.
+
+Usage: export.py CHECKPOINT WEIGHTS_H GOLDEN_H [uncalibrated] - the last word leaves all thresholds at zero, for calibrate.py."""
 from __future__ import annotations
 
 import ast
@@ -139,7 +141,10 @@ def write_golden(net: Network, path: Path, patches: int = 24, pairs: int = 96) -
 
 def main() -> None:
     net, saved = load(Path(sys.argv[1]))
-    thresholds = saved.get("thresholds") or [[0.0] * len(RECALLS)] * 3
+    uncalibrated = "uncalibrated" in sys.argv[4:]
+    if not uncalibrated and "thresholds" not in saved:
+        raise SystemExit("run calibrate.py on this checkpoint first, or say uncalibrated")
+    thresholds = [[0.0] * len(RECALLS)] * 3 if uncalibrated else saved["thresholds"]
     write_weights(net, saved, thresholds, Path(sys.argv[2]))
     write_golden(net, Path(sys.argv[3]))
 
