@@ -1173,14 +1173,13 @@ typedef struct nsvcd__head {
 // y = w^T x + bias; w (inputs, outputs), x (inputs), y (outputs), bias may be NULL. y aliases neither.
 static void nsvcd__linear(const float *w, const float *bias, size_t inputs, size_t outputs, const float *x, float *y) {
   for (size_t o = 0; o < outputs; o++) y[o] = bias ? bias[o] : 0;
-  size_t i = 0;
-  for (; i + 4 <= inputs; i += 4) {  // four rows at a time: y is the traffic
-    const float *r0 = w + i * outputs, *r1 = r0 + outputs, *r2 = r1 + outputs, *r3 = r2 + outputs;
-    const float x0 = x[i], x1 = x[i + 1], x2 = x[i + 2], x3 = x[i + 3];
-    for (size_t o = 0; o < outputs; o++) y[o] += (r0[o] * x0 + r1[o] * x1) + (r2[o] * x2 + r3[o] * x3);
+  for (; inputs >= 4; inputs -= 4, w += 4 * outputs, x += 4) {  // four rows at a time: y is the traffic
+    const float *r1 = w + outputs, *r2 = r1 + outputs, *r3 = r2 + outputs;
+    const float x0 = x[0], x1 = x[1], x2 = x[2], x3 = x[3];
+    for (size_t o = 0; o < outputs; o++) y[o] += (w[o] * x0 + r1[o] * x1) + (r2[o] * x2 + r3[o] * x3);
   }
-  for (; i < inputs; i++) {
-    for (size_t o = 0; o < outputs; o++) y[o] += w[i * outputs + o] * x[i];
+  for (; inputs > 0; inputs--, w += outputs, x++) {
+    for (size_t o = 0; o < outputs; o++) y[o] += w[o] * x[0];
   }
 }
 

@@ -26,6 +26,11 @@ def main() -> None:
         q, settled = data.draw_problems(solids, moving, fixed, kind, g)
         torch.cuda.synchronize()
         print(f"draw {time.time() - started:.2f} s, settled {settled.float().mean().item():.3f}", flush=True)
+    touching, settled = problems.place(solids, q, 0.3 * torch.ones(b, 3, device="cuda"), torch.zeros(b, device="cuda"), g)
+    label = problems.closest(solids, touching, g, times=33, per_group=64, keep=6)[2]
+    denser = problems.closest(solids, touching, g, times=33, per_group=64, keep=8, rounds=20)[2]
+    shares = torch.tensor([0.05, 0.5, 0.95], device="cuda")
+    print("labels at contact, denser search minus label, mm, 5 / 50 / 95 %:", (1e3 * torch.quantile((denser - label)[settled], shares)).tolist())
     x = torch.randn(b, 500, 3, generator=g, device="cuda") * 0.1
     t = torch.rand(b, 500, generator=g, device="cuda")
     for kind in (INTO_FIXED, INTO_MOVING, OVERLAP):
