@@ -2262,14 +2262,16 @@ static int nsvcd__is_contained(const nsvcd_body *moving, const nsvcd_body *fixed
 //   axis 2         the velocity across the line, plus a twentieth of the lean (the difference of the patches' mean
 //                  directions, latent channel 0), so that it has a limit where the velocity vanishes
 //   time reversal  time runs so that velocity and lean, across the line, do not oppose each other
-//   mirror         axis 3 points to the side of the lean
+//   mirror         axis 3 points to the side of the lean; where the lean is on neither side, as it is for a pair at
+//                  rest, the frame is right-handed
 // Degenerate cases: centres that coincide (to 1e-5 of r1 + r2) take the lean, else x, as axis 1; a reference that
 // vanishes takes the coordinate axis farthest from axis 1 as axis 2.
 
 #define NSVCD__VECTORS (8 * NSVCD_W_CHANNELS)
 #define NSVCD__FACTS 12
 #define NSVCD__DECODER_IN (2 * NSVCD__LATENT + NSVCD__FACTS)
-#define NSVCD__LEAN 0.05f
+#define NSVCD__LEAN 0.05f  // share of the lean in axis 2
+#define NSVCD__SIDE 1e-4f  // a lean less than this to one side of axes 1 and 2 is on neither
 
 typedef struct nsvcd__pair {
   float p1[3], p2[3];       // centres at mid-interval: of the moving patch, of the fixed one; the fixed body's frame
@@ -2341,7 +2343,7 @@ static int nsvcd__pair_frame(const float *d, const float *lean, float *v, float 
   }
   for (size_t k = 0; k < 3; k++) e2[k] = ref[k] / norm;
   nsvcd__cross3(e1, e2, e3);
-  if (nsvcd__dot3(lean, e3) >= 0) return 0;
+  if (nsvcd__dot3(lean, e3) >= -NSVCD__SIDE) return 0;
   for (size_t k = 0; k < 3; k++) e3[k] = -e3[k];
   return 1;
 }

@@ -713,11 +713,12 @@ static void query_encode_survives_every_failed_allocation(void) {
 // --------------------------------------------------------------------------------------------------------- accuracy
 
 // A regression guard, not the measurement (`make accuracy`): 460 small problems of tests/make_data.py.
-// TODO(lead): bounds, once weights.h is trained. With random weights these hold for anything.
-#define QUERY_LEAST_STANDARD 0.0  // share of right answers
-#define QUERY_LEAST_HOLLOW 0.0
-#define QUERY_LEAST_INSIDE 0.0
-#define QUERY_MOST_MISSES_PER_ALARM 1e9  // and the other way round: balanced errors, over all sets
+// What the project promises on the large sets (`make accuracy`); this file is a small one, so a guard, not the measurement:
+// the shipped weights get 99.0, 99.0 and 100 % here, one error being 0.33, 1 and 1.7 points.
+#define QUERY_LEAST_STANDARD 0.985  // share of right answers
+#define QUERY_LEAST_HOLLOW 0.95
+#define QUERY_LEAST_INSIDE 0.98
+#define QUERY_MOST_MISSES_PER_ALARM 2  // and the other way round: balanced errors, over all sets
 
 #define QUERY_DATA "tests/data/"
 #define QUERY_MAX_MESHES 128

@@ -177,7 +177,7 @@ def invariants(s: Shape, z1: Tensor, z2: Tensor, g: Geometry, scaling: str = "su
     e3 = torch.linalg.cross(e1, e2)
     mirror = torch.ones_like(length)
     if canonical:
-        mirror = torch.where((lean * e3).sum(-1, keepdim=True) < 0, -mirror, mirror)
+        mirror = torch.where((lean * e3).sum(-1, keepdim=True) < -1e-4, -mirror, mirror)  # 1e-4: NSVCD__SIDE
     frame = torch.stack([e1, e2, mirror * e3], -2)  # (..., 3, 3) world -> pair; improper where mirrored
     f1 = frame @ rot
     turned = lambda a, b, m: (a @ m.mT, b @ wigner2(m).mT)
