@@ -120,7 +120,7 @@ PYTHON ?= python3
 CALIBRATION = build/calibration
 
 build/train/checkpoint.pt:
-	cd train && $(PYTHON) train.py --out ../build/train --groups 2000 --shapes 6000 --seed 11 --steps 60000
+	cd train && $(PYTHON) train.py --out ../build/train --groups 2000 --shapes 6000 --seed 11 --steps 51574
 $(CALIBRATION)/standard.txt: build/problems
 	@mkdir -p $(CALIBRATION)
 	build/problems --set standard --meshes procedural --count 8000 --pool 400 --seed 301 --out $@

@@ -32,8 +32,9 @@
 // CONVENTIONS
 //   Metres, radians, right-handed; quaternions x y z w of unit length; time in [0,1]; arrays row-major with their shape
 //   beside the pointer. Meshes are triangles, counter-clockwise seen from outside: the winding gives the normals, and
-//   flipping it costs accuracy. Options are structs whose zero value means the defaults. Functions are re-entrant, there
-//   are no globals, and memory is the caller's, or comes from the caller's allocator in the two functions that take one.
+//   flipping it costs accuracy. Options are structs whose zero value means the defaults. Functions are re-entrant,
+//   there are no globals, and memory is the caller's, or comes from the caller's allocator in the two functions that
+//   take one.
 //
 // WHAT AN ANSWER IS WORTH
 //   CERTIFIED_FREE is a proof: covering spheres that never meet, whatever the motion between its samples. Everything
@@ -132,10 +133,10 @@ typedef struct nsvcd_encode_options {
 // Bytes of a body of `points` points; 0 if there can be no such body.
 NSVCDDEF size_t nsvcd_body_size(size_t points);
 
-// Encodes a mesh into `memory` (nsvcd_body_size(N) bytes are enough, aligned to NSVCD_ALIGNMENT) and points *body there.
-// options: NULL for the defaults. The body may have fewer points than asked where the surface has too few to tell
-// apart. Working memory comes from the allocator and is given back. Deterministic: same mesh, same bytes, in one build.
-// Errors: ARGUMENT, NUMBER, INDEX, EMPTY, TOO_LARGE, MEMORY, WORKSPACE. Source: NeuralSVCD, appendix F.
+// Encodes a mesh into `memory` (nsvcd_body_size(N) bytes are enough, aligned to NSVCD_ALIGNMENT) and points *body
+// there. options: NULL for the defaults. The body may have fewer points than asked where the surface has too few to
+// tell apart. Working memory comes from the allocator and is given back. Deterministic: same mesh, same bytes, in one
+// build. Errors: ARGUMENT, NUMBER, INDEX, EMPTY, TOO_LARGE, MEMORY, WORKSPACE. Source: NeuralSVCD, appendix F.
 NSVCDDEF nsvcd_result nsvcd_encode(const nsvcd_mesh *mesh, const nsvcd_encode_options *options,
                                    const nsvcd_allocator *allocator, void *memory, size_t capacity,
                                    const nsvcd_body **body);
@@ -190,7 +191,7 @@ typedef struct nsvcd_sweep_options {
   size_t pairs;               // K, pairs of patches that the network looks at, 1..NSVCD_MAX_PAIRS; 0: the default
   nsvcd_model model;          // 0: base
   nsvcd_precision precision;  // of the decoder's arithmetic; latents are int8 in any case
-  float recall;               // share of collisions to be found: 0 (balanced errors), 0.99f, 0.999f or 0.9999f, as calibrated
+  float recall;  // share of collisions to be found: 0 (balanced errors), 0.99f, 0.999f or 0.9999f, as calibrated
 } nsvcd_sweep_options;
 
 typedef struct nsvcd_answer {
@@ -201,7 +202,7 @@ typedef struct nsvcd_answer {
   uint32_t moving_patch;  // the pair; 0, 0 where there is none
   uint32_t fixed_patch;
   nsvcd_status status;
-  size_t overlapping;     // pairs of patches whose spheres meet, each counted once per stretch of time
+  size_t overlapping;  // pairs of patches whose spheres meet, each counted once per stretch of time
 } nsvcd_answer;
 
 // Does the moving body, along `count` poses uniform in t in [0,1] (position linear and rotation slerp in between), hit
@@ -1164,8 +1165,8 @@ typedef struct nsvcd__head {
 // Weights are stored (input, output): a layer is then a sum of rows, which compilers vectorise.
 
 #define NSVCD__LATENT (8 * NSVCD_W_CHANNELS + NSVCD_W_SCALARS)
-#define NSVCD__WIDE (NSVCD_W_POOLED + NSVCD_W_CONTEXT)          // channels after pooling
-#define NSVCD__INVARIANTS (2 + 5 * NSVCD_W_CONTEXT)             // per point
+#define NSVCD__WIDE (NSVCD_W_POOLED + NSVCD_W_CONTEXT)  // channels after pooling
+#define NSVCD__INVARIANTS (2 + 5 * NSVCD_W_CONTEXT)     // per point
 #define NSVCD__GATES (5 * NSVCD_W_POOLED + NSVCD_W_POOLED_SCALARS)
 #define NSVCD__PATCH_IN (2 * NSVCD__WIDE + NSVCD_W_POOLED_SCALARS)
 #define NSVCD__PATCH_OUT (2 * NSVCD_W_HIDDEN + NSVCD_W_SCALARS)
@@ -1300,7 +1301,8 @@ static void nsvcd__encode_patch(const float *points, const float *normals, size_
     const float *gnn = gun + NSVCD_W_POOLED, *gs = gnn + NSVCD_W_POOLED;
     for (size_t c = 0; c < NSVCD_W_POOLED; c++) {
       for (size_t k = 0; k < 3; k++) a1[3 * c + k] += (gu[c] * f.u[k] + gn[c] * f.n[k]) * share;
-      for (size_t k = 0; k < 5; k++) a2[5 * c + k] += (guu[c] * f.quu[k] + gun[c] * f.qun[k] + gnn[c] * f.qnn[k]) * share;
+      for (size_t k = 0; k < 5; k++)
+        a2[5 * c + k] += (guu[c] * f.quu[k] + gun[c] * f.qun[k] + gnn[c] * f.qnn[k]) * share;
     }
     for (size_t c = 0; c < NSVCD_W_POOLED_SCALARS; c++) scalars[c] += gs[c] * share;
   }
@@ -1359,22 +1361,22 @@ static void nsvcd__rotate_latent(const float *r, const float *latent, float *tur
 //   latents        (N, NSVCD__LATENT) int8, free of scale
 //   zeros up to a multiple of NSVCD_ALIGNMENT
 
-#define NSVCD__GROUP 8            // patches per group, and lanes per vector
-#define NSVCD__NOWHERE (-1e15f)   // radius of padding: meets nothing, and its square is still finite
-#define NSVCD__MAX_LENGTH 1.6e7f  // metres, over every radius and distance that coordinates within bounds can give
+#define NSVCD__GROUP 8                 // patches per group, and lanes per vector
+#define NSVCD__NOWHERE (-1e15f)        // radius of padding: meets nothing, and its square is still finite
+#define NSVCD__MAX_LENGTH 1.6e7f       // metres, over every radius and distance that coordinates within bounds can give
 #define NSVCD__BODY_MAGIC 0x4256534eu  // "NSVB"
 #define NSVCD__BODY_VERSION 1u
 
 struct nsvcd_body {
   uint32_t magic, version;
-  uint64_t checksum;          // over everything that follows
-  uint32_t size;              // bytes, the whole blob
-  uint32_t weights_id;        // of the weights that made the latents
-  uint32_t points;            // N
-  uint32_t padded;            // P
-  float centre[3], radius;    // bounding sphere
-  float extent;               // max |p_i| + r_i: no part is farther from the body's origin
-  uint32_t reserved[3];       // zero; room for the triangles that exact verification will need
+  uint64_t checksum;        // over everything that follows
+  uint32_t size;            // bytes, the whole blob
+  uint32_t weights_id;      // of the weights that made the latents
+  uint32_t points;          // N
+  uint32_t padded;          // P
+  float centre[3], radius;  // bounding sphere
+  float extent;             // max |p_i| + r_i: no part is farther from the body's origin
+  uint32_t reserved[3];     // zero; room for the triangles that exact verification will need
 };
 
 static size_t nsvcd__round_up(size_t n, size_t multiple) { return (n + multiple - 1) / multiple * multiple; }
@@ -1810,10 +1812,10 @@ static void nsvcd__rotation_vector(const float *from, const float *to, float *w)
 #ifndef NSVCD__SEGMENTS
 #define NSVCD__SEGMENTS 16  // as long as no segment then turns by more than NSVCD__SEGMENT_TURN
 #endif
-#define NSVCD__MAX_SEGMENTS 64       // reached at 1280 degrees; beyond, segments turn more: still proven, only looser
-#define NSVCD__SEGMENT_TURN 0.349f   // radians, 20 degrees
-#define NSVCD__FINE_TURN 0.131f      // radians, 7.5 degrees: nothing is gained by shorter segments
-#define NSVCD__RUN_TURN 0.785f       // radians, 45 degrees: a run is cut before it turns more, for the decoder's twist
+#define NSVCD__MAX_SEGMENTS 64      // reached at 1280 degrees; beyond, segments turn more: still proven, only looser
+#define NSVCD__SEGMENT_TURN 0.349f  // radians, 20 degrees
+#define NSVCD__FINE_TURN 0.131f     // radians, 7.5 degrees: nothing is gained by shorter segments
+#define NSVCD__RUN_TURN 0.785f      // radians, 45 degrees: a run is cut before it turns more, for the decoder's twist
 #define NSVCD__LANES NSVCD__GROUP
 #define NSVCD__BLOCKS (NSVCD__MAX_SEGMENTS / NSVCD__LANES)
 // Of the lengths that go into a difference of places: about 15 float operations of 6e-8 each, doubled.
@@ -1838,12 +1840,12 @@ typedef struct nsvcd__segments {
 } nsvcd__segments;
 
 typedef struct nsvcd__workspace {
-  size_t segments;                                    // S
-  float turn[NSVCD__MAX_SEGMENTS + 1];                // rotation arc from t = 0 to the start of each segment, radians
-  nsvcd__segments blocks[NSVCD__BLOCKS];              // (S / 8 rounded up)
-  nsvcd__chords body[NSVCD__BLOCKS];                  // the moving body's sphere over all segments
-  nsvcd__chords group[NSVCD__BLOCKS];                 // a moving group's
-  nsvcd__chords members[NSVCD__MAX_SEGMENTS];         // its 8 members', per segment
+  size_t segments;                                      // S
+  float turn[NSVCD__MAX_SEGMENTS + 1];                  // rotation arc from t = 0 to the start of each segment, radians
+  nsvcd__segments blocks[NSVCD__BLOCKS];                // (S / 8 rounded up)
+  nsvcd__chords body[NSVCD__BLOCKS];                    // the moving body's sphere over all segments
+  nsvcd__chords group[NSVCD__BLOCKS];                   // a moving group's
+  nsvcd__chords members[NSVCD__MAX_SEGMENTS];           // its 8 members', per segment
   uint64_t near_body[NSVCD_MAX_POINTS / NSVCD__GROUP];  // (groups of the fixed body) segments in which the body is near
   uint64_t near_group[NSVCD_MAX_POINTS / NSVCD__GROUP];
 } nsvcd__workspace;
@@ -2015,7 +2017,7 @@ static uint64_t nsvcd__meet_in(const nsvcd__chords *chords, uint64_t wanted, flo
 typedef struct nsvcd__candidates {
   nsvcd__candidate *items;  // (limit), the caller's
   size_t limit, count;
-  size_t total;             // runs found, kept or not; 0: certified free
+  size_t total;  // runs found, kept or not; 0: certified free
 } nsvcd__candidates;
 
 // A total order, so that ties do not depend on the order in which runs were found.
@@ -2097,7 +2099,7 @@ static int nsvcd__run_extend(nsvcd__run *run, const nsvcd__workspace *work, size
 static void nsvcd__run_close(nsvcd__run *run, size_t segments, size_t moving, size_t fixed, float radii,
                              nsvcd__candidates *kept) {
   const float count = (float)segments;
-  const nsvcd__candidate candidate = {(uint16_t)moving,    (uint16_t)fixed,    run->enter / count,
+  const nsvcd__candidate candidate = {(uint16_t)moving,   (uint16_t)fixed,    run->enter / count,
                                       run->leave / count, run->least / count, nsvcd__depth(radii, sqrtf(run->square))};
   nsvcd__candidates_add(kept, &candidate);
   run->open = 0, run->next = NSVCD__MAX_SEGMENTS;
@@ -2163,8 +2165,7 @@ static void nsvcd__group_against_body(nsvcd__workspace *work, const nsvcd_body *
 
 // Finds all runs, keeps the `limit` deepest in `items`, deepest first, and counts them all. Allocates nothing.
 static void nsvcd__broad_phase(const nsvcd_body *moving, const nsvcd_body *fixed, const nsvcd__motion *motion,
-                               nsvcd__workspace *work, nsvcd__candidate *items, size_t limit,
-                               nsvcd__candidates *kept) {
+                               nsvcd__workspace *work, nsvcd__candidate *items, size_t limit, nsvcd__candidates *kept) {
   kept->items = items, kept->limit = limit, kept->count = 0, kept->total = 0;
   nsvcd__cut_motion(motion, moving->extent + fixed->extent, work);
   size_t blocks = nsvcd__round_up(work->segments, NSVCD__LANES) / NSVCD__LANES, groups = nsvcd__body_groups(fixed);
@@ -2274,12 +2275,12 @@ static int nsvcd__is_contained(const nsvcd_body *moving, const nsvcd_body *fixed
 #define NSVCD__SIDE 1e-4f  // a lean less than this to one side of axes 1 and 2 is on neither
 
 typedef struct nsvcd__pair {
-  float p1[3], p2[3];       // centres at mid-interval: of the moving patch, of the fixed one; the fixed body's frame
-  float r1, r2;             // metres
-  float rotation[9];        // of the moving body at mid-interval
-  float v[3];               // half displacement of the point midway between p1 and p2, as part of the moving body
-  float w[3];               // half rotation vector
-  const int8_t *z1, *z2;    // latents, body frames
+  float p1[3], p2[3];     // centres at mid-interval: of the moving patch, of the fixed one; the fixed body's frame
+  float r1, r2;           // metres
+  float rotation[9];      // of the moving body at mid-interval
+  float v[3];             // half displacement of the point midway between p1 and p2, as part of the moving body
+  float w[3];             // half rotation vector
+  const int8_t *z1, *z2;  // latents, body frames
 } nsvcd__pair;
 
 static void nsvcd__pair_of(const nsvcd_body *moving, const nsvcd_body *fixed, const nsvcd__motion *motion,
@@ -2478,24 +2479,30 @@ NSVCDDEF nsvcd_result nsvcd_encode(const nsvcd_mesh *mesh, const nsvcd_encode_op
 }
 
 NSVCDDEF nsvcd_body_facts nsvcd_body_describe(const nsvcd_body *body) {
-  nsvcd_body_facts facts = {body->size, body->points, {body->centre[0], body->centre[1], body->centre[2]}, body->radius, 0};
+  nsvcd_body_facts facts = {
+      body->size, body->points, {body->centre[0], body->centre[1], body->centre[2]}, body->radius, 0};
   for (size_t i = 0; i < body->points; i++) facts.mean_patch_radius += nsvcd__body_r(body)[i] / (float)body->points;
   return facts;
 }
 
 NSVCDDEF int nsvcd_body_patch(const nsvcd_body *body, uint32_t patch, float centre[3], float *radius) {
   if (!body || patch >= body->points) return 0;
-  centre[0] = nsvcd__body_x(body)[patch], centre[1] = nsvcd__body_y(body)[patch], centre[2] = nsvcd__body_z(body)[patch];
+  centre[0] = nsvcd__body_x(body)[patch], centre[1] = nsvcd__body_y(body)[patch],
+  centre[2] = nsvcd__body_z(body)[patch];
   *radius = nsvcd__body_r(body)[patch];
   return 1;
 }
 
 NSVCDDEF const char *nsvcd_status_string(nsvcd_status status) {
   switch (status) {
-    case NSVCD_STATUS_OK: return "ok";
-    case NSVCD_STATUS_CERTIFIED_FREE: return "certified-free";
-    case NSVCD_STATUS_INSIDE: return "inside";
-    case NSVCD_STATUS_LIMIT: return "limit";
+    case NSVCD_STATUS_OK:
+      return "ok";
+    case NSVCD_STATUS_CERTIFIED_FREE:
+      return "certified-free";
+    case NSVCD_STATUS_INSIDE:
+      return "inside";
+    case NSVCD_STATUS_LIMIT:
+      return "limit";
   }
   return "unknown status";
 }
@@ -2572,7 +2579,8 @@ NSVCDDEF nsvcd_result nsvcd_sweep(const nsvcd_body *moving, const nsvcd_pose *po
                                   const nsvcd_sweep_options *options, void *workspace, size_t workspace_size,
                                   nsvcd_answer *answer) {
   if (!moving || !fixed || !answer) return NSVCD_ERROR_ARGUMENT;
-  if (!workspace || workspace_size < sizeof(nsvcd__query) || !nsvcd__is_aligned(workspace)) return NSVCD_ERROR_WORKSPACE;
+  if (!workspace || workspace_size < sizeof(nsvcd__query) || !nsvcd__is_aligned(workspace))
+    return NSVCD_ERROR_WORKSPACE;
   nsvcd__settings settings;
   nsvcd_result result = nsvcd__settings_of(options, &settings);
   if (result) return result;
@@ -2617,8 +2625,8 @@ NSVCDDEF nsvcd_result nsvcd_sweep(const nsvcd_body *moving, const nsvcd_pose *po
 //
 // Permission is hereby granted, free of charge, to any person obtaining a copy of this software and associated
 // documentation files (the "Software"), to deal in the Software without restriction, including without limitation the
-// rights to use, copy, modify, merge, publish, distribute, sublicense, and/or sell copies of the Software, and to permit
-// persons to whom the Software is furnished to do so, subject to the following conditions:
+// rights to use, copy, modify, merge, publish, distribute, sublicense, and/or sell copies of the Software, and to
+// permit persons to whom the Software is furnished to do so, subject to the following conditions:
 //
 // The above copyright notice and this permission notice shall be included in all copies or substantial portions of the
 // Software.
