@@ -32,6 +32,12 @@ grep -q 'carried high -> clears' "$dir/out" || fail "the mug carried high clears
 tail -1 build/demo.svg | grep -q '^</svg>$' || fail "build/demo.svg is not whole"
 if command -v xmllint >/dev/null; then xmllint --noout build/demo.svg || fail "build/demo.svg is not XML"; fi
 
+# The program in README, as it stands there, as C and C++.
+sed -n '/^```c$/,/^```$/p' README.md | sed '/^```/d' >"$dir/readme.c"
+test -s "$dir/readme.c" || fail "README has no program"
+"${CC:-cc}" -std=c99 -I. "$dir/readme.c" -o "$dir/readme" -lm && "$dir/readme" >"$dir/out" || fail "the program in README"
+grep -q '^hit, ' "$dir/out" || fail "the program in README says: $(cat "$dir/out")"
+
 # svcd encode, info.
 expect 0 '' build/svcd encode examples/assets/mug.obj "$dir/mug.body"
 expect 0 '' build/svcd info "$dir/mug.body"
