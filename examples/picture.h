@@ -262,7 +262,11 @@ static void picture_captions(FILE *svg, const picture_panel *panel) {
           PICTURE_WIDTH);
   fprintf(svg, "<text x=\"24\" y=\"%d\" font-size=\"15\" fill=\"#4a5564\">", PICTURE_HEIGHT - 17);
   if (a->collides) fprintf(svg, "at t = %.2f of the way, ", (double)a->time);
-  fprintf(svg, "logit %+.1f, answered in %.0f µs</text>\n", (double)a->logit, panel->microseconds);
+  if (a->status == NSVCD_STATUS_CERTIFIED_FREE)
+    fprintf(svg, "certified free: no covering spheres meet");
+  else
+    fprintf(svg, "logit %+.1f", (double)a->logit);
+  fprintf(svg, ", answered in %.0f µs</text>\n", panel->microseconds);
 }
 
 static void picture_legend(FILE *svg, int x, int y) {
