@@ -37,15 +37,18 @@
 //   take one.
 //
 // WHAT AN ANSWER IS WORTH
-//   CERTIFIED_FREE is a proof: covering spheres that never meet, whatever the motion between its samples. Everything
-//   else but INSIDE is the opinion of a network: README.md has its measured error rates, by distance from contact.
-//   Nearly all errors are contacts or gaps of less than a few millimetres on bodies of 0.1 to 0.4 m (results scale with
-//   the bodies). For proof, check what matters with an exact method.
+//   CERTIFIED_FREE is a proof that the surfaces never meet: spheres that cover them never do, whatever the motion does
+//   between its samples. So the bodies are free unless one starts inside the other. INSIDE is an estimate, a winding
+//   number of patches: reliable for closed meshes, meaningless for open ones (a body in an open box may count as
+//   inside) or where faces are listed twice. Everything else is the opinion of a network: README.md has its measured
+//   error rates, by distance from contact. Nearly all errors are contacts or gaps of less than a few millimetres on
+//   bodies of 0.1 to 0.4 m (results scale with the bodies). For proof, check what matters with an exact method.
 //
 // NUMERIC ROBUSTNESS (float32)
-//   Coordinates up to NSVCD_MAX_COORDINATE. Positions are taken relative to the fixed body first, so a scene 10 km from
-//   the origin loses what its own coordinates lose: about 1 mm. Bodies from micrometres to kilometres: tested in
-//   tests/test_broad_phase.c for the broad phase. NaN and infinity are refused on the bits, also under -ffast-math.
+//   Coordinates up to NSVCD_MAX_COORDINATE; bodies from NSVCD_MIN_RADIUS, below which squares underflow. Positions are
+//   taken relative to the fixed body first, so a scene 10 km from the origin loses what its own coordinates lose: about
+//   1 mm. Bodies from micrometres to kilometres: tested in tests/test_broad_phase.c for the broad phase. NaN and
+//   infinity are refused on the bits, also under -ffast-math.
 #ifndef NEURALSVCD_H
 #define NEURALSVCD_H
 
@@ -111,6 +114,7 @@ NSVCDDEF nsvcd_result nsvcd_obj_load(const char *path, const nsvcd_allocator *al
                                      size_t *error_line);
 #endif
 #endif
+// Gives back what nsvcd_obj_parse or nsvcd_obj_load allocated; the same allocator. NULL is allowed.
 NSVCDDEF void nsvcd_mesh_free(nsvcd_mesh *mesh, const nsvcd_allocator *allocator);
 
 // ------------------------------------------------------------------------------------------------------ bodies
@@ -123,6 +127,7 @@ typedef struct nsvcd_body nsvcd_body;
 #define NSVCD_DEFAULT_POINTS 512
 #define NSVCD_MAX_POINTS 512       // representative points per body
 #define NSVCD_MAX_COORDINATE 1e6f  // metres
+#define NSVCD_MIN_RADIUS 1e-12f    // metres, of a body's bounding sphere
 #define NSVCD_MAX_POSES 65536      // per motion
 
 typedef struct nsvcd_encode_options {
@@ -145,7 +150,8 @@ NSVCDDEF nsvcd_result nsvcd_encode(const nsvcd_mesh *mesh, const nsvcd_encode_op
 NSVCDDEF nsvcd_result nsvcd_body_load(const void *memory, size_t size, const nsvcd_body **body);
 
 // Writes a copy of `body` scaled by `scale` > 0 about its origin (in place is allowed). Latents are scale-free, so this
-// is exact and takes microseconds.
+// takes microseconds and the answers scale along, to rounding. Errors: ARGUMENT, also where the result would be smaller
+// or larger than a body may be; WORKSPACE.
 NSVCDDEF nsvcd_result nsvcd_body_scale(const nsvcd_body *body, float scale, void *memory, size_t capacity,
                                        const nsvcd_body **scaled);
 
@@ -157,9 +163,11 @@ typedef struct nsvcd_body_facts {
   float mean_patch_radius;  // metres
 } nsvcd_body_facts;
 
+// `body` must not be NULL.
 NSVCDDEF nsvcd_body_facts nsvcd_body_describe(const nsvcd_body *body);
 
-// Centre and radius of one patch (as in nsvcd_answer), metres, body frame. 0 if there is no such patch.
+// Centre and radius of one patch (as in nsvcd_answer), metres, body frame; neither may be NULL. Returns 0, and
+// writes nothing, if there is no such patch.
 NSVCDDEF int nsvcd_body_patch(const nsvcd_body *body, uint32_t patch, float centre[3], float *radius);
 
 // ----------------------------------------------------------------------------------------------------- queries
@@ -171,8 +179,8 @@ typedef struct nsvcd_pose {
 
 typedef enum nsvcd_status {
   NSVCD_STATUS_OK = 0,          // the network has answered
-  NSVCD_STATUS_CERTIFIED_FREE,  // no two covering spheres ever meet: free, proven
-  NSVCD_STATUS_INSIDE,          // one body lies inside the other at the start
+  NSVCD_STATUS_CERTIFIED_FREE,  // no two covering spheres ever meet: the surfaces stay apart, proven
+  NSVCD_STATUS_INSIDE,          // one body seems to lie inside the other at the start, by winding number
   NSVCD_STATUS_LIMIT            // the network has answered, but more pairs overlapped than options.pairs let through
 } nsvcd_status;
 
@@ -676,7 +684,6 @@ NSVCDDEF nsvcd_result nsvcd_obj_parse(const char *text, size_t size, const nsvcd
 }
 
 #ifndef NSVCD_NO_STDIO
-#include <stdio.h>
 
 // The whole file into *text; no fseek, so that pipes work and a directory is an error.
 static nsvcd_result nsvcd__read_file(FILE *file, const nsvcd_allocator *allocator, char **text, size_t *size) {
@@ -1049,7 +1056,14 @@ static double nsvcd__piece_limit(const nsvcd__patches *p, const nsvcd_mesh *mesh
   for (size_t i = 0; i < p->count; ++i) limit += (double)p->sample_radii[i] / (double)p->count;
   limit *= NSVCD__PIECE_SIZE;
   if (!(limit > 0)) return HUGE_VAL;  // all samples of each patch coincide: nothing to go by
-  for (;; limit *= 2) {
+  // A triangle makes at least as many pieces as its longest edge has limits: no need to start below that.
+  double longest = 0;
+  for (size_t t = 0; t < mesh->triangle_count; ++t) {
+    double c[3][3];
+    nsvcd__triangle(mesh, t, c);
+    for (int k = 0; k < 3; ++k) longest = fmax(longest, nsvcd__squared_edge(c[k], c[(k + 1) % 3]));
+  }
+  for (limit = fmax(limit, sqrt(longest) / most);; limit *= 2) {
     double pieces = 0;
     for (size_t t = 0; t < mesh->triangle_count && pieces <= most; ++t) {
       double c[3][3];
@@ -1097,7 +1111,8 @@ static void nsvcd__cover(nsvcd__patches *p, const nsvcd_mesh *mesh) {
   }
   for (size_t i = 0; i < p->count; ++i) {
     const nsvcd__patch_sum *sum = &p->sums[i];
-    p->radii[i] = sum->reach > 0 ? nsvcd__radius_above(sum->reach) : p->sample_radii[i];
+    // A patch may own samples but, its border being finer, only some small piece: its ball holds both.
+    p->radii[i] = fmaxf(nsvcd__radius_above(sum->reach), p->sample_radii[i]);
     p->areas[i] = (float)sum->weight;
     for (size_t k = 0; k < 3; ++k) p->area_vectors[3 * i + k] = (float)sum->vector[k];
   }
@@ -1449,8 +1464,8 @@ static float nsvcd__reach_of_spheres(size_t count, const float *x, const float *
   float reach = 0;
   for (size_t i = 0; i < count; i++) {
     float d[3] = {x[i] - centre[0], y[i] - centre[1], z[i] - centre[2]};
-    float far = nsvcd__length3(d) + r[i];
-    if (far > reach) reach = far, *farthest = i;
+    float end = nsvcd__length3(d) + r[i];
+    if (end > reach) reach = end, *farthest = i;
   }
   return reach;
 }
@@ -1544,6 +1559,7 @@ static nsvcd_result nsvcd__body_build(size_t points, const float *centres, const
   }
   for (size_t i = points; i < b->padded; i++) r[i] = NSVCD__NOWHERE;
   nsvcd__body_finish(b);
+  if (b->radius < NSVCD_MIN_RADIUS) return NSVCD_ERROR_NUMBER;
   *body = b;
   return NSVCD_OK;
 }
@@ -1580,7 +1596,7 @@ static int nsvcd__body_is_sound(const nsvcd_body *body) {
   if (!nsvcd__all_within(gr, groups, NSVCD__MAX_LENGTH) || !nsvcd__all_within(gr, slots, -NSVCD__NOWHERE)) return 0;
   if (!nsvcd__all_within(body->centre, 3, NSVCD__MAX_LENGTH)) return 0;
   if (!nsvcd__all_within(&body->radius, 1, NSVCD__MAX_LENGTH)) return 0;
-  if (!nsvcd__all_within(&body->extent, 1, NSVCD__MAX_LENGTH)) return 0;
+  if (!nsvcd__all_within(&body->extent, 1, NSVCD__MAX_LENGTH) || body->radius < NSVCD_MIN_RADIUS) return 0;
   if (!nsvcd__all_within(nsvcd__body_areas(body), 3 * points, NSVCD__MAX_LENGTH * NSVCD__MAX_LENGTH)) return 0;
   for (size_t i = 0; i < points; i++) {
     if (r[i] < 0) return 0;
@@ -1614,9 +1630,13 @@ NSVCDDEF nsvcd_result nsvcd_body_scale(const nsvcd_body *body, float scale, void
                                        const nsvcd_body **scaled) {
   if (!body || !memory || !scaled || !nsvcd__is_finite(scale) || scale <= 0) return NSVCD_ERROR_ARGUMENT;
   if (capacity < body->size || !nsvcd__is_aligned(memory)) return NSVCD_ERROR_WORKSPACE;
-  // In double, for the products may overflow a float. The extent bounds every coordinate and radius.
-  if ((double)body->extent * (double)scale > (double)NSVCD_MAX_COORDINATE) return NSVCD_ERROR_ARGUMENT;
-  const double cap = (double)NSVCD__MAX_LENGTH / (double)scale;
+  // In double, for the products may overflow a float. The limits are those of nsvcd_body_load.
+  if ((double)body->radius * (double)scale < (double)NSVCD_MIN_RADIUS) return NSVCD_ERROR_ARGUMENT;
+  const double cap = (double)NSVCD__MAX_LENGTH / (double)scale, most = (double)NSVCD_MAX_COORDINATE / (double)scale;
+  for (size_t i = 0; i < 3 * (size_t)body->padded; i++) {
+    if (fabs((double)nsvcd__body_x(body)[i]) > most) return NSVCD_ERROR_ARGUMENT;
+  }
+  if (2 * (double)body->extent > cap) return NSVCD_ERROR_ARGUMENT;  // over every radius and centre of a group
   for (size_t i = 0; i < 3 * (size_t)body->points; i++) {
     if (fabs((double)nsvcd__body_areas(body)[i]) > cap * cap) return NSVCD_ERROR_ARGUMENT;
   }
@@ -2239,7 +2259,7 @@ static int nsvcd__is_inside(const nsvcd_body *inner, const nsvcd_body *outer, co
     if (clearance > most) most = clearance, memcpy(best, place, sizeof best);
   }
   if (most < NSVCD__CLEARANCE * NSVCD__CLEARANCE) return 0;
-  return nsvcd__winding_number(outer, best) > 0.5f;
+  return fabsf(nsvcd__winding_number(outer, best)) > 0.5f;  // -1 where the mesh is inside out
 }
 
 // 1 if one body lies inside the other, whichever, when the moving one is at (rotation, position) in the fixed frame.
@@ -2387,11 +2407,11 @@ static void nsvcd__invariants(const nsvcd__pair *pair, float *x) {
   nsvcd__latent_in(pair->z1, frame1, k1, swap ? second : first, scalars + (swap ? NSVCD_W_SCALARS : 0));
   nsvcd__latent_in(pair->z2, frame, k2, swap ? first : second, scalars + (swap ? 0 : NSVCD_W_SCALARS));
 
-  float *facts = scalars + 2 * NSVCD_W_SCALARS, speed2 = nsvcd__dot3(v, v), near[3], turn[3];
+  float *facts = scalars + 2 * NSVCD_W_SCALARS, speed2 = nsvcd__dot3(v, v), closest[3], turn[3];
   float tau = nsvcd__dot3(d, v) / (speed2 + 1e-6f);  // nearest approach of the centres, in half intervals
   tau = tau < -1 ? -1 : tau > 1 ? 1 : tau;
-  for (size_t k = 0; k < 3; k++) near[k] = d[k] - tau * v[k];
-  facts[0] = nsvcd__length3(d), facts[1] = k1 > k2 ? k1 : k2, facts[2] = nsvcd__length3(near), facts[3] = tau;
+  for (size_t k = 0; k < 3; k++) closest[k] = d[k] - tau * v[k];
+  facts[0] = nsvcd__length3(d), facts[1] = k1 > k2 ? k1 : k2, facts[2] = nsvcd__length3(closest), facts[3] = tau;
   nsvcd__mul33_vec(frame, v, facts + 4);
   nsvcd__mul33_vec(frame, w, turn);
   for (size_t k = 0; k < 3; k++) facts[7 + k] = mirrored ? -turn[k] : turn[k];  // an axial vector
@@ -2445,6 +2465,7 @@ NSVCDDEF nsvcd_result nsvcd_encode(const nsvcd_mesh *mesh, const nsvcd_encode_op
                                    const nsvcd_allocator *allocator, void *memory, size_t capacity,
                                    const nsvcd_body **body) {
   if (!memory || !body) return NSVCD_ERROR_ARGUMENT;
+  if (!nsvcd__is_aligned(memory)) return NSVCD_ERROR_WORKSPACE;
   nsvcd_result result = nsvcd__mesh_check(mesh);
   if (result) return result;
   size_t points = options ? options->points : 0;
@@ -2520,8 +2541,9 @@ NSVCDDEF size_t nsvcd_sweep_workspace_size(void) { return sizeof(nsvcd__query); 
 
 // The threshold to subtract from the logit: weights.h has one per head and recall. Returns 0 for any other recall.
 static int nsvcd__threshold(size_t model, float recall, float *threshold) {
+  if (!nsvcd__is_finite(recall)) return 0;
   for (size_t k = 0; k < NSVCD_W_RECALLS; k++) {
-    if (!(recall >= nsvcd_w_recall[k] && recall <= nsvcd_w_recall[k])) continue;  // NaN is refused as well
+    if (recall < nsvcd_w_recall[k] || recall > nsvcd_w_recall[k]) continue;
     *threshold = nsvcd_w_threshold[model][k];
     return 1;
   }

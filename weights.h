@@ -21,8 +21,8 @@
 static const float nsvcd_w_recall[NSVCD_W_RECALLS] = {0.0f, 0.99f, 0.999f, 0.9999f};
 static const float nsvcd_w_threshold[3][NSVCD_W_RECALLS] = {
     {-0.1109037f, -0.4533585f, -2.413659f, -3.515198f},
-    {0.4007605f, 0.422766f, -1.713066f, -2.568883f},
-    {0.5228714f, 0.8241382f, -1.555411f, -2.74316f},
+    {0.4007605f, 0.4007605f, -1.713066f, -2.568883f},
+    {0.5228714f, 0.5228714f, -1.555411f, -2.74316f},
 };
 
 static const float nsvcd_w_context1[24] = {

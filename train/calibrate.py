@@ -2,7 +2,7 @@
 
 Usage: calibrate.py CHECKPOINT SVCD PROBLEMS... - runs `svcd check` (built with thresholds of zero) for each head at the
 default N and K, and writes into the checkpoint: the threshold at which misses and false alarms are equally frequent,
-and those that keep 99, 99.9 and 99.99 % of the collisions. Certified and inside answers are not the network's to move.
+and those that keep at least 99, 99.9 and 99.99 % of the collisions. Certified and inside answers are not the network's to move.
 """
 from __future__ import annotations
 
@@ -37,7 +37,8 @@ def thresholds(logits: list[float], labels: list[int]) -> list[float]:
         return abs(sum(v <= t for v in hit) / len(hit) - sum(v > t for v in free) / len(free))
     coarse = grid[:: max(1, len(grid) // 400)]
     balanced = min(coarse, key=gap)
-    return [balanced] + [hit[min(len(hit) - 1, math.floor((1 - r) * len(hit)))] - 1e-4 for r in RECALLS[1:]]
+    # A recall asked for must not find less than the default does.
+    return [balanced] + [min(balanced, hit[min(len(hit) - 1, math.floor((1 - r) * len(hit)))] - 1e-4) for r in RECALLS[1:]]
 
 
 def main() -> None:
