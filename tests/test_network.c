@@ -63,9 +63,30 @@ static void heads_match_the_trainer(void) {
     nsvcd__invariants(&pair, x);
     for (size_t h = 0; h < 3; h++) {
       float expected = golden_pair[GOLDEN_ROW * n + 18 + h];
-      CHECK_NEAR(nsvcd__head_logit(&nsvcd_w_heads[h], x), expected, 1e-4 * fmax(1, fabs((double)expected)));
+      CHECK_NEAR(nsvcd__head_logit(&nsvcd_w_heads[h], x, 0), expected, 1e-4 * fmax(1, fabs((double)expected)));
     }
   }
+}
+
+// int8 arithmetic moves a logit, but not by much: the worst seen is printed.
+static void int8_heads_follow_fp32(void) {
+  double worst = 0, sum = 0;
+  for (size_t n = 0; n < GOLDEN_PAIRS; n++) {
+    int8_t z1[NSVCD__LATENT], z2[NSVCD__LATENT];
+    nsvcd__pair pair;
+    float x[NSVCD__DECODER_IN];
+    golden_pair_at(n, z1, z2, &pair);
+    nsvcd__invariants(&pair, x);
+    for (size_t h = 0; h < 3; h++) {
+      double exact = (double)nsvcd__head_logit(&nsvcd_w_heads[h], x, 0);
+      double error = fabs((double)nsvcd__head_logit(&nsvcd_w_heads[h], x, 1) - exact) / fmax(1, fabs(exact));
+      worst = fmax(worst, error), sum += error / (3 * GOLDEN_PAIRS);
+    }
+  }
+  printf("  int8 logits: mean difference %.4f, worst %.4f, of max(1, |logit|)\n", sum, worst);
+  CHECK_GE(worst, 1e-6);  // it is another arithmetic
+  CHECK_LE(sum, 0.05);
+  CHECK_LE(worst, 0.5);
 }
 
 // Random oriented points in the unit ball about a random centre.
@@ -183,13 +204,14 @@ static void degenerate_pairs_are_finite(void) {
     float x[NSVCD__DECODER_IN];
     nsvcd__invariants(&pair, x);
     for (size_t k = 0; k < NSVCD__DECODER_IN; k++) CHECK(nsvcd__is_finite(x[k]));
-    for (size_t h = 0; h < 3; h++) CHECK(nsvcd__is_finite(nsvcd__head_logit(&nsvcd_w_heads[h], x)));
+    for (size_t h = 0; h < 3; h++) CHECK(nsvcd__is_finite(nsvcd__head_logit(&nsvcd_w_heads[h], x, 0)));
   }
 }
 
 void test_network(void) {
   RUN(encoder_matches_the_trainer);
   RUN(heads_match_the_trainer);
+  RUN(int8_heads_follow_fp32);
   RUN(encoder_is_equivariant);
   RUN(rotation_operator_is_a_group);
   RUN(inputs_are_invariant);

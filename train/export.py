@@ -91,20 +91,20 @@ def write_weights(net: Network, saved: dict, thresholds: list[list[float]], path
              "static const float nsvcd_w_threshold[3][NSVCD_W_RECALLS] = {"]
     lines += ["    {" + ", ".join(numbers([v]).strip(" ,") for v in row) + "}," for row in thresholds]
     lines += ["};", ""]
-    lines += [array("nsvcd_w_" + k, v) for k, v in t.items()]
+    lines += [array("nsvcd_w_" + k, v) for k, v in t.items() if not k.startswith(HEADS)]
+    decoder, rows, scales, table = [], [], [], []
     for h, sizes in s.heads:
         full = [2 * s.latent + FACTS, *sizes, 1]
+        offsets = (sum(map(torch.numel, part)) for part in (decoder, rows, scales))
+        table.append(f"    {{{len(full) - 1}, {{{', '.join(map(str, full))}}}, {', '.join(map(str, offsets))}}},  // {h}")
         for k in range(len(full) - 1):
-            rows, scale = int8_rows(t[f"{h}{k}"])
-            lines += [int8_array(f"nsvcd_w_{h}{k}_int8", rows), array(f"nsvcd_w_{h}{k}_scale", scale)]
-        lines += [f"static const size_t nsvcd_w_{h}_sizes[{len(full)}] = {{{', '.join(map(str, full))}}};"]
-        names = ", ".join(f"nsvcd_w_{h}{k}_int8" for k in range(len(full) - 1))
-        lines += [f"static const int8_t *const nsvcd_w_{h}_int8[{len(full) - 1}] = {{{names}}};"]
-        for kind, suffix in (("weights", ""), ("biases", "_bias"), ("scales", "_scale")):
-            names = ", ".join(f"nsvcd_w_{h}{k}{suffix}" for k in range(len(full) - 1))
-            lines += [f"static const float *const nsvcd_w_{h}_{kind}[{len(full) - 1}] = {{{names}}};"]
-    lines += ["", "static const nsvcd__head nsvcd_w_heads[3] = {"]
-    lines += [f"    {{{len(sizes) + 1}, nsvcd_w_{h}_sizes, nsvcd_w_{h}_weights, nsvcd_w_{h}_biases, nsvcd_w_{h}_int8, nsvcd_w_{h}_scales}}," for h, sizes in s.heads]
+            quantised, scale = int8_rows(t[f"{h}{k}"])
+            decoder += [t[f"{h}{k}"], t[f"{h}{k}_bias"]]
+            rows.append(quantised)
+            scales.append(scale)
+    flat = lambda part: torch.cat([x.flatten() for x in part])
+    lines += [array("nsvcd_w_decoder", flat(decoder)), int8_array("nsvcd_w_decoder_int8", flat(rows)), array("nsvcd_w_decoder_scale", flat(scales))]
+    lines += ["static const nsvcd__head nsvcd_w_heads[3] = {", *table]
     lines += ["};", "", "#endif  // NSVCD_WEIGHTS_H", ""]
     path.write_text("\n".join(lines))
 
