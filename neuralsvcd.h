@@ -103,10 +103,12 @@ typedef struct nsvcd_mesh {
 } nsvcd_mesh;
 
 #ifndef NSVCD_NO_OBJ
-// Reads OBJ text (need not end in 0) into a mesh that nsvcd_mesh_free gives back. Faces of any number of corners are
-// cut into triangles; only v and f lines matter. On failure *mesh is left as it was and, where error_line is not NULL,
-// *error_line is the line at fault, from 1, or 0 where no line is.
-// Errors: ARGUMENT, MEMORY, SYNTAX, INDEX, NUMBER, EMPTY, TOO_LARGE; load: also IO.
+// Reads OBJ text of `size` bytes, which need not end in a NUL or a newline, into a mesh that nsvcd_mesh_free gives
+// back. Faces of any number of corners are cut into triangles, concave ones of up to 4096 corners too; a face may refer
+// to vertices further down; only v and f lines matter. Linear time but for concave faces. On failure *mesh is left as
+// it was, nothing stays allocated, and *error_line (NULL allowed) is the line at fault, from 1, or 0 where no line is;
+// of several faults the one found first, in the order statements and counts, vertices, faces. Errors: ARGUMENT, MEMORY,
+// SYNTAX, INDEX, NUMBER, EMPTY, TOO_LARGE; load: also IO.
 NSVCDDEF nsvcd_result nsvcd_obj_parse(const char *text, size_t size, const nsvcd_allocator *allocator, nsvcd_mesh *mesh,
                                       size_t *error_line);
 #ifndef NSVCD_NO_STDIO
@@ -661,11 +663,6 @@ static nsvcd_result nsvcd__obj_read(nsvcd__obj *obj, const char *text, size_t si
   return result;
 }
 
-// Parses OBJ text of `size` bytes, which need not end in a NUL or a newline. On success *mesh owns its arrays: release
-// them with nsvcd_mesh_free and the same allocator. On failure *mesh is untouched, nothing stays allocated, and
-// *error_line (may be NULL) is the line, from 1, or 0 if no line is to blame; several faults: the one found first, in
-// the order statements and counts, vertices, faces. Linear time but for concave faces, which may have up to 4096
-// corners.
 NSVCDDEF nsvcd_result nsvcd_obj_parse(const char *text, size_t size, const nsvcd_allocator *allocator, nsvcd_mesh *mesh,
                                       size_t *error_line) {
   nsvcd_mesh parsed;
@@ -684,7 +681,6 @@ NSVCDDEF nsvcd_result nsvcd_obj_parse(const char *text, size_t size, const nsvcd
 }
 
 #ifndef NSVCD_NO_STDIO
-
 // The whole file into *text; no fseek, so that pipes work and a directory is an error.
 static nsvcd_result nsvcd__read_file(FILE *file, const nsvcd_allocator *allocator, char **text, size_t *size) {
   size_t used = 0;
@@ -2462,12 +2458,13 @@ NSVCDDEF nsvcd_result nsvcd_encode(const nsvcd_mesh *mesh, const nsvcd_encode_op
                                    const nsvcd_body **body) {
   if (!memory || !body) return NSVCD_ERROR_ARGUMENT;
   if (!nsvcd__is_aligned(memory)) return NSVCD_ERROR_WORKSPACE;
-  nsvcd_result result = nsvcd__mesh_check(mesh);
-  if (result) return result;
+  nsvcd_result result;
   size_t points = options ? options->points : 0;
   const float wanted = options ? options->patch_radius : 0;
   if (points > NSVCD_MAX_POINTS || !nsvcd__is_finite(wanted) || wanted < 0) return NSVCD_ERROR_ARGUMENT;
   if (points == 0 && wanted > 0) {
+    result = nsvcd__mesh_check(mesh);  // before its area is taken; nsvcd__patches_build checks on its own
+    if (result) return result;
     // N balls of radius r cover about N r^2 / 0.45 of surface: measured, on the real meshes, for N = 32 to 512.
     double count = ceil(0.45 * nsvcd__mesh_area(mesh) / ((double)wanted * (double)wanted));
     points = count >= NSVCD_MAX_POINTS ? NSVCD_MAX_POINTS : count >= 1 ? (size_t)count : 1;

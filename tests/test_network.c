@@ -54,13 +54,17 @@ static void golden_pair_at(size_t n, int8_t *z1, int8_t *z2, nsvcd__pair *pair) 
   pair->z1 = z1, pair->z2 = z2;
 }
 
+static void golden_inputs(size_t n, float *x) {  // (DECODER_IN)
+  int8_t z1[NSVCD__LATENT], z2[NSVCD__LATENT];
+  nsvcd__pair pair;
+  golden_pair_at(n, z1, z2, &pair);
+  nsvcd__invariants(&pair, x);
+}
+
 static void heads_match_the_trainer(void) {
   for (size_t n = 0; n < GOLDEN_PAIRS; n++) {
-    int8_t z1[NSVCD__LATENT], z2[NSVCD__LATENT];
-    nsvcd__pair pair;
     float x[NSVCD__DECODER_IN];
-    golden_pair_at(n, z1, z2, &pair);
-    nsvcd__invariants(&pair, x);
+    golden_inputs(n, x);
     for (size_t h = 0; h < 3; h++) {
       float expected = golden_pair[GOLDEN_ROW * n + 18 + h];
       CHECK_NEAR(nsvcd__head_logit(&nsvcd_w_heads[h], x, 0), expected, 1e-4 * fmax(1, fabs((double)expected)));
@@ -72,11 +76,8 @@ static void heads_match_the_trainer(void) {
 static void int8_heads_follow_fp32(void) {
   double worst = 0, sum = 0;
   for (size_t n = 0; n < GOLDEN_PAIRS; n++) {
-    int8_t z1[NSVCD__LATENT], z2[NSVCD__LATENT];
-    nsvcd__pair pair;
     float x[NSVCD__DECODER_IN];
-    golden_pair_at(n, z1, z2, &pair);
-    nsvcd__invariants(&pair, x);
+    golden_inputs(n, x);
     for (size_t h = 0; h < 3; h++) {
       double exact = (double)nsvcd__head_logit(&nsvcd_w_heads[h], x, 0);
       double error = fabs((double)nsvcd__head_logit(&nsvcd_w_heads[h], x, 1) - exact) / fmax(1, fabs(exact));

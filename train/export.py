@@ -3,8 +3,6 @@
 Usage: export.py CHECKPOINT WEIGHTS_H GOLDEN_H [uncalibrated] - the last word leaves all thresholds at zero, for calibrate.py."""
 from __future__ import annotations
 
-import ast
-import math
 import sys
 import zlib
 from pathlib import Path

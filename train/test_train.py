@@ -5,12 +5,11 @@ import unittest
 
 import torch
 
-import data
 import patches
 import problems
 import shapes
 from data import Geometry
-from model import FACTS, Network, Shape, degree2, invariants, wigner2
+from model import FACTS, Network, degree2, invariants, wigner2
 from problems import Problems, Solids, quaternion_exp, quaternion_log, quaternion_multiply, rotate
 
 
