@@ -34,7 +34,7 @@ build:
 
 # ---------------------------------------------------------------------------------------------------------- examples
 
-build/svcd: examples/svcd.c $(LIBRARY) | build
+build/svcd: examples/svcd.c examples/problem_file.h $(LIBRARY) | build
 	$(CC) $(ALL_CFLAGS) -o $@ examples/svcd.c -lm
 build/quickstart: examples/quickstart.c examples/picture.h $(LIBRARY) | build
 	$(CC) $(ALL_CFLAGS) -o $@ examples/quickstart.c -lm
