@@ -20,7 +20,8 @@ HEAD_WEIGHT = {"tiny": 0.35, "small": 0.6, "base": 1.0}
 
 
 def losses(net: Network, u: Tensor, n: Tensor, noise: Tensor, slot1: Tensor, slot2: Tensor, g: Geometry, valid: Tensor, target: Tensor,
-           label: Tensor, weight: Tensor, pairs: int, pair_weight: float, gradient_weight: float) -> tuple[Tensor, Tensor]:
+           label: Tensor, weight: Tensor, pairs: int, pair_weight: float, gradient_weight: float,
+           head_weight: dict[str, float]) -> tuple[Tensor, Tensor]:
     """Cross-entropy of the pooled logit, plus per-pair cross-entropy and distance. -> loss, base head's cross-entropy."""
     z = net.encoder(u, n) + noise
     if gradient_weight > 0:
@@ -35,7 +36,7 @@ def losses(net: Network, u: Tensor, n: Tensor, noise: Tensor, slot1: Tensor, slo
         main = (F.binary_cross_entropy_with_logits(pooled, label, reduction="none") * weight).sum() / weight.sum()
         pair = (F.binary_cross_entropy_with_logits(logit, soft, reduction="none") * mask).sum() / mask.sum()
         near = (F.smooth_l1_loss(distance, far, reduction="none") * mask).sum() / mask.sum()
-        total = total + HEAD_WEIGHT[name] * (main + pair_weight * (pair + near))
+        total = total + head_weight[name] * (main + pair_weight * (pair + near))
         if name == "base":
             shown = main.detach()
             if gradient_weight > 0:  # appendix A: the logit's slope should be one, here 10 per (r1 + r2)
@@ -79,6 +80,7 @@ def main() -> None:
     p.add_argument("--literal-problems", action="store_true", help="appendix B as printed: one shift, then epsilon")
     p.add_argument("--no-canonical", action="store_true")
     p.add_argument("--shape", type=json.loads, default={}, help="sizes of the network that differ, as JSON")
+    p.add_argument("--head-weight", type=json.loads, default={}, help="shares of the heads in the loss that differ, as JSON")
     p.add_argument("--every", type=int, default=25000, help="steps between validations")
     p.add_argument("--cache", type=Path, help="file to share the training set among processes of the same seed and sizes")
     p.add_argument("--resume", type=Path)
@@ -149,7 +151,8 @@ def main() -> None:
         u, n = group_patches(d, g)
         noise = (torch.rand(len(u), net.s.latent, device=device) - 0.5) / 127  # rounding to int8
         pairs = 8 if step % 2 else 16
-        loss, shown = step_loss(net, u, n, noise, *batch(d, g), pairs, a.pair_weight, a.gradient_weight)
+        loss, shown = step_loss(net, u, n, noise, *batch(d, g), pairs, a.pair_weight, a.gradient_weight,
+                                {**HEAD_WEIGHT, **a.head_weight})
         optimizer.zero_grad(set_to_none=True)
         loss.backward()
         if step % 100 == 0 and not math.isfinite(loss.item()):
