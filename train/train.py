@@ -51,15 +51,16 @@ def batch(d: Dataset, g: int) -> tuple:
 
 
 @torch.no_grad()
-def pooled_logits(net: Network, d: Dataset, head: str, pairs: int) -> tuple[Tensor, Tensor, Tensor]:
+def pooled_logits(net: Network, d: Dataset, head: str, pairs: int, groups: int | None = None) -> tuple[Tensor, Tensor, Tensor]:
     out = []
-    for g in range(len(d.bodies)):
+    for g in range(groups or len(d.bodies)):
         slot1, slot2, geometry, valid, *_ = batch(d, g)
         z = quantise(net.encoder(*group_patches(d, g)))
         value = net.decode(z[slot1], z[slot2], geometry)[head][0]
         out.append(torch.where(valid, value, torch.full_like(value, -30))[:, :pairs].amax(1))
-    keep = d.weight > 0
-    return torch.cat(out)[keep].cpu(), d.label[keep].cpu(), d.margin[keep].cpu()
+    value = torch.cat(out)
+    keep = d.weight[: len(value)] > 0
+    return tuple(x[: len(value)][keep].cpu() for x in (value, d.label, d.margin))
 
 
 def main() -> None:
@@ -101,7 +102,7 @@ def main() -> None:
     torch.manual_seed(a.seed)
     build = lambda: training_data.build(a.seed, a.shapes, a.groups, device, log, literal=a.literal_problems)
     d = training_data.cached(a.cache, build, log)
-    held = training_data.build(a.seed + 1000003, max(64, a.shapes // 12), max(2, a.groups // 60), device, log)
+    held = training_data.build(a.seed + 1000003, min(500, a.shapes), min(33, a.groups), device, log)
     files = {n: load_problems(a.real / f"{n}.txt") for n in a.files} if a.real else {}
     net = Network(Shape(**a.shape), a.scaling, a.roll, not a.no_canonical, a.encoder).to(device)
     average = Network(Shape(**a.shape), a.scaling, a.roll, not a.no_canonical, a.encoder).to(device)
@@ -128,6 +129,9 @@ def main() -> None:
         average.eval()
         log(f"step {step} loss {float(shown):.4f} {(time.time() - begun) / max(1, step - first) * 1e3:.1f} ms/step")
         log(report("held-out base K=8", *pooled_logits(average, held, "base", 8)))
+        if wide:
+            log(report("held-out tiny K=8", *pooled_logits(average, held, "tiny", 8)))
+            log(report("seen base K=8", *pooled_logits(average, d, "base", 8, min(33, a.groups))))
         for name, f in files.items():
             for n in (128, 256, 512) if wide else (256,):
                 settings = [("base", 8)] + ([("base", 16)] if wide else []) + ([("tiny", 8), ("small", 8)] if wide and n == 256 else [])
