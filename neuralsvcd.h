@@ -28,6 +28,7 @@
 //   NSVCD_STATIC      all functions static
 //   NSVCD_NO_STDIO    no file access: nsvcd_obj_load goes, nsvcd_obj_parse stays
 //   NSVCD_NO_OBJ      no OBJ reader at all
+//   NSVCD_NO_SIMD     plain C where the compiler's flags allow AVX-512, AVX2 with FMA, SSE2 or NEON
 //
 // CONVENTIONS
 //   Metres, radians, right-handed; quaternions x y z w of unit length; time in [0,1]; arrays row-major with their shape
@@ -212,7 +213,8 @@ typedef struct nsvcd_answer {
   uint32_t moving_patch;  // the pair; 0, 0 where there is none
   uint32_t fixed_patch;
   nsvcd_status status;
-  size_t overlapping;  // pairs of patches whose spheres meet, each counted once per stretch of time
+  size_t
+      overlapping;  // pairs of patches whose spheres meet, each counted once per stretch of time, until the search ends
 } nsvcd_answer;
 
 // Does the moving body, along `count` poses uniform in t in [0,1] (position linear and rotation slerp in between), hit
@@ -247,10 +249,6 @@ NSVCDDEF nsvcd_result nsvcd_sweep(const nsvcd_body *moving, const nsvcd_pose *po
 // Vectors are float[3], quaternions float[4] x y z w, rotation matrices float[9] row-major.
 
 static float nsvcd__dot3(const float *a, const float *b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
-static void nsvcd__cross3(const float *a, const float *b, float *out) {
-  float x = a[1] * b[2] - a[2] * b[1], y = a[2] * b[0] - a[0] * b[2], z = a[0] * b[1] - a[1] * b[0];
-  out[0] = x, out[1] = y, out[2] = z;
-}
 static void nsvcd__sub3(const float *a, const float *b, float *out) {
   out[0] = a[0] - b[0], out[1] = a[1] - b[1], out[2] = a[2] - b[2];
 }
@@ -271,6 +269,179 @@ static void nsvcd__quat_to_matrix(const float *q, float *m) {
 }
 static void nsvcd__mul33_vec(const float *m, const float *v, float *out) {  // out = m v, may not alias
   out[0] = nsvcd__dot3(m, v), out[1] = nsvcd__dot3(m + 3, v), out[2] = nsvcd__dot3(m + 6, v);
+}
+
+// ----------------------------------------------------------------------------------------------------- vectors
+// 16 floats side by side, lane by lane, for the sweep and the decoder. One set of operations over what the compiler was
+// told the processor has; the plain path says what they mean. They differ in rounding only: fma rounds once or twice.
+// NSVCD_NO_SIMD takes the plain path.
+
+#define NSVCD__LANES 16
+
+#if !defined(NSVCD_NO_SIMD) && defined(__AVX512F__)
+#include <immintrin.h>
+typedef __m512 nsvcd__v;
+static inline nsvcd__v nsvcd__v_load(const float *p) { return _mm512_loadu_ps(p); }
+static inline void nsvcd__v_store(float *p, nsvcd__v a) { _mm512_storeu_ps(p, a); }
+static inline nsvcd__v nsvcd__v_set(float x) { return _mm512_set1_ps(x); }
+static inline nsvcd__v nsvcd__v_add(nsvcd__v a, nsvcd__v b) { return _mm512_add_ps(a, b); }
+static inline nsvcd__v nsvcd__v_sub(nsvcd__v a, nsvcd__v b) { return _mm512_sub_ps(a, b); }
+static inline nsvcd__v nsvcd__v_mul(nsvcd__v a, nsvcd__v b) { return _mm512_mul_ps(a, b); }
+static inline nsvcd__v nsvcd__v_div(nsvcd__v a, nsvcd__v b) { return _mm512_div_ps(a, b); }
+static inline nsvcd__v nsvcd__v_fma(nsvcd__v a, nsvcd__v b, nsvcd__v c) { return _mm512_fmadd_ps(a, b, c); }
+static inline nsvcd__v nsvcd__v_min(nsvcd__v a, nsvcd__v b) { return _mm512_min_ps(a, b); }
+static inline nsvcd__v nsvcd__v_max(nsvcd__v a, nsvcd__v b) { return _mm512_max_ps(a, b); }
+static inline nsvcd__v nsvcd__v_sqrt(nsvcd__v a) { return _mm512_sqrt_ps(a); }
+static inline uint32_t nsvcd__v_le(nsvcd__v a, nsvcd__v b) { return _mm512_cmp_ps_mask(a, b, _CMP_LE_OQ); }
+static inline nsvcd__v nsvcd__v_pick(nsvcd__v a, nsvcd__v b, nsvcd__v x, nsvcd__v y) {
+  return _mm512_mask_blend_ps(_mm512_cmp_ps_mask(a, b, _CMP_LE_OQ), y, x);
+}
+
+#elif !defined(NSVCD_NO_SIMD) && (defined(__AVX2__) && defined(__FMA__) || defined(__SSE2__) || defined(__aarch64__))
+#if defined(__AVX2__) && defined(__FMA__)
+#include <immintrin.h>
+#define NSVCD__WORDS 2  // registers per vector
+typedef __m256 nsvcd__word;
+static inline nsvcd__word nsvcd__w_load(const float *p) { return _mm256_loadu_ps(p); }
+static inline void nsvcd__w_store(float *p, nsvcd__word a) { _mm256_storeu_ps(p, a); }
+static inline nsvcd__word nsvcd__w_set(float x) { return _mm256_set1_ps(x); }
+static inline nsvcd__word nsvcd__w_add(nsvcd__word a, nsvcd__word b) { return _mm256_add_ps(a, b); }
+static inline nsvcd__word nsvcd__w_sub(nsvcd__word a, nsvcd__word b) { return _mm256_sub_ps(a, b); }
+static inline nsvcd__word nsvcd__w_mul(nsvcd__word a, nsvcd__word b) { return _mm256_mul_ps(a, b); }
+static inline nsvcd__word nsvcd__w_div(nsvcd__word a, nsvcd__word b) { return _mm256_div_ps(a, b); }
+static inline nsvcd__word nsvcd__w_fma(nsvcd__word a, nsvcd__word b, nsvcd__word c) { return _mm256_fmadd_ps(a, b, c); }
+static inline nsvcd__word nsvcd__w_min(nsvcd__word a, nsvcd__word b) { return _mm256_min_ps(a, b); }
+static inline nsvcd__word nsvcd__w_max(nsvcd__word a, nsvcd__word b) { return _mm256_max_ps(a, b); }
+static inline nsvcd__word nsvcd__w_sqrt(nsvcd__word a) { return _mm256_sqrt_ps(a); }
+static inline uint32_t nsvcd__w_le(nsvcd__word a, nsvcd__word b) {
+  return (uint32_t)_mm256_movemask_ps(_mm256_cmp_ps(a, b, _CMP_LE_OQ));
+}
+static inline nsvcd__word nsvcd__w_pick(nsvcd__word a, nsvcd__word b, nsvcd__word x, nsvcd__word y) {
+  return _mm256_blendv_ps(y, x, _mm256_cmp_ps(a, b, _CMP_LE_OQ));
+}
+#elif defined(__SSE2__)
+#include <emmintrin.h>
+#define NSVCD__WORDS 4
+typedef __m128 nsvcd__word;
+static inline nsvcd__word nsvcd__w_load(const float *p) { return _mm_loadu_ps(p); }
+static inline void nsvcd__w_store(float *p, nsvcd__word a) { _mm_storeu_ps(p, a); }
+static inline nsvcd__word nsvcd__w_set(float x) { return _mm_set1_ps(x); }
+static inline nsvcd__word nsvcd__w_add(nsvcd__word a, nsvcd__word b) { return _mm_add_ps(a, b); }
+static inline nsvcd__word nsvcd__w_sub(nsvcd__word a, nsvcd__word b) { return _mm_sub_ps(a, b); }
+static inline nsvcd__word nsvcd__w_mul(nsvcd__word a, nsvcd__word b) { return _mm_mul_ps(a, b); }
+static inline nsvcd__word nsvcd__w_div(nsvcd__word a, nsvcd__word b) { return _mm_div_ps(a, b); }
+static inline nsvcd__word nsvcd__w_fma(nsvcd__word a, nsvcd__word b, nsvcd__word c) {
+  return _mm_add_ps(_mm_mul_ps(a, b), c);
+}
+static inline nsvcd__word nsvcd__w_min(nsvcd__word a, nsvcd__word b) { return _mm_min_ps(a, b); }
+static inline nsvcd__word nsvcd__w_max(nsvcd__word a, nsvcd__word b) { return _mm_max_ps(a, b); }
+static inline nsvcd__word nsvcd__w_sqrt(nsvcd__word a) { return _mm_sqrt_ps(a); }
+static inline uint32_t nsvcd__w_le(nsvcd__word a, nsvcd__word b) {
+  return (uint32_t)_mm_movemask_ps(_mm_cmple_ps(a, b));
+}
+static inline nsvcd__word nsvcd__w_pick(nsvcd__word a, nsvcd__word b, nsvcd__word x, nsvcd__word y) {
+  const __m128 mask = _mm_cmple_ps(a, b);
+  return _mm_or_ps(_mm_and_ps(mask, x), _mm_andnot_ps(mask, y));
+}
+#else
+#include <arm_neon.h>
+#define NSVCD__WORDS 4
+typedef float32x4_t nsvcd__word;
+static inline nsvcd__word nsvcd__w_load(const float *p) { return vld1q_f32(p); }
+static inline void nsvcd__w_store(float *p, nsvcd__word a) { vst1q_f32(p, a); }
+static inline nsvcd__word nsvcd__w_set(float x) { return vdupq_n_f32(x); }
+static inline nsvcd__word nsvcd__w_add(nsvcd__word a, nsvcd__word b) { return vaddq_f32(a, b); }
+static inline nsvcd__word nsvcd__w_sub(nsvcd__word a, nsvcd__word b) { return vsubq_f32(a, b); }
+static inline nsvcd__word nsvcd__w_mul(nsvcd__word a, nsvcd__word b) { return vmulq_f32(a, b); }
+static inline nsvcd__word nsvcd__w_div(nsvcd__word a, nsvcd__word b) { return vdivq_f32(a, b); }
+static inline nsvcd__word nsvcd__w_fma(nsvcd__word a, nsvcd__word b, nsvcd__word c) { return vfmaq_f32(c, a, b); }
+static inline nsvcd__word nsvcd__w_min(nsvcd__word a, nsvcd__word b) { return vminq_f32(a, b); }
+static inline nsvcd__word nsvcd__w_max(nsvcd__word a, nsvcd__word b) { return vmaxq_f32(a, b); }
+static inline nsvcd__word nsvcd__w_sqrt(nsvcd__word a) { return vsqrtq_f32(a); }
+static inline uint32_t nsvcd__w_le(nsvcd__word a, nsvcd__word b) {
+  static const uint32_t bit[4] = {1, 2, 4, 8};
+  return vaddvq_u32(vandq_u32(vcleq_f32(a, b), vld1q_u32(bit)));
+}
+static inline nsvcd__word nsvcd__w_pick(nsvcd__word a, nsvcd__word b, nsvcd__word x, nsvcd__word y) {
+  return vbslq_f32(vcleq_f32(a, b), x, y);
+}
+#endif
+typedef struct nsvcd__v {
+  nsvcd__word w[NSVCD__WORDS];
+} nsvcd__v;
+#define NSVCD__EACH_WORD(expression)                               \
+  nsvcd__v out;                                                    \
+  for (size_t i = 0; i < NSVCD__WORDS; i++) out.w[i] = expression; \
+  return out
+static inline nsvcd__v nsvcd__v_load(const float *p) {
+  NSVCD__EACH_WORD(nsvcd__w_load(p + NSVCD__LANES / NSVCD__WORDS * i));
+}
+static inline void nsvcd__v_store(float *p, nsvcd__v a) {
+  for (size_t i = 0; i < NSVCD__WORDS; i++) nsvcd__w_store(p + NSVCD__LANES / NSVCD__WORDS * i, a.w[i]);
+}
+static inline nsvcd__v nsvcd__v_set(float x) { NSVCD__EACH_WORD(nsvcd__w_set(x)); }
+static inline nsvcd__v nsvcd__v_add(nsvcd__v a, nsvcd__v b) { NSVCD__EACH_WORD(nsvcd__w_add(a.w[i], b.w[i])); }
+static inline nsvcd__v nsvcd__v_sub(nsvcd__v a, nsvcd__v b) { NSVCD__EACH_WORD(nsvcd__w_sub(a.w[i], b.w[i])); }
+static inline nsvcd__v nsvcd__v_mul(nsvcd__v a, nsvcd__v b) { NSVCD__EACH_WORD(nsvcd__w_mul(a.w[i], b.w[i])); }
+static inline nsvcd__v nsvcd__v_div(nsvcd__v a, nsvcd__v b) { NSVCD__EACH_WORD(nsvcd__w_div(a.w[i], b.w[i])); }
+static inline nsvcd__v nsvcd__v_fma(nsvcd__v a, nsvcd__v b, nsvcd__v c) {
+  NSVCD__EACH_WORD(nsvcd__w_fma(a.w[i], b.w[i], c.w[i]));
+}
+static inline nsvcd__v nsvcd__v_min(nsvcd__v a, nsvcd__v b) { NSVCD__EACH_WORD(nsvcd__w_min(a.w[i], b.w[i])); }
+static inline nsvcd__v nsvcd__v_max(nsvcd__v a, nsvcd__v b) { NSVCD__EACH_WORD(nsvcd__w_max(a.w[i], b.w[i])); }
+static inline nsvcd__v nsvcd__v_sqrt(nsvcd__v a) { NSVCD__EACH_WORD(nsvcd__w_sqrt(a.w[i])); }
+static inline uint32_t nsvcd__v_le(nsvcd__v a, nsvcd__v b) {
+  uint32_t bits = 0;
+  for (size_t i = 0; i < NSVCD__WORDS; i++) bits |= nsvcd__w_le(a.w[i], b.w[i]) << (NSVCD__LANES / NSVCD__WORDS * i);
+  return bits;
+}
+static inline nsvcd__v nsvcd__v_pick(nsvcd__v a, nsvcd__v b, nsvcd__v x, nsvcd__v y) {
+  NSVCD__EACH_WORD(nsvcd__w_pick(a.w[i], b.w[i], x.w[i], y.w[i]));
+}
+
+#else
+typedef struct nsvcd__v {
+  float f[NSVCD__LANES];
+} nsvcd__v;
+#define NSVCD__EACH_LANE(expression)                               \
+  nsvcd__v out;                                                    \
+  for (size_t i = 0; i < NSVCD__LANES; i++) out.f[i] = expression; \
+  return out
+static inline nsvcd__v nsvcd__v_load(const float *p) { NSVCD__EACH_LANE(p[i]); }
+static inline void nsvcd__v_store(float *p, nsvcd__v a) { memcpy(p, a.f, sizeof a.f); }
+static inline nsvcd__v nsvcd__v_set(float x) { NSVCD__EACH_LANE(x); }
+static inline nsvcd__v nsvcd__v_add(nsvcd__v a, nsvcd__v b) { NSVCD__EACH_LANE(a.f[i] + b.f[i]); }
+static inline nsvcd__v nsvcd__v_sub(nsvcd__v a, nsvcd__v b) { NSVCD__EACH_LANE(a.f[i] - b.f[i]); }
+static inline nsvcd__v nsvcd__v_mul(nsvcd__v a, nsvcd__v b) { NSVCD__EACH_LANE(a.f[i] * b.f[i]); }
+static inline nsvcd__v nsvcd__v_div(nsvcd__v a, nsvcd__v b) { NSVCD__EACH_LANE(a.f[i] / b.f[i]); }
+static inline nsvcd__v nsvcd__v_fma(nsvcd__v a, nsvcd__v b, nsvcd__v c) { NSVCD__EACH_LANE(a.f[i] * b.f[i] + c.f[i]); }
+static inline nsvcd__v nsvcd__v_min(nsvcd__v a, nsvcd__v b) { NSVCD__EACH_LANE(a.f[i] < b.f[i] ? a.f[i] : b.f[i]); }
+static inline nsvcd__v nsvcd__v_max(nsvcd__v a, nsvcd__v b) { NSVCD__EACH_LANE(a.f[i] > b.f[i] ? a.f[i] : b.f[i]); }
+static inline nsvcd__v nsvcd__v_sqrt(nsvcd__v a) { NSVCD__EACH_LANE(sqrtf(a.f[i])); }
+// Bit i is set where a <= b.
+static inline uint32_t nsvcd__v_le(nsvcd__v a, nsvcd__v b) {
+  uint32_t bits = 0;
+  for (size_t i = 0; i < NSVCD__LANES; i++) bits |= (uint32_t)(a.f[i] <= b.f[i]) << i;
+  return bits;
+}
+// a <= b ? x : y.
+static inline nsvcd__v nsvcd__v_pick(nsvcd__v a, nsvcd__v b, nsvcd__v x, nsvcd__v y) {
+  NSVCD__EACH_LANE(a.f[i] <= b.f[i] ? x.f[i] : y.f[i]);
+}
+#endif
+
+// x y + z w + ... as the sweep and the decoder need them. a, b: three vectors each.
+static inline nsvcd__v nsvcd__v_dot3(const nsvcd__v *a, const nsvcd__v *b) {
+  return nsvcd__v_fma(a[0], b[0], nsvcd__v_fma(a[1], b[1], nsvcd__v_mul(a[2], b[2])));
+}
+static inline void nsvcd__v_cross(const nsvcd__v *a, const nsvcd__v *b, nsvcd__v *out) {  // may not alias
+  for (size_t k = 0; k < 3; k++) {
+    const size_t i = (k + 1) % 3, j = (k + 2) % 3;
+    out[k] = nsvcd__v_sub(nsvcd__v_mul(a[i], b[j]), nsvcd__v_mul(a[j], b[i]));
+  }
+}
+static inline nsvcd__v nsvcd__v_clamp(nsvcd__v a, float low, float high) {
+  return nsvcd__v_min(nsvcd__v_max(a, nsvcd__v_set(low)), nsvcd__v_set(high));
 }
 
 // ------------------------------------------------------------------------------------------- results, allocation
@@ -1275,28 +1446,24 @@ static void nsvcd__gates(const nsvcd__feature *f, const float *c1, const float *
   nsvcd__linear(nsvcd_w_point2, nsvcd_w_point2_bias, NSVCD_W_POINT_HIDDEN, NSVCD__GATES, h2, gates);
 }
 
-// Shortens a vector to less than 1, so that int8 holds it.
-static void nsvcd__shorten(size_t size, float *v) {
-  float square = 0;
-  for (size_t k = 0; k < size; k++) square += v[k] * v[k];
-  const float scale = 1 / sqrtf(1 + square);
-  for (size_t k = 0; k < size; k++) v[k] *= scale;
-}
-
-// One degree of the last layer: a (WIDE, size) is mixed into HIDDEN channels, gated, and mixed into z (CHANNELS, size).
+// One degree of the last layer: a (WIDE, size) is mixed into HIDDEN channels, gated, and mixed into z (size, CHANNELS).
 static void nsvcd__mix(const float *mix, const float *gate, const float *out, size_t size, const float *a, float *z) {
   for (size_t k = 0; k < size; k++) {
-    float x[NSVCD__WIDE], h[NSVCD_W_HIDDEN], y[NSVCD_W_CHANNELS];
+    float x[NSVCD__WIDE], h[NSVCD_W_HIDDEN];
     for (size_t c = 0; c < NSVCD__WIDE; c++) x[c] = a[c * size + k];
     nsvcd__linear(mix, NULL, NSVCD__WIDE, NSVCD_W_HIDDEN, x, h);
     for (size_t c = 0; c < NSVCD_W_HIDDEN; c++) h[c] *= gate[c];
-    nsvcd__linear(out, NULL, NSVCD_W_HIDDEN, NSVCD_W_CHANNELS, h, y);
-    for (size_t c = 0; c < NSVCD_W_CHANNELS; c++) z[c * size + k] = y[c];
+    nsvcd__linear(out, NULL, NSVCD_W_HIDDEN, NSVCD_W_CHANNELS, h, z + NSVCD_W_CHANNELS * k);
   }
-  for (size_t c = 0; c < NSVCD_W_CHANNELS; c++) nsvcd__shorten(size, z + c * size);
+  for (size_t c = 0; c < NSVCD_W_CHANNELS; c++) {  // shortened to less than 1, so that int8 holds it
+    float square = 0;
+    for (size_t k = 0; k < size; k++) square += z[NSVCD_W_CHANNELS * k + c] * z[NSVCD_W_CHANNELS * k + c];
+    const float scale = 1 / sqrtf(1 + square);
+    for (size_t k = 0; k < size; k++) z[NSVCD_W_CHANNELS * k + c] *= scale;
+  }
 }
 
-// points, normals (count, 3), count >= 1 -> latent (LATENT): degree 1 (CHANNELS, 3), degree 2 (CHANNELS, 5), scalars.
+// points, normals (count, 3), count >= 1 -> latent (LATENT): degree 1 (3, CHANNELS), degree 2 (5, CHANNELS), scalars.
 static void nsvcd__encode_patch(const float *points, const float *normals, size_t count, const float *centre,
                                 float radius, float *latent) {
   const float inverse = radius > 0 ? 1 / radius : 0, share = 1 / (float)count;
@@ -1335,48 +1502,71 @@ static void nsvcd__encode_patch(const float *points, const float *normals, size_
 // D(R), block-diagonal: R itself on degree 1, the real Wigner matrix of degree 2 on degree 2 (appendix E). Computed
 // from R directly, so D(R1 R2) = D(R1) D(R2) to rounding; R may be improper (a mirror): both degrees are polynomial.
 
-// Row-major (5, 5): column k is the image of basis vector k, a degree2 of R's columns.
-static void nsvcd__wigner2(const float *r, float *d) {
-  const float third = 1.0f / 3, scale = 0.5773502691896258f;  // 1 / sqrt(3)
-  const float x[3] = {r[0], r[3], r[6]}, y[3] = {r[1], r[4], r[7]}, z[3] = {r[2], r[5], r[8]};
-  float xy[5], yz[5], xz[5], xx[5], yy[5], zz[5];
-  nsvcd__degree2(x, y, xy), nsvcd__degree2(y, z, yz), nsvcd__degree2(x, z, xz);
-  nsvcd__degree2(x, x, xx), nsvcd__degree2(y, y, yy), nsvcd__degree2(z, z, zz);
+#define NSVCD__VECTORS (8 * NSVCD_W_CHANNELS)  // numbers of a latent's vectors: (3, CHANNELS), then (5, CHANNELS)
+#define NSVCD__TURN 34                         // numbers of D: (3, 3), then (5, 5)
+
+// D of 16 matrices m, lane by lane, times `scale`: (TURN, LANES). Column k of degree 2 is the image of basis vector k,
+// a degree2 of m's columns.
+static void nsvcd__wigner(const nsvcd__v *m, nsvcd__v scale, float (*out)[NSVCD__LANES]) {
+  const nsvcd__v half_root3 = nsvcd__v_set(0.8660254037844386f), half = nsvcd__v_set(0.5f);
+  const nsvcd__v third = nsvcd__v_mul(scale, nsvcd__v_set(1.0f / 3)),
+                 root = nsvcd__v_mul(scale, nsvcd__v_set(0.5773502691896258f));
+  static const unsigned char of[6][2] = {{0, 1}, {1, 2}, {0, 2}, {0, 0}, {1, 1}, {2, 2}};  // columns: xy yz xz xx yy zz
+  nsvcd__v q[6][5];
+  for (size_t k = 0; k < 9; k++) nsvcd__v_store(out[k], nsvcd__v_mul(scale, m[k]));
+  for (size_t n = 0; n < 6; n++) {  // as nsvcd__degree2
+    const nsvcd__v *a = m + of[n][0], *b = m + of[n][1];
+    q[n][0] = nsvcd__v_mul(half_root3, nsvcd__v_fma(a[0], b[3], nsvcd__v_mul(a[3], b[0])));
+    q[n][1] = nsvcd__v_mul(half_root3, nsvcd__v_fma(a[3], b[6], nsvcd__v_mul(a[6], b[3])));
+    q[n][2] =
+        nsvcd__v_sub(nsvcd__v_mul(a[6], b[6]), nsvcd__v_mul(half, nsvcd__v_fma(a[0], b[0], nsvcd__v_mul(a[3], b[3]))));
+    q[n][3] = nsvcd__v_mul(half_root3, nsvcd__v_fma(a[0], b[6], nsvcd__v_mul(a[6], b[0])));
+    q[n][4] = nsvcd__v_mul(half_root3, nsvcd__v_sub(nsvcd__v_mul(a[0], b[0]), nsvcd__v_mul(a[3], b[3])));
+  }
+  const nsvcd__v twice = nsvcd__v_add(root, root);
   for (size_t k = 0; k < 5; k++) {
-    d[5 * k] = 2 * scale * xy[k], d[5 * k + 1] = 2 * scale * yz[k];
-    d[5 * k + 2] = third * (2 * zz[k] - xx[k] - yy[k]);
-    d[5 * k + 3] = 2 * scale * xz[k], d[5 * k + 4] = scale * (xx[k] - yy[k]);
+    float(*row)[NSVCD__LANES] = out + 9 + 5 * k;
+    const nsvcd__v rest = nsvcd__v_add(q[3][k], q[4][k]);
+    nsvcd__v_store(row[0], nsvcd__v_mul(twice, q[0][k])), nsvcd__v_store(row[1], nsvcd__v_mul(twice, q[1][k]));
+    nsvcd__v_store(row[2], nsvcd__v_mul(third, nsvcd__v_sub(nsvcd__v_add(q[5][k], q[5][k]), rest)));
+    nsvcd__v_store(row[3], nsvcd__v_mul(twice, q[2][k]));
+    nsvcd__v_store(row[4], nsvcd__v_mul(root, nsvcd__v_sub(q[3][k], q[4][k])));
   }
 }
 
-// D(R) times the vectors of a latent; both (8 CHANNELS), degree 1 first. Must not alias.
-static void nsvcd__rotate_latent(const float *r, const float *latent, float *turned) {
-  float d[25];
-  nsvcd__wigner2(r, d);
-  for (size_t c = 0; c < NSVCD_W_CHANNELS; c++) nsvcd__mul33_vec(r, latent + 3 * c, turned + 3 * c);
-  const float *from = latent + 3 * NSVCD_W_CHANNELS;
-  float *to = turned + 3 * NSVCD_W_CHANNELS;
-  for (size_t c = 0; c < NSVCD_W_CHANNELS; c++) {
-    for (size_t k = 0; k < 5; k++) to[5 * c + k] = nsvcd__dot5(d + 5 * k, from + 5 * c);
+// A stored latent, turned by D (TURN, LANES) of lane l: vectors (8, CHANNELS), scalars (SCALARS).
+static void nsvcd__turn_latent(const int8_t *z, float (*turn)[NSVCD__LANES], size_t l, float *vectors, float *scalars) {
+  float latent[NSVCD__LATENT];
+  for (size_t k = 0; k < NSVCD__LATENT; k++) latent[k] = (float)z[k];
+  for (size_t first = 0, size = 3; first < 8; first += size, size = 5, turn += 9) {
+    for (size_t i = 0; i < size; i++) {
+      float sum[NSVCD_W_CHANNELS] = {0};
+      for (size_t k = 0; k < size; k++) {
+        const float m = turn[size * i + k][l], *from = latent + NSVCD_W_CHANNELS * (first + k);
+        for (size_t c = 0; c < NSVCD_W_CHANNELS; c++) sum[c] += m * from[c];
+      }
+      memcpy(vectors + NSVCD_W_CHANNELS * (first + i), sum, sizeof sum);
+    }
   }
+  for (size_t k = 0; k < NSVCD_W_SCALARS; k++) scalars[k] = latent[NSVCD__VECTORS + k] * (1.0f / 127);
 }
 
 // ------------------------------------------------------------------------------------------------------- body
 // In: N patches (centre, covering radius, area vector, int8 latent). Out: one relocatable, checksummed blob.
-// Patches are stored in groups of 8 neighbours, each group with a sphere over its members: the broad phase's tree.
+// Patches are stored in groups of 16 neighbours, each group with a sphere over its members: the broad phase's tree.
 //
 //   struct nsvcd_body            64 bytes
-//   x, y, z, r     (4, P)  float body frame, metres; P = N rounded up to 8, padding has r = NSVCD__NOWHERE
-//   x, y, z, r     (4, G)  float group spheres; G = P / 8 rounded up to 8, padding as above
+//   x, y, z, r     (4, P)  float body frame, metres; P = N rounded up to 16, padding has r = NSVCD__NOWHERE
+//   x, y, z, r     (4, G)  float group spheres; G = P / 16 rounded up to 16, padding as above
 //   area vectors   (N, 3)  float square metres, along the outward normal
 //   latents        (N, NSVCD__LATENT) int8, free of scale
 //   zeros up to a multiple of NSVCD_ALIGNMENT
 
-#define NSVCD__GROUP 8                 // patches per group, and lanes per vector
+#define NSVCD__GROUP NSVCD__LANES      // patches per group
 #define NSVCD__NOWHERE (-1e15f)        // radius of padding: meets nothing, and its square is still finite
 #define NSVCD__MAX_LENGTH 1.6e7f       // metres, over every radius and distance that coordinates within bounds can give
 #define NSVCD__BODY_MAGIC 0x4256534eu  // "NSVB"
-#define NSVCD__BODY_VERSION 1u
+#define NSVCD__BODY_VERSION 2u
 
 struct nsvcd_body {
   uint32_t magic, version;
@@ -1429,8 +1619,8 @@ static uint64_t nsvcd__body_checksum(const nsvcd_body *body) {
   return hash;
 }
 
-// Orders N patches so that each run of 8 is compact: median splits across the longest axis, the left part a multiple
-// of 8. The insertion sort is stable, so ties keep their order and the result is the same everywhere.
+// Orders N patches so that each run of 16 is compact: median splits across the longest axis, the left part a multiple
+// of 16. The insertion sort is stable, so ties keep their order and the result is the same everywhere.
 static void nsvcd__body_order(size_t count, const float *centres, uint16_t *order) {  // centres (N, 3), order (count)
   if (count <= NSVCD__GROUP) return;
   size_t axis = 0;
@@ -1658,9 +1848,10 @@ typedef struct nsvcd__motion {
   const nsvcd_pose *poses;  // (count), the caller's
   size_t count;
   float fixed_position[3];
-  float to_fixed[9];  // world axes to the fixed body's axes
-  float turn;         // total length of the rotation arcs, radians
-  float widest;       // the longest of them
+  float to_fixed[9];    // world axes to the fixed body's axes
+  float to_fixed_q[4];  // the same as a quaternion
+  float turn;           // total length of the rotation arcs, radians
+  float widest;         // the longest of them
 } nsvcd__motion;
 
 static int nsvcd__pose_is_valid(const nsvcd_pose *pose) {
@@ -1702,20 +1893,25 @@ static float nsvcd__quat_half_angle(const float *a, float *b) {
   return 2 * asinf(0.5f * sqrtf(chord));
 }
 
+// a, b: unit to 1e-4.
 static void nsvcd__slerp(const float *a, const float *b, float u, float *out) {
-  float end[4] = {b[0], b[1], b[2], b[3]};
-  float angle = nsvcd__quat_half_angle(a, end), wa = 1 - u, wb = u;
+  float start[4], end[4], wa = 1 - u, wb = u;
+  nsvcd__quat_normalize(a, start);
+  nsvcd__quat_normalize(b, end);
+  const float angle = nsvcd__quat_half_angle(start, end);
   if (angle > 1e-3f) wa = sinf((1 - u) * angle), wb = sinf(u * angle);  // below, the difference is less than rounding
-  for (size_t k = 0; k < 4; k++) end[k] = wa * a[k] + wb * end[k];
+  for (size_t k = 0; k < 4; k++) end[k] = wa * start[k] + wb * end[k];
   nsvcd__quat_normalize(end, out);
 }
 
-// Angle of the arc from pose k to pose k + 1, radians.
-static float nsvcd__motion_arc(const nsvcd__motion *motion, size_t k) {
-  float a[4], b[4];
-  nsvcd__quat_normalize(motion->poses[k].rotation, a);
-  nsvcd__quat_normalize(motion->poses[k + 1].rotation, b);
-  return 2 * nsvcd__quat_half_angle(a, b);
+// Not less than the angle between two rotations, unit to 1e-4, and hardly more where it is small: 4 asin(chord / 2) of
+// their chord as quaternions, asin x <= x + (pi/2 - 1) x^3, and half a thousandth for the lengths.
+static float nsvcd__arc_bound(const float *a, const float *b) {
+  const float dot = a[0] * b[0] + a[1] * b[1] + a[2] * b[2] + a[3] * b[3], sign = dot < 0 ? -1.0f : 1.0f;
+  float square = 0;
+  for (size_t k = 0; k < 4; k++) square += (sign * b[k] - a[k]) * (sign * b[k] - a[k]);
+  const float x = 0.50025f * sqrtf(square);
+  return x * (4 + 2.2832f * x * x);
 }
 
 // Validates everything and prepares the motion. Keeps the pointer `poses`.
@@ -1730,10 +1926,11 @@ static nsvcd_result nsvcd__motion_init(const nsvcd_pose *poses, size_t count, co
   nsvcd__quat_normalize(fixed_pose->rotation, q);
   nsvcd__quat_to_matrix(q, from_fixed);
   nsvcd__transpose33(from_fixed, motion->to_fixed);
+  for (size_t k = 0; k < 4; k++) motion->to_fixed_q[k] = k < 3 ? -q[k] : q[k];
   memcpy(motion->fixed_position, fixed_pose->position, sizeof motion->fixed_position);
   motion->poses = poses, motion->count = count, motion->turn = motion->widest = 0;
   for (size_t k = 0; k + 1 < count; k++) {
-    float arc = nsvcd__motion_arc(motion, k);
+    const float arc = nsvcd__arc_bound(poses[k].rotation, poses[k + 1].rotation);
     motion->turn += arc, motion->widest = fmaxf(motion->widest, arc);
   }
   return NSVCD_OK;
@@ -1743,15 +1940,13 @@ static nsvcd_result nsvcd__motion_init(const nsvcd_pose *poses, size_t count, co
 static void nsvcd__motion_between(const nsvcd__motion *motion, size_t k, float u, float *rotation, float *position) {
   const nsvcd_pose *a = &motion->poses[k];
   float q[4];
-  nsvcd__quat_normalize(a->rotation, q);
   nsvcd__sub3(a->position, motion->fixed_position, position);
   if (u > 0) {
     const nsvcd_pose *b = &motion->poses[k + 1];
-    float end[4];
-    nsvcd__quat_normalize(b->rotation, end);
-    nsvcd__slerp(q, end, u, q);
+    nsvcd__slerp(a->rotation, b->rotation, u, q);
     for (size_t i = 0; i < 3; i++) position[i] += u * (b->position[i] - a->position[i]);
   }
+  if (!(u > 0)) nsvcd__quat_normalize(a->rotation, q);
   nsvcd__quat_to_matrix(q, rotation);
 }
 
@@ -1760,6 +1955,45 @@ static void nsvcd__motion_to_fixed(const nsvcd__motion *motion, const float *rot
                                    float *fixed_rotation, float *fixed_position) {
   nsvcd__mul33(motion->to_fixed, rotation, fixed_rotation);
   nsvcd__mul33_vec(motion->to_fixed, position, fixed_position);
+}
+
+// Rotation matrices of quaternions of any length but 0, lane by lane.
+static void nsvcd__v_matrix(const nsvcd__v *q, nsvcd__v *m) {
+  const nsvcd__v one = nsvcd__v_set(1);
+  nsvcd__v square = nsvcd__v_mul(q[3], q[3]), s[4];
+  square = nsvcd__v_add(square, nsvcd__v_dot3(q, q));
+  const nsvcd__v scale = nsvcd__v_div(nsvcd__v_set(2), square);
+  for (size_t k = 0; k < 4; k++) s[k] = nsvcd__v_mul(scale, q[k]);
+  const nsvcd__v xx = nsvcd__v_mul(s[0], q[0]), yy = nsvcd__v_mul(s[1], q[1]), zz = nsvcd__v_mul(s[2], q[2]);
+  const nsvcd__v xy = nsvcd__v_mul(s[0], q[1]), yz = nsvcd__v_mul(s[1], q[2]), xz = nsvcd__v_mul(s[0], q[2]);
+  const nsvcd__v xw = nsvcd__v_mul(s[0], q[3]), yw = nsvcd__v_mul(s[1], q[3]), zw = nsvcd__v_mul(s[2], q[3]);
+  m[0] = nsvcd__v_sub(one, nsvcd__v_add(yy, zz)), m[1] = nsvcd__v_sub(xy, zw), m[2] = nsvcd__v_add(xz, yw);
+  m[3] = nsvcd__v_add(xy, zw), m[4] = nsvcd__v_sub(one, nsvcd__v_add(xx, zz)), m[5] = nsvcd__v_sub(yz, xw);
+  m[6] = nsvcd__v_sub(xz, yw), m[7] = nsvcd__v_add(yz, xw), m[8] = nsvcd__v_sub(one, nsvcd__v_add(xx, yy));
+}
+
+// The product of quaternions a b, lane by lane.
+static void nsvcd__v_quat_mul(const nsvcd__v *a, const nsvcd__v *b, nsvcd__v *out) {  // may not alias
+  for (size_t k = 0; k < 3; k++) {
+    const size_t i = (k + 1) % 3, j = (k + 2) % 3;
+    const nsvcd__v cross = nsvcd__v_sub(nsvcd__v_mul(a[i], b[j]), nsvcd__v_mul(a[j], b[i]));
+    out[k] = nsvcd__v_add(cross, nsvcd__v_fma(a[3], b[k], nsvcd__v_mul(a[k], b[3])));
+  }
+  out[3] = nsvcd__v_sub(nsvcd__v_mul(a[3], b[3]), nsvcd__v_dot3(a, b));
+}
+
+static void nsvcd__v_mul33_vec(const nsvcd__v *m, const nsvcd__v *x, nsvcd__v *out) {  // may not alias
+  for (size_t i = 0; i < 3; i++) out[i] = nsvcd__v_dot3(m + 3 * i, x);
+}
+
+// Turns poses from world axes, relative to the fixed body's origin, into the fixed body's: quaternions of any length.
+static void nsvcd__v_to_fixed(const nsvcd__motion *motion, const nsvcd__v *q, const nsvcd__v *p, nsvcd__v *fixed_q,
+                              nsvcd__v *fixed_p) {
+  nsvcd__v turn[4], m[9];
+  for (size_t k = 0; k < 4; k++) turn[k] = nsvcd__v_set(motion->to_fixed_q[k]);
+  for (size_t k = 0; k < 9; k++) m[k] = nsvcd__v_set(motion->to_fixed[k]);
+  nsvcd__v_quat_mul(turn, q, fixed_q);
+  nsvcd__v_mul33_vec(m, p, fixed_p);
 }
 
 // Pose of the moving body in the fixed body's frame at time t, clamped to [0,1]: x_fixed = rotation x + position.
@@ -1776,42 +2010,12 @@ static void nsvcd__motion_pose(const nsvcd__motion *motion, float t, float *rota
   nsvcd__motion_to_fixed(motion, r, p, rotation, position);
 }
 
-// Unit quaternion of a rotation matrix, w >= 0. Starts from the largest component, so no division is by little
-// (Shepperd 1978).
-static void nsvcd__matrix_to_quat(const float *m, float *q) {
-  float trace = m[0] + m[4] + m[8];
-  size_t i = m[4] > m[0] ? 1 : 0;
-  if (m[8] > m[4 * i]) i = 2;
-  size_t j = (i + 1) % 3, k = (i + 2) % 3;
-  if (trace > m[4 * i]) {
-    q[0] = m[7] - m[5], q[1] = m[2] - m[6], q[2] = m[3] - m[1], q[3] = 1 + trace;
-  } else {
-    q[i] = 1 + m[4 * i] - m[4 * j] - m[4 * k];
-    q[j] = m[3 * i + j] + m[3 * j + i], q[k] = m[3 * i + k] + m[3 * k + i];
-    q[3] = m[3 * k + j] - m[3 * j + k];
-  }
-  nsvcd__quat_normalize(q, q);
-  for (size_t n = 0; n < 4 && q[3] < 0; n++) q[n] = -q[n];  // q[3] is the last to change
-}
-
-// The rotation vector w (axis times angle in [0, pi], axes of the common frame) with to = exp([w]) from. At pi, where
-// w and -w are the same rotation, rounding picks the sign.
-static void nsvcd__rotation_vector(const float *from, const float *to, float *w) {
-  float back[9], m[9], q[4];
-  nsvcd__transpose33(from, back);
-  nsvcd__mul33(to, back, m);
-  nsvcd__matrix_to_quat(m, q);
-  float sine = nsvcd__length3(q);                                  // of half the angle
-  float scale = sine > 1e-6f ? 2 * atan2f(sine, q[3]) / sine : 2;  // angle / sine of half of it tends to 2
-  for (size_t k = 0; k < 3; k++) w[k] = scale * q[k];
-}
-
 // ------------------------------------------------------------------------------------------------ broad phase
 // In: two bodies and a motion. Out: the pairs of patches whose spheres meet at some t, as candidates, deepest first.
 // Conservative: a pair whose spheres meet at time t is always in a candidate with t in [t_enter, t_exit]; if there
 // is no candidate, the bodies' covering spheres never meet, and that is a proof.
 //
-// Time is cut into S equal segments. Within one, every sphere centre c of the moving body (body frame) is taken along
+// Time is cut into S segments. Within one, every sphere centre c of the moving body (body frame) is taken along
 // the chord between its places at the two ends, x0 + tau v, tau in [0,1], and the radius grows by
 //   dev(c) = spread + bulge |c|
 // so that it covers the true place (R(t) c + p(t)) at every t. Why: let M(t) = R(t), L(t) its linear interpolation
@@ -1822,18 +2026,18 @@ static void nsvcd__rotation_vector(const float *from, const float *to, float *w)
 //   spread = max over samples |p_k - its linear interpolation|  +  rounding
 // A group or a whole body is a sphere like any other: its sphere, truly posed, contains its members', truly posed.
 //
-// Hierarchy: body x body, body x group, group x group, group x sphere, 8 spheres x sphere. Every step is the same
-// test: 8 moving spheres on 8 chords against one resting sphere; the 8 lanes are either 8 segments or 8 members.
+// Hierarchy: body x body, body x group, group x group, group x 16 spheres, 16 spheres x sphere. Every step is the same
+// test, moving spheres on chords against resting spheres; the lanes are segments, or members of a group. A moving group
+// is a step of the search; those that meet most come first, because a deep collision is then found before the rest is
+// searched.
 
-#ifndef NSVCD__SEGMENTS
-#define NSVCD__SEGMENTS 16  // as long as no segment then turns by more than NSVCD__SEGMENT_TURN
-#endif
+#define NSVCD__SEGMENTS 16          // as long as no segment then turns by more than NSVCD__SEGMENT_TURN
 #define NSVCD__MAX_SEGMENTS 64      // reached at 1280 degrees; beyond, segments turn more: still proven, only looser
 #define NSVCD__SEGMENT_TURN 0.349f  // radians, 20 degrees
 #define NSVCD__FINE_TURN 0.131f     // radians, 7.5 degrees: nothing is gained by shorter segments
 #define NSVCD__RUN_TURN 0.785f      // radians, 45 degrees: a run is cut before it turns more, for the decoder's twist
-#define NSVCD__LANES NSVCD__GROUP
 #define NSVCD__BLOCKS (NSVCD__MAX_SEGMENTS / NSVCD__LANES)
+#define NSVCD__MAX_GROUPS (NSVCD_MAX_POINTS / NSVCD__GROUP)
 // Of the lengths that go into a difference of places: about 15 float operations of 6e-8 each, doubled.
 #define NSVCD__ROUNDING 2e-6f
 
@@ -1843,171 +2047,260 @@ typedef struct nsvcd__candidate {
   float t_enter, t_exit;
   float t_least;  // where the gap is least
   float depth;    // rank: the deepest go on to the network
+  float score;    // what the network says, or NSVCD__NO_SCORE
 } nsvcd__candidate;
 
-// Chords x0 + tau v of 8 moving spheres, their radii plus deviation, and -1 / |v|^2.
+#define NSVCD__NO_SCORE (-1e30f)
+
+// Chords x0 + tau v of 16 moving spheres, their radii plus deviation, and -1 / |v|^2.
 typedef struct nsvcd__chords {
-  float x[8], y[8], z[8], vx[8], vy[8], vz[8], inverse[8], reach[8];
+  float x[NSVCD__LANES], y[NSVCD__LANES], z[NSVCD__LANES], vx[NSVCD__LANES], vy[NSVCD__LANES], vz[NSVCD__LANES];
+  float inverse[NSVCD__LANES], reach[NSVCD__LANES];
 } nsvcd__chords;
 
-// The segments, 8 to a block: pose at the start, change of the pose until the end, deviation.
+// 16 segments: pose at the start, change of the pose until the end, deviation.
 typedef struct nsvcd__segments {
-  float rotation[9][8], position[3][8], turned[9][8], moved[3][8], spread[8], bulge[8];
+  float rotation[9][NSVCD__LANES], position[3][NSVCD__LANES], turned[9][NSVCD__LANES], moved[3][NSVCD__LANES];
+  float spread[NSVCD__LANES], bulge[NSVCD__LANES];
 } nsvcd__segments;
 
 typedef struct nsvcd__workspace {
   size_t segments;                                      // S
-  float turn[NSVCD__MAX_SEGMENTS + 1];                  // rotation arc from t = 0 to the start of each segment, radians
-  nsvcd__segments blocks[NSVCD__BLOCKS];                // (S / 8 rounded up)
+  float time[NSVCD__MAX_SEGMENTS + 1];                  // of the ends of the segments
+  float turn[NSVCD__MAX_SEGMENTS + 1];                  // rotation arc from t = 0 to there, radians
+  nsvcd__segments blocks[NSVCD__BLOCKS];                // (S / 16 rounded up)
   nsvcd__chords body[NSVCD__BLOCKS];                    // the moving body's sphere over all segments
   nsvcd__chords group[NSVCD__BLOCKS];                   // a moving group's
-  nsvcd__chords members[NSVCD__MAX_SEGMENTS];           // its 8 members', per segment
-  uint64_t near_body[NSVCD_MAX_POINTS / NSVCD__GROUP];  // (groups of the fixed body) segments in which the body is near
-  uint64_t near_group[NSVCD_MAX_POINTS / NSVCD__GROUP];
+  nsvcd__chords members[NSVCD__MAX_SEGMENTS];           // its 16 members', per segment
+  uint64_t near_body[NSVCD__MAX_GROUPS];                // (groups of the fixed body) segments in which the body is near
+  uint64_t near[NSVCD__MAX_GROUPS][NSVCD__MAX_GROUPS];  // moving groups, fixed groups
+  uint16_t order[NSVCD__MAX_GROUPS];                    // moving groups that are near any, in the order of the search
+  nsvcd_pose between[NSVCD__MAX_SEGMENTS + 1];          // samples where the caller's are too few
 } nsvcd__workspace;
 
-// How many segments. Aligned with the samples where that is affordable, because then no sample lies inside one.
-static size_t nsvcd__segment_count(const nsvcd__motion *motion) {
-  size_t arcs = motion->count - 1;
-  float turn = motion->turn < 1e3f ? motion->turn : 1e3f;
-  size_t coarse = (size_t)ceilf(turn / NSVCD__SEGMENT_TURN), fine = (size_t)ceilf(turn / NSVCD__FINE_TURN);
+// How many segments, and how many to an arc where there are fewer arcs than that (else 0). Ends of segments are always
+// samples, or divide an arc evenly.
+static size_t nsvcd__segment_count(const nsvcd__motion *motion, size_t *per_arc) {
+  const size_t arcs = motion->count - 1;
+  const float turn = motion->turn < 1e3f ? motion->turn : 1e3f;
+  const size_t coarse = (size_t)ceilf(turn / NSVCD__SEGMENT_TURN), fine = (size_t)ceilf(turn / NSVCD__FINE_TURN);
   size_t wanted = fine < NSVCD__SEGMENTS ? fine : NSVCD__SEGMENTS;
-  if (wanted < coarse) wanted = coarse;
+  if (wanted < coarse) wanted = coarse < NSVCD__MAX_SEGMENTS ? coarse : NSVCD__MAX_SEGMENTS;
   if (wanted < 1) wanted = 1;
-  size_t segments;
-  if (arcs > wanted || arcs == 0) {
-    size_t most = wanted > NSVCD__SEGMENTS ? wanted : NSVCD__SEGMENTS;
-    segments = arcs > most ? most : arcs > 0 ? arcs : 1;
-  } else {
-    size_t per_arc = wanted / arcs, least = (size_t)ceilf(motion->widest / NSVCD__SEGMENT_TURN);
-    segments = arcs * (per_arc > least ? per_arc : least);
-  }
-  return segments < NSVCD__MAX_SEGMENTS ? segments : NSVCD__MAX_SEGMENTS;
+  *per_arc = 0;
+  if (arcs == 0) return 1;
+  if (arcs > wanted) return arcs < NSVCD__SEGMENTS ? arcs : wanted < NSVCD__SEGMENTS ? NSVCD__SEGMENTS : wanted;
+  const size_t least = (size_t)ceilf(motion->widest / NSVCD__SEGMENT_TURN), most = NSVCD__MAX_SEGMENTS / arcs;
+  *per_arc = wanted / arcs > least ? wanted / arcs : least;
+  if (*per_arc > most) *per_arc = most;
+  return arcs * *per_arc;
 }
 
-// Deviation of segment s from its chord, as derived above, and the arc it turns through. Its ends are given in world
-// axes. Time is counted in units of 1 / (arcs * segments), in which samples and segment ends are whole numbers.
-static void nsvcd__segment_bound(const nsvcd__motion *motion, size_t segments, size_t s, const float *r0,
-                                 const float *p0, const float *r1, const float *p1, float *spread, float *bulge,
-                                 float *turn) {
-  size_t arcs = motion->count - 1, begin = s * arcs, end = begin + arcs;
-  float widest = 0;
-  *spread = *bulge = *turn = 0;
-  for (size_t k = begin / segments; k * segments < end; k++) {
-    size_t from = k * segments > begin ? k * segments : begin;
-    size_t to = (k + 1) * segments < end ? (k + 1) * segments : end;
-    float angle = nsvcd__motion_arc(motion, k) * (float)(to - from) / (float)segments;
-    widest = angle > widest ? angle : widest;
-    *turn += angle;
-    if (to == end) break;
-    float r[9], p[3], u = (float)(to - begin) / (float)arcs, square = 0;
-    nsvcd__motion_between(motion, k + 1, 0, r, p);
-    for (size_t i = 0; i < 9; i++) {
-      float d = r[i] - (r0[i] + u * (r1[i] - r0[i]));
-      square += d * d;
+// The samples at whose indices segments end: the caller's, or `between`, whose positions are relative to the fixed
+// body.
+typedef struct nsvcd__samples {
+  const nsvcd_pose *poses;
+  float origin[3];  // to subtract from positions
+  size_t last;      // index
+} nsvcd__samples;
+
+static nsvcd__samples nsvcd__samples_of(const nsvcd__motion *motion, size_t per_arc, nsvcd_pose *between) {
+  nsvcd__samples samples = {motion->poses, {0, 0, 0}, motion->count - 1};
+  memcpy(samples.origin, motion->fixed_position, sizeof samples.origin);
+  if (per_arc < 2) return samples;
+  samples.poses = between, samples.last *= per_arc;
+  memset(samples.origin, 0, sizeof samples.origin);
+  for (size_t i = 0; i <= samples.last; i++) {
+    const size_t k = i == samples.last ? motion->count - 2 : i / per_arc;
+    const float u = (float)(i - k * per_arc) / (float)per_arc;
+    const nsvcd_pose *a = &motion->poses[k], *b = a + 1;
+    nsvcd__slerp(a->rotation, b->rotation, u, between[i].rotation);
+    for (size_t n = 0; n < 3; n++) {
+      between[i].position[n] = (a->position[n] - motion->fixed_position[n]) + u * (b->position[n] - a->position[n]);
     }
-    for (size_t i = 0; i < 3; i++) p[i] -= p0[i] + u * (p1[i] - p0[i]);
-    *bulge = fmaxf(*bulge, sqrtf(square));
-    *spread = fmaxf(*spread, nsvcd__length3(p));
   }
-  *bulge += widest * widest / 8;
+  return samples;
+}
+
+// Sample index[l] in lane l: q (4), of any length, and p (3), relative to the fixed body, in world axes.
+static void nsvcd__load_samples(const nsvcd__samples *samples, const size_t *index, nsvcd__v *q, nsvcd__v *p) {
+  float lanes[7][NSVCD__LANES];
+  for (size_t l = 0; l < NSVCD__LANES; l++) {
+    const nsvcd_pose *pose = &samples->poses[index[l]];
+    for (size_t k = 0; k < 3; k++) lanes[k][l] = pose->position[k] - samples->origin[k];
+    for (size_t k = 0; k < 4; k++) lanes[3 + k][l] = pose->rotation[k];
+  }
+  for (size_t k = 0; k < 3; k++) p[k] = nsvcd__v_load(lanes[k]);
+  for (size_t k = 0; k < 4; k++) q[k] = nsvcd__v_load(lanes[3 + k]);
+}
+
+// nsvcd__arc_bound, lane by lane.
+static nsvcd__v nsvcd__v_arc_bound(const nsvcd__v *a, const nsvcd__v *b) {
+  nsvcd__v dot = nsvcd__v_mul(a[0], b[0]), square = nsvcd__v_set(0);
+  for (size_t k = 1; k < 4; k++) dot = nsvcd__v_fma(a[k], b[k], dot);
+  const nsvcd__v sign = nsvcd__v_pick(nsvcd__v_set(0), dot, nsvcd__v_set(1), nsvcd__v_set(-1));
+  for (size_t k = 0; k < 4; k++) {
+    const nsvcd__v d = nsvcd__v_sub(nsvcd__v_mul(sign, b[k]), a[k]);
+    square = nsvcd__v_fma(d, d, square);
+  }
+  const nsvcd__v x = nsvcd__v_mul(nsvcd__v_set(0.50025f), nsvcd__v_sqrt(square));
+  return nsvcd__v_mul(x, nsvcd__v_fma(nsvcd__v_set(2.2832f), nsvcd__v_mul(x, x), nsvcd__v_set(4)));
+}
+
+// 16 segments, of which `count` exist; `begin`: (17) their ends as sample indices. turn: arc of each.
+static void nsvcd__cut_block(const nsvcd__motion *motion, const nsvcd__samples *samples, const size_t *begin,
+                             size_t count, float lengths, nsvcd__segments *out, float *turn) {
+  nsvcd__v q[4], last_q[4], fixed_q[4], p[3], r0[9], p0[3], r1[9], p1[3], widest = nsvcd__v_set(0), sum = widest,
+                                                                          bulge = widest, spread = widest;
+  size_t index[NSVCD__LANES], most = 0;
+  float share[NSVCD__LANES];
+  nsvcd__load_samples(samples, begin, last_q, p);
+  nsvcd__v_to_fixed(motion, last_q, p, fixed_q, p0);
+  nsvcd__v_matrix(fixed_q, r0);
+  nsvcd__load_samples(samples, begin + 1, q, p);
+  nsvcd__v_to_fixed(motion, q, p, fixed_q, p1);
+  nsvcd__v_matrix(fixed_q, r1);
+  for (size_t l = 0; l < NSVCD__LANES; l++) {
+    const size_t length = begin[l + 1] - begin[l];
+    share[l] = length ? 1 / (float)length : 0, most = length > most ? length : most;
+  }
+  for (size_t i = 0; i < 9; i++) {
+    nsvcd__v_store(out->rotation[i], r0[i]);
+    r1[i] = nsvcd__v_sub(r1[i], r0[i]);
+    nsvcd__v_store(out->turned[i], r1[i]);
+  }
+  for (size_t i = 0; i < 3; i++) {
+    nsvcd__v_store(out->position[i], p0[i]);
+    p1[i] = nsvcd__v_sub(p1[i], p0[i]);
+    nsvcd__v_store(out->moved[i], p1[i]);
+  }
+  for (size_t j = 1; j <= most; j++) {
+    for (size_t l = 0; l < NSVCD__LANES; l++) index[l] = begin[l] + j < begin[l + 1] ? begin[l] + j : begin[l + 1];
+    nsvcd__load_samples(samples, index, q, p);
+    const nsvcd__v arc = nsvcd__v_arc_bound(last_q, q);
+    widest = nsvcd__v_max(widest, arc), sum = nsvcd__v_add(sum, arc);
+    memcpy(last_q, q, sizeof q);
+    if (j == most) break;
+    nsvcd__v r[9], at[3], square = nsvcd__v_set(0), gap = square;
+    const nsvcd__v u = nsvcd__v_min(nsvcd__v_mul(nsvcd__v_set((float)j), nsvcd__v_load(share)), nsvcd__v_set(1));
+    nsvcd__v_to_fixed(motion, q, p, fixed_q, at);
+    nsvcd__v_matrix(fixed_q, r);
+    for (size_t i = 0; i < 9; i++) {
+      const nsvcd__v d = nsvcd__v_sub(r[i], nsvcd__v_fma(u, r1[i], r0[i]));
+      square = nsvcd__v_fma(d, d, square);
+    }
+    for (size_t i = 0; i < 3; i++) {
+      const nsvcd__v d = nsvcd__v_sub(at[i], nsvcd__v_fma(u, p1[i], p0[i]));
+      gap = nsvcd__v_fma(d, d, gap);
+    }
+    bulge = nsvcd__v_max(bulge, square), spread = nsvcd__v_max(spread, gap);
+  }
+  bulge = nsvcd__v_fma(nsvcd__v_mul(widest, widest), nsvcd__v_set(0.125f), nsvcd__v_sqrt(bulge));
+  spread = nsvcd__v_sqrt(spread);
+  for (size_t i = 0; i < 3; i++) p1[i] = nsvcd__v_add(p1[i], p0[i]);
+  nsvcd__v far = nsvcd__v_add(nsvcd__v_sqrt(nsvcd__v_dot3(p0, p0)), nsvcd__v_sqrt(nsvcd__v_dot3(p1, p1)));
+  far = nsvcd__v_add(far, nsvcd__v_add(spread, nsvcd__v_set(lengths)));
+  nsvcd__v_store(out->spread, nsvcd__v_fma(far, nsvcd__v_set(NSVCD__ROUNDING), spread));
+  nsvcd__v_store(out->bulge, bulge);
+  nsvcd__v_store(turn, sum);
+  for (size_t l = count; l < NSVCD__LANES; l++) out->spread[l] = NSVCD__NOWHERE;  // these meet nothing
 }
 
 // Fills workspace: segments, their poses in the fixed body's frame, and deviations. `lengths`: the bodies' extents.
 static void nsvcd__cut_motion(const nsvcd__motion *motion, float lengths, nsvcd__workspace *work) {
-  size_t segments = nsvcd__segment_count(motion), arcs = motion->count - 1;
-  float r0[9], p0[3], r1[9], p1[3], fixed_r0[9], fixed_p0[3], fixed_r1[9] = {0}, fixed_p1[3] = {0};
-  nsvcd__motion_between(motion, 0, 0, r0, p0);
-  nsvcd__motion_to_fixed(motion, r0, p0, fixed_r0, fixed_p0);
+  size_t per_arc, begin[NSVCD__MAX_SEGMENTS + 1];
+  const size_t segments = nsvcd__segment_count(motion, &per_arc);
+  const nsvcd__samples samples = nsvcd__samples_of(motion, per_arc, work->between);
   work->segments = segments, work->turn[0] = 0;
-  for (size_t s = 0; s < nsvcd__round_up(segments, NSVCD__LANES); s++) {
-    nsvcd__segments *block = &work->blocks[s / NSVCD__LANES];
-    size_t lane = s % NSVCD__LANES;
-    float spread = NSVCD__NOWHERE, bulge = 0;  // lanes after the last segment meet nothing
-    if (s < segments) {
-      float turn;
-      size_t time = (s + 1) * arcs;
-      nsvcd__motion_between(motion, time / segments, (float)(time % segments) / (float)segments, r1, p1);
-      nsvcd__motion_to_fixed(motion, r1, p1, fixed_r1, fixed_p1);
-      nsvcd__segment_bound(motion, segments, s, r0, p0, r1, p1, &spread, &bulge, &turn);
-      spread += NSVCD__ROUNDING * (lengths + spread + nsvcd__length3(p0) + nsvcd__length3(p1));
-      work->turn[s + 1] = work->turn[s] + turn;
-    }
-    block->spread[lane] = spread, block->bulge[lane] = bulge;
-    for (size_t i = 0; i < 9; i++) {
-      block->rotation[i][lane] = fixed_r0[i], block->turned[i][lane] = fixed_r1[i] - fixed_r0[i];
-    }
-    for (size_t i = 0; i < 3; i++) {
-      block->position[i][lane] = fixed_p0[i], block->moved[i][lane] = fixed_p1[i] - fixed_p0[i];
-    }
-    memcpy(r0, r1, sizeof r0), memcpy(p0, p1, sizeof p0);
-    memcpy(fixed_r0, fixed_r1, sizeof fixed_r0), memcpy(fixed_p0, fixed_p1, sizeof fixed_p0);
+  for (size_t s = 0; s <= segments; s++) {
+    begin[s] = s * samples.last / segments;
+    work->time[s] = samples.last ? (float)begin[s] / (float)samples.last : (float)s;
+  }
+  for (size_t first = 0; first < segments; first += NSVCD__LANES) {
+    const size_t count = segments - first < NSVCD__LANES ? segments - first : NSVCD__LANES;
+    size_t ends[NSVCD__LANES + 1];
+    float turn[NSVCD__LANES];
+    for (size_t l = 0; l <= NSVCD__LANES; l++) ends[l] = begin[first + (l < count ? l : count)];
+    nsvcd__cut_block(motion, &samples, ends, count, lengths, &work->blocks[first / NSVCD__LANES], turn);
+    for (size_t l = 0; l < count; l++) work->turn[first + l + 1] = work->turn[first + l] + turn[l];
   }
 }
 
-// -1 / |v|^2 for the point of a chord nearest to a sphere. FLT_MIN keeps a chord of no length finite.
-static void nsvcd__chords_finish(nsvcd__chords *c) {
-  for (size_t l = 0; l < NSVCD__LANES; l++) {
-    float square = c->vx[l] * c->vx[l] + c->vy[l] * c->vy[l] + c->vz[l] * c->vz[l];
-    c->inverse[l] = -1 / (square > 1.2e-38f ? square : 1.2e-38f);
-  }
+// Stores chords: x0 (3), v (3), reach. FLT_MIN keeps a chord of no length finite.
+static void nsvcd__chords_store(nsvcd__chords *c, const nsvcd__v *x, const nsvcd__v *v, nsvcd__v reach) {
+  const nsvcd__v square = nsvcd__v_max(nsvcd__v_dot3(v, v), nsvcd__v_set(1.2e-38f));
+  nsvcd__v_store(c->x, x[0]), nsvcd__v_store(c->y, x[1]), nsvcd__v_store(c->z, x[2]);
+  nsvcd__v_store(c->vx, v[0]), nsvcd__v_store(c->vy, v[1]), nsvcd__v_store(c->vz, v[2]);
+  nsvcd__v_store(c->inverse, nsvcd__v_div(nsvcd__v_set(-1), square));
+  nsvcd__v_store(c->reach, reach);
 }
 
-// Chords of one sphere (centre x y z, radius r, body frame) in the 8 segments of a block.
+// Chords of one sphere (centre x y z, radius r, body frame) in the segments of a block.
 static void nsvcd__chords_of_sphere(const nsvcd__segments *b, float x, float y, float z, float r, nsvcd__chords *out) {
-  float length = sqrtf(x * x + y * y + z * z);
-  for (size_t l = 0; l < NSVCD__LANES; l++) {
-    out->x[l] = b->rotation[0][l] * x + b->rotation[1][l] * y + b->rotation[2][l] * z + b->position[0][l];
-    out->y[l] = b->rotation[3][l] * x + b->rotation[4][l] * y + b->rotation[5][l] * z + b->position[1][l];
-    out->z[l] = b->rotation[6][l] * x + b->rotation[7][l] * y + b->rotation[8][l] * z + b->position[2][l];
-    out->vx[l] = b->turned[0][l] * x + b->turned[1][l] * y + b->turned[2][l] * z + b->moved[0][l];
-    out->vy[l] = b->turned[3][l] * x + b->turned[4][l] * y + b->turned[5][l] * z + b->moved[1][l];
-    out->vz[l] = b->turned[6][l] * x + b->turned[7][l] * y + b->turned[8][l] * z + b->moved[2][l];
-    out->reach[l] = r + b->spread[l] + b->bulge[l] * length;
+  const nsvcd__v centre[3] = {nsvcd__v_set(x), nsvcd__v_set(y), nsvcd__v_set(z)};
+  const float length = sqrtf(x * x + y * y + z * z);
+  nsvcd__v x0[3], v[3];
+  for (size_t i = 0; i < 3; i++) {
+    x0[i] = nsvcd__v_load(b->position[i]), v[i] = nsvcd__v_load(b->moved[i]);
+    for (size_t k = 0; k < 3; k++) {
+      x0[i] = nsvcd__v_fma(nsvcd__v_load(b->rotation[3 * i + k]), centre[k], x0[i]);
+      v[i] = nsvcd__v_fma(nsvcd__v_load(b->turned[3 * i + k]), centre[k], v[i]);
+    }
   }
-  nsvcd__chords_finish(out);
+  const nsvcd__v deviation = nsvcd__v_fma(nsvcd__v_load(b->bulge), nsvcd__v_set(length), nsvcd__v_load(b->spread));
+  nsvcd__chords_store(out, x0, v, nsvcd__v_add(deviation, nsvcd__v_set(r)));
 }
 
-// Chords of 8 spheres in one segment: lane s of a block.
+// Chords of 16 spheres in one segment: lane s of a block. No centre is farther from the body's origin than `far`.
 static void nsvcd__chords_of_members(const nsvcd__segments *b, size_t s, const float *x, const float *y, const float *z,
-                                     const float *r, nsvcd__chords *out) {
-  float m[9], d[9], p[3], v[3], spread = b->spread[s], bulge = b->bulge[s];
-  for (size_t i = 0; i < 9; i++) m[i] = b->rotation[i][s], d[i] = b->turned[i][s];
-  for (size_t i = 0; i < 3; i++) p[i] = b->position[i][s], v[i] = b->moved[i][s];
-  for (size_t l = 0; l < NSVCD__LANES; l++) {
-    out->x[l] = m[0] * x[l] + m[1] * y[l] + m[2] * z[l] + p[0];
-    out->y[l] = m[3] * x[l] + m[4] * y[l] + m[5] * z[l] + p[1];
-    out->z[l] = m[6] * x[l] + m[7] * y[l] + m[8] * z[l] + p[2];
-    out->vx[l] = d[0] * x[l] + d[1] * y[l] + d[2] * z[l] + v[0];
-    out->vy[l] = d[3] * x[l] + d[4] * y[l] + d[5] * z[l] + v[1];
-    out->vz[l] = d[6] * x[l] + d[7] * y[l] + d[8] * z[l] + v[2];
-    out->reach[l] = r[l] + spread + bulge * sqrtf(x[l] * x[l] + y[l] * y[l] + z[l] * z[l]);
+                                     const float *r, float far, nsvcd__chords *out) {
+  const nsvcd__v centre[3] = {nsvcd__v_load(x), nsvcd__v_load(y), nsvcd__v_load(z)};
+  nsvcd__v x0[3], v[3];
+  for (size_t i = 0; i < 3; i++) {
+    x0[i] = nsvcd__v_set(b->position[i][s]), v[i] = nsvcd__v_set(b->moved[i][s]);
+    for (size_t k = 0; k < 3; k++) {
+      x0[i] = nsvcd__v_fma(nsvcd__v_set(b->rotation[3 * i + k][s]), centre[k], x0[i]);
+      v[i] = nsvcd__v_fma(nsvcd__v_set(b->turned[3 * i + k][s]), centre[k], v[i]);
+    }
   }
-  nsvcd__chords_finish(out);
+  const nsvcd__v deviation = nsvcd__v_set(b->spread[s] + b->bulge[s] * far);
+  nsvcd__chords_store(out, x0, v, nsvcd__v_add(deviation, nsvcd__v_load(r)));
 }
 
-// The test. Bit l is set if sphere l, on its chord, meets the resting sphere (x y z, r). A negative sum of radii
-// (padding) meets nothing: its square is taken with its sign. One simple loop per step, because that is what gcc turns
-// into vector instructions at -O2 already: with all in one loop it makes branches of the two comparisons.
+// The square of a sum of radii, with its sign: a negative sum (padding) meets nothing.
+static inline nsvcd__v nsvcd__v_signed_square(nsvcd__v reach) {
+  return nsvcd__v_mul(reach, nsvcd__v_max(reach, nsvcd__v_sub(nsvcd__v_set(0), reach)));
+}
+
+// The test. d: from the resting centre to the start of the chord, v: the chord. Bit l: lane l comes within `reach`.
+static inline uint32_t nsvcd__comes_within(const nsvcd__v *d, const nsvcd__v *v, nsvcd__v inverse, nsvcd__v reach) {
+  const nsvcd__v tau = nsvcd__v_clamp(nsvcd__v_mul(nsvcd__v_dot3(d, v), inverse), 0, 1);
+  const nsvcd__v nearest[3] = {nsvcd__v_fma(tau, v[0], d[0]), nsvcd__v_fma(tau, v[1], d[1]),
+                               nsvcd__v_fma(tau, v[2], d[2])};
+  return nsvcd__v_le(nsvcd__v_dot3(nearest, nearest), nsvcd__v_signed_square(reach));
+}
+
+// 16 moving spheres, or one in 16 segments, against one resting sphere.
 static uint32_t nsvcd__meet(const nsvcd__chords *c, float x, float y, float z, float r) {
-  float tau[NSVCD__LANES];
-  int32_t met[NSVCD__LANES];
-  for (size_t l = 0; l < NSVCD__LANES; l++) {
-    tau[l] = ((c->x[l] - x) * c->vx[l] + (c->y[l] - y) * c->vy[l] + (c->z[l] - z) * c->vz[l]) * c->inverse[l];
-  }
-  for (size_t l = 0; l < NSVCD__LANES; l++) tau[l] = tau[l] > 0 ? tau[l] : 0;
-  for (size_t l = 0; l < NSVCD__LANES; l++) tau[l] = tau[l] < 1 ? tau[l] : 1;
-  for (size_t l = 0; l < NSVCD__LANES; l++) {
-    float dx = c->x[l] - x + tau[l] * c->vx[l], dy = c->y[l] - y + tau[l] * c->vy[l];
-    float dz = c->z[l] - z + tau[l] * c->vz[l], reach = c->reach[l] + r;
-    met[l] = dx * dx + dy * dy + dz * dz <= reach * fabsf(reach);
-  }
-  uint32_t bits = 0;
-  for (size_t l = 0; l < NSVCD__LANES; l++) bits |= (uint32_t)met[l] << l;
-  return bits;
+  const nsvcd__v d[3] = {nsvcd__v_sub(nsvcd__v_load(c->x), nsvcd__v_set(x)),
+                         nsvcd__v_sub(nsvcd__v_load(c->y), nsvcd__v_set(y)),
+                         nsvcd__v_sub(nsvcd__v_load(c->z), nsvcd__v_set(z))};
+  const nsvcd__v v[3] = {nsvcd__v_load(c->vx), nsvcd__v_load(c->vy), nsvcd__v_load(c->vz)};
+  return nsvcd__comes_within(d, v, nsvcd__v_load(c->inverse), nsvcd__v_add(nsvcd__v_load(c->reach), nsvcd__v_set(r)));
 }
 
-// Index of the lowest bit that is set, of a number that is not 0.
+// Lane s of a chord against 16 resting spheres.
+static uint32_t nsvcd__meet_members(const nsvcd__chords *c, size_t s, const float *x, const float *y, const float *z,
+                                    const float *r) {
+  const nsvcd__v d[3] = {nsvcd__v_sub(nsvcd__v_set(c->x[s]), nsvcd__v_load(x)),
+                         nsvcd__v_sub(nsvcd__v_set(c->y[s]), nsvcd__v_load(y)),
+                         nsvcd__v_sub(nsvcd__v_set(c->z[s]), nsvcd__v_load(z))};
+  const nsvcd__v v[3] = {nsvcd__v_set(c->vx[s]), nsvcd__v_set(c->vy[s]), nsvcd__v_set(c->vz[s])};
+  return nsvcd__comes_within(d, v, nsvcd__v_set(c->inverse[s]),
+                             nsvcd__v_add(nsvcd__v_set(c->reach[s]), nsvcd__v_load(r)));
+}
+
+// Index of the lowest bit that is set, of a number that is not 0; how many are set.
 static size_t nsvcd__lowest_bit(uint64_t bits) {
 #if defined(__GNUC__) || defined(__clang__)
   return (size_t)__builtin_ctzll(bits);
@@ -2017,14 +2310,22 @@ static size_t nsvcd__lowest_bit(uint64_t bits) {
   return n;
 #endif
 }
+static size_t nsvcd__bit_count(uint64_t bits) {
+#if defined(__GNUC__) || defined(__clang__)
+  return (size_t)__builtin_popcountll(bits);
+#else
+  size_t n = 0;
+  for (; bits; bits &= bits - 1) n++;
+  return n;
+#endif
+}
 
-// The segments among `wanted` in which a sphere with chords[] (one block per 8 segments) meets a resting one.
+// The segments among `wanted` in which a sphere with chords[] (one block per 16 segments) meets a resting one.
 static uint64_t nsvcd__meet_in(const nsvcd__chords *chords, uint64_t wanted, float x, float y, float z, float r) {
   uint64_t met = 0;
-  for (size_t block = 0; wanted >> (NSVCD__LANES * block); block++) {
-    size_t shift = NSVCD__LANES * block;
-    if (wanted >> shift & 0xff) met |= (uint64_t)nsvcd__meet(&chords[block], x, y, z, r) << shift;
-    if (block + 1 == NSVCD__BLOCKS) break;  // a shift by 64 is undefined
+  for (size_t block = 0; block < NSVCD__BLOCKS && wanted >> (NSVCD__LANES * block); block++) {
+    const size_t shift = NSVCD__LANES * block;
+    if (wanted >> shift & 0xffff) met |= (uint64_t)nsvcd__meet(&chords[block], x, y, z, r) << shift;
   }
   return met & wanted;
 }
@@ -2069,136 +2370,206 @@ static void nsvcd__candidates_add(nsvcd__candidates *kept, const nsvcd__candidat
   }
 }
 
-// Heap sort: the shallowest goes to the end, again and again.
-static void nsvcd__candidates_sort(nsvcd__candidates *kept) {
-  for (size_t n = kept->count; n > 1; n--) {
-    nsvcd__candidate last = kept->items[n - 1];
-    kept->items[n - 1] = kept->items[0];
-    nsvcd__sift_down(kept->items, n - 1, 0, last);
-  }
-}
-
-// Rank of a pair by its radii and the least distance of its centres. The one line to tune.
+// Rank of a pair by its radii and the least distance of its centres.
 static float nsvcd__depth(float radii, float distance) { return 1 - distance / (radii > 1e-30f ? radii : 1e-30f); }
 
-// A run that is still growing. Times are counted in segments.
-typedef struct nsvcd__run {
-  float enter, leave, least, square;  // least squared distance of the centres, and its time
-  float turn;                         // arc at its start, radians
-  size_t next;                        // the segment that would continue it
-  int open;
-} nsvcd__run;
+// Runs that are still growing, one per lane. Places on a segment's line are counted in segments from its start:
+// `nearest` on the whole line, `half2` the square of what it is from there to where the spheres first touch.
+typedef struct nsvcd__runs {
+  uint32_t open;        // lanes
+  size_t oldest, last;  // segments: in which the oldest of them began, and the last that all of them reach
+  nsvcd__v fresh;       // 1 in lanes without a run, else 0
+  nsvcd__v first, first_nearest, first_half2, last_nearest, last_half2;
+  nsvcd__v square, least_segment, least;  // of the least distance: its square, and where
+} nsvcd__runs;
 
-// Adds the overlap of lane l of `c` with the resting sphere (x y z r) in segment s to its run. Returns 0, and does
-// nothing, if the run does not reach s or would turn too far: then it must be closed first.
-static int nsvcd__run_extend(nsvcd__run *run, const nsvcd__workspace *work, size_t l, size_t s, float x, float y,
-                             float z, float r) {
-  if (run->open && (run->next != s || work->turn[s + 1] - run->turn > NSVCD__RUN_TURN)) return 0;
-  const nsvcd__chords *c = &work->members[s];
-  const float d[3] = {c->x[l] - x, c->y[l] - y, c->z[l] - z}, v[3] = {c->vx[l], c->vy[l], c->vz[l]};
-  float nearest = nsvcd__dot3(d, v) * c->inverse[l];  // on the whole line
-  float tau = nearest < 0 ? 0 : nearest > 1 ? 1 : nearest, reach = c->reach[l] + r, line[3], chord[3];
-  for (size_t k = 0; k < 3; k++) line[k] = d[k] + nearest * v[k], chord[k] = d[k] + tau * v[k];
-  // |d + tau v| = reach, solved from the nearest point outwards: b^2 - ac would cancel on long chords.
-  float margin = reach * reach - nsvcd__dot3(line, line), square = nsvcd__dot3(chord, chord);
-  float half = margin > 0 ? sqrtf(-margin * c->inverse[l]) : 0, enter = nearest - half, leave = nearest + half;
-  if (!run->open) {
-    run->enter = (float)s + (enter < 0 ? 0 : enter > tau ? tau : enter);
-    run->turn = work->turn[s], run->open = 1;
+// Ends the runs of `lanes` and hands them on. Lane l: patch GROUP g + l of the moving body, patch j of the fixed one.
+static void nsvcd__runs_close(nsvcd__runs *runs, uint32_t lanes, const nsvcd__workspace *work, const nsvcd_body *moving,
+                              size_t g, const nsvcd_body *fixed, size_t j, nsvcd__candidates *kept) {
+  float first[NSVCD__LANES], near1[NSVCD__LANES], half1[NSVCD__LANES], near2[NSVCD__LANES], half2[NSVCD__LANES];
+  float least_segment[NSVCD__LANES], least[NSVCD__LANES], square[NSVCD__LANES];
+  const float *time = work->time, r = nsvcd__body_r(fixed)[j], *member_r = nsvcd__body_r(moving) + NSVCD__GROUP * g;
+  nsvcd__v_store(first, runs->first), nsvcd__v_store(least_segment, runs->least_segment);
+  nsvcd__v_store(near1, runs->first_nearest), nsvcd__v_store(half1, runs->first_half2);
+  nsvcd__v_store(near2, runs->last_nearest), nsvcd__v_store(half2, runs->last_half2);
+  nsvcd__v_store(least, runs->least), nsvcd__v_store(square, runs->square);
+  runs->open &= ~lanes;
+  for (; lanes; lanes &= lanes - 1) {
+    const size_t l = nsvcd__lowest_bit(lanes), a = (size_t)first[l], b = runs->last, c = (size_t)least_segment[l];
+    nsvcd__candidate candidate = {(uint16_t)(NSVCD__GROUP * g + l),
+                                  (uint16_t)j,
+                                  0,
+                                  0,
+                                  0,
+                                  nsvcd__depth(member_r[l] + r, sqrtf(square[l])),
+                                  NSVCD__NO_SCORE};
+    if (kept->count == kept->limit && (kept->limit == 0 || candidate.depth < kept->items[0].depth)) {
+      kept->total++;
+      continue;
+    }
+    const float enter = near1[l] - sqrtf(half1[l] > 0 ? half1[l] : 0);
+    const float leave = near2[l] + sqrtf(half2[l] > 0 ? half2[l] : 0);
+    candidate.t_least = time[c] + least[l] * (time[c + 1] - time[c]);
+    candidate.t_enter = time[a] + (enter > 0 ? enter : 0) * (time[a + 1] - time[a]);
+    candidate.t_exit = time[b] + (leave < 1 ? leave : 1) * (time[b + 1] - time[b]);
+    // Rounding must not put the least distance outside.
+    if (candidate.t_enter > candidate.t_least) candidate.t_enter = candidate.t_least;
+    if (candidate.t_exit < candidate.t_least) candidate.t_exit = candidate.t_least;
+    nsvcd__candidates_add(kept, &candidate);
   }
-  if (run->next != s || square < run->square) run->square = square, run->least = (float)s + tau;
-  run->leave = (float)s + (leave > 1 ? 1 : leave < tau ? tau : leave);
-  run->next = s + 1;
-  return 1;
 }
 
-static void nsvcd__run_close(nsvcd__run *run, size_t segments, size_t moving, size_t fixed, float radii,
-                             nsvcd__candidates *kept) {
-  const float count = (float)segments;
-  const nsvcd__candidate candidate = {(uint16_t)moving,   (uint16_t)fixed,    run->enter / count,
-                                      run->leave / count, run->least / count, nsvcd__depth(radii, sqrtf(run->square))};
-  nsvcd__candidates_add(kept, &candidate);
-  run->open = 0, run->next = NSVCD__MAX_SEGMENTS;
-}
-
-// The 8 members of moving group g against patch j of the fixed body, in the segments `wanted`.
+// The 16 members of moving group g against patch j of the fixed body, in the segments `wanted`.
 static void nsvcd__members_against_patch(const nsvcd__workspace *work, const nsvcd_body *moving, size_t g,
                                          const nsvcd_body *fixed, size_t j, uint64_t wanted, nsvcd__candidates *kept) {
-  float x = nsvcd__body_x(fixed)[j], y = nsvcd__body_y(fixed)[j], z = nsvcd__body_z(fixed)[j];
-  float r = nsvcd__body_r(fixed)[j];
-  const float *member_r = nsvcd__body_r(moving) + g * NSVCD__GROUP;
-  nsvcd__run runs[NSVCD__LANES];
-  uint32_t open = 0;
+  const nsvcd__v half = nsvcd__v_set(0.5f), one = nsvcd__v_set(1), zero = nsvcd__v_set(0),
+                 r = nsvcd__v_set(nsvcd__body_r(fixed)[j]);
+  const nsvcd__v centre[3] = {nsvcd__v_set(nsvcd__body_x(fixed)[j]), nsvcd__v_set(nsvcd__body_y(fixed)[j]),
+                              nsvcd__v_set(nsvcd__body_z(fixed)[j])};
+  nsvcd__runs runs = {0, 0, 0, one, zero, zero, zero, zero, zero, zero, zero, zero};
   for (; wanted; wanted &= wanted - 1) {
-    size_t s = nsvcd__lowest_bit(wanted);
-    for (uint32_t bits = nsvcd__meet(&work->members[s], x, y, z, r); bits; bits &= bits - 1) {
-      size_t l = nsvcd__lowest_bit(bits);
-      if (!(open >> l & 1)) runs[l].open = 0, runs[l].next = NSVCD__MAX_SEGMENTS, open |= 1u << l;
-      if (nsvcd__run_extend(&runs[l], work, l, s, x, y, z, r)) continue;
-      nsvcd__run_close(&runs[l], work->segments, g * NSVCD__GROUP + l, j, member_r[l] + r, kept);
-      nsvcd__run_extend(&runs[l], work, l, s, x, y, z, r);
+    const size_t s = nsvcd__lowest_bit(wanted);
+    const nsvcd__chords *c = &work->members[s];
+    const nsvcd__v d[3] = {nsvcd__v_sub(nsvcd__v_load(c->x), centre[0]), nsvcd__v_sub(nsvcd__v_load(c->y), centre[1]),
+                           nsvcd__v_sub(nsvcd__v_load(c->z), centre[2])};
+    const nsvcd__v v[3] = {nsvcd__v_load(c->vx), nsvcd__v_load(c->vy), nsvcd__v_load(c->vz)};
+    const nsvcd__v inverse = nsvcd__v_load(c->inverse),
+                   limit = nsvcd__v_signed_square(nsvcd__v_add(nsvcd__v_load(c->reach), r));
+    const nsvcd__v nearest = nsvcd__v_mul(nsvcd__v_dot3(d, v), inverse), tau = nsvcd__v_clamp(nearest, 0, 1);
+    nsvcd__v chord[3], line[3];
+    for (size_t k = 0; k < 3; k++) chord[k] = nsvcd__v_fma(tau, v[k], d[k]);
+    const nsvcd__v square = nsvcd__v_dot3(chord, chord);
+    const uint32_t met = nsvcd__v_le(square, limit);
+    uint32_t ended = runs.open & ~met;
+    if (runs.open && (runs.last + 1 != s || work->turn[s + 1] - work->turn[runs.oldest] > NSVCD__RUN_TURN)) {
+      ended = runs.open, runs.fresh = one;
     }
+    if (ended) nsvcd__runs_close(&runs, ended, work, moving, g, fixed, j, kept);
+    if (!met) {
+      runs.fresh = one;
+      continue;
+    }
+    // |d + tau v| = reach, solved from the nearest point of the line outwards: b^2 - ac would cancel on long chords.
+    for (size_t k = 0; k < 3; k++) line[k] = nsvcd__v_fma(nearest, v[k], d[k]);
+    const nsvcd__v half2 = nsvcd__v_mul(nsvcd__v_sub(nsvcd__v_dot3(line, line), limit), inverse);
+    const nsvcd__v now = nsvcd__v_set((float)s),
+                   before = nsvcd__v_pick(half, runs.fresh, nsvcd__v_set(1e38f), runs.square);
+    runs.first = nsvcd__v_pick(half, runs.fresh, now, runs.first);
+    runs.first_nearest = nsvcd__v_pick(half, runs.fresh, nearest, runs.first_nearest);
+    runs.first_half2 = nsvcd__v_pick(half, runs.fresh, half2, runs.first_half2);
+    runs.last_nearest = nearest, runs.last_half2 = half2;
+    runs.least_segment = nsvcd__v_pick(square, before, now, runs.least_segment);
+    runs.least = nsvcd__v_pick(square, before, tau, runs.least);
+    runs.square = nsvcd__v_min(square, before);
+    runs.fresh = nsvcd__v_pick(square, limit, zero, one);
+    if (!runs.open) runs.oldest = s;
+    runs.open = met, runs.last = s;
   }
-  for (; open; open &= open - 1) {
-    size_t l = nsvcd__lowest_bit(open);
-    nsvcd__run_close(&runs[l], work->segments, g * NSVCD__GROUP + l, j, member_r[l] + r, kept);
+  if (runs.open) nsvcd__runs_close(&runs, runs.open, work, moving, g, fixed, j, kept);
+}
+
+static void nsvcd__chords_of_group(nsvcd__workspace *work, const nsvcd_body *moving, size_t g) {
+  const float *x = nsvcd__body_group(moving, 0), *y = nsvcd__body_group(moving, 1), *z = nsvcd__body_group(moving, 2);
+  for (size_t b = 0; NSVCD__LANES * b < work->segments; b++) {
+    nsvcd__chords_of_sphere(&work->blocks[b], x[g], y[g], z[g], nsvcd__body_group(moving, 3)[g], &work->group[b]);
   }
 }
 
-// Moving group g against the whole fixed body, in the segments `wanted`.
-static void nsvcd__group_against_body(nsvcd__workspace *work, const nsvcd_body *moving, size_t g,
-                                      const nsvcd_body *fixed, uint64_t wanted, nsvcd__candidates *kept) {
-  size_t blocks = nsvcd__round_up(work->segments, NSVCD__LANES) / NSVCD__LANES, groups = nsvcd__body_groups(fixed);
-  for (size_t b = 0; b < blocks; b++) {
-    nsvcd__chords_of_sphere(&work->blocks[b], nsvcd__body_group(moving, 0)[g], nsvcd__body_group(moving, 1)[g],
-                            nsvcd__body_group(moving, 2)[g], nsvcd__body_group(moving, 3)[g], &work->group[b]);
-  }
-  wanted = nsvcd__meet_in(work->group, wanted, fixed->centre[0], fixed->centre[1], fixed->centre[2], fixed->radius);
+// Fills near[g] with the segments, of those `wanted`, in which moving group g meets each group of the fixed body.
+// Returns how many they are over all groups.
+static size_t nsvcd__group_against_body(nsvcd__workspace *work, const nsvcd_body *moving, size_t g,
+                                        const nsvcd_body *fixed, uint64_t wanted) {
   const float *x = nsvcd__body_group(fixed, 0), *y = nsvcd__body_group(fixed, 1), *z = nsvcd__body_group(fixed, 2);
   const float *r = nsvcd__body_group(fixed, 3);
-  uint64_t any = 0;
-  for (size_t h = 0; h < groups; h++) {
-    uint64_t both = wanted & work->near_body[h];
-    work->near_group[h] = both ? nsvcd__meet_in(work->group, both, x[h], y[h], z[h], r[h]) : 0;
-    any |= work->near_group[h];
+  size_t meetings = 0;
+  nsvcd__chords_of_group(work, moving, g);
+  wanted = nsvcd__meet_in(work->group, wanted, fixed->centre[0], fixed->centre[1], fixed->centre[2], fixed->radius);
+  for (size_t h = 0; h < nsvcd__body_groups(fixed); h++) {
+    uint64_t met = wanted & work->near_body[h];
+    if (met) met = nsvcd__meet_in(work->group, met, x[h], y[h], z[h], r[h]);
+    work->near[g][h] = met;
+    meetings += nsvcd__bit_count(met);
   }
-  size_t i = g * NSVCD__GROUP;
-  for (; any; any &= any - 1) {
-    size_t s = nsvcd__lowest_bit(any);
-    nsvcd__chords_of_members(&work->blocks[s / NSVCD__LANES], s % NSVCD__LANES, nsvcd__body_x(moving) + i,
-                             nsvcd__body_y(moving) + i, nsvcd__body_z(moving) + i, nsvcd__body_r(moving) + i,
-                             &work->members[s]);
-  }
-  x = nsvcd__body_x(fixed), y = nsvcd__body_y(fixed), z = nsvcd__body_z(fixed), r = nsvcd__body_r(fixed);
-  for (size_t h = 0; h < groups; h++) {
-    if (!work->near_group[h]) continue;
-    for (size_t j = h * NSVCD__GROUP; j < (h + 1) * NSVCD__GROUP; j++) {
-      uint64_t met = nsvcd__meet_in(work->group, work->near_group[h], x[j], y[j], z[j], r[j]);
-      if (met) nsvcd__members_against_patch(work, moving, g, fixed, j, met, kept);
-    }
-  }
+  return meetings;
 }
 
-// Finds all runs, keeps the `limit` deepest in `items`, deepest first, and counts them all. Allocates nothing.
-static void nsvcd__broad_phase(const nsvcd_body *moving, const nsvcd_body *fixed, const nsvcd__motion *motion,
-                               nsvcd__workspace *work, nsvcd__candidate *items, size_t limit, nsvcd__candidates *kept) {
-  kept->items = items, kept->limit = limit, kept->count = 0, kept->total = 0;
+// Starts a search: fills the workspace and returns the number of its steps, 0 if the bodies' spheres never meet.
+static size_t nsvcd__search_begin(const nsvcd_body *moving, const nsvcd_body *fixed, const nsvcd__motion *motion,
+                                  nsvcd__workspace *work) {
   nsvcd__cut_motion(motion, moving->extent + fixed->extent, work);
-  size_t blocks = nsvcd__round_up(work->segments, NSVCD__LANES) / NSVCD__LANES, groups = nsvcd__body_groups(fixed);
-  for (size_t b = 0; b < blocks; b++) {
+  for (size_t b = 0; NSVCD__LANES * b < work->segments; b++) {
     nsvcd__chords_of_sphere(&work->blocks[b], moving->centre[0], moving->centre[1], moving->centre[2], moving->radius,
                             &work->body[b]);
   }
   uint64_t wanted = ~(uint64_t)0 >> (NSVCD__MAX_SEGMENTS - work->segments);
   wanted = nsvcd__meet_in(work->body, wanted, fixed->centre[0], fixed->centre[1], fixed->centre[2], fixed->radius);
-  if (!wanted) return;
+  if (!wanted) return 0;
   const float *x = nsvcd__body_group(fixed, 0), *y = nsvcd__body_group(fixed, 1), *z = nsvcd__body_group(fixed, 2);
   const float *r = nsvcd__body_group(fixed, 3);
-  for (size_t h = 0; h < groups; h++) work->near_body[h] = nsvcd__meet_in(work->body, wanted, x[h], y[h], z[h], r[h]);
-  for (size_t g = 0; g < nsvcd__body_groups(moving); g++) {
-    nsvcd__group_against_body(work, moving, g, fixed, wanted, kept);
+  for (size_t h = 0; h < nsvcd__body_groups(fixed); h++) {
+    work->near_body[h] = nsvcd__meet_in(work->body, wanted, x[h], y[h], z[h], r[h]);
   }
-  nsvcd__candidates_sort(kept);
+  size_t steps = 0, meetings[NSVCD__MAX_GROUPS];
+  for (size_t g = 0; g < nsvcd__body_groups(moving); g++) {
+    const size_t count = nsvcd__group_against_body(work, moving, g, fixed, wanted);
+    size_t at = steps;
+    if (!count) continue;
+    for (; at > 0 && meetings[at - 1] < count; at--)
+      meetings[at] = meetings[at - 1], work->order[at] = work->order[at - 1];
+    meetings[at] = count, work->order[at] = (uint16_t)g, steps++;
+  }
+  return steps;
+}
+
+// Patches of group h of the fixed body that moving group g meets, and in which segments.
+static uint32_t nsvcd__group_against_members(const nsvcd__workspace *work, const nsvcd_body *fixed, size_t h,
+                                             uint64_t wanted, uint64_t *segments) {  // (GROUP)
+  const size_t first = NSVCD__GROUP * h;
+  const float *x = nsvcd__body_group(fixed, 0), *y = nsvcd__body_group(fixed, 1), *z = nsvcd__body_group(fixed, 2);
+  uint32_t met = 0;
+  for (; wanted; wanted &= wanted - 1) {
+    const size_t s = nsvcd__lowest_bit(wanted);
+    if (!nsvcd__meet(&work->members[s], x[h], y[h], z[h], nsvcd__body_group(fixed, 3)[h])) continue;
+    uint32_t bits =
+        nsvcd__meet_members(&work->group[s / NSVCD__LANES], s % NSVCD__LANES, nsvcd__body_x(fixed) + first,
+                            nsvcd__body_y(fixed) + first, nsvcd__body_z(fixed) + first, nsvcd__body_r(fixed) + first);
+    for (; bits; bits &= bits - 1) {
+      const size_t l = nsvcd__lowest_bit(bits);
+      segments[l] = (met >> l & 1 ? segments[l] : 0) | (uint64_t)1 << s;
+      met |= 1u << l;
+    }
+  }
+  return met;
+}
+
+// Step `step` of the search: all runs of one moving group.
+static void nsvcd__search_step(nsvcd__workspace *work, const nsvcd_body *moving, const nsvcd_body *fixed, size_t step,
+                               nsvcd__candidates *kept) {
+  const size_t g = work->order[step], i = NSVCD__GROUP * g, groups = nsvcd__body_groups(fixed);
+  const float centre[3] = {nsvcd__body_group(moving, 0)[g], nsvcd__body_group(moving, 1)[g],
+                           nsvcd__body_group(moving, 2)[g]};
+  const float far = 1.000002f * (nsvcd__length3(centre) + nsvcd__body_group(moving, 3)[g]);
+  uint64_t any = 0;
+  nsvcd__chords_of_group(work, moving, g);
+  for (size_t h = 0; h < groups; h++) any |= work->near[g][h];
+  for (; any; any &= any - 1) {
+    const size_t s = nsvcd__lowest_bit(any);
+    nsvcd__chords_of_members(&work->blocks[s / NSVCD__LANES], s % NSVCD__LANES, nsvcd__body_x(moving) + i,
+                             nsvcd__body_y(moving) + i, nsvcd__body_z(moving) + i, nsvcd__body_r(moving) + i, far,
+                             &work->members[s]);
+  }
+  for (size_t h = 0; h < groups; h++) {
+    uint64_t segments[NSVCD__GROUP];
+    if (!work->near[g][h]) continue;
+    for (uint32_t met = nsvcd__group_against_members(work, fixed, h, work->near[g][h], segments); met; met &= met - 1) {
+      const size_t l = nsvcd__lowest_bit(met);
+      nsvcd__members_against_patch(work, moving, g, fixed, NSVCD__GROUP * h + l, segments[l], kept);
+    }
+  }
+}
+
+static void nsvcd__candidates_start(nsvcd__candidates *kept, nsvcd__candidate *items, size_t limit) {
+  kept->items = items, kept->limit = limit, kept->count = 0, kept->total = 0;
 }
 
 // ------------------------------------------------------------------------------------------------ containment
@@ -2269,7 +2640,7 @@ static int nsvcd__is_contained(const nsvcd_body *moving, const nsvcd_body *fixed
 }
 
 // ---------------------------------------------------------------------------------------------------- decoder
-// In: one candidate pair of patches and the motion over the interval in which their spheres meet. Out: a logit.
+// In: candidate pairs of patches and the motion over the intervals in which their spheres meet. Out: a logit each.
 //
 // The motion is linearised about the middle of the interval; then everything is expressed in a frame that moves with
 // the pair, in units of r1 + r2 (appendix F), so the logit is invariant to rigid motion and scale. The symmetries that
@@ -2283,140 +2654,275 @@ static int nsvcd__is_contained(const nsvcd_body *moving, const nsvcd_body *fixed
 //                  rest, the frame is right-handed
 // Degenerate cases: centres that coincide (to 1e-5 of r1 + r2) take the lean, else x, as axis 1; a reference that
 // vanishes takes the coordinate axis farthest from axis 1 as axis 2.
+//
+// Pairs go through in batches of 16, one per lane; only their latents are turned pair by pair, channels side by side.
 
-#define NSVCD__VECTORS (8 * NSVCD_W_CHANNELS)
+#define NSVCD__BATCH NSVCD__LANES
 #define NSVCD__FACTS 12
 #define NSVCD__DECODER_IN (2 * NSVCD__LATENT + NSVCD__FACTS)
 #define NSVCD__LEAN 0.05f  // share of the lean in axis 2
 #define NSVCD__SIDE 1e-4f  // a lean less than this to one side of axes 1 and 2 is on neither
 
-typedef struct nsvcd__pair {
-  float p1[3], p2[3];     // centres at mid-interval: of the moving patch, of the fixed one; the fixed body's frame
-  float r1, r2;           // metres
-  float rotation[9];      // of the moving body at mid-interval
-  float v[3];             // half displacement of the point midway between p1 and p2, as part of the moving body
-  float w[3];             // half rotation vector
-  const int8_t *z1, *z2;  // latents, body frames
-} nsvcd__pair;
+typedef struct nsvcd__pairs {
+  nsvcd__v p1[3], p2[3];  // centres at mid-interval: of the moving patch, of the fixed one; the fixed body's frame
+  nsvcd__v r1, r2;        // metres
+  nsvcd__v rotation[9];   // of the moving body at mid-interval
+  nsvcd__v v[3];          // half displacement of the point midway between p1 and p2, as part of the moving body
+  nsvcd__v w[3];          // half rotation vector
+  const int8_t *z1[NSVCD__BATCH], *z2[NSVCD__BATCH];  // latents, body frames
+} nsvcd__pairs;
 
-static void nsvcd__pair_of(const nsvcd_body *moving, const nsvcd_body *fixed, const nsvcd__motion *motion,
-                           const nsvcd__candidate *candidate, nsvcd__pair *pair) {
-  size_t i = candidate->moving, j = candidate->fixed;
-  const float c[3] = {nsvcd__body_x(moving)[i], nsvcd__body_y(moving)[i], nsvcd__body_z(moving)[i]};
-  float enter[9], leave[9], t_enter[3], t_leave[3], middle[3], x_enter[3], x_leave[3], arm[3], swing[3];
-  nsvcd__motion_pose(motion, candidate->t_enter, enter, t_enter);
-  nsvcd__motion_pose(motion, candidate->t_exit, leave, t_leave);
-  nsvcd__motion_pose(motion, 0.5f * (candidate->t_enter + candidate->t_exit), pair->rotation, middle);
-  nsvcd__mul33_vec(enter, c, x_enter);
-  nsvcd__mul33_vec(leave, c, x_leave);
-  nsvcd__mul33_vec(pair->rotation, c, pair->p1);
-  nsvcd__rotation_vector(enter, leave, pair->w);
-  pair->p2[0] = nsvcd__body_x(fixed)[j], pair->p2[1] = nsvcd__body_y(fixed)[j], pair->p2[2] = nsvcd__body_z(fixed)[j];
-  for (size_t k = 0; k < 3; k++) {
-    pair->p1[k] += middle[k], pair->w[k] *= 0.5f;
-    arm[k] = 0.5f * (pair->p2[k] - pair->p1[k]);
+// Half the rotation vector of a unit quaternion, from the sine s of half the angle: asin(s) / s times its vector part.
+static void nsvcd__v_half_rotation(const nsvcd__v *q, nsvcd__v *w) {
+  const nsvcd__v sign = nsvcd__v_pick(nsvcd__v_set(0), q[3], nsvcd__v_set(1), nsvcd__v_set(-1));
+  const nsvcd__v square = nsvcd__v_dot3(q, q);
+  nsvcd__v ratio = nsvcd__v_set(0.02237216f);  // the series of asin(s) / s, to 2e-6 for s < 0.5
+  static const float series[5] = {0.03038194f, 0.04464286f, 0.075f, 0.16666667f, 1};
+  for (size_t k = 0; k < 5; k++) ratio = nsvcd__v_fma(ratio, square, nsvcd__v_set(series[k]));
+  uint32_t wide = nsvcd__v_le(nsvcd__v_set(0.25f), square);  // over 60 degrees: a motion of few samples
+  if (wide) {
+    float r[NSVCD__LANES], s2[NSVCD__LANES], c[NSVCD__LANES];
+    nsvcd__v_store(r, ratio), nsvcd__v_store(s2, square), nsvcd__v_store(c, nsvcd__v_mul(sign, q[3]));
+    for (; wide; wide &= wide - 1) {
+      const size_t l = nsvcd__lowest_bit(wide);
+      r[l] = atan2f(sqrtf(s2[l]), c[l]) / sqrtf(s2[l]);
+    }
+    ratio = nsvcd__v_load(r);
   }
-  nsvcd__cross3(pair->w, arm, swing);
-  for (size_t k = 0; k < 3; k++) {
-    pair->v[k] = 0.5f * ((x_leave[k] - x_enter[k]) + (t_leave[k] - t_enter[k])) + swing[k];
+  for (size_t k = 0; k < 3; k++) w[k] = nsvcd__v_mul(nsvcd__v_mul(sign, ratio), q[k]);
+}
+
+// Poses in the fixed body's frame at times t in [0,1], one per lane: unit quaternions q (4), positions p (3).
+static void nsvcd__v_poses_at(const nsvcd__motion *motion, const float *t, nsvcd__v *q, nsvcd__v *p) {
+  float from[7][NSVCD__LANES], to[7][NSVCD__LANES], share[NSVCD__LANES];
+  const size_t last = motion->count > 1 ? motion->count - 2 : 0;
+  for (size_t l = 0; l < NSVCD__LANES; l++) {
+    const float at = motion->count > 1 ? t[l] * (float)(last + 1) : 0;
+    const size_t k = (size_t)at < last ? (size_t)at : last;
+    const nsvcd_pose *a = &motion->poses[k], *b = motion->count > 1 ? a + 1 : a;
+    float slerped[4];
+    const float *qa = a->rotation, *qb = b->rotation, u = at - (float)k;
+    const float dot = qa[0] * qb[0] + qa[1] * qb[1] + qa[2] * qb[2] + qa[3] * qb[3], sign = dot < 0 ? -1.0f : 1.0f;
+    if (fabsf(dot) < 0.999f) nsvcd__slerp(qa, qb, u, slerped), qa = qb = slerped;
+    share[l] = u;
+    for (size_t n = 0; n < 3; n++) {
+      from[n][l] = a->position[n] - motion->fixed_position[n], to[n][l] = b->position[n] - a->position[n];
+    }
+    // Within 5 degrees the straight line, brought back to unit length, is the slerp to 2e-6 radians.
+    for (size_t n = 0; n < 4; n++) from[3 + n][l] = qa[n], to[3 + n][l] = qa == qb ? 0 : sign * qb[n] - qa[n];
   }
-  pair->r1 = nsvcd__body_r(moving)[i], pair->r2 = nsvcd__body_r(fixed)[j];
-  pair->z1 = nsvcd__body_latents(moving) + NSVCD__LATENT * i;
-  pair->z2 = nsvcd__body_latents(fixed) + NSVCD__LATENT * j;
+  nsvcd__v mixed[7], square = nsvcd__v_set(0);
+  const nsvcd__v u = nsvcd__v_load(share);
+  for (size_t n = 0; n < 7; n++) mixed[n] = nsvcd__v_fma(u, nsvcd__v_load(to[n]), nsvcd__v_load(from[n]));
+  for (size_t n = 3; n < 7; n++) square = nsvcd__v_fma(mixed[n], mixed[n], square);
+  const nsvcd__v length = nsvcd__v_sqrt(square);
+  for (size_t n = 3; n < 7; n++) mixed[n] = nsvcd__v_div(mixed[n], length);
+  nsvcd__v_to_fixed(motion, mixed + 3, mixed, q, p);
+}
+
+// The pairs of `count` candidates, 1 to 16; lanes beyond repeat the last one.
+static void nsvcd__pairs_of(const nsvcd_body *moving, const nsvcd_body *fixed, const nsvcd__motion *motion,
+                            nsvcd__candidate *const *candidates, size_t count, nsvcd__pairs *pairs) {
+  float lanes[8][NSVCD__LANES], enter[NSVCD__LANES], leave[NSVCD__LANES], middle[NSVCD__LANES];
+  for (size_t l = 0; l < NSVCD__LANES; l++) {
+    const nsvcd__candidate *candidate = candidates[l < count ? l : count - 1];
+    const size_t i = candidate->moving, j = candidate->fixed;
+    lanes[0][l] = nsvcd__body_x(moving)[i], lanes[1][l] = nsvcd__body_y(moving)[i],
+    lanes[2][l] = nsvcd__body_z(moving)[i];
+    lanes[3][l] = nsvcd__body_x(fixed)[j], lanes[4][l] = nsvcd__body_y(fixed)[j], lanes[5][l] = nsvcd__body_z(fixed)[j];
+    lanes[6][l] = nsvcd__body_r(moving)[i], lanes[7][l] = nsvcd__body_r(fixed)[j];
+    enter[l] = candidate->t_enter, leave[l] = candidate->t_exit, middle[l] = 0.5f * (enter[l] + leave[l]);
+    pairs->z1[l] = nsvcd__body_latents(moving) + NSVCD__LATENT * i;
+    pairs->z2[l] = nsvcd__body_latents(fixed) + NSVCD__LATENT * j;
+  }
+  const nsvcd__v half = nsvcd__v_set(0.5f),
+                 c[3] = {nsvcd__v_load(lanes[0]), nsvcd__v_load(lanes[1]), nsvcd__v_load(lanes[2])};
+  nsvcd__v q1[4], q2[4], p1[3], p2[3], q[4], p[3], x1[3], x2[3], r[9], arm[3];
+  nsvcd__v_poses_at(motion, enter, q1, p1);
+  nsvcd__v_poses_at(motion, leave, q2, p2);
+  nsvcd__v_poses_at(motion, middle, q, p);
+  nsvcd__v_matrix(q1, r), nsvcd__v_mul33_vec(r, c, x1);
+  nsvcd__v_matrix(q2, r), nsvcd__v_mul33_vec(r, c, x2);
+  nsvcd__v_matrix(q, pairs->rotation), nsvcd__v_mul33_vec(pairs->rotation, c, pairs->p1);
+  for (size_t k = 0; k < 3; k++) q1[k] = nsvcd__v_sub(nsvcd__v_set(0), q1[k]);
+  nsvcd__v_quat_mul(q2, q1, q);
+  nsvcd__v_half_rotation(q, pairs->w);
+  for (size_t k = 0; k < 3; k++) {
+    pairs->p1[k] = nsvcd__v_add(pairs->p1[k], p[k]);
+    pairs->p2[k] = nsvcd__v_load(lanes[3 + k]);
+    arm[k] = nsvcd__v_mul(half, nsvcd__v_sub(pairs->p2[k], pairs->p1[k]));
+  }
+  nsvcd__v_cross(pairs->w, arm, pairs->v);
+  for (size_t k = 0; k < 3; k++) {
+    const nsvcd__v step = nsvcd__v_add(nsvcd__v_sub(x2[k], x1[k]), nsvcd__v_sub(p2[k], p1[k]));
+    pairs->v[k] = nsvcd__v_fma(half, step, pairs->v[k]);
+  }
+  pairs->r1 = nsvcd__v_load(lanes[6]), pairs->r2 = nsvcd__v_load(lanes[7]);
 }
 
 // Removes from a its part along the unit vector e.
-static void nsvcd__across(const float *a, const float *e, float *out) {
-  float along = nsvcd__dot3(a, e);
-  for (size_t k = 0; k < 3; k++) out[k] = a[k] - along * e[k];
+static void nsvcd__v_across(const nsvcd__v *a, const nsvcd__v *e, nsvcd__v *out) {
+  const nsvcd__v along = nsvcd__v_sub(nsvcd__v_set(0), nsvcd__v_dot3(a, e));
+  for (size_t k = 0; k < 3; k++) out[k] = nsvcd__v_fma(along, e[k], a[k]);
 }
 
-// The pair's frame: rows are its axes in the fixed body's frame; `mirrored` if they are left-handed. d: the line from
-// the larger patch to the smaller one, over r1 + r2; lean likewise. Reverses v and w where time is to run backwards.
-static int nsvcd__pair_frame(const float *d, const float *lean, float *v, float *w, float *frame) {
-  float *e1 = frame, *e2 = frame + 3, *e3 = frame + 6, length = nsvcd__length3(d);
-  float line[3] = {lean[0] + 1e-6f, lean[1], lean[2]}, lean_across[3], v_across[3], ref[3];
-  if (length > 1e-5f) {
-    for (size_t k = 0; k < 3; k++) e1[k] = d[k] / length;
-  } else {
-    float norm = nsvcd__length3(line);
-    for (size_t k = 0; k < 3; k++) e1[k] = norm > 1e-9f ? line[k] / norm : (k == 0 ? 1.0f : 0.0f);
-  }
-  nsvcd__across(lean, e1, lean_across);
-  nsvcd__across(v, e1, v_across);
-  const float sign = nsvcd__dot3(lean_across, v_across) < 0 ? -1.0f : 1.0f;
+static nsvcd__v nsvcd__v_length3(const nsvcd__v *a) { return nsvcd__v_sqrt(nsvcd__v_dot3(a, a)); }
+
+// a over its length, where that exceeds `least`; elsewhere `instead`.
+static void nsvcd__v_unit3(const nsvcd__v *a, float least, const nsvcd__v *instead, nsvcd__v *out) {
+  const nsvcd__v length = nsvcd__v_length3(a), floor = nsvcd__v_set(least);
+  const nsvcd__v inverse = nsvcd__v_div(nsvcd__v_set(1), nsvcd__v_max(length, floor));
+  for (size_t k = 0; k < 3; k++) out[k] = nsvcd__v_pick(length, floor, instead[k], nsvcd__v_mul(a[k], inverse));
+}
+
+// The pairs' frames: rows are their axes in the fixed body's frame. d: the line from the larger patch to the smaller
+// one, over r1 + r2; lean likewise. Reverses v and w where time is to run backwards. Returns -1 where mirrored, else 1.
+static nsvcd__v nsvcd__v_pair_frame(const nsvcd__v *d, const nsvcd__v *lean, nsvcd__v *v, nsvcd__v *w,
+                                    nsvcd__v *frame) {
+  const nsvcd__v zero = nsvcd__v_set(0), one = nsvcd__v_set(1), minus = nsvcd__v_set(-1);
+  const nsvcd__v x_axis[3] = {one, zero, zero},
+                 line[3] = {nsvcd__v_add(lean[0], nsvcd__v_set(1e-6f)), lean[1], lean[2]};
+  nsvcd__v *e1 = frame, *e2 = frame + 3, *e3 = frame + 6, lean_across[3], v_across[3], ref[3], instead[3];
+  nsvcd__v_unit3(line, 1e-9f, x_axis, instead);
+  nsvcd__v_unit3(d, 1e-5f, instead, e1);
+  nsvcd__v_across(lean, e1, lean_across);
+  nsvcd__v_across(v, e1, v_across);
+  const nsvcd__v sign = nsvcd__v_pick(zero, nsvcd__v_dot3(lean_across, v_across), one, minus);
   for (size_t k = 0; k < 3; k++) {
-    v[k] *= sign, w[k] *= sign;
-    ref[k] = sign * v_across[k] + NSVCD__LEAN * lean_across[k];
+    v[k] = nsvcd__v_mul(sign, v[k]), w[k] = nsvcd__v_mul(sign, w[k]);
+    ref[k] = nsvcd__v_fma(nsvcd__v_set(NSVCD__LEAN), lean_across[k], nsvcd__v_mul(sign, v_across[k]));
   }
-  float norm = nsvcd__length3(ref);
-  if (norm < 1e-7f) {
-    size_t least = fabsf(e1[1]) < fabsf(e1[0]) ? 1 : 0;
-    if (fabsf(e1[2]) < fabsf(e1[least])) least = 2;
-    float axis[3] = {0, 0, 0};
-    axis[least] = 1;
-    nsvcd__across(axis, e1, ref);
-    norm = nsvcd__length3(ref);
+  if (nsvcd__v_le(nsvcd__v_length3(ref),
+                  nsvcd__v_set(1e-7f))) {  // somewhere: then the coordinate axis farthest from e1
+    nsvcd__v size[3], axis[3];
+    for (size_t k = 0; k < 3; k++) size[k] = nsvcd__v_max(e1[k], nsvcd__v_sub(zero, e1[k]));
+    axis[0] = nsvcd__v_pick(size[0], nsvcd__v_min(size[1], size[2]), one, zero);
+    axis[1] = nsvcd__v_mul(nsvcd__v_sub(one, axis[0]), nsvcd__v_pick(size[1], size[2], one, zero));
+    axis[2] = nsvcd__v_sub(one, nsvcd__v_add(axis[0], axis[1]));
+    nsvcd__v_across(axis, e1, axis);
+    nsvcd__v_unit3(axis, 1e-9f, x_axis, instead);
   }
-  for (size_t k = 0; k < 3; k++) e2[k] = ref[k] / norm;
-  nsvcd__cross3(e1, e2, e3);
-  if (nsvcd__dot3(lean, e3) >= -NSVCD__SIDE) return 0;
-  for (size_t k = 0; k < 3; k++) e3[k] = -e3[k];
-  return 1;
-}
-
-// A stored latent, turned by r, its vectors times `scale`: vectors (8 CHANNELS), scalars (SCALARS).
-static void nsvcd__latent_in(const int8_t *z, const float *r, float scale, float *vectors, float *scalars) {
-  float latent[NSVCD__VECTORS];
-  for (size_t k = 0; k < NSVCD__VECTORS; k++) latent[k] = (float)z[k] * (scale / 127);
-  nsvcd__rotate_latent(r, latent, vectors);
-  for (size_t k = 0; k < NSVCD_W_SCALARS; k++) scalars[k] = (float)z[NSVCD__VECTORS + k] / 127;
+  nsvcd__v_unit3(ref, 1e-7f, instead, e2);
+  nsvcd__v_cross(e1, e2, e3);
+  const nsvcd__v side = nsvcd__v_pick(nsvcd__v_set(-NSVCD__SIDE), nsvcd__v_dot3(lean, e3), one, minus);
+  for (size_t k = 0; k < 3; k++) e3[k] = nsvcd__v_mul(side, e3[k]);
+  return side;
 }
 
 // The unit of length: r1 + r2; for points without extent whatever keeps the inputs finite.
-static float nsvcd__reach(const nsvcd__pair *pair) {
-  float line[3], least;
-  nsvcd__sub3(pair->p2, pair->p1, line);
-  least = 1e-6f * (nsvcd__length3(line) + nsvcd__length3(pair->v)) + 1e-30f;
-  return pair->r1 + pair->r2 > least ? pair->r1 + pair->r2 : least;
+static nsvcd__v nsvcd__v_reach(const nsvcd__pairs *pairs) {
+  nsvcd__v line[3];
+  for (size_t k = 0; k < 3; k++) line[k] = nsvcd__v_sub(pairs->p2[k], pairs->p1[k]);
+  const nsvcd__v least = nsvcd__v_fma(
+      nsvcd__v_set(1e-6f), nsvcd__v_add(nsvcd__v_length3(line), nsvcd__v_length3(pairs->v)), nsvcd__v_set(1e-30f));
+  return nsvcd__v_max(nsvcd__v_add(pairs->r1, pairs->r2), least);
 }
 
-// Appendix F: the inputs of the decoder, x (DECODER_IN): vectors of the larger patch and of the other, their scalars,
-// and twelve facts of the geometry.
-static void nsvcd__invariants(const nsvcd__pair *pair, float *x) {
-  const float reach = nsvcd__reach(pair);
-  const float k1 = pair->r1 / reach, k2 = pair->r2 / reach;
-  const int swap = pair->r2 > pair->r1;
-  float d[3], v[3], w[3], lean[3], frame[9], frame1[9], mean1[3], mean2[3], turned1[3];
-  for (size_t k = 0; k < 3; k++) {
-    d[k] = (pair->p2[k] - pair->p1[k]) / reach, v[k] = pair->v[k] / reach, w[k] = pair->w[k];
-    mean1[k] = (float)pair->z1[k] / 127, mean2[k] = (float)pair->z2[k] / 127;
+// Appendix F: the inputs of the decoder for the first `count` pairs, x (16, DECODER_IN): vectors of the larger patch
+// and of the other, their scalars, and twelve facts of the geometry.
+static void nsvcd__invariants(const nsvcd__pairs *pairs, size_t count, float *x) {
+  const nsvcd__v inverse = nsvcd__v_div(nsvcd__v_set(1), nsvcd__v_reach(pairs)), step = nsvcd__v_set(1.0f / 127);
+  const nsvcd__v k1 = nsvcd__v_mul(pairs->r1, inverse), k2 = nsvcd__v_mul(pairs->r2, inverse);
+  const nsvcd__v order = nsvcd__v_pick(pairs->r2, pairs->r1, nsvcd__v_set(1), nsvcd__v_set(-1));  // -1: swap
+  float mean[6][NSVCD__LANES], turn1[NSVCD__TURN][NSVCD__LANES], turn2[NSVCD__TURN][NSVCD__LANES],
+      facts[NSVCD__FACTS][NSVCD__LANES];
+  nsvcd__v d[3], v[3], w[3], lean[3], mean1[3], frame[9], frame1[9], closest[3], turn[3];
+  for (size_t l = 0; l < NSVCD__LANES; l++) {
+    for (size_t k = 0; k < 3; k++) {
+      mean[k][l] = (float)pairs->z1[l][NSVCD_W_CHANNELS * k],
+      mean[3 + k][l] = (float)pairs->z2[l][NSVCD_W_CHANNELS * k];
+    }
   }
-  nsvcd__mul33_vec(pair->rotation, mean1, turned1);
-  for (size_t k = 0; k < 3; k++) lean[k] = turned1[k] * k1 - mean2[k] * k2;
-  // Seen from the other body the motion is reversed as well, but time may run either way: v and w can stay.
-  for (size_t k = 0; swap && k < 3; k++) d[k] = -d[k], lean[k] = -lean[k];
-  const int mirrored = nsvcd__pair_frame(d, lean, v, w, frame);
-  nsvcd__mul33(frame, pair->rotation, frame1);
+  for (size_t k = 0; k < 3; k++) mean1[k] = nsvcd__v_mul(step, nsvcd__v_load(mean[k]));
+  nsvcd__v_mul33_vec(pairs->rotation, mean1, lean);
+  for (size_t k = 0; k < 3; k++) {
+    const nsvcd__v mean2 = nsvcd__v_mul(step, nsvcd__v_load(mean[3 + k]));
+    // Seen from the other body the motion is reversed as well, but time may run either way: v and w can stay.
+    lean[k] = nsvcd__v_mul(order, nsvcd__v_sub(nsvcd__v_mul(lean[k], k1), nsvcd__v_mul(mean2, k2)));
+    d[k] = nsvcd__v_mul(order, nsvcd__v_mul(inverse, nsvcd__v_sub(pairs->p2[k], pairs->p1[k])));
+    v[k] = nsvcd__v_mul(inverse, pairs->v[k]), w[k] = pairs->w[k];
+  }
+  const nsvcd__v side = nsvcd__v_pair_frame(d, lean, v, w, frame);
+  for (size_t i = 0; i < 9; i++) {
+    const nsvcd__v *row = frame + i / 3 * 3, *column = pairs->rotation + i % 3;
+    frame1[i] = nsvcd__v_fma(row[0], column[0], nsvcd__v_fma(row[1], column[3], nsvcd__v_mul(row[2], column[6])));
+  }
+  nsvcd__wigner(frame1, nsvcd__v_mul(k1, step), turn1);
+  nsvcd__wigner(frame, nsvcd__v_mul(k2, step), turn2);
 
-  float *first = x, *second = x + NSVCD__VECTORS, *scalars = x + 2 * NSVCD__VECTORS;
-  nsvcd__latent_in(pair->z1, frame1, k1, swap ? second : first, scalars + (swap ? NSVCD_W_SCALARS : 0));
-  nsvcd__latent_in(pair->z2, frame, k2, swap ? first : second, scalars + (swap ? 0 : NSVCD_W_SCALARS));
+  const nsvcd__v speed2 = nsvcd__v_dot3(v, v);
+  nsvcd__v tau = nsvcd__v_div(nsvcd__v_dot3(d, v), nsvcd__v_add(speed2, nsvcd__v_set(1e-6f)));
+  tau = nsvcd__v_clamp(tau, -1, 1);  // nearest approach of the centres, in half intervals
+  for (size_t k = 0; k < 3; k++) closest[k] = nsvcd__v_sub(d[k], nsvcd__v_mul(tau, v[k]));
+  nsvcd__v_store(facts[0], nsvcd__v_length3(d)), nsvcd__v_store(facts[1], nsvcd__v_max(k1, k2));
+  nsvcd__v_store(facts[2], nsvcd__v_length3(closest)), nsvcd__v_store(facts[3], tau);
+  nsvcd__v_mul33_vec(frame, v, closest), nsvcd__v_mul33_vec(frame, w, turn);
+  for (size_t k = 0; k < 3; k++) {
+    nsvcd__v_store(facts[4 + k], closest[k]);
+    nsvcd__v_store(facts[7 + k], nsvcd__v_mul(side, turn[k]));  // an axial vector
+  }
+  nsvcd__v_store(facts[10], nsvcd__v_sqrt(speed2)), nsvcd__v_store(facts[11], nsvcd__v_length3(w));
 
-  float *facts = scalars + 2 * NSVCD_W_SCALARS, speed2 = nsvcd__dot3(v, v), closest[3], turn[3];
-  float tau = nsvcd__dot3(d, v) / (speed2 + 1e-6f);  // nearest approach of the centres, in half intervals
-  tau = tau < -1 ? -1 : tau > 1 ? 1 : tau;
-  for (size_t k = 0; k < 3; k++) closest[k] = d[k] - tau * v[k];
-  facts[0] = nsvcd__length3(d), facts[1] = k1 > k2 ? k1 : k2, facts[2] = nsvcd__length3(closest), facts[3] = tau;
-  nsvcd__mul33_vec(frame, v, facts + 4);
-  nsvcd__mul33_vec(frame, w, turn);
-  for (size_t k = 0; k < 3; k++) facts[7 + k] = mirrored ? -turn[k] : turn[k];  // an axial vector
-  facts[10] = sqrtf(speed2), facts[11] = nsvcd__length3(w);
+  const uint32_t keep = nsvcd__v_le(nsvcd__v_set(0), order);
+  for (size_t l = 0; l < count; l++, x += NSVCD__DECODER_IN) {
+    const size_t first = keep >> l & 1 ? 0 : 1, second = 1 - first;
+    float *scalars = x + 2 * NSVCD__VECTORS;
+    nsvcd__turn_latent(pairs->z1[l], turn1, l, x + NSVCD__VECTORS * first, scalars + NSVCD_W_SCALARS * first);
+    nsvcd__turn_latent(pairs->z2[l], turn2, l, x + NSVCD__VECTORS * second, scalars + NSVCD_W_SCALARS * second);
+    for (size_t k = 0; k < NSVCD__FACTS; k++) scalars[2 * NSVCD_W_SCALARS + k] = facts[k][l];
+  }
 }
 
-// One layer in int8: x (inputs) over its largest component, w (outputs, inputs); sums are exact in int32.
-static void nsvcd__linear_int8(const int8_t *w, const float *scales, const float *bias, size_t inputs, size_t outputs,
-                               const float *x, float *y) {
+#if defined(__AVX512F__) && !defined(NSVCD_NO_SIMD)
+#define NSVCD__TILES 4  // 16 sums in 32 registers; in 16 registers 4 sums of 2 words do
+#else
+#define NSVCD__TILES 1
+#endif
+
+// 4 rows of a layer, `tiles` times 16 outputs each: y = w^T x + bias. x (4, from), y (4, to), w (inputs, outputs).
+static inline void nsvcd__layer_tile(const float *w, const float *bias, size_t inputs, size_t outputs, const float *x,
+                                     size_t from, float *y, size_t to, int relu, size_t tiles) {
+  nsvcd__v sum[4][4];
+  for (size_t p = 0; p < 4; p++) {
+    for (size_t t = 0; t < tiles; t++) sum[p][t] = nsvcd__v_load(bias + NSVCD__LANES * t);
+  }
+  for (size_t i = 0; i < inputs; i++, w += outputs) {
+    for (size_t t = 0; t < tiles; t++) {
+      const nsvcd__v column = nsvcd__v_load(w + NSVCD__LANES * t);
+      for (size_t p = 0; p < 4; p++) sum[p][t] = nsvcd__v_fma(nsvcd__v_set(x[from * p + i]), column, sum[p][t]);
+    }
+  }
+  for (size_t p = 0; p < 4; p++) {
+    for (size_t t = 0; t < tiles; t++) {
+      nsvcd__v_store(y + to * p + NSVCD__LANES * t, relu ? nsvcd__v_max(sum[p][t], nsvcd__v_set(0)) : sum[p][t]);
+    }
+  }
+}
+
+// One layer for `rows` pairs, a multiple of 4. outputs: a multiple of 16.
+static void nsvcd__layer(const float *w, size_t inputs, size_t outputs, size_t rows, const float *x, size_t from,
+                         float *y, size_t to, int relu) {
+  const float *bias = w + inputs * outputs;
+  for (size_t p = 0; p < rows; p += 4) {
+    for (size_t o = 0, tiles; o < outputs; o += NSVCD__LANES * tiles) {
+      const size_t left = (outputs - o) / NSVCD__LANES;
+      const float *from_row = x + from * p;
+      float *to_row = y + to * p + o;
+      tiles = left >= NSVCD__TILES ? NSVCD__TILES : left >= 2 && NSVCD__TILES > 2 ? 2 : 1;
+      if (tiles == NSVCD__TILES) {
+        nsvcd__layer_tile(w + o, bias + o, inputs, outputs, from_row, from, to_row, to, relu, NSVCD__TILES);
+      } else if (tiles == 2) {
+        nsvcd__layer_tile(w + o, bias + o, inputs, outputs, from_row, from, to_row, to, relu, 2);
+      } else {
+        nsvcd__layer_tile(w + o, bias + o, inputs, outputs, from_row, from, to_row, to, relu, 1);
+      }
+    }
+  }
+}
+
+// One layer in int8 for one pair: x (inputs) over its largest component, w (outputs, inputs); sums are exact in int32.
+static void nsvcd__layer_int8(const int8_t *w, const float *scales, const float *bias, size_t inputs, size_t outputs,
+                              const float *x, float *y, int relu) {
   int8_t q[NSVCD_W_WIDEST > NSVCD__DECODER_IN ? NSVCD_W_WIDEST : NSVCD__DECODER_IN];
   float most = 1e-20f;
   for (size_t i = 0; i < inputs; i++) most = fabsf(x[i]) > most ? fabsf(x[i]) : most;
@@ -2427,27 +2933,28 @@ static void nsvcd__linear_int8(const int8_t *w, const float *scales, const float
     int32_t sum = 0;
     for (size_t i = 0; i < inputs; i++) sum += (int32_t)row[i] * (int32_t)q[i];
     y[o] = bias[o] + (float)sum * step * scales[o];
+    if (relu && y[o] < 0) y[o] = 0;
   }
 }
 
-// x (DECODER_IN) -> the logit of `head`, in fp32 or int8 arithmetic.
-static float nsvcd__head_logit(const nsvcd__head *head, const float *x, int int8) {
-  const float *w = nsvcd_w_decoder + head->weights, *scales = nsvcd_w_decoder_scale + head->scales, *from = x;
+// x (16, DECODER_IN) -> the logits of the first `count` pairs by `head`, in fp32 or int8 arithmetic.
+static void nsvcd__head_logits(const nsvcd__head *head, const float *x, size_t count, int int8, float *logits) {
+  const float *w = nsvcd_w_decoder + head->weights, *scales = nsvcd_w_decoder_scale + head->scales;
   const int8_t *rows = nsvcd_w_decoder_int8 + head->int8;
-  float a[NSVCD_W_WIDEST], b[NSVCD_W_WIDEST], *to = a;
+  float a[NSVCD__BATCH * NSVCD_W_WIDEST], b[NSVCD__BATCH * NSVCD_W_WIDEST], *to = a;
+  size_t from = NSVCD__DECODER_IN;
   for (size_t l = 0; l < head->layers; l++) {
     const size_t inputs = head->sizes[l], outputs = head->sizes[l + 1];
-    const float *bias = w + inputs * outputs;
-    if (int8) {
-      nsvcd__linear_int8(rows, scales, bias, inputs, outputs, from, to);
-    } else {
-      nsvcd__linear(w, bias, inputs, outputs, from, to);
+    const int relu = l + 1 < head->layers;
+    if (!int8) nsvcd__layer(w, inputs, outputs, nsvcd__round_up(count, 4), x, from, to, NSVCD_W_WIDEST, relu);
+    for (size_t p = 0; int8 && p < count; p++) {
+      nsvcd__layer_int8(rows, scales, w + inputs * outputs, inputs, outputs, x + from * p, to + NSVCD_W_WIDEST * p,
+                        relu);
     }
-    if (l + 1 < head->layers) nsvcd__relu(outputs, to);
-    w = bias + outputs, rows += inputs * outputs, scales += outputs;
-    from = to, to = to == a ? b : a;
+    w += (inputs + 1) * outputs, rows += inputs * outputs, scales += outputs;
+    x = to, from = NSVCD_W_WIDEST, to = to == a ? b : a;
   }
-  return from[0];
+  for (size_t p = 0; p < count; p++) logits[p] = x[from * p];
 }
 
 // ------------------------------------------------------------------------------------------------------ query
@@ -2523,11 +3030,12 @@ NSVCDDEF const char *nsvcd_status_string(nsvcd_status status) {
 
 #define NSVCD__SHORTLIST 4       // times K: the deepest pairs, from which the tiny head chooses
 #define NSVCD__CLEAR_LOGIT 5.0f  // a verdict this positive needs no second pair
+#define NSVCD__PORTION 4         // pairs that the chosen head sees at once
+#define NSVCD__PROBE 8           // new pairs that are worth a look before the search is done
 
 typedef struct nsvcd__query {
   nsvcd__workspace broad_phase;
-  nsvcd__candidate deepest[NSVCD__SHORTLIST * NSVCD_MAX_PAIRS];
-  nsvcd__candidate chosen[NSVCD_MAX_PAIRS];
+  nsvcd__candidate kept[NSVCD__SHORTLIST * NSVCD_MAX_PAIRS], probed[NSVCD__SHORTLIST * NSVCD_MAX_PAIRS];
 } nsvcd__query;
 
 NSVCDDEF size_t nsvcd_sweep_workspace_size(void) { return sizeof(nsvcd__query); }
@@ -2543,38 +3051,30 @@ static int nsvcd__threshold(size_t model, float recall, float *threshold) {
   return 0;
 }
 
-static float nsvcd__decode(const nsvcd_body *moving, const nsvcd_body *fixed, const nsvcd__motion *motion,
-                           const nsvcd__candidate *candidate, const nsvcd__head *head, int int8) {
-  nsvcd__pair pair;
-  float x[NSVCD__DECODER_IN];
-  nsvcd__pair_of(moving, fixed, motion, candidate, &pair);
-  nsvcd__invariants(&pair, x);
-  return nsvcd__head_logit(head, x, int8);
-}
-
-// The `pairs` candidates worth the larger heads, most suspicious first. The tiny head ranks far better than depth: in
-// hollows, 8 pairs chosen so from 32 find what the 64 deepest find (train/README.md).
-static void nsvcd__choose(const nsvcd_body *moving, const nsvcd_body *fixed, const nsvcd__motion *motion,
-                          const nsvcd__candidates *deepest, size_t pairs, int int8, nsvcd__candidate *items,
-                          nsvcd__candidates *chosen) {
-  chosen->items = items, chosen->limit = pairs, chosen->count = 0, chosen->total = 0;
-  for (size_t k = 0; k < deepest->count; k++) {
-    nsvcd__candidate candidate = deepest->items[k];
-    if (deepest->count > pairs) {
-      candidate.depth = nsvcd__decode(moving, fixed, motion, &candidate, &nsvcd_w_heads[0], int8);
-    }
-    nsvcd__candidates_add(chosen, &candidate);
-  }
-  nsvcd__candidates_sort(chosen);
+// Scores of `count` candidates, 1 to 16, by a head.
+static void nsvcd__decode(const nsvcd_body *moving, const nsvcd_body *fixed, const nsvcd__motion *motion,
+                          nsvcd__candidate *const *candidates, size_t count, const nsvcd__head *head, int int8) {
+  nsvcd__pairs pairs;
+  float x[NSVCD__BATCH * NSVCD__DECODER_IN], logits[NSVCD__BATCH];
+  nsvcd__pairs_of(moving, fixed, motion, candidates, count, &pairs);
+  nsvcd__invariants(&pairs, nsvcd__round_up(count, 4), x);  // the layers take four rows at a time
+  nsvcd__head_logits(head, x, count, int8, logits);
+  for (size_t k = 0; k < count; k++) candidates[k]->score = logits[k];
 }
 
 // Options with the defaults filled in.
 typedef struct nsvcd__settings {
   size_t pairs, shortlist;
-  const nsvcd__head *head;
+  const nsvcd__head *head, *ranker;
   int int8;
   float threshold;
 } nsvcd__settings;
+
+typedef struct nsvcd__question {
+  const nsvcd_body *moving, *fixed;
+  nsvcd__motion motion;
+  nsvcd__settings settings;
+} nsvcd__question;
 
 static nsvcd_result nsvcd__settings_of(const nsvcd_sweep_options *options, nsvcd__settings *settings) {
   const nsvcd_sweep_options none = {0, NSVCD_MODEL_DEFAULT, NSVCD_PRECISION_FLOAT, 0};
@@ -2584,9 +3084,59 @@ static nsvcd_result nsvcd__settings_of(const nsvcd_sweep_options *options, nsvcd
   const size_t model = (size_t)(o->model ? o->model : NSVCD_MODEL_BASE) - (size_t)NSVCD_MODEL_TINY;
   settings->pairs = o->pairs ? o->pairs : NSVCD_DEFAULT_PAIRS;
   settings->shortlist = model == 0 ? settings->pairs : NSVCD__SHORTLIST * settings->pairs;
-  settings->head = &nsvcd_w_heads[model];
+  settings->head = &nsvcd_w_heads[model], settings->ranker = &nsvcd_w_heads[0];
   settings->int8 = o->precision == NSVCD_PRECISION_INT8;
   return nsvcd__threshold(model, o->recall, &settings->threshold) ? NSVCD_OK : NSVCD_ERROR_ARGUMENT;
+}
+
+// Scores what has none yet. Returns 0, and does nothing, if those are fewer than `least`.
+static int nsvcd__score(const nsvcd__question *ask, nsvcd__candidates *kept, size_t least) {
+  nsvcd__candidate *batch[NSVCD__BATCH];
+  size_t count = 0, left = 0;
+  for (size_t k = 0; k < kept->count; k++) left += kept->items[k].score <= NSVCD__NO_SCORE;
+  if (left < least || left == 0) return 0;
+  for (size_t k = 0; k < kept->count; k++) {
+    if (kept->items[k].score > NSVCD__NO_SCORE) continue;
+    batch[count++] = &kept->items[k];
+    if (count < NSVCD__BATCH && count < left) continue;
+    nsvcd__decode(ask->moving, ask->fixed, &ask->motion, batch, count, ask->settings.ranker, ask->settings.int8);
+    left -= count, count = 0;
+  }
+  return 1;
+}
+
+// Puts the `count` candidates of the highest scores first, the highest first of all.
+static void nsvcd__best_first(nsvcd__candidate *items, size_t count, size_t of) {
+  for (size_t k = 0; k < count; k++) {
+    size_t best = k;
+    for (size_t i = k + 1; i < of; i++) {
+      const float d = items[i].score - items[best].score;
+      if (d > 0 || (d >= 0 && nsvcd__is_shallower(&items[best], &items[i]))) best = i;
+    }
+    const nsvcd__candidate first = items[best];
+    items[best] = items[k], items[k] = first;
+  }
+}
+
+// The verdict on the `pairs` most suspicious of the scored candidates, 4 at a time, until one is clearly positive.
+static void nsvcd__judge(const nsvcd__question *ask, nsvcd__candidates *kept, size_t pairs, nsvcd_answer *answer) {
+  const nsvcd__settings *settings = &ask->settings;
+  const size_t count = kept->count < pairs ? kept->count : pairs;
+  nsvcd__best_first(kept->items, count, kept->count);
+  for (size_t first = 0; first < count && answer->logit < NSVCD__CLEAR_LOGIT; first += NSVCD__PORTION) {
+    nsvcd__candidate portion[NSVCD__PORTION], *batch[NSVCD__PORTION];
+    const size_t size = count - first < NSVCD__PORTION ? count - first : NSVCD__PORTION;
+    for (size_t k = 0; k < size; k++) portion[k] = kept->items[first + k], batch[k] = &portion[k];
+    if (settings->head != settings->ranker) {
+      nsvcd__decode(ask->moving, ask->fixed, &ask->motion, batch, size, settings->head, settings->int8);
+    }
+    for (size_t k = 0; k < size; k++) {
+      const float logit = portion[k].score - settings->threshold;
+      if (first + k > 0 && !(logit > answer->logit)) continue;
+      answer->logit = logit, answer->time = portion[k].t_least;
+      answer->moving_patch = portion[k].moving, answer->fixed_patch = portion[k].fixed;
+    }
+  }
 }
 
 NSVCDDEF nsvcd_result nsvcd_sweep(const nsvcd_body *moving, const nsvcd_pose *poses, size_t count,
@@ -2596,33 +3146,45 @@ NSVCDDEF nsvcd_result nsvcd_sweep(const nsvcd_body *moving, const nsvcd_pose *po
   if (!moving || !fixed || !answer) return NSVCD_ERROR_ARGUMENT;
   if (!workspace || workspace_size < sizeof(nsvcd__query) || !nsvcd__is_aligned(workspace))
     return NSVCD_ERROR_WORKSPACE;
-  nsvcd__settings settings;
-  nsvcd_result result = nsvcd__settings_of(options, &settings);
+  nsvcd__question ask;
+  ask.moving = moving, ask.fixed = fixed;
+  nsvcd_result result = nsvcd__settings_of(options, &ask.settings);
   if (result) return result;
-  nsvcd__motion motion;
-  result = nsvcd__motion_init(poses, count, fixed_pose, &motion);
+  result = nsvcd__motion_init(poses, count, fixed_pose, &ask.motion);
   if (result) return result;
 
   nsvcd__query *query = (nsvcd__query *)workspace;
-  nsvcd__candidates deepest, chosen;
-  nsvcd__broad_phase(moving, fixed, &motion, &query->broad_phase, query->deepest, settings.shortlist, &deepest);
-  nsvcd_answer found = {-NSVCD_LOGIT_CERTAIN, 0, 0, 0, 0, NSVCD_STATUS_CERTIFIED_FREE, deepest.total};
-  if (deepest.total > 0) found.status = deepest.total > settings.pairs ? NSVCD_STATUS_LIMIT : NSVCD_STATUS_OK;
-
+  nsvcd__workspace *work = &query->broad_phase;
+  nsvcd__candidates kept;
+  nsvcd_answer found = {-NSVCD_LOGIT_CERTAIN, 0, 0, 0, 0, NSVCD_STATUS_CERTIFIED_FREE, 0};
   float rotation[9], position[3];
-  nsvcd__motion_pose(&motion, 0, rotation, position);
+  nsvcd__motion_pose(&ask.motion, 0, rotation, position);
   if (nsvcd__is_contained(moving, fixed, rotation, position)) {  // its surface may touch nothing at all
     found.status = NSVCD_STATUS_INSIDE, found.logit = NSVCD_LOGIT_CERTAIN, found.collides = 1;
     *answer = found;
     return NSVCD_OK;
   }
-  nsvcd__choose(moving, fixed, &motion, &deepest, settings.pairs, settings.int8, query->chosen, &chosen);
-  for (size_t k = 0; k < chosen.count && found.logit < NSVCD__CLEAR_LOGIT; k++) {
-    const nsvcd__candidate *candidate = &chosen.items[k];
-    float logit = nsvcd__decode(moving, fixed, &motion, candidate, settings.head, settings.int8) - settings.threshold;
-    if (k > 0 && !(logit > found.logit)) continue;
-    found.logit = logit, found.time = candidate->t_least;
-    found.moving_patch = candidate->moving, found.fixed_patch = candidate->fixed;
+  const size_t steps = nsvcd__search_begin(moving, fixed, &ask.motion, work);
+  nsvcd__candidates_start(&kept, query->kept, ask.settings.shortlist);
+  for (size_t step = 0; step < steps && found.logit < NSVCD__CLEAR_LOGIT; step++) {
+    nsvcd__search_step(work, moving, fixed, step, &kept);
+    // A deep collision shows early. What is scored now need not be scored later, so that looking costs little.
+    if (step + 1 == steps || !nsvcd__score(&ask, &kept, kept.limit < NSVCD__PROBE ? kept.limit : NSVCD__PROBE))
+      continue;
+    float most = NSVCD__NO_SCORE;
+    for (size_t k = 0; k < kept.count; k++) most = kept.items[k].score > most ? kept.items[k].score : most;
+    if (most < NSVCD__CLEAR_LOGIT) continue;
+    memcpy(query->probed, kept.items, kept.count * sizeof *kept.items);
+    nsvcd__candidates probed = {query->probed, kept.limit, kept.count, kept.total};
+    nsvcd_answer early = found;
+    nsvcd__judge(&ask, &probed, NSVCD__PORTION, &early);
+    if (early.logit >= NSVCD__CLEAR_LOGIT) found = early;
+  }
+  found.overlapping = kept.total;
+  if (kept.total > 0) found.status = kept.total > ask.settings.pairs ? NSVCD_STATUS_LIMIT : NSVCD_STATUS_OK;
+  if (found.logit < NSVCD__CLEAR_LOGIT) {
+    nsvcd__score(&ask, &kept, 1);
+    nsvcd__judge(&ask, &kept, ask.settings.pairs, &found);
   }
   found.collides = found.logit > 0;
   *answer = found;

@@ -53,6 +53,11 @@ for cxx in $(compilers "${CXX:-c++}" g++ clang++); do
 done
 test "$objects" -gt 0 || fail "no compiler"
 compile "${CC:-cc}" c c99 "-DNSVCD_NO_STDIO -O0"
+compile "${CC:-cc}" c c99 "-DNSVCD_NO_SIMD -O0"
+if test "$(uname -m)" = x86_64; then
+  compile "${CC:-cc}" c c99 "-mavx2 -mfma -O0"
+  compile "${CXX:-c++}" cc c++11 "-mavx512f -O0"
+fi
 compile "${CC:-cc}" c c99 "-DNSVCD_STATIC -Wno-unused-function -O0"
 
 # -fno-pic: else tables of constant pointers count as data, for the loader relocates them.
@@ -66,7 +71,8 @@ done
 echo "header: no unprefixed symbol, no mutable data"
 
 # Macros: what is there after the header and not after what it includes.
-includes=$(sed -n 's/^ *#include <\(.*\)>/#include <\1>/p' neuralsvcd.h)
+case $(uname -m) in x86_64) other=arm_neon ;; *) other=mmintrin ;; esac  # what the header includes for other processors
+includes=$(sed -n 's/^ *#include <\(.*\)>/#include <\1>/p' neuralsvcd.h | grep -v $other)
 printf '%s\n' "$includes" >"$dir/none.c"
 "${CC:-cc}" -std=c99 -dM -E "$dir/none.c" | sort >"$dir/before"
 "${CC:-cc}" -std=c99 -dM -E "$dir/twice.c" | sort >"$dir/after"

@@ -84,9 +84,9 @@ static void body_round_trip(void) {
     // The same patches, in another order: sums over patches of invariants of (x, r, area, latent) agree.
     double want = 0, got = 0;
     for (size_t i = 0; i < points; i++) {
-      want += (double)(centres[3 * i] * areas[3 * i + 2] * radii[i]) * latents[NSVCD__LATENT * i + 71];
+      want += (double)(centres[3 * i] * areas[3 * i + 2] * radii[i]) * latents[NSVCD__LATENT * (i + 1) - 1];
       got += (double)(nsvcd__body_x(body)[i] * nsvcd__body_areas(body)[3 * i + 2] * nsvcd__body_r(body)[i]) *
-             nsvcd__body_latents(body)[NSVCD__LATENT * i + 71];
+             nsvcd__body_latents(body)[NSVCD__LATENT * (i + 1) - 1];
     }
     CHECK_NEAR(want, got, 1e-9 * (fabs(want) + 1));
     for (size_t i = points; i < body->padded; i++) CHECK(nsvcd__body_r(body)[i] <= -1e14f);
@@ -105,7 +105,7 @@ static void body_order(void) {
     for (size_t i = 0; i < points; i++) CHECK_EQ(seen[i], 1);
     size_t groups = nsvcd__body_groups(body);
     for (size_t g = 0; g < groups; g++) {
-      for (size_t i = 8 * g; i < 8 * g + 8 && i < points; i++) {
+      for (size_t i = NSVCD__GROUP * g; i < NSVCD__GROUP * (g + 1) && i < points; i++) {
         double dx = (double)nsvcd__body_x(body)[i] - (double)nsvcd__body_group(body, 0)[g];
         double dy = (double)nsvcd__body_y(body)[i] - (double)nsvcd__body_group(body, 1)[g];
         double dz = (double)nsvcd__body_z(body)[i] - (double)nsvcd__body_group(body, 2)[g];
@@ -115,7 +115,7 @@ static void body_order(void) {
     }
     double sum = 0;
     for (size_t g = 0; g < groups; g++) sum += (double)nsvcd__body_group(body, 3)[g];
-    if (points > 256) CHECK_LE(sum / (double)groups, 0.35 * (double)body->radius);
+    if (points > 256) CHECK_LE(sum / (double)groups, 0.45 * (double)body->radius);
   }
 }
 
@@ -206,6 +206,19 @@ static void body_scale(void) {
 static nsvcd_pose poses[NSVCD_MAX_POSES];
 static nsvcd__workspace work;
 static nsvcd__candidate items[1 << 20], few[64];
+
+static int deepest_first(const void *a, const void *b) {
+  return nsvcd__is_shallower((const nsvcd__candidate *)a, (const nsvcd__candidate *)b) ? 1 : -1;
+}
+
+// The whole search: counts all runs, keeps the `limit` deepest in `found`, deepest first.
+static void search(const nsvcd_body *moving, const nsvcd_body *fixed, const nsvcd__motion *motion,
+                   nsvcd__workspace *space, nsvcd__candidate *found, size_t limit, nsvcd__candidates *kept) {
+  const size_t steps = nsvcd__search_begin(moving, fixed, motion, space);
+  nsvcd__candidates_start(kept, found, limit);
+  for (size_t step = 0; step < steps; step++) nsvcd__search_step(space, moving, fixed, step, kept);
+  qsort(found, kept->count, sizeof *found, deepest_first);
+}
 
 typedef struct pose64 {
   double q[4], p[3];
@@ -315,26 +328,51 @@ static void motion_pose_is_slerp(void) {
   CHECK_LE(worst, 3e-5);  // t itself is rounded: 40 samples of speed 6 between them, times 6e-8
 }
 
-// exp of the vector turns `from` into `to`, at every angle including 0 and pi.
-static void rotation_vector(void) {
-  const double angles[12] = {0, 1e-8, 1e-6, 1e-4, 1e-2, 0.5, 1.5, 3, 3.14, 3.1415, 3.141592, 3.14159265358979};
-  for (int trial = 0; trial < 1200; trial++) {
-    float qa[4], qb[4], from[9], to[9], w[3];
-    double axis[3], length, angle = angles[trial % 12];
-    random_quat(qa), random_quat(qb);
-    length = sqrt((double)(qb[0] * qb[0] + qb[1] * qb[1] + qb[2] * qb[2]));
-    for (int k = 0; k < 3; k++) axis[k] = (double)qb[k] / length;
-    nsvcd__quat_normalize(qa, qa);
-    nsvcd__quat_to_matrix(qa, from);
-    double s = sin(angle / 2), q[4] = {s * axis[0], s * axis[1], s * axis[2], cos(angle / 2)};
-    for (int column = 0; column < 3; column++) {
-      double v[3] = {(double)from[column], (double)from[3 + column], (double)from[6 + column]}, out[3];
-      rotate64(q, v, out);
-      for (int k = 0; k < 3; k++) to[3 * k + column] = (float)out[k];
+// Sixteen poses at once are the pose one by one.
+static void poses_at_are_poses(void) {
+  double worst = 0;
+  for (int trial = 0; trial < 300; trial++) {
+    double middle[3] = {uniform(-3, 3), uniform(-3, 3), uniform(-3, 3)};
+    size_t count = pick(1, 40);
+    nsvcd_pose fixed = {{1, -2, 0.5f}, {0, 0, 0, 1}};
+    float times[NSVCD__LANES], lanes[12][NSVCD__LANES];
+    nsvcd__v q[4], p[3], m[9];
+    nsvcd__motion motion;
+    random_quat(fixed.rotation);
+    random_motion(count, trial % 3, uniform(0, 12), 1, middle);
+    CHECK_EQ(nsvcd__motion_init(poses, count, &fixed, &motion), NSVCD_OK);
+    for (size_t l = 0; l < NSVCD__LANES; l++) times[l] = l == 0 ? 0 : l == 1 ? 1 : (float)uniform(0, 1);
+    nsvcd__v_poses_at(&motion, times, q, p);
+    nsvcd__v_matrix(q, m);
+    for (size_t k = 0; k < 9; k++) nsvcd__v_store(lanes[k], m[k]);
+    for (size_t k = 0; k < 3; k++) nsvcd__v_store(lanes[9 + k], p[k]);
+    for (size_t l = 0; l < NSVCD__LANES; l++) {
+      float rotation[9], position[3];
+      nsvcd__motion_pose(&motion, times[l], rotation, position);
+      for (size_t k = 0; k < 9; k++) worst = fmax(worst, fabs((double)(lanes[k][l] - rotation[k])));
+      for (size_t k = 0; k < 3; k++) worst = fmax(worst, fabs((double)(lanes[9 + k][l] - position[k])));
     }
-    nsvcd__rotation_vector(from, to, w);
-    double sign = angle > 3.14 && axis[0] * (double)w[0] + axis[1] * (double)w[1] + axis[2] * (double)w[2] < 0 ? -1 : 1;
-    for (int k = 0; k < 3; k++) CHECK_NEAR((double)w[k] * sign, angle * axis[k], angle > 3.14 ? 4e-3 : 2e-6);
+  }
+  CHECK_LE(worst, 1e-5);
+}
+
+// Half the rotation vector of a quaternion, at every angle including 0 and pi.
+static void half_rotation_vector(void) {
+  const double angles[12] = {0, 1e-8, 1e-6, 1e-4, 1e-2, 0.5, 1.04, 1.05, 1.5, 3, 3.14, 3.1415};
+  for (int trial = 0; trial < 1200; trial++) {
+    float random[4], lane[NSVCD__LANES];
+    double axis[3], length, angle = angles[trial % 12], s = sin(angle / 2), sign = trial % 5 ? 1 : -1;
+    random_quat(random);
+    length = sqrt((double)(random[0] * random[0] + random[1] * random[1] + random[2] * random[2]));
+    for (int k = 0; k < 3; k++) axis[k] = (double)random[k] / length;
+    nsvcd__v q[4], w[3];
+    for (int k = 0; k < 3; k++) q[k] = nsvcd__v_set((float)(sign * s * axis[k]));
+    q[3] = nsvcd__v_set((float)(sign * cos(angle / 2)));
+    nsvcd__v_half_rotation(q, w);
+    for (int k = 0; k < 3; k++) {
+      nsvcd__v_store(lane, w[k]);
+      CHECK_NEAR(lane[trial % NSVCD__LANES], 0.5 * angle * axis[k], 3e-6);
+    }
   }
 }
 
@@ -384,8 +422,10 @@ static int is_covered(const nsvcd__candidate *sorted, size_t count, size_t i, si
   while (low < high) {
     size_t middle = (low + high) / 2;
     const nsvcd__candidate *c = &sorted[middle];
-    if (c->moving < i || (c->moving == i && c->fixed < j)) low = middle + 1;
-    else high = middle;
+    if (c->moving < i || (c->moving == i && c->fixed < j))
+      low = middle + 1;
+    else
+      high = middle;
   }
   for (; low < count && sorted[low].moving == i && sorted[low].fixed == j; low++) {
     if ((double)sorted[low].t_enter - 1e-6 <= t && t <= (double)sorted[low].t_exit + 1e-6) return 1;
@@ -404,10 +444,10 @@ static void try_motion(const nsvcd_body *moving, const nsvcd_body *fixed, size_t
   nsvcd__motion motion;
   CHECK_EQ(nsvcd__motion_init(poses, count, fixed_pose, &motion), NSVCD_OK);
   nsvcd__candidates all, best;
-  nsvcd__broad_phase(moving, fixed, &motion, &work, items, sizeof items / sizeof *items, &all);
+  search(moving, fixed, &motion, &work, items, sizeof items / sizeof *items, &all);
   CHECK_EQ(all.count, all.total);
   size_t limit = pick(1, 64);
-  nsvcd__broad_phase(moving, fixed, &motion, &work, few, limit, &best);
+  search(moving, fixed, &motion, &work, few, limit, &best);
   CHECK_EQ(best.total, all.total);
   CHECK_EQ(best.count, all.total < limit ? all.total : limit);
   for (size_t n = 0; n < best.count; n++) sum->kept_wrong += memcmp(&few[n], &items[n], sizeof few[n]) != 0;
@@ -518,10 +558,11 @@ static void deviation_is_bounded(void) {
       random_quat(q);
       double length = sqrt((double)(q[0] * q[0] + q[1] * q[1] + q[2] * q[2])) * 2, p[3], c64[3], square = 0;
       for (int k = 0; k < 3; k++) c[k] = (float)((double)q[k] / length), c64[k] = (double)c[k];
-      size_t s = pick(0, work.segments - 1), l = s % 8;
+      size_t s = pick(0, work.segments - 1), l = s % NSVCD__LANES;
       double tau = uniform(0.4, 0.6);
-      const nsvcd__segments *b = &work.blocks[s / 8];
-      pose64 at = pose_at(poses, count, ((double)s + tau) / (double)work.segments);
+      const nsvcd__segments *b = &work.blocks[s / NSVCD__LANES];
+      double start = (double)work.time[s];
+      pose64 at = pose_at(poses, count, start + tau * ((double)work.time[s + 1] - start));
       place64(&at, &f, c64, p);
       nsvcd__chords chords;
       nsvcd__chords_of_sphere(b, c[0], c[1], c[2], 0, &chords);
@@ -545,10 +586,10 @@ static void ties(void) {
   nsvcd__candidates all, best;
   poses[0] = fixed, poses[0].position[0] = 0;
   CHECK_EQ(nsvcd__motion_init(poses, 1, &fixed, &motion), NSVCD_OK);
-  nsvcd__broad_phase(a, b, &motion, &work, items, 1600, &all);
+  search(a, b, &motion, &work, items, 1600, &all);
   CHECK_EQ(all.total, 1600);
   for (size_t limit = 1; limit <= 64; limit++) {
-    nsvcd__broad_phase(a, b, &motion, &work, few, limit, &best);
+    search(a, b, &motion, &work, few, limit, &best);
     CHECK(memcmp(few, items, limit * sizeof *few) == 0);
     for (size_t n = 0; n < limit; n++) CHECK_EQ(few[n].moving * 40 + few[n].fixed, n);
   }
@@ -564,17 +605,17 @@ static void closed_form(void) {
   nsvcd__motion motion;
   nsvcd__candidates kept;
   CHECK_EQ(nsvcd__motion_init(poses, 2, &fixed, &motion), NSVCD_OK);
-  nsvcd__broad_phase(a, b, &motion, &work, items, 8, &kept);
+  search(a, b, &motion, &work, items, 8, &kept);
   CHECK_EQ(kept.total, 1);
   CHECK_NEAR(items[0].t_enter, 0.5 - sqrt(4 - 2.25) / 10, 1e-5);
   CHECK_NEAR(items[0].t_exit, 0.5 + sqrt(4 - 2.25) / 10, 1e-5);
   CHECK_NEAR(items[0].t_least, 0.5, 1e-6);
   CHECK_NEAR(items[0].depth, 0.25, 1e-6);
-  nsvcd__broad_phase(a, b, &motion, &work, items, 0, &kept);  // only counting
+  search(a, b, &motion, &work, items, 0, &kept);  // only counting
   CHECK_EQ(kept.total, 1);
   fixed.position[1] = 2.001f;
   CHECK_EQ(nsvcd__motion_init(poses, 2, &fixed, &motion), NSVCD_OK);
-  nsvcd__broad_phase(a, b, &motion, &work, items, 8, &kept);
+  search(a, b, &motion, &work, items, 8, &kept);
   CHECK_EQ(kept.total, 0);
 }
 
@@ -589,7 +630,7 @@ static void runs_are_cut(void) {
   nsvcd__candidates kept;
   random_motion(17, 0, 360 * degrees, 0, middle);
   CHECK_EQ(nsvcd__motion_init(poses, 17, &fixed, &motion), NSVCD_OK);
-  nsvcd__broad_phase(a, b, &motion, &work, items, 100, &kept);
+  search(a, b, &motion, &work, items, 100, &kept);
   qsort(items, kept.count, sizeof *items, by_pair);
   CHECK_GE(kept.count, 8);
   CHECK_LE(kept.count, 17);
@@ -635,8 +676,8 @@ static void containment(void) {
     CHECK(!nsvcd__is_contained(inner, outer, eye, far));
     CHECK(nsvcd__is_contained(inner, outer, eye, none));
   }
-  printf("  winding number, worst error from 0.75 / 1 / 1.5 / 2 patch radii on: %.3f %.3f %.3f %.4f\n", error[0], error[1],
-         error[2], error[3]);
+  printf("  winding number, worst error from 0.75 / 1 / 1.5 / 2 patch radii on: %.3f %.3f %.3f %.4f\n", error[0],
+         error[1], error[2], error[3]);
   CHECK_LE(error[1], 0.3);  // from NSVCD__CLEARANCE on; the first bin is why it is not less
   CHECK_LE(error[3], 0.02);
 }
@@ -681,7 +722,7 @@ static void time_broad_phase(const char *name, double least_gap, double most_gap
       clock_t start = clock();
       for (int repeat = 0; repeat < 50; repeat++) {
         nsvcd__motion_init(poses, 17, &fixed, &motion);
-        nsvcd__broad_phase(a, b, &motion, &work, few, 8, &kept);
+        search(a, b, &motion, &work, few, 8, &kept);
       }
       times[n] = 1e6 * (double)(clock() - start) / CLOCKS_PER_SEC / 50;
       runs[n] = (double)kept.total;
@@ -704,7 +745,8 @@ void test_broad_phase(void) {
   RUN(body_malice);
   RUN(body_scale);
   RUN(motion_pose_is_slerp);
-  RUN(rotation_vector);
+  RUN(poses_at_are_poses);
+  RUN(half_rotation_vector);
   RUN(bad_poses);
   RUN(closed_form);
   RUN(ties);

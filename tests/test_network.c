@@ -28,6 +28,64 @@ static float largest_difference(const float *a, const float *b, size_t count) {
   return most;
 }
 
+// One pair, as the decoder's batches hold sixteen.
+typedef struct pair_data {
+  float p1[3], p2[3], r1, r2, rotation[9], v[3], w[3];
+  const int8_t *z1, *z2;
+} pair_data;
+
+// In lane `lane`; the others hold the same pair, pushed apart.
+static void inputs_in_lane(const pair_data *pair, size_t lane, float *x) {  // (DECODER_IN)
+  static float batch[NSVCD__BATCH * NSVCD__DECODER_IN];
+  const float *from[5] = {pair->p1, pair->p2, pair->rotation, pair->v, pair->w};
+  nsvcd__pairs pairs;
+  nsvcd__v *to[5] = {pairs.p1, pairs.p2, pairs.rotation, pairs.v, pairs.w};
+  for (size_t n = 0; n < 5; n++) {
+    for (size_t k = 0; k < (n == 2 ? 9u : 3u); k++) {
+      float lanes[NSVCD__LANES];
+      for (size_t l = 0; l < NSVCD__LANES; l++) lanes[l] = from[n][k] + (n == 0 && l != lane ? 0.1f * (float)l : 0);
+      to[n][k] = nsvcd__v_load(lanes);
+    }
+  }
+  pairs.r1 = nsvcd__v_set(pair->r1), pairs.r2 = nsvcd__v_set(pair->r2);
+  for (size_t l = 0; l < NSVCD__LANES; l++) pairs.z1[l] = pair->z1, pairs.z2[l] = pair->z2;
+  nsvcd__invariants(&pairs, NSVCD__LANES, batch);
+  memcpy(x, batch + NSVCD__DECODER_IN * lane, NSVCD__DECODER_IN * sizeof *x);
+}
+static void inputs_of(const pair_data *pair, float *x) { inputs_in_lane(pair, 5, x); }
+
+static float head_logit(const nsvcd__head *head, const float *x, int int8) {
+  static float batch[NSVCD__BATCH * NSVCD__DECODER_IN];
+  float logits[NSVCD__BATCH];
+  for (size_t p = 0; p < 7; p++) memcpy(batch + NSVCD__DECODER_IN * p, x, NSVCD__DECODER_IN * sizeof *x);
+  nsvcd__head_logits(head, batch, 7, int8, logits);
+  return logits[6];
+}
+
+// D(R) as floats: (9 + 25).
+static void wigner(const float *r, float *d) {
+  nsvcd__v m[9];
+  float lanes[NSVCD__TURN][NSVCD__LANES];
+  for (size_t k = 0; k < 9; k++) m[k] = nsvcd__v_set(r[k]);
+  nsvcd__wigner(m, nsvcd__v_set(1), lanes);
+  for (size_t k = 0; k < NSVCD__TURN; k++) d[k] = lanes[k][3];
+}
+
+// D(R) z of a latent's vectors: (3, CHANNELS), then (5, CHANNELS).
+static void rotate_latent(const float *r, const float *z, float *turned) {
+  float d[NSVCD__TURN];
+  wigner(r, d);
+  for (size_t i = 0; i < 8; i++) {
+    for (size_t c = 0; c < NSVCD_W_CHANNELS; c++) {
+      float sum = 0;
+      for (size_t k = 0; k < (i < 3 ? 3u : 5u); k++) {
+        sum += d[i < 3 ? 3 * i + k : 9 + 5 * (i - 3) + k] * z[NSVCD_W_CHANNELS * ((i < 3 ? 0 : 3) + k) + c];
+      }
+      turned[NSVCD_W_CHANNELS * i + c] = sum;
+    }
+  }
+}
+
 static void encoder_matches_the_trainer(void) {
   for (size_t i = 0; i < GOLDEN_PATCHES; i++) {
     float latent[NSVCD__LATENT];
@@ -39,7 +97,7 @@ static void encoder_matches_the_trainer(void) {
 
 // golden_pair rows: p1 p2 r1 r2 q v w, logits of tiny small base.
 #define GOLDEN_ROW 21
-static void golden_pair_at(size_t n, int8_t *z1, int8_t *z2, nsvcd__pair *pair) {
+static void golden_pair_at(size_t n, int8_t *z1, int8_t *z2, pair_data *pair) {
   const float *row = golden_pair + GOLDEN_ROW * n;
   for (size_t k = 0; k < NSVCD__LATENT; k++) {
     z1[k] = (int8_t)lrintf(127 * golden_latent[NSVCD__LATENT * (size_t)golden_index[2 * n] + k]);
@@ -56,9 +114,9 @@ static void golden_pair_at(size_t n, int8_t *z1, int8_t *z2, nsvcd__pair *pair) 
 
 static void golden_inputs(size_t n, float *x) {  // (DECODER_IN)
   int8_t z1[NSVCD__LATENT], z2[NSVCD__LATENT];
-  nsvcd__pair pair;
+  pair_data pair;
   golden_pair_at(n, z1, z2, &pair);
-  nsvcd__invariants(&pair, x);
+  inputs_of(&pair, x);
 }
 
 static void heads_match_the_trainer(void) {
@@ -67,7 +125,7 @@ static void heads_match_the_trainer(void) {
     golden_inputs(n, x);
     for (size_t h = 0; h < 3; h++) {
       float expected = golden_pair[GOLDEN_ROW * n + 18 + h];
-      CHECK_NEAR(nsvcd__head_logit(&nsvcd_w_heads[h], x, 0), expected, 1e-4 * fmax(1, fabs((double)expected)));
+      CHECK_NEAR(head_logit(&nsvcd_w_heads[h], x, 0), expected, 1e-4 * fmax(1, fabs((double)expected)));
     }
   }
 }
@@ -79,8 +137,8 @@ static void int8_heads_follow_fp32(void) {
     float x[NSVCD__DECODER_IN];
     golden_inputs(n, x);
     for (size_t h = 0; h < 3; h++) {
-      double exact = (double)nsvcd__head_logit(&nsvcd_w_heads[h], x, 0);
-      double error = fabs((double)nsvcd__head_logit(&nsvcd_w_heads[h], x, 1) - exact) / fmax(1, fabs(exact));
+      double exact = (double)head_logit(&nsvcd_w_heads[h], x, 0);
+      double error = fabs((double)head_logit(&nsvcd_w_heads[h], x, 1) - exact) / fmax(1, fabs(exact));
       worst = fmax(worst, error), sum += error / (3 * GOLDEN_PAIRS);
     }
   }
@@ -119,7 +177,7 @@ static void encoder_is_equivariant(void) {
     }
     nsvcd__encode_patch(points, normals, 40, zero, 1, latent);
     nsvcd__encode_patch(turned_points, turned_normals, 40, centre, scale, turned);
-    nsvcd__rotate_latent(m, latent, expected);
+    rotate_latent(m, latent, expected);
     memcpy(expected + NSVCD__VECTORS, latent + NSVCD__VECTORS, NSVCD_W_SCALARS * sizeof(float));
     CHECK_LE(largest_difference(turned, expected, NSVCD__LATENT), 2e-4);  // float32, and gates that amplify
     CHECK_GE(largest_difference(latent, turned, NSVCD__LATENT), 1e-3);    // it does depend on R
@@ -134,18 +192,18 @@ static void rotation_operator_is_a_group(void) {
     random_rotation(b);
     nsvcd__mul33(a, b, ab);
     for (size_t k = 0; k < NSVCD__VECTORS; k++) z[k] = uniform();
-    nsvcd__rotate_latent(b, z, x);
-    nsvcd__rotate_latent(a, x, y);
-    nsvcd__rotate_latent(ab, z, w);
+    rotate_latent(b, z, x);
+    rotate_latent(a, x, y);
+    rotate_latent(ab, z, w);
     CHECK_LE(largest_difference(y, w, NSVCD__VECTORS), 3e-6);  // D(A) D(B) = D(AB)
-    nsvcd__rotate_latent(half_turn, z, x);
+    rotate_latent(half_turn, z, x);
     CHECK_GE(largest_difference(x, z, NSVCD__VECTORS), 0.1);
-    nsvcd__rotate_latent(half_turn, x, y);
+    rotate_latent(half_turn, x, y);
     CHECK_LE(largest_difference(y, z, NSVCD__VECTORS), 1e-6);  // twice 180 degrees is the identity
     float back[9];
     nsvcd__transpose33(a, back);
-    nsvcd__rotate_latent(a, z, x);
-    nsvcd__rotate_latent(back, x, y);
+    rotate_latent(a, z, x);
+    rotate_latent(back, x, y);
     CHECK_LE(largest_difference(y, z, NSVCD__VECTORS), 2e-6);  // D(R)^T is the inverse
   }
 }
@@ -153,18 +211,18 @@ static void rotation_operator_is_a_group(void) {
 static void inputs_are_invariant(void) {
   for (size_t n = 0; n < GOLDEN_PAIRS; n++) {
     int8_t z1[NSVCD__LATENT], z2[NSVCD__LATENT];
-    nsvcd__pair pair, moved;
+    pair_data pair, moved;
     float x[NSVCD__DECODER_IN], y[NSVCD__DECODER_IN];
     golden_pair_at(n, z1, z2, &pair);
-    nsvcd__invariants(&pair, x);
+    inputs_of(&pair, x);
     moved = pair;  // time runs backwards
     for (size_t k = 0; k < 3; k++) moved.v[k] = -pair.v[k], moved.w[k] = -pair.w[k];
-    nsvcd__invariants(&moved, y);
+    inputs_of(&moved, y);
     CHECK_LE(largest_difference(x, y, NSVCD__DECODER_IN), 1e-5);
     moved = pair;  // another unit of length
     for (size_t k = 0; k < 3; k++) moved.p1[k] *= 8, moved.p2[k] *= 8, moved.v[k] *= 8;
     moved.r1 *= 8, moved.r2 *= 8;
-    nsvcd__invariants(&moved, y);
+    inputs_of(&moved, y);
     CHECK_LE(largest_difference(x, y, NSVCD__DECODER_IN), 1e-6);
   }
 }
@@ -173,10 +231,10 @@ static void inputs_are_invariant(void) {
 static void inputs_do_not_depend_on_who_moves(void) {
   for (size_t n = 0; n < GOLDEN_PAIRS; n++) {
     int8_t z1[NSVCD__LATENT], z2[NSVCD__LATENT];
-    nsvcd__pair pair, other;
+    pair_data pair, other;
     float x[NSVCD__DECODER_IN], y[NSVCD__DECODER_IN];
     golden_pair_at(n, z1, z2, &pair);
-    nsvcd__invariants(&pair, x);
+    inputs_of(&pair, x);
     nsvcd__transpose33(pair.rotation, other.rotation);  // body 2 in the axes of body 1
     nsvcd__mul33_vec(other.rotation, pair.p2, other.p1);
     nsvcd__mul33_vec(other.rotation, pair.p1, other.p2);
@@ -184,7 +242,7 @@ static void inputs_do_not_depend_on_who_moves(void) {
     nsvcd__mul33_vec(other.rotation, pair.w, other.w);
     for (size_t k = 0; k < 3; k++) other.v[k] = -other.v[k], other.w[k] = -other.w[k];
     other.r1 = pair.r2, other.r2 = pair.r1, other.z1 = z2, other.z2 = z1;
-    nsvcd__invariants(&other, y);
+    inputs_of(&other, y);
     CHECK_LE(largest_difference(x, y, NSVCD__DECODER_IN), 2e-4);  // where the lean is short, its direction is rough
   }
 }
@@ -193,7 +251,7 @@ static void degenerate_pairs_are_finite(void) {
   int8_t z[NSVCD__LATENT] = {0}, other[NSVCD__LATENT];
   for (size_t k = 0; k < NSVCD__LATENT; k++) other[k] = (int8_t)(k % 100);
   for (int trial = 0; trial < 32; trial++) {
-    nsvcd__pair pair;
+    pair_data pair;
     memset(&pair, 0, sizeof pair);
     random_rotation(pair.rotation);
     pair.z1 = trial & 1 ? z : other, pair.z2 = trial & 2 ? z : other;
@@ -203,9 +261,9 @@ static void degenerate_pairs_are_finite(void) {
       pair.v[k] = trial & 16 ? 2 * pair.p1[k] : 0;  // along the line
     }
     float x[NSVCD__DECODER_IN];
-    nsvcd__invariants(&pair, x);
+    inputs_of(&pair, x);
     for (size_t k = 0; k < NSVCD__DECODER_IN; k++) CHECK(nsvcd__is_finite(x[k]));
-    for (size_t h = 0; h < 3; h++) CHECK(nsvcd__is_finite(nsvcd__head_logit(&nsvcd_w_heads[h], x, 0)));
+    for (size_t h = 0; h < 3; h++) CHECK(nsvcd__is_finite(head_logit(&nsvcd_w_heads[h], x, 0)));
   }
 }
 
