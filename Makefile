@@ -112,6 +112,12 @@ $(DATA)/meshes/%: | $(MESHES)/%.tar.gz
 accuracy: build/svcd $(SETS:%=$(DATA)/%.txt)  ## labels the problem sets (minutes, kept) and measures on each
 	@for set in $(SETS); do echo; build/svcd check $(CHECK_FLAGS) $(DATA)/$$set.txt >$(DATA)/$$set.tsv || exit 1; done
 
+# --------------------------------------------------------------------------------------------------------- benchmark
+
+BENCH_HEADERS = tests/method.h tests/bench_chart.h tests/bench_convex.h tests/bench_grid.h tests/bench_mesh.h tests/bench_spheres.h
+build/bench: tests/bench.c $(BENCH_HEADERS) tests/oracle.h examples/problem_file.h $(LIBRARY) | build
+	$(CC) $(ALL_CFLAGS) $(CCD_CFLAGS) -o $@ tests/bench.c $(CCD_LIBS) -lm
+
 # ---------------------------------------------------------------------------------------------------------- training
 
 # The recipe of the shipped weights: train/README.md. CHECKPOINT=file skips the training.

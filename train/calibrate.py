@@ -1,7 +1,7 @@
 """Thresholds of every head, on labelled problems that the library itself has answered.
 
-Usage: calibrate.py CHECKPOINT SVCD PROBLEMS... - runs `svcd check` (built with thresholds of zero) for each head at the
-default N and K, and writes into the checkpoint: the threshold at which misses and false alarms are equally frequent,
+Usage: calibrate.py CHECKPOINT SVCD PROBLEMS... - runs `svcd check` (built with thresholds of zero) for each head and N at the
+default K, and writes into the checkpoint: the threshold at which misses and false alarms are equally frequent,
 and those that keep at least 99, 99.9 and 99.99 % of the collisions. Certified and inside answers are not the network's to move.
 """
 from __future__ import annotations
@@ -13,18 +13,18 @@ from pathlib import Path
 
 import torch
 
-from export import HEADS, RECALLS
+from export import HEADS, RECALLS, SIZES
 
 CERTAIN = 50.0  # |logit| above this is not the network's
 
 
-def answers(svcd: str, head: str, path: Path) -> tuple[list[float], list[int]]:
+def answers(svcd: str, head: str, points: int, path: Path) -> tuple[list[float], list[int]]:
     labels = {}
     for line in path.read_text().splitlines():
         w = line.split()
         if w[:1] == ["problem"]:
             labels[w[1]] = int(w[13])
-    out = subprocess.run([svcd, "check", "--model", head, str(path)], check=True, capture_output=True, text=True).stdout
+    out = subprocess.run([svcd, "check", "--repeat", "1", "--points", str(points), "--model", head, str(path)], check=True, capture_output=True, text=True).stdout
     rows = [line.split("\t") for line in out.splitlines() if line and not line.startswith(("#", "id", "ID"))]
     return [float(r[1]) for r in rows], [labels[r[0]] for r in rows]
 
@@ -44,18 +44,21 @@ def thresholds(logits: list[float], labels: list[int]) -> list[float]:
 def main() -> None:
     path, svcd = Path(sys.argv[1]), sys.argv[2]
     saved = torch.load(path, map_location="cpu")
-    rows = []
+    table = []
     for head in HEADS:
-        logits, labels = [], []
-        for name in sys.argv[3:]:
-            a, b = answers(svcd, head, Path(name))
-            logits += a
-            labels += b
-        rows.append(thresholds(logits, labels))
-        free = [v for v, k in zip(logits, labels) if k == 0]
-        print(head, "thresholds", " ".join(f"{t:+.3f}" for t in rows[-1]), "false alarms %",
-              " ".join(f"{100 * sum(v > t for v in free) / len(free):.2f}" for t in rows[-1]), "on", len(labels))
-    saved["thresholds"] = rows
+        table.append([])
+        for points in SIZES:
+            logits, labels = [], []
+            for name in sys.argv[3:]:
+                a, b = answers(svcd, head, points, Path(name))
+                logits += a
+                labels += b
+            row = thresholds(logits, labels)
+            free = [v for v, k in zip(logits, labels) if k == 0]
+            print(f"{head:5} N {points:3} thresholds", " ".join(f"{t:+.3f}" for t in row), "false alarms %",
+                  " ".join(f"{100 * sum(v > t for v in free) / len(free):.2f}" for t in row), "on", len(labels), flush=True)
+            table[-1].append(row)
+    saved["thresholds"] = table
     torch.save(saved, path)
 
 

@@ -15,6 +15,7 @@ from model import FACTS, Network, Shape, quantise
 
 HEADS = ("tiny", "small", "base")
 RECALLS = (0.0, 0.99, 0.999, 0.9999)
+SIZES = (32, 64, 128, 256, 512)  # N that thresholds are calibrated for
 
 
 def load(path: Path) -> tuple[Network, dict]:
@@ -92,7 +93,7 @@ def tables(net: Network) -> dict[str, Tensor]:
     return {k: v.detach().contiguous() for k, v in out.items()}
 
 
-def write_weights(net: Network, saved: dict, thresholds: list[list[float]], path: Path) -> None:
+def write_weights(net: Network, saved: dict, thresholds: list[list[list[float]]], path: Path) -> None:
     t, s = tables(net), net.s
     raw = b"".join(v.numpy().astype("<f4").tobytes() for v in t.values())
     encoder_raw = b"".join(v.numpy().astype("<f4").tobytes() for k, v in t.items() if not k.startswith(HEADS))
@@ -107,11 +108,13 @@ def write_weights(net: Network, saved: dict, thresholds: list[list[float]], path
              f"#define NSVCD_W_CONTEXT {s.context}", f"#define NSVCD_W_POINT_HIDDEN {s.point_hidden}", f"#define NSVCD_W_POOLED {s.pooled}",
              f"#define NSVCD_W_POOLED_SCALARS {s.pooled_scalars}", f"#define NSVCD_W_HIDDEN {s.hidden}",
              f"#define NSVCD_W_PATCH_HIDDEN {s.patch_hidden}", f"#define NSVCD_W_CHANNELS {s.channels}", f"#define NSVCD_W_SCALARS {s.scalars}",
-             f"#define NSVCD_W_WIDEST {widest}  // layer of a head", f"#define NSVCD_W_RECALLS {len(RECALLS)}", "",
-             "// Thresholds: rows tiny, small, base; columns by recall, 0 being the balanced default.",
+             f"#define NSVCD_W_WIDEST {widest}  // layer of a head", f"#define NSVCD_W_SIZES {len(SIZES)}", f"#define NSVCD_W_RECALLS {len(RECALLS)}", "",
+             "// Thresholds of tiny, small, base; rows by N = 32, 64, ...; columns by recall, 0 being the balanced default.",
              f"static const float nsvcd_w_recall[NSVCD_W_RECALLS] = {{{', '.join(numbers([r]).strip(' ,') for r in RECALLS)}}};",
-             "static const float nsvcd_w_threshold[3][NSVCD_W_RECALLS] = {"]
-    lines += ["    {" + ", ".join(numbers([v]).strip(" ,") for v in row) + "}," for row in thresholds]
+             "static const float nsvcd_w_threshold[3][NSVCD_W_SIZES][NSVCD_W_RECALLS] = {"]
+    row_text = lambda row: "{" + ", ".join(numbers([v]).strip(" ,") for v in row) + "}"
+    for rows in thresholds:
+        lines += ["    {" + ",\n     ".join(map(row_text, rows)) + "},"]
     lines += ["};", ""]
     lines += [array("nsvcd_w_" + k, v) for k, v in t.items() if not k.startswith(HEADS)]
     decoder, rows, scales, table = [], [], [], []
@@ -167,7 +170,7 @@ def main() -> None:
     uncalibrated = "uncalibrated" in sys.argv[4:]
     if not uncalibrated and "thresholds" not in saved:
         raise SystemExit("run calibrate.py on this checkpoint first, or say uncalibrated")
-    thresholds = [[0.0] * len(RECALLS)] * 3 if uncalibrated else saved["thresholds"]
+    thresholds = [[[0.0] * len(RECALLS)] * len(SIZES)] * 3 if uncalibrated else saved["thresholds"]
     write_weights(net, saved, thresholds, Path(sys.argv[2]))
     write_golden(net, Path(sys.argv[3]))
 
