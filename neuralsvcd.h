@@ -28,6 +28,9 @@
 //   NSVCD_STATIC      all functions static
 //   NSVCD_NO_STDIO    no file access: nsvcd_obj_load goes, nsvcd_obj_parse stays
 //   NSVCD_NO_OBJ      no OBJ reader at all
+//   NSVCD_NO_ENCODER  no nsvcd_encode and no OBJ reader: bodies come from nsvcd_body_load
+//   NSVCD_NO_SMALL, NSVCD_NO_BASE   without these decoders; the default is the largest that is left
+//   NSVCD_NO_INT8, NSVCD_NO_FLOAT   without this arithmetic of the decoders; without float, int8 is the default
 //   NSVCD_NO_SIMD     plain C where the compiler's flags allow AVX-512, AVX2 with FMA, SSE2 or NEON
 //
 // CONVENTIONS
@@ -52,6 +55,16 @@
 //   infinity are refused on the bits, also under -ffast-math.
 #ifndef NEURALSVCD_H
 #define NEURALSVCD_H
+
+#if defined(NSVCD_NO_ENCODER) && !defined(NSVCD_NO_OBJ)
+#define NSVCD_NO_OBJ
+#endif
+#if defined(NSVCD_NO_INT8) && defined(NSVCD_NO_FLOAT)
+#error "neuralsvcd.h: NSVCD_NO_INT8 and NSVCD_NO_FLOAT leave no decoder"
+#endif
+#if defined(__FINITE_MATH_ONLY__) && __FINITE_MATH_ONLY__ && defined(NEURALSVCD_IMPLEMENTATION) && defined(__GNUC__)
+#pragma GCC warning "neuralsvcd.h: -ffinite-math-only: bad input is still refused, but results are not tested so"
+#endif
 
 #include <stddef.h>
 #include <stdint.h>
@@ -117,8 +130,10 @@ NSVCDDEF nsvcd_result nsvcd_obj_load(const char *path, const nsvcd_allocator *al
                                      size_t *error_line);
 #endif
 #endif
+#ifndef NSVCD_NO_ENCODER
 // Gives back what nsvcd_obj_parse or nsvcd_obj_load allocated; the same allocator. NULL is allowed.
 NSVCDDEF void nsvcd_mesh_free(nsvcd_mesh *mesh, const nsvcd_allocator *allocator);
+#endif
 
 // ------------------------------------------------------------------------------------------------------ bodies
 
@@ -141,6 +156,7 @@ typedef struct nsvcd_encode_options {
 // Bytes of a body of `points` points; 0 if there can be no such body.
 NSVCDDEF size_t nsvcd_body_size(size_t points);
 
+#ifndef NSVCD_NO_ENCODER
 // Encodes a mesh into `memory` (nsvcd_body_size(N) bytes are enough, aligned to NSVCD_ALIGNMENT) and points *body
 // there. options: NULL for the defaults. The body may have fewer points than asked where the surface has too few to
 // tell apart. Working memory comes from the allocator and is given back. Deterministic: same mesh, same bytes, in one
@@ -148,6 +164,7 @@ NSVCDDEF size_t nsvcd_body_size(size_t points);
 NSVCDDEF nsvcd_result nsvcd_encode(const nsvcd_mesh *mesh, const nsvcd_encode_options *options,
                                    const nsvcd_allocator *allocator, void *memory, size_t capacity,
                                    const nsvcd_body **body);
+#endif
 
 // Checks an untrusted blob in `memory` and points *body at it, without a copy. BODY if anything is wrong with it.
 NSVCDDEF nsvcd_result nsvcd_body_load(const void *memory, size_t size, const nsvcd_body **body);
@@ -449,25 +466,36 @@ static inline nsvcd__v nsvcd__v_clamp(nsvcd__v a, float low, float high) {
 
 // A sentence without a full stop, for a person; never NULL.
 NSVCDDEF const char *nsvcd_result_string(nsvcd_result result) {
-  static const char *const text[] = {
-      // in the order of the enum
-      "ok",
-      "an argument is NULL or out of its range",
-      "the file is missing or cannot be read",
-      "out of memory",
-      "a line cannot be understood, or a face has fewer than three corners",
-      "an index is zero or refers to no vertex",
-      "a coordinate is not finite or too large",
-      "there is no triangle, or no area",
-      "more vertices, triangles or bytes than can be counted",
-      "a pose is not finite, or its quaternion is not of unit length",
-      "the body is damaged, cut short, misaligned, or of another version or model",
-      "the memory given is too small or misaligned",
-  };
-  size_t i = (size_t)result;
-  return i < sizeof text / sizeof text[0] ? text[i] : "unknown result";
+  switch (result) {
+    case NSVCD_OK:
+      return "ok";
+    case NSVCD_ERROR_ARGUMENT:
+      return "an argument is NULL or out of its range";
+    case NSVCD_ERROR_IO:
+      return "the file is missing or cannot be read";
+    case NSVCD_ERROR_MEMORY:
+      return "out of memory";
+    case NSVCD_ERROR_SYNTAX:
+      return "a line cannot be understood, or a face has fewer than three corners";
+    case NSVCD_ERROR_INDEX:
+      return "an index is zero or refers to no vertex";
+    case NSVCD_ERROR_NUMBER:
+      return "a coordinate is not finite or too large";
+    case NSVCD_ERROR_EMPTY:
+      return "there is no triangle, or no area";
+    case NSVCD_ERROR_TOO_LARGE:
+      return "more vertices, triangles or bytes than can be counted";
+    case NSVCD_ERROR_POSE:
+      return "a pose is not finite, or its quaternion is not of unit length";
+    case NSVCD_ERROR_BODY:
+      return "the body is damaged, cut short, misaligned, or of another version or model";
+    case NSVCD_ERROR_WORKSPACE:
+      return "the memory given is too small or misaligned";
+  }
+  return "unknown result";
 }
 
+#ifndef NSVCD_NO_ENCODER
 static void *nsvcd__alloc(const nsvcd_allocator *allocator, size_t size) {
   return allocator ? allocator->alloc(size, allocator->user) : malloc(size);
 }
@@ -479,12 +507,14 @@ static void nsvcd__free(const nsvcd_allocator *allocator, void *memory) {
 static void *nsvcd__alloc_array(const nsvcd_allocator *allocator, size_t count, size_t size) {
   return count > SIZE_MAX / size ? NULL : nsvcd__alloc(allocator, count * size);
 }
+#endif
 
 // ------------------------------------------------------------------------------------------------------- mesh
 // In: Wavefront OBJ text, or triangles from the caller. Out: nsvcd_mesh, every index in range, every coordinate finite.
 
 #define NSVCD__MAX_COUNT 0x7fffffffu  // vertices and triangles: 2^31 - 1
 
+#ifndef NSVCD_NO_ENCODER
 NSVCDDEF void nsvcd_mesh_free(nsvcd_mesh *mesh, const nsvcd_allocator *allocator) {
   if (!mesh) return;
   nsvcd__free(allocator, mesh->positions);
@@ -507,6 +537,7 @@ static nsvcd_result nsvcd__mesh_check(const nsvcd_mesh *mesh) {
   }
   return NSVCD_OK;
 }
+#endif
 
 #ifndef NSVCD_NO_OBJ
 // ---- polygons: ear clipping (Meisters 1975; after Eberly, "Triangulation by Ear Clipping")
@@ -892,6 +923,7 @@ NSVCDDEF nsvcd_result nsvcd_obj_load(const char *path, const nsvcd_allocator *al
 #endif  // NSVCD_NO_STDIO
 #endif  // NSVCD_NO_OBJ
 
+#ifndef NSVCD_NO_ENCODER
 // ---------------------------------------------------------------------------------------------------- patches
 // In: a checked mesh. Out: its surface as N patches: S oriented points grouped by patch, and one ball per patch such
 // that the balls together contain every triangle. Everything here is deterministic and, up to rounding, scales and
@@ -1322,22 +1354,26 @@ static nsvcd_result nsvcd__patches_build(const nsvcd_mesh *mesh, size_t points, 
   *patches = p;
   return NSVCD_OK;
 }
+#endif  // NSVCD_NO_ENCODER
 
 // ---------------------------------------------------------------------------------------------------- weights
 // Generated by train/: matrices are (inputs, outputs).
 
-// A decoder: `layers` linear layers with ReLU between them. Offsets instead of pointers: nothing needs relocation, so
-// that all of it stays in read-only memory.
+// A decoder: `layers` linear layers with ReLU between them, sizes multiples of 4 and, but for the inputs, of 16.
+// Offsets instead of pointers: nothing needs relocation, so that all of it stays in read-only memory.
 typedef struct nsvcd__head {
-  size_t layers;
+  size_t layers;    // 0: compiled out
   size_t sizes[6];  // (layers + 1)
-  size_t weights;   // into nsvcd_w_decoder: per layer a matrix (sizes[l], sizes[l + 1]), then its bias
-  size_t int8;  // into nsvcd_w_decoder_int8: per layer the same matrix, (sizes[l + 1], sizes[l]), over the row's scale
-  size_t scales;  // into nsvcd_w_decoder_scale: per layer (sizes[l + 1])
+  size_t weights;   // of its matrices: per layer (sizes[l], sizes[l + 1]) floats in nsvcd_w_decoder, and the same
+                    // numbers in nsvcd_w_decoder_int8 as (sizes[l] / 4, sizes[l + 1], 4), over the output's scale
+  size_t outputs;   // of its outputs: per layer (sizes[l + 1]) in nsvcd_w_decoder_bias, _scale and _sum (of the int8)
 } nsvcd__head;
 
 #include "weights.h"
 
+#define NSVCD__LATENT (8 * NSVCD_W_CHANNELS + NSVCD_W_SCALARS)
+
+#ifndef NSVCD_NO_ENCODER
 // ---------------------------------------------------------------------------------------------------- encoder
 // In: the oriented surface points of one patch, its centre and covering radius. Out: its latent (NSVCD__LATENT floats
 // in (-1,1)): NSVCD_W_CHANNELS vectors of degree 1, as many of degree 2, NSVCD_W_SCALARS invariants.
@@ -1347,7 +1383,6 @@ typedef struct nsvcd__head {
 // turning the points by R turns the latent by D(R). Dividing by the radius makes it independent of scale.
 // Weights are stored (input, output): a layer is then a sum of rows, which compilers vectorise.
 
-#define NSVCD__LATENT (8 * NSVCD_W_CHANNELS + NSVCD_W_SCALARS)
 #define NSVCD__WIDE (NSVCD_W_POOLED + NSVCD_W_CONTEXT)  // channels after pooling
 #define NSVCD__INVARIANTS (2 + 5 * NSVCD_W_CONTEXT)     // per point
 #define NSVCD__GATES (5 * NSVCD_W_POOLED + NSVCD_W_POOLED_SCALARS)
@@ -1498,6 +1533,7 @@ static void nsvcd__encode_patch(const float *points, const float *normals, size_
   nsvcd__mix(nsvcd_w_mix2, y + NSVCD_W_HIDDEN, nsvcd_w_out2, 5, a2, latent + 3 * NSVCD_W_CHANNELS);
   for (size_t c = 0; c < NSVCD_W_SCALARS; c++) latent[8 * NSVCD_W_CHANNELS + c] = tanhf(y[2 * NSVCD_W_HIDDEN + c]);
 }
+#endif  // NSVCD_NO_ENCODER
 
 // -------------------------------------------------------------------------------------------- latent rotation
 // D(R), block-diagonal: R itself on degree 1, the real Wigner matrix of degree 2 on degree 2 (appendix E). Computed
@@ -1620,6 +1656,7 @@ static uint64_t nsvcd__body_checksum(const nsvcd_body *body) {
   return hash;
 }
 
+#ifndef NSVCD_NO_ENCODER
 // Orders N patches so that each run of 16 is compact: median splits across the longest axis, the left part a multiple
 // of 16. The insertion sort is stable, so ties keep their order and the result is the same everywhere.
 static void nsvcd__body_order(size_t count, const float *centres, uint16_t *order) {  // centres (N, 3), order (count)
@@ -1644,6 +1681,7 @@ static void nsvcd__body_order(size_t count, const float *centres, uint16_t *orde
   nsvcd__body_order(left, centres, order);
   nsvcd__body_order(count - left, centres, order + left);
 }
+#endif
 
 // The largest |p_i - centre| + r_i of `count` spheres; *farthest is the i.
 static float nsvcd__reach_of_spheres(size_t count, const float *x, const float *y, const float *z, const float *r,
@@ -1712,6 +1750,7 @@ static int nsvcd__all_within(const float *values, size_t count, float cap) {
   return 1;
 }
 
+#ifndef NSVCD_NO_ENCODER
 // Builds a blob in `memory` from N patches: centres (N, 3), radii (N), areas (N, 3), latents (N, LATENT).
 static nsvcd_result nsvcd__body_build(size_t points, const float *centres, const float *radii, const float *areas,
                                       const int8_t *latents, uint32_t weights_id, void *memory, size_t capacity,
@@ -1750,6 +1789,7 @@ static nsvcd_result nsvcd__body_build(size_t points, const float *centres, const
   *body = b;
   return NSVCD_OK;
 }
+#endif
 
 // 1 if the sphere contains the spheres [0, count).
 static int nsvcd__covers(const float *centre, float radius, size_t count, const float *x, const float *y,
@@ -2890,6 +2930,7 @@ static void nsvcd__invariants(const nsvcd__pairs *pairs, size_t count, float *x)
   }
 }
 
+#ifndef NSVCD_NO_FLOAT
 #if defined(__AVX512F__) && !defined(NSVCD_NO_SIMD)
 #define NSVCD__TILES 4  // 16 sums in 32 registers; in 16 registers 4 sums of 2 words do
 #else
@@ -2917,9 +2958,8 @@ static inline void nsvcd__layer_tile(const float *w, const float *bias, size_t i
 }
 
 // One layer for `rows` pairs, a multiple of 4. outputs: a multiple of 16.
-static void nsvcd__layer(const float *w, size_t inputs, size_t outputs, size_t rows, const float *x, size_t from,
-                         float *y, size_t to, int relu) {
-  const float *bias = w + inputs * outputs;
+static void nsvcd__layer(const float *w, const float *bias, size_t inputs, size_t outputs, size_t rows, const float *x,
+                         size_t from, float *y, size_t to, int relu) {
   for (size_t p = 0; p < rows; p += 4) {
     for (size_t o = 0, tiles; o < outputs; o += NSVCD__LANES * tiles) {
       const size_t left = (outputs - o) / NSVCD__LANES;
@@ -2936,39 +2976,86 @@ static void nsvcd__layer(const float *w, size_t inputs, size_t outputs, size_t r
     }
   }
 }
+#endif  // NSVCD_NO_FLOAT
 
-// One layer in int8 for one pair: x (inputs) over its largest component, w (outputs, inputs); sums are exact in int32.
-static void nsvcd__layer_int8(const int8_t *w, const float *scales, const float *bias, size_t inputs, size_t outputs,
-                              const float *x, float *y, int relu) {
-  int8_t q[NSVCD_W_WIDEST > NSVCD__DECODER_IN ? NSVCD_W_WIDEST : NSVCD__DECODER_IN];
+#ifndef NSVCD_NO_INT8
+#define NSVCD__MOST_INPUTS (NSVCD_W_WIDEST > NSVCD__DECODER_IN ? NSVCD_W_WIDEST : NSVCD__DECODER_IN)
+
+// x (inputs) over its largest component, as integers in [1, 255] about 128: the processors' instructions multiply
+// unsigned by signed bytes. Returns the step.
+static float nsvcd__to_bytes(const float *x, size_t inputs, uint8_t *bytes) {
   float most = 1e-20f;
   for (size_t i = 0; i < inputs; i++) most = fabsf(x[i]) > most ? fabsf(x[i]) : most;
-  const float inverse = 127 / most, step = most / 127;
-  for (size_t i = 0; i < inputs; i++) q[i] = (int8_t)(x[i] * inverse + (x[i] < 0 ? -0.5f : 0.5f));
+  const float inverse = 127 / most;
+  for (size_t i = 0; i < inputs; i++) bytes[i] = (uint8_t)(int32_t)(x[i] * inverse + 128.5f);
+  return most / 127;
+}
+
+// sum (outputs) += bytes (inputs) times w (inputs / 4, outputs, 4), exact in int32. outputs: a multiple of 16.
+static void nsvcd__dot_bytes(const int8_t *w, size_t inputs, size_t outputs, const uint8_t *bytes, int32_t *sum) {
+#if defined(__AVX512VNNI__) && !defined(NSVCD_NO_SIMD)
+  for (size_t o = 0, tiles; o < outputs; o += 16 * tiles) {
+    tiles = outputs - o >= 64 ? 4 : 1;
+    __m512i total[4];
+    for (size_t t = 0; t < 4; t++) total[t] = _mm512_setzero_si512();
+    for (size_t i = 0; i < inputs; i += 4) {
+      int32_t word;
+      memcpy(&word, bytes + i, 4);
+      const __m512i x = _mm512_set1_epi32(word);
+      const int8_t *row = w + i * outputs + 4 * o;
+      total[0] = _mm512_dpbusd_epi32(total[0], x, _mm512_loadu_si512((const void *)row));
+      for (size_t t = 1; t < 4 && tiles == 4; t++) {
+        total[t] = _mm512_dpbusd_epi32(total[t], x, _mm512_loadu_si512((const void *)(row + 64 * t)));
+      }
+    }
+    for (size_t t = 0; t < tiles; t++) _mm512_storeu_si512((void *)(sum + o + 16 * t), total[t]);
+  }
+#else
+  memset(sum, 0, outputs * sizeof *sum);
+  for (size_t i = 0; i < inputs; i += 4, w += 4 * outputs) {
+    const int32_t x0 = bytes[i], x1 = bytes[i + 1], x2 = bytes[i + 2], x3 = bytes[i + 3];
+    for (size_t o = 0; o < outputs; o++) {
+      sum[o] += (x0 * w[4 * o] + x1 * w[4 * o + 1]) + (x2 * w[4 * o + 2] + x3 * w[4 * o + 3]);
+    }
+  }
+#endif
+}
+
+// One layer in int8 for one pair.
+static void nsvcd__layer_int8(const int8_t *w, const float *scale, const float *sum, const float *bias, size_t inputs,
+                              size_t outputs, const float *x, float *y, int relu) {
+  uint8_t bytes[NSVCD__MOST_INPUTS];
+  int32_t dot[NSVCD_W_WIDEST];
+  const float step = nsvcd__to_bytes(x, inputs, bytes);
+  nsvcd__dot_bytes(w, inputs, outputs, bytes, dot);
   for (size_t o = 0; o < outputs; o++) {
-    const int8_t *row = w + o * inputs;
-    int32_t sum = 0;
-    for (size_t i = 0; i < inputs; i++) sum += (int32_t)row[i] * (int32_t)q[i];
-    y[o] = bias[o] + (float)sum * step * scales[o];
-    if (relu && y[o] < 0) y[o] = 0;
+    const float value = bias[o] + ((float)dot[o] - 128 * sum[o]) * step * scale[o];
+    y[o] = relu && value < 0 ? 0 : value;
   }
 }
+#endif  // NSVCD_NO_INT8
 
 // x (16, DECODER_IN) -> the logits of the first `count` pairs by `head`, in fp32 or int8 arithmetic.
 static void nsvcd__head_logits(const nsvcd__head *head, const float *x, size_t count, int int8, float *logits) {
-  const float *w = nsvcd_w_decoder + head->weights, *scales = nsvcd_w_decoder_scale + head->scales;
-  const int8_t *rows = nsvcd_w_decoder_int8 + head->int8;
+  const float *bias = nsvcd_w_decoder_bias + head->outputs;
   float a[NSVCD__BATCH * NSVCD_W_WIDEST], b[NSVCD__BATCH * NSVCD_W_WIDEST], *to = a;
-  size_t from = NSVCD__DECODER_IN;
+  size_t from = NSVCD__DECODER_IN, weights = head->weights, output = head->outputs;
   for (size_t l = 0; l < head->layers; l++) {
     const size_t inputs = head->sizes[l], outputs = head->sizes[l + 1];
     const int relu = l + 1 < head->layers;
-    if (!int8) nsvcd__layer(w, inputs, outputs, nsvcd__round_up(count, 4), x, from, to, NSVCD_W_WIDEST, relu);
-    for (size_t p = 0; int8 && p < count; p++) {
-      nsvcd__layer_int8(rows, scales, w + inputs * outputs, inputs, outputs, x + from * p, to + NSVCD_W_WIDEST * p,
-                        relu);
+#ifndef NSVCD_NO_FLOAT
+    if (!int8) {
+      nsvcd__layer(nsvcd_w_decoder + weights, bias, inputs, outputs, nsvcd__round_up(count, 4), x, from, to,
+                   NSVCD_W_WIDEST, relu);
     }
-    w += (inputs + 1) * outputs, rows += inputs * outputs, scales += outputs;
+#endif
+#ifndef NSVCD_NO_INT8
+    for (size_t p = 0; int8 && p < count; p++) {
+      nsvcd__layer_int8(nsvcd_w_decoder_int8 + weights, nsvcd_w_decoder_scale + output, nsvcd_w_decoder_sum + output,
+                        bias, inputs, outputs, x + from * p, to + NSVCD_W_WIDEST * p, relu);
+    }
+#endif
+    bias += outputs, weights += inputs * outputs, output += outputs;
     x = to, from = NSVCD_W_WIDEST, to = to == a ? b : a;
   }
   for (size_t p = 0; p < count; p++) logits[p] = x[from * p];
@@ -2977,6 +3064,7 @@ static void nsvcd__head_logits(const nsvcd__head *head, const float *x, size_t c
 // ------------------------------------------------------------------------------------------------------ query
 // In: a mesh -> a body; two bodies and a motion -> an answer. NeuralSVCD, algorithm 1.
 
+#ifndef NSVCD_NO_ENCODER
 NSVCDDEF nsvcd_result nsvcd_encode(const nsvcd_mesh *mesh, const nsvcd_encode_options *options,
                                    const nsvcd_allocator *allocator, void *memory, size_t capacity,
                                    const nsvcd_body **body) {
@@ -3015,6 +3103,7 @@ NSVCDDEF nsvcd_result nsvcd_encode(const nsvcd_mesh *mesh, const nsvcd_encode_op
   nsvcd__patches_free(&patches, allocator);
   return result;
 }
+#endif
 
 NSVCDDEF nsvcd_body_facts nsvcd_body_describe(const nsvcd_body *body) {
   nsvcd_body_facts facts = {
@@ -3044,6 +3133,14 @@ NSVCDDEF const char *nsvcd_status_string(nsvcd_status status) {
   }
   return "unknown status";
 }
+
+#ifndef NSVCD_NO_BASE
+#define NSVCD__LARGEST_MODEL NSVCD_MODEL_BASE
+#elif !defined(NSVCD_NO_SMALL)
+#define NSVCD__LARGEST_MODEL NSVCD_MODEL_SMALL
+#else
+#define NSVCD__LARGEST_MODEL NSVCD_MODEL_TINY
+#endif
 
 #define NSVCD__SHORTLIST 4       // times K: the deepest pairs, from which the tiny head chooses
 #define NSVCD__CLEAR_LOGIT 5.0f  // a verdict this positive needs no second pair
@@ -3104,11 +3201,19 @@ static nsvcd_result nsvcd__settings_of(const nsvcd_sweep_options *options, size_
   const nsvcd_sweep_options *o = options ? options : &none;
   if (o->pairs > NSVCD_MAX_PAIRS || (int)o->model < 0 || o->model > NSVCD_MODEL_BASE) return NSVCD_ERROR_ARGUMENT;
   if (o->precision != NSVCD_PRECISION_FLOAT && o->precision != NSVCD_PRECISION_INT8) return NSVCD_ERROR_ARGUMENT;
-  const size_t model = (size_t)(o->model ? o->model : NSVCD_MODEL_BASE) - (size_t)NSVCD_MODEL_TINY;
+  const size_t model = (size_t)(o->model ? o->model : NSVCD__LARGEST_MODEL) - (size_t)NSVCD_MODEL_TINY;
+  if (!nsvcd_w_heads[model].layers) return NSVCD_ERROR_ARGUMENT;  // compiled out
   settings->pairs = o->pairs ? o->pairs : NSVCD_DEFAULT_PAIRS;
   settings->shortlist = model == 0 ? settings->pairs : NSVCD__SHORTLIST * settings->pairs;
   settings->head = &nsvcd_w_heads[model], settings->ranker = &nsvcd_w_heads[0];
+#ifdef NSVCD_NO_FLOAT
+  settings->int8 = 1;
+#else
   settings->int8 = o->precision == NSVCD_PRECISION_INT8;
+#endif
+#ifdef NSVCD_NO_INT8
+  if (settings->int8) return NSVCD_ERROR_ARGUMENT;
+#endif
   return nsvcd__threshold(model, o->recall, points1, points2, &settings->threshold) ? NSVCD_OK : NSVCD_ERROR_ARGUMENT;
 }
 

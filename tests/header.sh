@@ -59,6 +59,9 @@ if test "$(uname -m)" = x86_64; then
   compile "${CXX:-c++}" cc c++11 "-mavx512f -O0"
 fi
 compile "${CC:-cc}" c c99 "-DNSVCD_STATIC -Wno-unused-function -O0"
+for without in ENCODER OBJ SMALL BASE INT8 FLOAT "SMALL BASE" "ENCODER SMALL BASE FLOAT STDIO"; do
+  compile "${CC:-cc}" c c99 "$(printf ' -DNSVCD_NO_%s' $without) -O0"
+done
 
 # -fno-pic: else tables of constant pointers count as data, for the loader relocates them.
 for object in "$dir"/kept_*.o; do

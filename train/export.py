@@ -42,21 +42,28 @@ def array(name: str, t: Tensor) -> str:
     return f"static const float {name}[{t.numel()}] = {{\n{numbers(t.flatten().tolist())}\n}};\n"
 
 
-def int8_rows(w: Tensor) -> tuple[Tensor, Tensor]:
-    """(inputs, outputs) -> int8 (outputs, inputs), scale (outputs): w = scale * int8, to half a step."""
-    scale = (w.abs().amax(0) / 127).clamp_min(1e-12)
-    return torch.round(w / scale).T.to(torch.int8).contiguous(), scale
-
-
-def int8_array(name: str, t: Tensor) -> str:
-    values, lines, line = t.flatten().tolist(), [], "   "
+def integers(values: list[int]) -> str:
+    lines, line = [], "   "
     for v in values:
         w = f" {v},"
         if len(line) + len(w) > 118:
             lines.append(line)
             line = "   "
         line += w
-    return f"static const int8_t {name}[{len(values)}] = {{\n" + "\n".join(lines + [line]) + "\n};\n"
+    return "\n".join(lines + [line])
+
+
+def heads_array(name: str, kind: str, text: dict[str, str]) -> str:
+    """One array of all heads; a head that is compiled out leaves it."""
+    parts = [f"#ifndef NSVCD_NO_{h.upper()}\n{text[h]}\n#endif" if h != "tiny" else text[h] for h in HEADS]
+    return f"static const {kind} {name}[] = {{\n" + "\n".join(parts) + "\n};\n"
+
+
+def int8_rows(w: Tensor) -> tuple[Tensor, Tensor, Tensor]:
+    """(inputs, outputs) -> int8 (inputs / 4, outputs, 4), scale and sum of the integers (outputs): w = scale * int8, to half a step."""
+    scale = (w.abs().amax(0) / 127).clamp_min(1e-12)
+    q = torch.round(w / scale).to(torch.int8)
+    return q.view(len(w) // 4, 4, -1).transpose(1, 2).contiguous(), scale, q.sum(0).float()
 
 
 def by_component(s: Shape) -> Tensor:
@@ -116,21 +123,32 @@ def write_weights(net: Network, saved: dict, thresholds: list[list[list[float]]]
     for rows in thresholds:
         lines += ["    {" + ",\n     ".join(map(row_text, rows)) + "},"]
     lines += ["};", ""]
+    lines += ["#ifndef NSVCD_NO_ENCODER"]
     lines += [array("nsvcd_w_" + k, v) for k, v in t.items() if not k.startswith(HEADS)]
-    decoder, rows, scales, table = [], [], [], []
+    lines += ["#endif  // NSVCD_NO_ENCODER", ""]
+    flat = lambda part: torch.cat([x.flatten() for x in part])
+    matrices, rows, biases, scales, sums, table, before = {}, {}, {}, {}, {}, [], ["0", "0"]
     for h, sizes in s.heads:
         layers = head_layers(net, h, sizes)
         full = [2 * s.latent + FACTS, *(len(bias) for _, bias in layers)]
-        offsets = (sum(map(torch.numel, part)) for part in (decoder, rows, scales))
-        table.append(f"    {{{len(full) - 1}, {{{', '.join(map(str, full))}}}, {', '.join(map(str, offsets))}}},  // {h}")
-        for w, bias in layers:
-            quantised, scale = int8_rows(w)
-            decoder += [w, bias]
-            rows.append(quantised)
-            scales.append(scale)
-    flat = lambda part: torch.cat([x.flatten() for x in part])
-    lines += [array("nsvcd_w_decoder", flat(decoder)), int8_array("nsvcd_w_decoder_int8", flat(rows)), array("nsvcd_w_decoder_scale", flat(scales))]
-    lines += ["static const nsvcd__head nsvcd_w_heads[3] = {", *table]
+        quantised = [int8_rows(w) for w, _ in layers]
+        matrices[h], biases[h] = numbers(flat([w for w, _ in layers]).tolist()), numbers(flat([bias for _, bias in layers]).tolist())
+        rows[h] = integers(flat([q for q, _, _ in quantised]).tolist())
+        scales[h], sums[h] = numbers(flat([x for _, x, _ in quantised]).tolist()), numbers(flat([x for _, _, x in quantised]).tolist())
+        row = f"    {{{len(full) - 1}, {{{', '.join(map(str, full))}}}, {before[0]}, {before[1]}}},"
+        table.append(row if h == "tiny" else f"#ifndef NSVCD_NO_{h.upper()}\n{row}\n#else\n    {{0, {{0}}, 0, 0}},\n#endif")
+        size, outputs = sum(w.numel() for w, _ in layers), sum(full[1:])
+        if h == "small":
+            lines += ["#ifndef NSVCD_NO_SMALL  // its share of the arrays below", f"#define NSVCD_W_SMALL_WEIGHTS {size}",
+                      f"#define NSVCD_W_SMALL_OUTPUTS {outputs}", "#else", "#define NSVCD_W_SMALL_WEIGHTS 0", "#define NSVCD_W_SMALL_OUTPUTS 0",
+                      "#endif", ""]
+            size, outputs = "NSVCD_W_SMALL_WEIGHTS", "NSVCD_W_SMALL_OUTPUTS"
+        before = [f"{x} + {y}" if x != "0" else str(y) for x, y in zip(before, (size, outputs))]
+    lines += ["#ifndef NSVCD_NO_FLOAT", heads_array("nsvcd_w_decoder", "float", matrices), "#endif  // NSVCD_NO_FLOAT", ""]
+    lines += ["#ifndef NSVCD_NO_INT8", heads_array("nsvcd_w_decoder_int8", "int8_t", rows), heads_array("nsvcd_w_decoder_scale", "float", scales),
+              heads_array("nsvcd_w_decoder_sum", "float", sums), "#endif  // NSVCD_NO_INT8", ""]
+    lines += [heads_array("nsvcd_w_decoder_bias", "float", biases)]
+    lines += ["// tiny, small, base", "static const nsvcd__head nsvcd_w_heads[3] = {", *table]
     lines += ["};", "", "#endif  // NSVCD_WEIGHTS_H", ""]
     path.write_text("\n".join(lines))
 
