@@ -2718,8 +2718,9 @@ static int nsvcd__is_contained(const nsvcd_body *moving, const nsvcd_body *fixed
 
 #define NSVCD__BATCH NSVCD__LANES
 #define NSVCD__FACTS 12
-#define NSVCD__DECODER_IN (2 * NSVCD__LATENT + NSVCD__FACTS)
-#define NSVCD__LEAN 0.05f  // share of the lean in axis 2
+#define NSVCD__INPUTS (2 * NSVCD__LATENT + NSVCD__FACTS)
+#define NSVCD__DECODER_IN ((NSVCD__INPUTS + 15) / 16 * 16)  // zeros at the end
+#define NSVCD__LEAN 0.05f                                   // share of the lean in axis 2
 #define NSVCD__SIDE 1e-4f  // a lean less than this to one side of axes 1 and 2 is on neither
 
 typedef struct nsvcd__pairs {
@@ -2927,6 +2928,7 @@ static void nsvcd__invariants(const nsvcd__pairs *pairs, size_t count, float *x)
     nsvcd__turn_latent(pairs->z1[l], turn1, l, x + NSVCD__VECTORS * first, scalars + NSVCD_W_SCALARS * first);
     nsvcd__turn_latent(pairs->z2[l], turn2, l, x + NSVCD__VECTORS * second, scalars + NSVCD_W_SCALARS * second);
     for (size_t k = 0; k < NSVCD__FACTS; k++) scalars[2 * NSVCD_W_SCALARS + k] = facts[k][l];
+    for (size_t k = NSVCD__INPUTS; k < NSVCD__DECODER_IN; k++) x[k] = 0;
   }
 }
 
@@ -2981,8 +2983,62 @@ static void nsvcd__layer(const float *w, const float *bias, size_t inputs, size_
 #ifndef NSVCD_NO_INT8
 #define NSVCD__MOST_INPUTS (NSVCD_W_WIDEST > NSVCD__DECODER_IN ? NSVCD_W_WIDEST : NSVCD__DECODER_IN)
 
-// x (inputs) over its largest component, as integers in [1, 255] about 128: the processors' instructions multiply
-// unsigned by signed bytes. Returns the step.
+// A layer in integers: its inputs over the largest of them are bytes in [1, 255] about 128, because the processors'
+// instructions multiply unsigned by signed bytes; sums are exact in int32, and 128 times the sum of the weights too
+// much.
+//   nsvcd__to_bytes   x (inputs) -> bytes (inputs); returns the step
+//   nsvcd__dot_bytes  bytes (4, inputs), w (inputs / 4, outputs, 4) -> dot (4, outputs)
+//   nsvcd__from_dots  dot (outputs) -> y (outputs)
+// Inputs and outputs are multiples of 16.
+#if defined(__AVX512VNNI__) && !defined(NSVCD_NO_SIMD)
+static float nsvcd__to_bytes(const float *x, size_t inputs, uint8_t *bytes) {
+  __m512 most = _mm512_set1_ps(1e-20f);
+  for (size_t i = 0; i < inputs; i += 16) most = _mm512_max_ps(most, _mm512_abs_ps(_mm512_loadu_ps(x + i)));
+  const float largest = _mm512_reduce_max_ps(most);
+  const __m512 inverse = _mm512_set1_ps(127 / largest), middle = _mm512_set1_ps(128.5f);
+  for (size_t i = 0; i < inputs; i += 16) {
+    const __m512i value = _mm512_cvttps_epi32(_mm512_fmadd_ps(_mm512_loadu_ps(x + i), inverse, middle));
+    _mm_storeu_si128((__m128i *)(void *)(bytes + i), _mm512_cvtepi32_epi8(value));
+  }
+  return largest / 127;
+}
+static inline void nsvcd__dot_tile(const int8_t *w, size_t inputs, size_t outputs, const uint8_t *bytes, int32_t *dot,
+                                   size_t tiles) {
+  __m512i sum[4][4];
+  for (size_t p = 0; p < 4; p++) {
+    for (size_t t = 0; t < tiles; t++) sum[p][t] = _mm512_setzero_si512();
+  }
+  for (size_t i = 0; i < inputs; i += 4, w += 4 * outputs) {
+    for (size_t t = 0; t < tiles; t++) {
+      const __m512i column = _mm512_loadu_si512((const void *)(w + 64 * t));
+      for (size_t p = 0; p < 4; p++) {
+        int32_t word;
+        memcpy(&word, bytes + inputs * p + i, sizeof word);
+        sum[p][t] = _mm512_dpbusd_epi32(sum[p][t], _mm512_set1_epi32(word), column);
+      }
+    }
+  }
+  for (size_t p = 0; p < 4; p++) {
+    for (size_t t = 0; t < tiles; t++) _mm512_storeu_si512((void *)(dot + outputs * p + 16 * t), sum[p][t]);
+  }
+}
+static void nsvcd__dot_bytes(const int8_t *w, size_t inputs, size_t outputs, const uint8_t *bytes, int32_t *dot) {
+  size_t o = 0;
+  for (; o + 64 <= outputs; o += 64) nsvcd__dot_tile(w + 4 * o, inputs, outputs, bytes, dot + o, 4);
+  for (; o + 32 <= outputs; o += 32) nsvcd__dot_tile(w + 4 * o, inputs, outputs, bytes, dot + o, 2);
+  if (o < outputs) nsvcd__dot_tile(w + 4 * o, inputs, outputs, bytes, dot + o, 1);
+}
+static void nsvcd__from_dots(const int32_t *dot, const float *sum, const float *scale, const float *bias, float step,
+                             size_t outputs, int relu, float *y) {
+  const __m512 least = _mm512_set1_ps(relu ? 0 : -1e30f);
+  for (size_t o = 0; o < outputs; o += 16) {
+    const __m512 value = _mm512_cvtepi32_ps(_mm512_loadu_si512((const void *)(dot + o)));
+    const __m512 exact = _mm512_fmadd_ps(_mm512_loadu_ps(sum + o), _mm512_set1_ps(-128), value);
+    const __m512 factor = _mm512_mul_ps(_mm512_set1_ps(step), _mm512_loadu_ps(scale + o));
+    _mm512_storeu_ps(y + o, _mm512_max_ps(least, _mm512_fmadd_ps(exact, factor, _mm512_loadu_ps(bias + o))));
+  }
+}
+#else
 static float nsvcd__to_bytes(const float *x, size_t inputs, uint8_t *bytes) {
   float most = 1e-20f;
   for (size_t i = 0; i < inputs; i++) most = fabsf(x[i]) > most ? fabsf(x[i]) : most;
@@ -2990,52 +3046,30 @@ static float nsvcd__to_bytes(const float *x, size_t inputs, uint8_t *bytes) {
   for (size_t i = 0; i < inputs; i++) bytes[i] = (uint8_t)(int32_t)(x[i] * inverse + 128.5f);
   return most / 127;
 }
-
-// sum (outputs) += bytes (inputs) times w (inputs / 4, outputs, 4), exact in int32. outputs: a multiple of 16.
-static void nsvcd__dot_bytes(const int8_t *w, size_t inputs, size_t outputs, const uint8_t *bytes, int32_t *sum) {
-#if defined(__AVX512VNNI__) && !defined(NSVCD_NO_SIMD)
-  for (size_t o = 0, tiles; o < outputs; o += 16 * tiles) {
-    tiles = outputs - o >= 64 ? 4 : 1;
-    __m512i total[4];
-    for (size_t t = 0; t < 4; t++) total[t] = _mm512_setzero_si512();
-    for (size_t i = 0; i < inputs; i += 4) {
-      int32_t word;
-      memcpy(&word, bytes + i, 4);
-      const __m512i x = _mm512_set1_epi32(word);
-      const int8_t *row = w + i * outputs + 4 * o;
-      total[0] = _mm512_dpbusd_epi32(total[0], x, _mm512_loadu_si512((const void *)row));
-      for (size_t t = 1; t < 4 && tiles == 4; t++) {
-        total[t] = _mm512_dpbusd_epi32(total[t], x, _mm512_loadu_si512((const void *)(row + 64 * t)));
+static void nsvcd__dot_bytes(const int8_t *w, size_t inputs, size_t outputs, const uint8_t *bytes, int32_t *dot) {
+  memset(dot, 0, 4 * outputs * sizeof *dot);
+  for (size_t p = 0; p < 4; p++, bytes += inputs, dot += outputs) {
+    const int8_t *row = w;
+    for (size_t i = 0; i < inputs; i += 4, row += 4 * outputs) {
+      const int32_t x0 = bytes[i], x1 = bytes[i + 1], x2 = bytes[i + 2], x3 = bytes[i + 3];
+      for (size_t o = 0; o < outputs; o++) {
+        dot[o] += (x0 * row[4 * o] + x1 * row[4 * o + 1]) + (x2 * row[4 * o + 2] + x3 * row[4 * o + 3]);
       }
     }
-    for (size_t t = 0; t < tiles; t++) _mm512_storeu_si512((void *)(sum + o + 16 * t), total[t]);
   }
-#else
-  memset(sum, 0, outputs * sizeof *sum);
-  for (size_t i = 0; i < inputs; i += 4, w += 4 * outputs) {
-    const int32_t x0 = bytes[i], x1 = bytes[i + 1], x2 = bytes[i + 2], x3 = bytes[i + 3];
-    for (size_t o = 0; o < outputs; o++) {
-      sum[o] += (x0 * w[4 * o] + x1 * w[4 * o + 1]) + (x2 * w[4 * o + 2] + x3 * w[4 * o + 3]);
-    }
-  }
-#endif
 }
-
-// One layer in int8 for one pair.
-static void nsvcd__layer_int8(const int8_t *w, const float *scale, const float *sum, const float *bias, size_t inputs,
-                              size_t outputs, const float *x, float *y, int relu) {
-  uint8_t bytes[NSVCD__MOST_INPUTS];
-  int32_t dot[NSVCD_W_WIDEST];
-  const float step = nsvcd__to_bytes(x, inputs, bytes);
-  nsvcd__dot_bytes(w, inputs, outputs, bytes, dot);
+static void nsvcd__from_dots(const int32_t *dot, const float *sum, const float *scale, const float *bias, float step,
+                             size_t outputs, int relu, float *y) {
   for (size_t o = 0; o < outputs; o++) {
-    const float value = bias[o] + ((float)dot[o] - 128 * sum[o]) * step * scale[o];
+    const float value = bias[o] + ((float)dot[o] - 128 * sum[o]) * (step * scale[o]);
     y[o] = relu && value < 0 ? 0 : value;
   }
 }
+#endif
 #endif  // NSVCD_NO_INT8
 
-// x (16, DECODER_IN) -> the logits of the first `count` pairs by `head`, in fp32 or int8 arithmetic.
+// x (16, DECODER_IN) -> the logits of the first `count` pairs by `head`, in fp32 or int8 arithmetic. Four rows at a
+// time: x must hold numbers up to a multiple of 4.
 static void nsvcd__head_logits(const nsvcd__head *head, const float *x, size_t count, int int8, float *logits) {
   const float *bias = nsvcd_w_decoder_bias + head->outputs;
   float a[NSVCD__BATCH * NSVCD_W_WIDEST], b[NSVCD__BATCH * NSVCD_W_WIDEST], *to = a;
@@ -3050,9 +3084,16 @@ static void nsvcd__head_logits(const nsvcd__head *head, const float *x, size_t c
     }
 #endif
 #ifndef NSVCD_NO_INT8
-    for (size_t p = 0; int8 && p < count; p++) {
-      nsvcd__layer_int8(nsvcd_w_decoder_int8 + weights, nsvcd_w_decoder_scale + output, nsvcd_w_decoder_sum + output,
-                        bias, inputs, outputs, x + from * p, to + NSVCD_W_WIDEST * p, relu);
+    for (size_t first = 0; int8 && first < count; first += 4) {
+      uint8_t bytes[4 * NSVCD__MOST_INPUTS];
+      int32_t dot[4 * NSVCD_W_WIDEST];
+      float step[4];
+      for (size_t p = 0; p < 4; p++) step[p] = nsvcd__to_bytes(x + from * (first + p), inputs, bytes + inputs * p);
+      nsvcd__dot_bytes(nsvcd_w_decoder_int8 + weights, inputs, outputs, bytes, dot);
+      for (size_t p = 0; p < 4; p++) {
+        nsvcd__from_dots(dot + outputs * p, nsvcd_w_decoder_sum + output, nsvcd_w_decoder_scale + output, bias, step[p],
+                         outputs, relu, to + NSVCD_W_WIDEST * (first + p));
+      }
     }
 #endif
     bias += outputs, weights += inputs * outputs, output += outputs;

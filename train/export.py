@@ -78,11 +78,11 @@ def padded(w: Tensor, inputs: int, outputs: int) -> Tensor:
 
 
 def head_layers(net: Network, name: str, sizes: tuple[int, ...]) -> list[tuple[Tensor, Tensor]]:
-    """(inputs, outputs) matrices and biases; the inputs in the library's order, outputs padded to multiples of 16."""
+    """(inputs, outputs) matrices and biases; the inputs in the library's order, sizes padded to multiples of 16."""
     s, v = net.s, 8 * net.s.channels
     order = by_component(s)[:v]
     first = torch.cat([order, v + order, torch.arange(2 * v, 2 * s.latent + FACTS)])
-    wide = [2 * s.latent + FACTS] + [(n + 15) // 16 * 16 for n in (*sizes, 1)]
+    wide = [(n + 15) // 16 * 16 for n in (2 * s.latent + FACTS, *sizes, 1)]
     out = []
     for k, layer in enumerate(net.heads[name][::2]):
         w = layer.weight.detach().T
@@ -130,7 +130,7 @@ def write_weights(net: Network, saved: dict, thresholds: list[list[list[float]]]
     matrices, rows, biases, scales, sums, table, before = {}, {}, {}, {}, {}, [], ["0", "0"]
     for h, sizes in s.heads:
         layers = head_layers(net, h, sizes)
-        full = [2 * s.latent + FACTS, *(len(bias) for _, bias in layers)]
+        full = [len(layers[0][0]), *(len(bias) for _, bias in layers)]
         quantised = [int8_rows(w) for w, _ in layers]
         matrices[h], biases[h] = numbers(flat([w for w, _ in layers]).tolist()), numbers(flat([bias for _, bias in layers]).tolist())
         rows[h] = integers(flat([q for q, _, _ in quantised]).tolist())
