@@ -21,7 +21,11 @@ CCD_CFLAGS := -DHAVE_LIBCCD $(shell pkg-config --cflags ccd 2>/dev/null)
 CCD_LIBS := $(shell pkg-config --libs ccd 2>/dev/null || echo -lccd)
 endif
 
-.PHONY: all demo test assets problems accuracy weights format clean help check-header check-examples
+ifeq ($(BENCH),quick)
+COUNT ?= 200
+endif
+
+.PHONY: bench all demo test assets problems accuracy weights format clean help check-header check-examples
 .DELETE_ON_ERROR:
 
 all: build/svcd build/quickstart  ## the examples: build/svcd and build/quickstart
@@ -117,6 +121,28 @@ accuracy: build/svcd $(SETS:%=$(DATA)/%.txt)  ## labels the problem sets (minute
 BENCH_HEADERS = tests/method.h tests/bench_chart.h tests/bench_convex.h tests/bench_grid.h tests/bench_mesh.h tests/bench_spheres.h
 build/bench: tests/bench.c $(BENCH_HEADERS) tests/oracle.h examples/problem_file.h $(LIBRARY) | build
 	$(CC) $(ALL_CFLAGS) $(CCD_CFLAGS) -o $@ tests/bench.c $(CCD_LIBS) -lm
+
+# Sets at the extremes: 300 problems each, answered by NeuralSVCD alone.
+EXTREMES = thin spin still tiny huge inside cavity far mixed offset
+build/extremes/%.txt: build/problems
+	@mkdir -p build/extremes
+	build/problems --set $* --meshes procedural --count 300 --seed 501 --out $@
+.PRECIOUS: build/extremes/%.txt
+
+# BENCH=quick: fewer settings on 200 problems a set, two minutes. PROBLEMS=file: your own problems instead.
+ifdef PROBLEMS
+BENCH_SETS = $(basename $(notdir $(PROBLEMS)))=$(PROBLEMS)
+else
+BENCH_SETS = $(if $(REAL),real=$(subst $(space),$(comma),$(REAL:%=$(DATA)/%.txt)),standard=$(DATA)/standard.txt) \
+  hollow=$(DATA)/hollow.txt $(if $(BENCH),,$(foreach set,$(EXTREMES),$(set)=build/extremes/$(set).txt))
+BENCH_FILES = $(if $(REAL),$(REAL:%=$(DATA)/%.txt),$(DATA)/standard.txt) $(DATA)/hollow.txt \
+  $(if $(BENCH),,$(EXTREMES:%=build/extremes/%.txt))
+endif
+comma := ,
+space := $(subst x,,x x)
+
+bench: build/bench $(BENCH_FILES)  ## every method on the same problems: table, build/bench.tsv, build/bench.svg
+	build/bench $(if $(BENCH),--quick --limit 150,--limit 1000) $(BENCH_SETS)
 
 # ---------------------------------------------------------------------------------------------------------- training
 

@@ -3354,8 +3354,7 @@ NSVCDDEF nsvcd_result nsvcd_sweep(const nsvcd_body *moving, const nsvcd_pose *po
     nsvcd__score(&ask, &kept, 1);
     nsvcd__judge(&ask, &kept, ask.settings.pairs, &found);
   }
-  // A body inside another touches nothing. It is asked last, because a collision needs no second reason.
-  if (!(found.logit > 0) && nsvcd__starts_inside(&ask)) {
+  if (nsvcd__starts_inside(&ask)) {  // a body inside another need not touch anything
     found.status = NSVCD_STATUS_INSIDE, found.logit = NSVCD_LOGIT_CERTAIN, found.time = 0;
     found.moving_patch = found.fixed_patch = 0;
   }

@@ -1,6 +1,7 @@
 // problems.c - writes labelled problem files (FORMATS.md), exact by tests/oracle.h. See `problems` without arguments.
 //
-// How a problem of the sets `standard` and `hollow` comes about (the paper's appendix B, conditioned on the boundary):
+// What sets there are: the table `sets` below. How a problem comes about (the paper's appendix B, conditioned on the
+// boundary; all sets but `inside` and `far`):
 //   1. two meshes, random sizes; a smooth random motion of one; the other placed at random within reach of it;
 //   2. if they touch or one contains the other, the fixed body marches in a random direction to the first place where
 //      they do not, which may well be a concavity; restart if there is none;
@@ -10,10 +11,14 @@
 //   4. the fixed body moves on by eps ~ N(0, sigma^2) along delta (positive: deeper), and the oracle relabels;
 //   5. labels within 0.1 mm of contact are thrown away; classes are balanced by rejection: eps is redrawn, at most
 //      four times, then the pair is dropped.
+// The millimetres above are for bodies of some 0.1 m; `tiny` and `huge` scale them with everything else.
 // MARGIN: the least separation if free. If colliding: minus the depth, the shortest way back along delta (against the
 // sign of eps) after which the motion is free, found by eight steps and bisection; at most |eps|. It is an upper bound
-// of the true penetration depth, since another direction may be shorter. Set `inside`: one body wholly inside a solid
-// (label 1, nan), against controls in cavities of shells and cups (label 0).
+// of the true penetration depth, since another direction may be shorter.
+// Set `inside`: one body wholly inside a solid (label 1, nan), against controls in cavities of shells and cups (label
+// 0). Set `far`: label 0, nothing else is asked of it. Set `offset`: the motion is rounded to float32 before anything
+// is measured and the fixed pose before it is labelled, since a reader of floats sees nothing finer than 1 mm there;
+// labels and free margins hold for the rounded poses, depths may be off by that rounding.
 #define _XOPEN_SOURCE 700
 #include <dirent.h>
 #include <errno.h>
@@ -26,9 +31,96 @@
 #include "../examples/shapes.h"
 #include "oracle.h"
 
-#define TOLERANCE 5e-5  // of the oracle, metres
+#define TOLERANCE 5e-5  // of the oracle, metres; this and the next three are multiplied by the set's unit
 #define UNDECIDED 1e-4  // labels nearer to contact than this are thrown away
+#define TOUCHING 3e-4   // just short of contact, the bodies are nearer than this
+#define CLEARANCE 1e-3  // of what is inside
 #define MAX_SAMPLES 1025
+
+// ------------------------------------------------------------------------------------------------------------ sets
+
+typedef enum family { NONE, SOLIDS, HOLLOWS, SHELLS, CLOSED_SHELLS, SHEETS } family;  // of procedural meshes
+
+static const char *const family_names[] = {"", "solid", "hollow", "shell", "shell", "sheet"};
+
+typedef enum placing {
+  ACROSS,      // bounds of the fixed body overlap those of the motion
+  IN_BOUNDS,   // the motion starts within the bounds of the fixed body, and passes through them
+  IN_CAVITY,   // the motion stays in the cavity of the fixed body, unless it collides
+  ON_SURFACE,  // the motion passes near a random place of the fixed body's surface
+  CONTAINED,   // one body inside the other (`inside`)
+  APART        // a gap of at least the extent of the larger body, over the whole motion
+} placing;
+
+typedef enum special {
+  PLAIN,
+  PATH_IN_EXTENTS,  // the path counts extents of the moving body
+  HALF_SINGLE,      // every other motion is a single pose
+  FAR_FROM_ORIGIN   // the scene is ORIGIN_DISTANCE away, in poses of float32
+} special;
+
+#define ORIGIN_DISTANCE 1e4
+
+typedef struct set_info {
+  const char *name;
+  placing placing;
+  special special;
+  family moving_family;  // unless --meshes names a folder
+  family fixed_family;   // NONE: the fixed body is drawn from the meshes of the moving one
+  size_t fixed_meshes;   // how many of fixed_family
+  int tries;             // placements of one pair of bodies
+  size_t samples;        // of the motion, unless --motion-samples
+  double turn[2];        // range of the angle turned over the motion, degrees
+  double unit;           // metres; in units are:
+  double moving[2];      // range of the largest extent of the moving body
+  double fixed[2];       // of the fixed one
+  double path[2];        // range of the length of the motion
+  double march[2];       // of the step of the march
+  double sigma;          // of eps, unless --sigma
+  const char *what;
+} set_info;
+
+// clang-format off
+static const set_info sets[] = {
+    {"standard", ACROSS,     PLAIN,           SOLIDS, NONE,           0,   3,  33, {0, 120},   1,
+     {0.1, 0.4},   {0.1, 0.4}, {0.1, 0.6},  {0.002, 0.015}, 0.032,
+     "bodies of 0.1-0.4 m, paths of 0.1-0.6 m, up to 120 degrees"},
+    {"hollow",   IN_BOUNDS,  PLAIN,           SOLIDS, HOLLOWS,       60,   6,  33, {0, 120},   1,
+     {0.02, 0.08}, {0.2, 0.4}, {0.05, 0.3}, {0.001, 0.005}, 0.010,
+     "a small body in and about a cup, rack, drawer, ..."},
+    {"inside",   CONTAINED,  PLAIN,           SOLIDS, SOLIDS,        40, 100,  33, {0, 120},   1,
+     {0.02, 0.08}, {0.2, 0.4}, {0.01, 0.1}, {0, 0},         0.032,
+     "a small body inside a solid, and as many free ones in cavities"},
+    {"cavity",   IN_CAVITY,  PLAIN,           SOLIDS, CLOSED_SHELLS, 30,   6,  33, {0, 120},   1,
+     {0.02, 0.08}, {0.2, 0.4}, {0.02, 0.2}, {0.001, 0.005}, 0.010,
+     "hollow, in the cavity of a shell that is closed all round"},
+    {"thin",     ACROSS,     PATH_IN_EXTENTS, SHEETS, NONE,           0,   3,  33, {0, 60},    1,
+     {0.1, 0.4},   {0.1, 0.4}, {3, 10},     {0.002, 0.015}, 0.032,
+     "plates, 0.5-2 % thick, fly 3-10 of their extents past plates"},
+    {"spin",     ACROSS,     PLAIN,           SOLIDS, NONE,           0,   3, 129, {720, 720}, 1,
+     {0.1, 0.4},   {0.1, 0.4}, {0.1, 0.6},  {0.002, 0.015}, 0.032,
+     "standard, but 720 degrees of rotation"},
+    {"still",    ACROSS,     HALF_SINGLE,     SOLIDS, NONE,           0,   3,  33, {0, 1},     1,
+     {0.1, 0.4},   {0.1, 0.4}, {0, 0.001},  {0.002, 0.015}, 0.032,
+     "standard, but half a single pose, half at most 1 mm and 1 degree"},
+    {"tiny",     ACROSS,     PLAIN,           SOLIDS, NONE,           0,   3,  33, {0, 120},   1.0 / 200,
+     {0.1, 0.4},   {0.1, 0.4}, {0.1, 0.6},  {0.002, 0.015}, 0.032,
+     "standard / 200: bodies of 0.5-2 mm"},
+    {"huge",     ACROSS,     PLAIN,           SOLIDS, NONE,           0,   3,  33, {0, 120},   400,
+     {0.1, 0.4},   {0.1, 0.4}, {0.1, 0.6},  {0.002, 0.015}, 0.032,
+     "standard * 400: bodies of 40-160 m"},
+    {"far",      APART,      PLAIN,           SOLIDS, NONE,           0,  20,  33, {0, 120},   1,
+     {0.1, 0.4},   {0.1, 0.4}, {0.1, 0.6},  {0, 0},         0.032,
+     "standard, but a gap of at least the larger extent: all free"},
+    {"offset",   ACROSS,     FAR_FROM_ORIGIN, SOLIDS, NONE,           0,   3,  33, {0, 120},   1,
+     {0.1, 0.4},   {0.1, 0.4}, {0.1, 0.6},  {0.002, 0.015}, 0.032,
+     "standard, 10 km from the origin, in poses of float32"},
+    {"mixed",    ON_SURFACE, PLAIN,           SOLIDS, NONE,           0,   6,  33, {0, 120},   1,
+     {0.05, 0.05}, {20, 20},   {0.1, 0.6},  {0.002, 0.015}, 0.010,
+     "a body of 5 cm at the surface of one of 20 m"},
+};
+// clang-format on
+#define SETS (sizeof sets / sizeof *sets)
 
 // ---------------------------------------------------------------------------------------------------- mesh sources
 
@@ -163,8 +255,6 @@ static void load_folder(pool *p, const char *folder, const char *list, open_poli
   fprintf(stderr, "%s: %zu meshes, %zu refused\n", folder, p->count, refused);
 }
 
-typedef enum family { SOLIDS, HOLLOWS, SHELLS } family;
-
 // Makes `count` meshes of a family and writes them beside the problem file: NAME_meshes/PREFIXnnn.obj.
 static void make_procedural(pool *p, shapes_rng *rng, family kind, size_t count, const char *prefix,
                             const char *out_path) {
@@ -180,13 +270,17 @@ static void make_procedural(pool *p, shapes_rng *rng, family kind, size_t count,
       shapes_random_solid(&s->mesh, rng, 0.3);
     else if (kind == HOLLOWS)
       shapes_random_hollow(&s->mesh, rng, (int)(i % SHAPES_HOLLOWS), 0.3);
-    else if (i % 3 == 2)
+    else if (kind == SHELLS && i % 3 == 2)
       shapes_random_hollow(&s->mesh, rng, 0, 0.3);
-    else {
+    else if (kind == SHEETS) {
+      double y = shapes_uniform(rng, 0.3, 1), z = shapes_uniform(rng, 0.005, 0.02);
+      shapes_box(&s->mesh, 1, y, z, 1 + shapes_pick(rng, 4));
+      shapes_fit(&s->mesh, 0.3);
+    } else {
       // One draw per statement: C leaves the order of a call's arguments open.
       int segments = 24 + 4 * shapes_pick(rng, 4);
       double wall = shapes_uniform(rng, 0.04, 0.12), z = shapes_uniform(rng, 0.7, 1), y = shapes_uniform(rng, 0.7, 1);
-      shapes_shell(&s->mesh, 1, y, z, wall, (int)(i % 3), segments);
+      shapes_shell(&s->mesh, 1, y, z, wall, (int)(kind == SHELLS ? i % 3 : i % 2), segments);
       shapes_fit(&s->mesh, 0.3);
     }
     measure(s);
@@ -200,8 +294,9 @@ static void make_procedural(pool *p, shapes_rng *rng, family kind, size_t count,
 // ---------------------------------------------------------------------------------------------------------- motion
 
 typedef struct problem {
+  const set_info *set;
   source *moving_source, *fixed_source;
-  double moving_scale, fixed_scale;
+  double moving_extent, fixed_extent, moving_scale, fixed_scale;
   oracle_mesh moving, fixed;
   oracle_pose motion[MAX_SAMPLES], fixed_pose;
   size_t samples;
@@ -255,6 +350,23 @@ static void random_motion(shapes_rng *rng, problem *p, const double *start, doub
     set_pose(&p->motion[s], center, q, p->moving.center);
   }
 }
+// What a reader of floats gets. volatile: where gcc 12.2 vectorizes (double)(float)x (straight-line code, from -O2 on),
+// it drops both conversions.
+static double round_to_float(double x) {
+  volatile float rounded = (float)x;
+  return (double)rounded;
+}
+static void round_pose(oracle_pose *pose) {
+  for (int k = 0; k < 3; k++) pose->position[k] = round_to_float(pose->position[k]);
+  for (int k = 0; k < 4; k++) pose->rotation[k] = round_to_float(pose->rotation[k]);
+}
+static double draw(shapes_rng *rng, const double *range) { return shapes_uniform(rng, range[0], range[1]); }
+static double draw_turn(shapes_rng *rng, const problem *p) {  // radians
+  return shapes_uniform(rng, p->set->turn[0] * SHAPES_PI / 180, p->set->turn[1] * SHAPES_PI / 180);
+}
+static double draw_path(shapes_rng *rng, const problem *p) {
+  return draw(rng, p->set->path) * (p->set->special == PATH_IN_EXTENTS ? p->moving_extent : p->set->unit);
+}
 static void motion_center(const problem *p, size_t s, double *out) {
   oracle_transform(&p->motion[s], p->moving.center, out);
 }
@@ -273,12 +385,12 @@ static oracle_pose offset_pose(const oracle_pose *pose, const double *direction,
 }
 // The full answer if enough is 0; otherwise whether the separation exceeds `enough`.
 static oracle_result ask(const problem *p, const oracle_pose *fixed_pose, double enough) {
-  oracle_options o = {TOLERANCE, 0, 0, 0};
+  oracle_options o = {TOLERANCE * p->set->unit, 0, 0, 0};
   o.enough = enough;
   return oracle_sweep(&p->moving, p->motion, p->samples, &p->fixed, fixed_pose, &o);
 }
 static int is_free(const problem *p, const oracle_pose *fixed_pose) {
-  return ask(p, fixed_pose, UNDECIDED).status == ORACLE_FREE;
+  return ask(p, fixed_pose, UNDECIDED * p->set->unit).status == ORACLE_FREE;
 }
 // Step 2: the first free place along a random direction, at most 60 steps away.
 static int march_out(shapes_rng *rng, problem *p, double step) {
@@ -294,15 +406,16 @@ static int march_out(shapes_rng *rng, problem *p, double step) {
 }
 // Step 3: moves the fixed body until it just touches; direction (unit) then points deeper.
 static int touch(problem *p, double *direction) {
+  double unit = p->set->unit;
   oracle_result r = ask(p, &p->fixed_pose, 0);
   if (r.status != ORACLE_FREE) return 0;
   oracle_sub(r.on_moving, r.on_fixed, direction);
   double length = oracle_length(direction);
-  if (length < 1e-9) return 0;
+  if (length < 1e-9 * unit) return 0;
   for (int k = 0; k < 3; k++) direction[k] /= length;
-  oracle_pose just_short = offset_pose(&p->fixed_pose, direction, r.distance - UNDECIDED);
-  oracle_result check = ask(p, &just_short, 3e-4);
-  if ((check.status != ORACLE_FREE && check.status != ORACLE_UNDECIDED) || check.distance > 3e-4) return 0;
+  oracle_pose just_short = offset_pose(&p->fixed_pose, direction, r.distance - UNDECIDED * unit);
+  oracle_result check = ask(p, &just_short, TOUCHING * unit);
+  if ((check.status != ORACLE_FREE && check.status != ORACLE_UNDECIDED) || check.distance > TOUCHING * unit) return 0;
   p->fixed_pose = offset_pose(&p->fixed_pose, direction, r.distance);
   return 1;
 }
@@ -318,7 +431,7 @@ static double depth(const problem *p, const double *direction, double eps) {
     }
     colliding = s;
   }
-  while (fabs(colliding - open) > TOLERANCE) {
+  while (fabs(colliding - open) > TOLERANCE * p->set->unit) {
     double s = (colliding + open) / 2;
     oracle_pose here = offset_pose(&p->fixed_pose, direction, s);
     if (is_free(p, &here))
@@ -328,12 +441,29 @@ static double depth(const problem *p, const double *direction, double eps) {
   }
   return fabs(eps - open);
 }
+// Where nothing touches: is the moving body, at the start, in the cavity of a convex shell? Seen from there the outer
+// surface is all round, so that the triangles that show their backs fill the sphere; seen from outside they fill less
+// than half of it for the outer surface, and still less for the inner one.
+static int in_cavity(const problem *p) {
+  double m[9], world[3], point[3], backs = 0;
+  oracle_transform(&p->motion[0], p->moving.seeds, world);
+  oracle_sub(world, p->fixed_pose.position, world);
+  oracle_matrix(p->fixed_pose.rotation, m);
+  oracle_rotate_back(m, world, point);
+  for (size_t i = 0; i < p->fixed.triangle_count; i++) {
+    oracle_mesh one = p->fixed;
+    one.triangles += i, one.triangle_count = 1;
+    backs += fmax(0, oracle_winding(&one, point));
+  }
+  return backs > 0.995;
+}
 // Steps 4 and 5. Returns 1 with label and margin.
 static int perturb(shapes_rng *rng, problem *p, const double *direction, double sigma, counts *c) {
   oracle_pose touching = p->fixed_pose;
   for (int attempt = 0; attempt < 4; attempt++) {
     double eps = sigma * shapes_normal(rng);
-    oracle_pose here = offset_pose(&touching, direction, eps);
+    oracle_pose here = offset_pose(&touching, direction, eps), back = touching;
+    if (p->set->special == FAR_FROM_ORIGIN) round_pose(&here), back = offset_pose(&here, direction, -eps);
     oracle_result r = ask(p, &here, 0);
     if (r.status == ORACLE_UNDECIDED || (r.winding > 0.25 && r.winding < 0.75)) {
       c->undecided++;
@@ -344,12 +474,17 @@ static int perturb(shapes_rng *rng, problem *p, const double *direction, double 
       c->unbalanced++;
       continue;
     }
+    p->fixed_pose = back;
     p->margin = p->label ? -depth(p, direction, eps) : r.distance;
-    if (fabs(p->margin) < UNDECIDED) {
+    if (fabs(p->margin) < UNDECIDED * p->set->unit) {
       c->undecided++;
       continue;
     }
     p->fixed_pose = here;
+    if (p->set->placing == IN_CAVITY && !p->label && !in_cavity(p)) {  // went through the wall
+      c->other++;
+      continue;
+    }
     return 1;
   }
   return 0;
@@ -360,11 +495,17 @@ static int load_body(oracle_mesh *mesh, source *s, double extent, double *scale)
 }
 static source *any(shapes_rng *rng, pool *p) { return &p->items[shapes_next(rng) % p->count]; }
 
-// Step 1 of `standard`: the fixed body's bounds overlap those of the swept volume.
-static void place_standard(shapes_rng *rng, problem *p) {
+// Step 1, ACROSS.
+static void place_across(shapes_rng *rng, problem *p) {
   double low[3], high[3], q[4], center[3], origin[3] = {0, 0, 0};
-  double turn = shapes_uniform(rng, 0, 2 * SHAPES_PI / 3), length = shapes_uniform(rng, 0.1, 0.6);
+  if (p->set->special == FAR_FROM_ORIGIN) {
+    shapes_direction(rng, origin);
+    for (int k = 0; k < 3; k++) origin[k] *= ORIGIN_DISTANCE;
+  }
+  double turn = draw_turn(rng, p), length = draw_path(rng, p);
   random_motion(rng, p, origin, length, turn);
+  if (p->set->special == FAR_FROM_ORIGIN)
+    for (size_t s = 0; s < p->samples; s++) round_pose(&p->motion[s]);
   for (int k = 0; k < 3; k++) low[k] = HUGE_VAL, high[k] = -HUGE_VAL;
   for (size_t s = 0; s < p->samples; s++) {
     motion_center(p, s, center);
@@ -381,13 +522,13 @@ static void within(shapes_rng *rng, const oracle_mesh *mesh, const oracle_pose *
   for (int k = 0; k < 3; k++) local[k] = shapes_uniform(rng, mesh->low[k], mesh->high[k]);
   oracle_transform(pose, local, out);
 }
-// Step 1 of `hollow`: the small body starts within the bounds of the hollow one, free there.
-static int place_hollow(shapes_rng *rng, problem *p) {
+// Step 1, IN_BOUNDS and IN_CAVITY: the moving body starts within the bounds of the fixed one, free there.
+static int place_in_bounds(shapes_rng *rng, problem *p) {
   double q[4], start[3], origin[3] = {0, 0, 0};
   shapes_quaternion(rng, q);
   set_pose(&p->fixed_pose, origin, q, p->fixed.center);
   within(rng, &p->fixed, &p->fixed_pose, start);
-  double turn = shapes_uniform(rng, 0, 2 * SHAPES_PI / 3), length = shapes_uniform(rng, 0.05, 0.3);
+  double turn = draw_turn(rng, p), length = draw_path(rng, p);
   random_motion(rng, p, start, length, turn);
   size_t samples = p->samples;
   p->samples = 1;  // at t = 0
@@ -395,7 +536,35 @@ static int place_hollow(shapes_rng *rng, problem *p) {
   p->samples = samples;
   return ok;
 }
-// Does the moving body's centre pass through the bounds of the hollow, grown by a tenth?
+static double triangle_area(const oracle_triangle *t) {
+  double e0[3], e1[3], n[3];
+  oracle_sub(t->v[1], t->v[0], e0), oracle_sub(t->v[2], t->v[0], e1), oracle_cross(e0, e1, n);
+  return oracle_length(n) / 2;
+}
+// A random place on the surface, uniform by area, in the world.
+static void on_surface(shapes_rng *rng, const oracle_mesh *mesh, const oracle_pose *pose, double *out) {
+  double area = 0, local[3], u = shapes_uniform(rng, 0, 1), v = shapes_uniform(rng, 0, 1);
+  const oracle_triangle *t = mesh->triangles, *end = t + mesh->triangle_count;
+  for (; t < end; t++) area += triangle_area(t);
+  area = shapes_uniform(rng, 0, area);
+  for (t = mesh->triangles; t + 1 < end && area > triangle_area(t); t++) area -= triangle_area(t);
+  if (u + v > 1) u = 1 - u, v = 1 - v;
+  for (int k = 0; k < 3; k++) local[k] = t->v[0][k] + u * (t->v[1][k] - t->v[0][k]) + v * (t->v[2][k] - t->v[0][k]);
+  oracle_transform(pose, local, out);
+}
+// Step 1, ON_SURFACE: at a random time the moving body's centre is within its reach of a random place of the surface.
+static void place_on_surface(shapes_rng *rng, problem *p) {
+  double q[4], origin[3] = {0, 0, 0}, place[3], center[3], away[3];
+  double turn = draw_turn(rng, p), length = draw_path(rng, p);
+  random_motion(rng, p, origin, length, turn);
+  shapes_quaternion(rng, q), shapes_direction(rng, away);
+  set_pose(&p->fixed_pose, origin, q, p->fixed.center);
+  on_surface(rng, &p->fixed, &p->fixed_pose, place);
+  motion_center(p, (size_t)shapes_pick(rng, (int)p->samples), center);
+  double reach = shapes_uniform(rng, 0, p->moving.radius);
+  for (int k = 0; k < 3; k++) p->fixed_pose.position[k] += center[k] + reach * away[k] - place[k];
+}
+// Does the moving body's centre pass through the bounds of the fixed one, grown by a tenth?
 static int passes_through(const problem *p) {
   double m[9];
   oracle_matrix(p->fixed_pose.rotation, m);
@@ -411,24 +580,45 @@ static int passes_through(const problem *p) {
   }
   return 0;
 }
-// One attempt at a problem of `standard` or `hollow`.
-static int attempt(shapes_rng *rng, problem *p, int hollow, double sigma, counts *c) {
+// One attempt at a problem, by steps 1 to 5.
+static int attempt(shapes_rng *rng, problem *p, double sigma, counts *c) {
   double direction[3];
+  placing placing = p->set->placing;
+  int free_start = 1;
   c->placed++;
-  if (!hollow)
-    place_standard(rng, p);
-  else if (!place_hollow(rng, p))
-    return c->no_free_place++, 0;
-  if (!march_out(rng, p, hollow ? shapes_uniform(rng, 0.001, 0.005) : shapes_uniform(rng, 0.002, 0.015)))
-    return c->no_free_place++, 0;
-  if (hollow && !passes_through(p)) return c->other++, 0;
+  if (placing == IN_BOUNDS || placing == IN_CAVITY)
+    free_start = place_in_bounds(rng, p);
+  else if (placing == ON_SURFACE)
+    place_on_surface(rng, p);
+  else
+    place_across(rng, p);
+  if (!free_start || (placing == IN_CAVITY && !in_cavity(p))) return c->no_free_place++, 0;
+  if (!march_out(rng, p, p->set->unit * draw(rng, p->set->march))) return c->no_free_place++, 0;
+  if (placing == IN_BOUNDS && !passes_through(p)) return c->other++, 0;
+  if (placing == IN_CAVITY && !in_cavity(p)) return c->other++, 0;
   if (!touch(p, direction)) return c->not_touching++, 0;
   return perturb(rng, p, direction, sigma, c);
+}
+// One attempt at `far`: the fixed body is put somewhere beyond the gap, as seen from some place of the motion.
+static int attempt_far(shapes_rng *rng, problem *p, counts *c) {
+  double q[4], origin[3] = {0, 0, 0}, center[3], away[3], gap = fmax(p->moving_extent, p->fixed_extent);
+  double turn = draw_turn(rng, p), length = draw_path(rng, p);
+  c->placed++;
+  random_motion(rng, p, origin, length, turn);
+  shapes_quaternion(rng, q), shapes_direction(rng, away);
+  motion_center(p, (size_t)shapes_pick(rng, (int)p->samples), center);
+  double distance = p->moving.radius + p->fixed.radius + gap * shapes_uniform(rng, 0.5, 3);
+  for (int k = 0; k < 3; k++) center[k] += distance * away[k];
+  set_pose(&p->fixed_pose, center, q, p->fixed.center);
+  oracle_result r = ask(p, &p->fixed_pose, 0);
+  if (r.status != ORACLE_FREE || r.lower < gap) return c->other++, 0;
+  p->label = 0, p->margin = r.distance;
+  return 1;
 }
 // One attempt at `inside`: a small body starts within the bounds of a large one; nothing may touch, with 1 mm to spare.
 static int attempt_inside(shapes_rng *rng, problem *p, int label, int large_moves, counts *c) {
   double q[4], origin[3] = {0, 0, 0}, start[3];
-  double length = shapes_uniform(rng, 0.01, 0.1), turn = shapes_uniform(rng, 0, 2 * SHAPES_PI / 3);
+  double length = draw_path(rng, p), turn = draw_turn(rng, p), clearance = CLEARANCE * p->set->unit;
   c->placed++;
   shapes_quaternion(rng, q);
   if (large_moves) {
@@ -440,8 +630,8 @@ static int attempt_inside(shapes_rng *rng, problem *p, int label, int large_move
     within(rng, &p->fixed, &p->fixed_pose, start);
     random_motion(rng, p, start, length, turn);
   }
-  oracle_result r = ask(p, &p->fixed_pose, label ? 1e-3 : 0);
-  if (r.status != (label ? ORACLE_INSIDE : ORACLE_FREE) || r.distance < 1e-3) return c->other++, 0;
+  oracle_result r = ask(p, &p->fixed_pose, label ? clearance : 0);
+  if (r.status != (label ? ORACLE_INSIDE : ORACLE_FREE) || r.distance < clearance) return c->other++, 0;
   p->label = label;
   p->margin = label ? (double)NAN : r.distance;
   return 1;
@@ -469,15 +659,16 @@ static void write_problem(FILE *file, const problem *p, size_t id) {
 static void tally(counts *c, const problem *p) {
   static const double edges[5] = {1e-3, 2.5e-3, 5e-3, 10e-3, 20e-3};
   int bin = 0;
-  while (bin < 5 && fabs(p->margin) > edges[bin]) bin++;
+  while (bin < 5 && fabs(p->margin) > edges[bin] * p->set->unit) bin++;
   c->accepted[p->label]++;
   if (p->margin < 0 || p->margin > 0) c->histogram[p->label][bin]++;
 }
-static void print_summary(const counts *c, double seconds) {
+static void print_summary(const set_info *set, const counts *c, double seconds) {
   printf("%zu problems: %zu collide, %zu free; %.1f s, %.1f ms each\n", c->accepted[0] + c->accepted[1], c->accepted[1],
          c->accepted[0], seconds, 1e3 * seconds / (double)(c->accepted[0] + c->accepted[1]));
   printf("%zu placements; rejected: %zu no free place, %zu not touching, %zu undecided, %zu for balance, %zu other\n",
          c->placed, c->no_free_place, c->not_touching, c->undecided, c->unbalanced, c->other);
+  if (set->unit < 1 || set->unit > 1) printf("(below: divided by the unit of the set, %g m)\n", set->unit);
   printf("|margin| mm     0-1   1-2.5   2.5-5    5-10   10-20     >20\n");
   for (int label = 1; label >= 0; label--) {
     printf("%-9s", label ? "collide" : "free");
@@ -488,16 +679,23 @@ static void print_summary(const counts *c, double seconds) {
 static int usage(void) {
   fprintf(
       stderr,
-      "problems --set standard|hollow|inside --meshes DIR|procedural [--list FILE] [--open too|only] --count N\n"
-      "         --seed S --out DIR/NAME.txt [--motion-samples 33] [--sigma METRES] [--pool MESHES]\n"
+      "problems --set SET --meshes DIR|procedural [--list FILE] [--open too|only] --count N --seed S\n"
+      "         --out DIR/NAME.txt [--motion-samples M] [--sigma METRES] [--pool MESHES]\n"
       "  --list: use these file names of DIR only, one per line. --open: also, or only, meshes that are not closed.\n"
-      "  --pool: how many procedural meshes to make (default: a tenth of N, 40 to 400).\n");
+      "  --motion-samples, --sigma: other than the set's own, in brackets below.\n"
+      "  --pool: how many procedural meshes to make (default: a tenth of N, 40 to 400).\n"
+      "SET is one of (DIR replaces the meshes of the moving body, and of the fixed one where both are alike):\n");
+  for (size_t i = 0; i < SETS; i++) {
+    fprintf(stderr, "  %-9s %s [%zu", sets[i].name, sets[i].what, sets[i].samples);
+    if (sets[i].placing != CONTAINED && sets[i].placing != APART) fprintf(stderr, ", %g", sets[i].sigma * sets[i].unit);
+    fprintf(stderr, "]\n");
+  }
   return 2;
 }
 
 int main(int argc, char **argv) {
   const char *set = NULL, *meshes = NULL, *list = NULL, *out = NULL;
-  size_t count = 0, samples = 33, pool_size = 0;
+  size_t count = 0, samples = 0, pool_size = 0;
   unsigned long long seed = 1;
   double sigma = 0;
   open_policy policy = CLOSED_ONLY;
@@ -526,14 +724,17 @@ int main(int argc, char **argv) {
     else
       return usage();
   }
-  if (argc % 2 == 0 || !set || !meshes || !out || !count || !samples || samples > MAX_SAMPLES) return usage();
-  int hollow = !strcmp(set, "hollow"), inside = !strcmp(set, "inside");
-  if (!hollow && !inside && strcmp(set, "standard") != 0) return usage();
-  if (sigma <= 0) sigma = hollow ? 0.010 : 0.032;
+  static problem p;
+  for (size_t i = 0; set && i < SETS; i++)
+    if (!strcmp(set, sets[i].name)) p.set = &sets[i];
+  if (!samples && p.set) samples = p.set->samples;
+  if (argc % 2 == 0 || !p.set || !meshes || !out || !count || samples > MAX_SAMPLES) return usage();
+  if (sigma <= 0) sigma = p.set->sigma * p.set->unit;
+  int inside = p.set->placing == CONTAINED;
 
   clock_t begin = clock();
   shapes_rng rng = {seed};
-  pool small = {NULL, 0, 0}, large = {NULL, 0, 0}, shells = {NULL, 0, 0};  // moving; fixed hollows or solids; cavities
+  pool small = {NULL, 0, 0}, large = {NULL, 0, 0}, shells = {NULL, 0, 0};  // moving; fixed; cavities of `inside`
   char folder[PATH_MAX];
   snprintf(folder, sizeof folder, "%s", strrchr(out, '/') ? out : "./");
   *(strrchr(folder, '/') + 1) = 0;
@@ -543,10 +744,13 @@ int main(int argc, char **argv) {
   if (strcmp(meshes, "procedural") != 0)
     load_folder(&small, meshes, list, policy, folder);
   else
-    make_procedural(&small, &rng, SOLIDS, pool_size, "solid", out);
-  if (hollow) make_procedural(&large, &rng, HOLLOWS, pool_size < 60 ? pool_size : 60, "hollow", out);
-  if (inside)
-    make_procedural(&large, &rng, SOLIDS, 40, "large", out), make_procedural(&shells, &rng, SHELLS, 30, "shell", out);
+    make_procedural(&small, &rng, p.set->moving_family, pool_size, family_names[p.set->moving_family], out);
+  size_t fixed_meshes = p.set->fixed_meshes;
+  if (p.set->fixed_family == HOLLOWS && fixed_meshes > pool_size) fixed_meshes = pool_size;
+  if (p.set->fixed_family)
+    make_procedural(&large, &rng, p.set->fixed_family, fixed_meshes,
+                    inside ? "large" : family_names[p.set->fixed_family], out);
+  if (inside) make_procedural(&shells, &rng, SHELLS, 30, "shell", out);
   if (!small.count) return fprintf(stderr, "%s: no meshes\n", meshes), 1;
 
   fprintf(file,
@@ -554,24 +758,25 @@ int main(int argc, char **argv) {
           set, meshes, count, seed, samples, sigma);
   counts c;
   memset(&c, 0, sizeof c);
-  static problem p;
-  p.samples = samples;
   for (size_t id = 0; id < count;) {
     int label = (int)(id % 2), large_moves = inside && shapes_pick(&rng, 10) < 3, done = 0;
-    source *a = any(&rng, &small), *b = any(&rng, hollow ? &large : inside ? (label ? &large : &shells) : &small);
-    double extent_a = hollow || inside ? shapes_uniform(&rng, 0.02, 0.08) : shapes_uniform(&rng, 0.1, 0.4);
-    double extent_b = shapes_uniform(&rng, hollow || inside ? 0.2 : 0.1, 0.4);
+    source *a = any(&rng, &small), *b = any(&rng, inside && !label ? &shells : p.set->fixed_family ? &large : &small);
+    double extent_a = p.set->unit * draw(&rng, p.set->moving), extent_b = p.set->unit * draw(&rng, p.set->fixed);
+    p.samples = p.set->special == HALF_SINGLE && id % 2 ? 1 : samples;
     p.moving_source = large_moves ? b : a, p.fixed_source = large_moves ? a : b;
-    if (!load_body(&p.moving, p.moving_source, large_moves ? extent_b : extent_a, &p.moving_scale)) return 1;
-    if (!load_body(&p.fixed, p.fixed_source, large_moves ? extent_a : extent_b, &p.fixed_scale)) return 1;
-    for (int i = 0; i < (inside ? 100 : hollow ? 6 : 3) && !done; i++)
-      done = inside ? attempt_inside(&rng, &p, label, large_moves, &c) : attempt(&rng, &p, hollow, sigma, &c);
+    p.moving_extent = large_moves ? extent_b : extent_a, p.fixed_extent = large_moves ? extent_a : extent_b;
+    if (!load_body(&p.moving, p.moving_source, p.moving_extent, &p.moving_scale)) return 1;
+    if (!load_body(&p.fixed, p.fixed_source, p.fixed_extent, &p.fixed_scale)) return 1;
+    for (int i = 0; i < p.set->tries && !done; i++)
+      done = inside                    ? attempt_inside(&rng, &p, label, large_moves, &c)
+             : p.set->placing == APART ? attempt_far(&rng, &p, &c)
+                                       : attempt(&rng, &p, sigma, &c);
     if (done) tally(&c, &p), write_problem(file, &p, id++);
     oracle_mesh_free(&p.moving), oracle_mesh_free(&p.fixed);
   }
   int ok = !ferror(file);
   if (fclose(file) != 0 || !ok) return fprintf(stderr, "%s: write error\n", out), 1;
-  print_summary(&c, (double)(clock() - begin) / CLOCKS_PER_SEC);
+  print_summary(p.set, &c, (double)(clock() - begin) / CLOCKS_PER_SEC);
   pool *pools[3];
   pools[0] = &small, pools[1] = &large, pools[2] = &shells;
   for (int i = 0; i < 3; i++) {
