@@ -1895,15 +1895,26 @@ typedef struct nsvcd__motion {
   float widest;         // the longest of them
 } nsvcd__motion;
 
+// |x| as bits, in the order of |x|; infinity and NaN are above all numbers.
+static uint32_t nsvcd__magnitude(float x) {
+  uint32_t bits;
+  memcpy(&bits, &x, sizeof bits);
+  return bits & 0x7fffffffu;
+}
+
 static int nsvcd__pose_is_valid(const nsvcd_pose *pose) {
   const float *q = pose->rotation;
+  uint32_t most = 0;
   for (size_t k = 0; k < 3; k++) {
-    if (!nsvcd__is_finite(pose->position[k]) || fabsf(pose->position[k]) > NSVCD_MAX_COORDINATE) return 0;
+    const uint32_t bits = nsvcd__magnitude(pose->position[k]);
+    most = bits > most ? bits : most;
   }
   for (size_t k = 0; k < 4; k++) {
-    if (!nsvcd__is_finite(q[k]) || fabsf(q[k]) > 2) return 0;
+    const uint32_t bits = nsvcd__magnitude(q[k]);
+    most = bits > most ? bits : most;
   }
-  return fabsf(sqrtf(q[0] * q[0] + q[1] * q[1] + q[2] * q[2] + q[3] * q[3]) - 1) <= 1e-4f;
+  const float square = q[0] * q[0] + q[1] * q[1] + q[2] * q[2] + q[3] * q[3];
+  return most <= nsvcd__magnitude(NSVCD_MAX_COORDINATE) && square >= 0.9998f && square <= 1.0002f;  // unit to 1e-4
 }
 
 static void nsvcd__quat_normalize(const float *q, float *out) {
@@ -2430,29 +2441,31 @@ static void nsvcd__runs_close(nsvcd__runs *runs, uint32_t lanes, const nsvcd__wo
   float first[NSVCD__LANES], near1[NSVCD__LANES], half1[NSVCD__LANES], near2[NSVCD__LANES], half2[NSVCD__LANES];
   float least_segment[NSVCD__LANES], least[NSVCD__LANES], square[NSVCD__LANES];
   const float *time = work->time, r = nsvcd__body_r(fixed)[j], *member_r = nsvcd__body_r(moving) + NSVCD__GROUP * g;
+  runs->open &= ~lanes;
+  if (kept->count == kept->limit) {  // most are shallower than all that is kept: only counted
+    const float share = kept->limit ? (1 - kept->items[0].depth) * 1.000001f : 0;
+    const nsvcd__v radii = nsvcd__v_add(nsvcd__v_load(member_r), nsvcd__v_set(r));
+    const nsvcd__v most = nsvcd__v_mul(radii, nsvcd__v_set(share > 0 ? share : 0));
+    const uint32_t deep = kept->limit ? lanes & nsvcd__v_le(runs->square, nsvcd__v_mul(most, most)) : 0;
+    kept->total += nsvcd__bit_count(lanes & ~deep);
+    lanes = deep;
+    if (!lanes) return;
+  }
   nsvcd__v_store(first, runs->first), nsvcd__v_store(least_segment, runs->least_segment);
   nsvcd__v_store(near1, runs->first_nearest), nsvcd__v_store(half1, runs->first_half2);
   nsvcd__v_store(near2, runs->last_nearest), nsvcd__v_store(half2, runs->last_half2);
   nsvcd__v_store(least, runs->least), nsvcd__v_store(square, runs->square);
-  runs->open &= ~lanes;
   for (; lanes; lanes &= lanes - 1) {
     const size_t l = nsvcd__lowest_bit(lanes), a = (size_t)first[l], b = runs->last, c = (size_t)least_segment[l];
-    nsvcd__candidate candidate = {(uint16_t)(NSVCD__GROUP * g + l),
-                                  (uint16_t)j,
-                                  0,
-                                  0,
-                                  0,
-                                  nsvcd__depth(member_r[l] + r, sqrtf(square[l])),
-                                  NSVCD__NO_SCORE};
-    if (kept->count == kept->limit && (kept->limit == 0 || candidate.depth < kept->items[0].depth)) {
-      kept->total++;
-      continue;
-    }
     const float enter = near1[l] - sqrtf(half1[l] > 0 ? half1[l] : 0);
     const float leave = near2[l] + sqrtf(half2[l] > 0 ? half2[l] : 0);
-    candidate.t_least = time[c] + least[l] * (time[c + 1] - time[c]);
-    candidate.t_enter = time[a] + (enter > 0 ? enter : 0) * (time[a + 1] - time[a]);
-    candidate.t_exit = time[b] + (leave < 1 ? leave : 1) * (time[b + 1] - time[b]);
+    nsvcd__candidate candidate = {(uint16_t)(NSVCD__GROUP * g + l),
+                                  (uint16_t)j,
+                                  time[a] + (enter > 0 ? enter : 0) * (time[a + 1] - time[a]),
+                                  time[b] + (leave < 1 ? leave : 1) * (time[b + 1] - time[b]),
+                                  time[c] + least[l] * (time[c + 1] - time[c]),
+                                  nsvcd__depth(member_r[l] + r, sqrtf(square[l])),
+                                  NSVCD__NO_SCORE};
     // Rounding must not put the least distance outside.
     if (candidate.t_enter > candidate.t_least) candidate.t_enter = candidate.t_least;
     if (candidate.t_exit < candidate.t_least) candidate.t_exit = candidate.t_least;
@@ -2752,11 +2765,12 @@ static void nsvcd__v_half_rotation(const nsvcd__v *q, nsvcd__v *w) {
   for (size_t k = 0; k < 3; k++) w[k] = nsvcd__v_mul(nsvcd__v_mul(sign, ratio), q[k]);
 }
 
-// Poses in the fixed body's frame at times t in [0,1], one per lane: unit quaternions q (4), positions p (3).
-static void nsvcd__v_poses_at(const nsvcd__motion *motion, const float *t, nsvcd__v *q, nsvcd__v *p) {
-  float from[7][NSVCD__LANES], to[7][NSVCD__LANES], share[NSVCD__LANES];
+// Poses in the fixed body's frame at `count` times t in [0,1], one per lane: unit quaternions q (4), positions p (3).
+static void nsvcd__v_poses_at(const nsvcd__motion *motion, const float *t, size_t count, nsvcd__v *q, nsvcd__v *p) {
+  float from[7][NSVCD__LANES] = {{0}}, to[7][NSVCD__LANES] = {{0}}, share[NSVCD__LANES] = {0};
   const size_t last = motion->count > 1 ? motion->count - 2 : 0;
-  for (size_t l = 0; l < NSVCD__LANES; l++) {
+  for (size_t l = count; l < NSVCD__LANES; l++) from[6][l] = 1;
+  for (size_t l = 0; l < count; l++) {
     const float at = motion->count > 1 ? t[l] * (float)(last + 1) : 0;
     const size_t k = (size_t)at < last ? (size_t)at : last;
     const nsvcd_pose *a = &motion->poses[k], *b = motion->count > 1 ? a + 1 : a;
@@ -2780,12 +2794,12 @@ static void nsvcd__v_poses_at(const nsvcd__motion *motion, const float *t, nsvcd
   nsvcd__v_to_fixed(motion, mixed + 3, mixed, q, p);
 }
 
-// The pairs of `count` candidates, 1 to 16; lanes beyond repeat the last one.
+// The pairs of `count` candidates, 1 to 16. What is in the lanes beyond does not matter.
 static void nsvcd__pairs_of(const nsvcd_body *moving, const nsvcd_body *fixed, const nsvcd__motion *motion,
                             nsvcd__candidate *const *candidates, size_t count, nsvcd__pairs *pairs) {
-  float lanes[8][NSVCD__LANES], enter[NSVCD__LANES], leave[NSVCD__LANES], middle[NSVCD__LANES];
-  for (size_t l = 0; l < NSVCD__LANES; l++) {
-    const nsvcd__candidate *candidate = candidates[l < count ? l : count - 1];
+  float lanes[8][NSVCD__LANES] = {{0}}, enter[NSVCD__LANES], leave[NSVCD__LANES], middle[NSVCD__LANES];
+  for (size_t l = 0; l < count; l++) {
+    const nsvcd__candidate *candidate = candidates[l];
     const size_t i = candidate->moving, j = candidate->fixed;
     lanes[0][l] = nsvcd__body_x(moving)[i], lanes[1][l] = nsvcd__body_y(moving)[i],
     lanes[2][l] = nsvcd__body_z(moving)[i];
@@ -2798,9 +2812,9 @@ static void nsvcd__pairs_of(const nsvcd_body *moving, const nsvcd_body *fixed, c
   const nsvcd__v half = nsvcd__v_set(0.5f),
                  c[3] = {nsvcd__v_load(lanes[0]), nsvcd__v_load(lanes[1]), nsvcd__v_load(lanes[2])};
   nsvcd__v q1[4], q2[4], p1[3], p2[3], q[4], p[3], x1[3], x2[3], r[9], arm[3];
-  nsvcd__v_poses_at(motion, enter, q1, p1);
-  nsvcd__v_poses_at(motion, leave, q2, p2);
-  nsvcd__v_poses_at(motion, middle, q, p);
+  nsvcd__v_poses_at(motion, enter, count, q1, p1);
+  nsvcd__v_poses_at(motion, leave, count, q2, p2);
+  nsvcd__v_poses_at(motion, middle, count, q, p);
   nsvcd__v_matrix(q1, r), nsvcd__v_mul33_vec(r, c, x1);
   nsvcd__v_matrix(q2, r), nsvcd__v_mul33_vec(r, c, x2);
   nsvcd__v_matrix(q, pairs->rotation), nsvcd__v_mul33_vec(pairs->rotation, c, pairs->p1);
@@ -2882,10 +2896,10 @@ static void nsvcd__invariants(const nsvcd__pairs *pairs, size_t count, float *x)
   const nsvcd__v inverse = nsvcd__v_div(nsvcd__v_set(1), nsvcd__v_reach(pairs)), step = nsvcd__v_set(1.0f / 127);
   const nsvcd__v k1 = nsvcd__v_mul(pairs->r1, inverse), k2 = nsvcd__v_mul(pairs->r2, inverse);
   const nsvcd__v order = nsvcd__v_pick(pairs->r2, pairs->r1, nsvcd__v_set(1), nsvcd__v_set(-1));  // -1: swap
-  float mean[6][NSVCD__LANES], turn1[NSVCD__TURN][NSVCD__LANES], turn2[NSVCD__TURN][NSVCD__LANES],
-      facts[NSVCD__FACTS][NSVCD__LANES];
+  float mean[6][NSVCD__LANES] = {{0}}, turn1[NSVCD__TURN][NSVCD__LANES], turn2[NSVCD__TURN][NSVCD__LANES],
+        facts[NSVCD__FACTS][NSVCD__LANES];
   nsvcd__v d[3], v[3], w[3], lean[3], mean1[3], frame[9], frame1[9], closest[3], turn[3];
-  for (size_t l = 0; l < NSVCD__LANES; l++) {
+  for (size_t l = 0; l < count; l++) {
     for (size_t k = 0; k < 3; k++) {
       mean[k][l] = (float)pairs->z1[l][NSVCD_W_CHANNELS * k],
       mean[3 + k][l] = (float)pairs->z2[l][NSVCD_W_CHANNELS * k];
@@ -2933,50 +2947,60 @@ static void nsvcd__invariants(const nsvcd__pairs *pairs, size_t count, float *x)
 }
 
 #ifndef NSVCD_NO_FLOAT
-#if defined(__AVX512F__) && !defined(NSVCD_NO_SIMD)
-#define NSVCD__TILES 4  // 16 sums in 32 registers; in 16 registers 4 sums of 2 words do
-#else
-#define NSVCD__TILES 1
-#endif
-
-// 4 rows of a layer, `tiles` times 16 outputs each: y = w^T x + bias. x (4, from), y (4, to), w (inputs, outputs).
+// `rows` rows of a layer, `tiles` times 16 outputs each: y = w^T x + bias. x (rows, from), y (rows, to), w (inputs,
+// outputs). rows * tiles sums must fit into the registers.
 static inline void nsvcd__layer_tile(const float *w, const float *bias, size_t inputs, size_t outputs, const float *x,
-                                     size_t from, float *y, size_t to, int relu, size_t tiles) {
-  nsvcd__v sum[4][4];
-  for (size_t p = 0; p < 4; p++) {
+                                     size_t from, float *y, size_t to, int relu, size_t rows, size_t tiles) {
+  nsvcd__v sum[8][4], column[4];
+  for (size_t p = 0; p < rows; p++) {
     for (size_t t = 0; t < tiles; t++) sum[p][t] = nsvcd__v_load(bias + NSVCD__LANES * t);
   }
   for (size_t i = 0; i < inputs; i++, w += outputs) {
-    for (size_t t = 0; t < tiles; t++) {
-      const nsvcd__v column = nsvcd__v_load(w + NSVCD__LANES * t);
-      for (size_t p = 0; p < 4; p++) sum[p][t] = nsvcd__v_fma(nsvcd__v_set(x[from * p + i]), column, sum[p][t]);
+    for (size_t t = 0; t < tiles; t++) column[t] = nsvcd__v_load(w + NSVCD__LANES * t);
+    for (size_t p = 0; p < rows; p++) {
+      const nsvcd__v input = nsvcd__v_set(x[from * p + i]);
+      for (size_t t = 0; t < tiles; t++) sum[p][t] = nsvcd__v_fma(input, column[t], sum[p][t]);
     }
   }
-  for (size_t p = 0; p < 4; p++) {
+  for (size_t p = 0; p < rows; p++) {
     for (size_t t = 0; t < tiles; t++) {
       nsvcd__v_store(y + to * p + NSVCD__LANES * t, relu ? nsvcd__v_max(sum[p][t], nsvcd__v_set(0)) : sum[p][t]);
     }
   }
 }
 
-// One layer for `rows` pairs, a multiple of 4. outputs: a multiple of 16.
+// One layer for `rows` pairs, a multiple of 4. outputs: a multiple of 16. The weights of the largest head do not fit
+// into the first cache, so the more rows at a time the better: 8 by 2 or 4 by 4 sums in 32 registers, 4 by 1 (of 2 or 4
+// words) in fewer.
 static void nsvcd__layer(const float *w, const float *bias, size_t inputs, size_t outputs, size_t rows, const float *x,
                          size_t from, float *y, size_t to, int relu) {
-  for (size_t p = 0; p < rows; p += 4) {
-    for (size_t o = 0, tiles; o < outputs; o += NSVCD__LANES * tiles) {
-      const size_t left = (outputs - o) / NSVCD__LANES;
-      const float *from_row = x + from * p;
-      float *to_row = y + to * p + o;
-      tiles = left >= NSVCD__TILES ? NSVCD__TILES : left >= 2 && NSVCD__TILES > 2 ? 2 : 1;
-      if (tiles == NSVCD__TILES) {
-        nsvcd__layer_tile(w + o, bias + o, inputs, outputs, from_row, from, to_row, to, relu, NSVCD__TILES);
-      } else if (tiles == 2) {
-        nsvcd__layer_tile(w + o, bias + o, inputs, outputs, from_row, from, to_row, to, relu, 2);
-      } else {
-        nsvcd__layer_tile(w + o, bias + o, inputs, outputs, from_row, from, to_row, to, relu, 1);
-      }
+  size_t p = 0, o;
+#if defined(__AVX512F__) && !defined(NSVCD_NO_SIMD)
+  for (; p + 8 <= rows; p += 8) {
+    const float *row = x + from * p;
+    for (o = 0; o + 32 <= outputs; o += 32) {
+      nsvcd__layer_tile(w + o, bias + o, inputs, outputs, row, from, y + to * p + o, to, relu, 8, 2);
+    }
+    if (o < outputs) nsvcd__layer_tile(w + o, bias + o, inputs, outputs, row, from, y + to * p + o, to, relu, 8, 1);
+  }
+  for (; p < rows; p += 4) {
+    const float *row = x + from * p;
+    for (o = 0; o + 64 <= outputs; o += 64) {
+      nsvcd__layer_tile(w + o, bias + o, inputs, outputs, row, from, y + to * p + o, to, relu, 4, 4);
+    }
+    for (; o + 32 <= outputs; o += 32) {
+      nsvcd__layer_tile(w + o, bias + o, inputs, outputs, row, from, y + to * p + o, to, relu, 4, 2);
+    }
+    if (o < outputs) nsvcd__layer_tile(w + o, bias + o, inputs, outputs, row, from, y + to * p + o, to, relu, 4, 1);
+  }
+#else
+  for (; p < rows; p += 4) {
+    const float *row = x + from * p;
+    for (o = 0; o < outputs; o += NSVCD__LANES) {
+      nsvcd__layer_tile(w + o, bias + o, inputs, outputs, row, from, y + to * p + o, to, relu, 4, 1);
     }
   }
+#endif
 }
 #endif  // NSVCD_NO_FLOAT
 
@@ -3217,7 +3241,9 @@ static void nsvcd__decode(const nsvcd_body *moving, const nsvcd_body *fixed, con
   nsvcd__pairs pairs;
   float x[NSVCD__BATCH * NSVCD__DECODER_IN], logits[NSVCD__BATCH];
   nsvcd__pairs_of(moving, fixed, motion, candidates, count, &pairs);
-  nsvcd__invariants(&pairs, nsvcd__round_up(count, 4), x);  // the layers take four rows at a time
+  nsvcd__invariants(&pairs, count, x);
+  // The layers take four rows at a time.
+  memset(x + NSVCD__DECODER_IN * count, 0, (nsvcd__round_up(count, 4) - count) * NSVCD__DECODER_IN * sizeof *x);
   nsvcd__head_logits(head, x, count, int8, logits);
   for (size_t k = 0; k < count; k++) candidates[k]->score = logits[k];
 }

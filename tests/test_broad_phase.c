@@ -342,7 +342,7 @@ static void poses_at_are_poses(void) {
     random_motion(count, trial % 3, uniform(0, 12), 1, middle);
     CHECK_EQ(nsvcd__motion_init(poses, count, &fixed, &motion), NSVCD_OK);
     for (size_t l = 0; l < NSVCD__LANES; l++) times[l] = l == 0 ? 0 : l == 1 ? 1 : (float)uniform(0, 1);
-    nsvcd__v_poses_at(&motion, times, q, p);
+    nsvcd__v_poses_at(&motion, times, NSVCD__LANES, q, p);
     nsvcd__v_matrix(q, m);
     for (size_t k = 0; k < 9; k++) nsvcd__v_store(lanes[k], m[k]);
     for (size_t k = 0; k < 3; k++) nsvcd__v_store(lanes[9 + k], p[k]);
