@@ -224,7 +224,8 @@ typedef struct nsvcd_sweep_options {
 
 typedef struct nsvcd_answer {
   float logit;            // of collision; positive is yes. The threshold that options.recall asks for is already in it.
-                          // The greatest of the pairs looked at; the search ends at the first above 5
+                          // The greatest of the pairs looked at; the search ends at the first above 5. Where the tiny
+                          // decoder, which ranks the pairs, is clear (beyond +-5), it is the one that answers
   int collides;           // logit > 0
   float time;             // in [0,1], where the most suspicious pair comes closest
   uint32_t moving_patch;  // the pair; 0, 0 where there is none
@@ -3208,13 +3209,13 @@ NSVCDDEF const char *nsvcd_status_string(nsvcd_status status) {
 #endif
 
 #define NSVCD__SHORTLIST 4       // times K: the deepest pairs, from which the tiny head chooses
-#define NSVCD__CLEAR_LOGIT 5.0f  // a verdict this positive needs no second pair
+#define NSVCD__CLEAR_LOGIT 5.0f  // a verdict this positive needs no second pair, and one this clear no second head
 #define NSVCD__PORTION 4         // pairs that the chosen head sees at once
 #define NSVCD__PROBE 8           // new pairs that are worth a look before the search is done
 
 typedef struct nsvcd__query {
   nsvcd__workspace broad_phase;
-  nsvcd__candidate kept[NSVCD__SHORTLIST * NSVCD_MAX_PAIRS], probed[NSVCD__SHORTLIST * NSVCD_MAX_PAIRS];
+  nsvcd__candidate kept[NSVCD__SHORTLIST * NSVCD_MAX_PAIRS];
 } nsvcd__query;
 
 NSVCDDEF size_t nsvcd_sweep_workspace_size(void) { return sizeof(nsvcd__query); }
@@ -3319,23 +3320,38 @@ static void nsvcd__best_first(nsvcd__candidate *items, size_t count, size_t of) 
   }
 }
 
+static void nsvcd__answer_with(const nsvcd__candidate *candidate, float threshold, nsvcd_answer *answer) {
+  answer->logit = candidate->score - threshold, answer->time = candidate->t_least;
+  answer->moving_patch = candidate->moving, answer->fixed_patch = candidate->fixed;
+}
+
+// Is the most suspicious of the candidates scored so far clearly a collision, or, where they are all, clearly none?
+// Then no other head needs to look: of 13,000 such answers on the validation sets the base head takes none back.
+static int nsvcd__is_clear(const nsvcd__question *ask, const nsvcd__candidates *kept, int all, nsvcd_answer *answer) {
+  const float threshold = ask->settings.threshold;
+  const nsvcd__candidate *most = &kept->items[0];
+  for (size_t k = 1; k < kept->count; k++) most = kept->items[k].score > most->score ? &kept->items[k] : most;
+  const int yes = most->score > NSVCD__CLEAR_LOGIT + (threshold > 0 ? threshold : 0);
+  const int no = all && most->score < (threshold < 0 ? threshold : 0) - NSVCD__CLEAR_LOGIT;
+  if (yes || no) nsvcd__answer_with(most, threshold, answer);
+  return yes || no;
+}
+
 // The verdict on the `pairs` most suspicious of the scored candidates, 4 at a time, until one is clearly positive.
-static void nsvcd__judge(const nsvcd__question *ask, nsvcd__candidates *kept, size_t pairs, nsvcd_answer *answer) {
+static void nsvcd__judge(const nsvcd__question *ask, nsvcd__candidates *kept, nsvcd_answer *answer) {
   const nsvcd__settings *settings = &ask->settings;
-  const size_t count = kept->count < pairs ? kept->count : pairs;
+  const size_t count = kept->count < settings->pairs ? kept->count : settings->pairs;
   nsvcd__best_first(kept->items, count, kept->count);
   for (size_t first = 0; first < count && answer->logit < NSVCD__CLEAR_LOGIT; first += NSVCD__PORTION) {
-    nsvcd__candidate portion[NSVCD__PORTION], *batch[NSVCD__PORTION];
+    nsvcd__candidate *batch[NSVCD__PORTION] = {NULL};
     const size_t size = count - first < NSVCD__PORTION ? count - first : NSVCD__PORTION;
-    for (size_t k = 0; k < size; k++) portion[k] = kept->items[first + k], batch[k] = &portion[k];
+    for (size_t k = 0; k < size; k++) batch[k] = &kept->items[first + k];
     if (settings->head != settings->ranker) {
       nsvcd__decode(ask->moving, ask->fixed, &ask->motion, batch, size, settings->head, settings->int8);
     }
     for (size_t k = 0; k < size; k++) {
-      const float logit = portion[k].score - settings->threshold;
-      if (first + k > 0 && !(logit > answer->logit)) continue;
-      answer->logit = logit, answer->time = portion[k].t_least;
-      answer->moving_patch = portion[k].moving, answer->fixed_patch = portion[k].fixed;
+      if (first + k > 0 && !(batch[k]->score - settings->threshold > answer->logit)) continue;
+      nsvcd__answer_with(batch[k], settings->threshold, answer);
     }
   }
 }
@@ -3359,26 +3375,19 @@ NSVCDDEF nsvcd_result nsvcd_sweep(const nsvcd_body *moving, const nsvcd_pose *po
   nsvcd__candidates kept;
   nsvcd_answer found = {-NSVCD_LOGIT_CERTAIN, 0, 0, 0, 0, NSVCD_STATUS_CERTIFIED_FREE, 0};
   const size_t steps = nsvcd__search_begin(moving, fixed, &ask.motion, work);
+  const size_t worth = ask.settings.shortlist < NSVCD__PROBE ? ask.settings.shortlist : NSVCD__PROBE;
+  int clear = 0;
   nsvcd__candidates_start(&kept, query->kept, ask.settings.shortlist);
-  for (size_t step = 0; step < steps && found.logit < NSVCD__CLEAR_LOGIT; step++) {
+  for (size_t step = 0; step < steps && !clear; step++) {
     nsvcd__search_step(work, moving, fixed, step, &kept);
     // A deep collision shows early. What is scored now need not be scored later, so that looking costs little.
-    if (step + 1 == steps || !nsvcd__score(&ask, &kept, kept.limit < NSVCD__PROBE ? kept.limit : NSVCD__PROBE))
-      continue;
-    float most = NSVCD__NO_SCORE;
-    for (size_t k = 0; k < kept.count; k++) most = kept.items[k].score > most ? kept.items[k].score : most;
-    if (most < NSVCD__CLEAR_LOGIT) continue;
-    memcpy(query->probed, kept.items, kept.count * sizeof *kept.items);
-    nsvcd__candidates probed = {query->probed, kept.limit, kept.count, kept.total};
-    nsvcd_answer early = found;
-    nsvcd__judge(&ask, &probed, NSVCD__PORTION, &early);
-    if (early.logit >= NSVCD__CLEAR_LOGIT) found = early;
+    if (step + 1 < steps && nsvcd__score(&ask, &kept, worth)) clear = nsvcd__is_clear(&ask, &kept, 0, &found);
   }
   found.overlapping = kept.total;
   if (kept.total > 0) found.status = kept.total > ask.settings.pairs ? NSVCD_STATUS_LIMIT : NSVCD_STATUS_OK;
-  if (found.logit < NSVCD__CLEAR_LOGIT) {
+  if (!clear && kept.count > 0) {
     nsvcd__score(&ask, &kept, 1);
-    nsvcd__judge(&ask, &kept, ask.settings.pairs, &found);
+    if (!nsvcd__is_clear(&ask, &kept, 1, &found)) nsvcd__judge(&ask, &kept, &found);
   }
   if (nsvcd__starts_inside(&ask)) {  // a body inside another need not touch anything
     found.status = NSVCD_STATUS_INSIDE, found.logit = NSVCD_LOGIT_CERTAIN, found.time = 0;
