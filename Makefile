@@ -25,7 +25,7 @@ ifeq ($(BENCH),quick)
 COUNT ?= 200
 endif
 
-.PHONY: bench all demo test assets problems accuracy weights format clean help check-header check-examples
+.PHONY: bench all demo test assets problems accuracy weights format clean help check-header check-examples check-problems
 .DELETE_ON_ERROR:
 
 all: build/svcd build/quickstart  ## the examples: build/svcd and build/quickstart
@@ -67,8 +67,10 @@ check-header: | build  # as C99 to C++17, strictly, and what it leaves in the na
 	CC="$(CC)" CXX="$(CXX)" tests/header.sh
 check-examples: all build/make_assets  # they run, and they say no as FORMATS.md demands
 	tests/examples.sh
+check-problems: build/problems build/svcd  # every set that the generator can make
+	tests/problems.sh
 
-test: build/tests check-header check-examples  ## everything; the last line is `N passed, N failed`
+test: build/tests check-header check-examples check-problems  ## everything; the last line is `N passed, N failed`
 	build/tests
 
 # ---------------------------------------------------------------------------------------------------------- accuracy
