@@ -25,7 +25,7 @@ ifeq ($(BENCH),quick)
 COUNT ?= 200
 endif
 
-.PHONY: bench all demo test assets problems accuracy weights format clean help check-header check-examples check-problems
+.PHONY: bench check-extremes all demo test assets problems accuracy weights format clean help check-header check-examples check-problems
 .DELETE_ON_ERROR:
 
 all: build/svcd build/quickstart  ## the examples: build/svcd and build/quickstart
@@ -70,7 +70,10 @@ check-examples: all build/make_assets  # they run, and they say no as FORMATS.md
 check-problems: build/problems build/svcd  # every set that the generator can make
 	tests/problems.sh
 
-test: build/tests check-header check-examples check-problems  ## everything; the last line is `N passed, N failed`
+check-extremes: build/problems build/svcd  # tiny, huge, far, thin, spinning ...
+	tests/extremes.sh
+
+test: build/tests check-header check-examples check-problems check-extremes  ## everything; the last line is `N passed, N failed`
 	build/tests
 
 # ---------------------------------------------------------------------------------------------------------- accuracy

@@ -131,7 +131,14 @@ NSVCDDEF nsvcd_result nsvcd_obj_load(const char *path, const nsvcd_allocator *al
 #endif
 #endif
 #ifndef NSVCD_NO_ENCODER
-// Gives back what nsvcd_obj_parse or nsvcd_obj_load allocated; the same allocator. NULL is allowed.
+// The part of a mesh within the box low..high (its own frame): a body of 512 patches resolves 20 m to no better than a
+// metre, so encode of a large mesh only what the moving body can reach - the box over its sweep, grown a little - as an
+// `open` body. Triangles are cut at the box; vertices are not shared. part: given back by nsvcd_mesh_free. On failure
+// it is left as it was. Errors: ARGUMENT (also a box that is not finite, or has no volume), EMPTY (nothing of it in the
+// box), and those of a mesh that nsvcd_encode would refuse; MEMORY, TOO_LARGE. Source: Sutherland and Hodgman 1974.
+NSVCDDEF nsvcd_result nsvcd_mesh_cut(const nsvcd_mesh *mesh, const float low[3], const float high[3],
+                                     const nsvcd_allocator *allocator, nsvcd_mesh *part);
+// Gives back what nsvcd_obj_parse, nsvcd_obj_load or nsvcd_mesh_cut allocated; the same allocator. NULL is allowed.
 NSVCDDEF void nsvcd_mesh_free(nsvcd_mesh *mesh, const nsvcd_allocator *allocator);
 #endif
 
@@ -151,6 +158,7 @@ typedef struct nsvcd_body nsvcd_body;
 typedef struct nsvcd_encode_options {
   size_t points;       // N, representative points (patches), 1..NSVCD_MAX_POINTS; 0: NSVCD_DEFAULT_POINTS
   float patch_radius;  // metres; if > 0 and points is 0: as many points as make patches of about this radius
+  int open;            // 1: the mesh is not closed (a sheet, or a part cut out): nothing counts as inside it
 } nsvcd_encode_options;
 
 // Bytes of a body of `points` points; 0 if there can be no such body.
@@ -536,6 +544,73 @@ static nsvcd_result nsvcd__mesh_check(const nsvcd_mesh *mesh) {
     float x = mesh->positions[i];
     if (!nsvcd__is_finite(x) || fabsf(x) > NSVCD_MAX_COORDINATE) return NSVCD_ERROR_NUMBER;
   }
+  return NSVCD_OK;
+}
+
+// Cuts a polygon at one side of a box: keeps what has sign * x[axis] <= sign * bound. corners: at most 8, one more
+// comes out. Returns the corners of `out`.
+static size_t nsvcd__clip(double (*corners)[3], size_t count, size_t axis, double sign, double bound,
+                          double (*out)[3]) {
+  size_t kept = 0;
+  for (size_t i = 0; i < count; i++) {
+    const double *a = corners[i], *b = corners[(i + 1) % count];
+    const double past_a = sign * (a[axis] - bound), past_b = sign * (b[axis] - bound);
+    if (past_a <= 0) memcpy(out[kept++], a, 3 * sizeof *a);
+    if ((past_a <= 0) == (past_b <= 0)) continue;
+    for (size_t k = 0; k < 3; k++) out[kept][k] = a[k] + past_a / (past_a - past_b) * (b[k] - a[k]);
+    out[kept++][axis] = bound;
+  }
+  return kept;
+}
+
+// The corners of triangle t within the box: 0, or 3 to 9.
+static size_t nsvcd__cut_triangle(const nsvcd_mesh *mesh, size_t t, const float *low, const float *high,
+                                  double (*polygon)[3]) {
+  double other[10][3];
+  size_t count = 3;
+  for (size_t i = 0; i < 3; i++) {
+    const float *p = mesh->positions + 3 * (size_t)mesh->indices[3 * t + i];
+    for (size_t k = 0; k < 3; k++) polygon[i][k] = (double)p[k];
+  }
+  for (size_t k = 0; k < 3 && count >= 3; k++) {
+    count = nsvcd__clip(polygon, count, k, -1, (double)low[k], other);
+    count = nsvcd__clip(other, count, k, 1, (double)high[k], polygon);
+  }
+  return count >= 3 ? count : 0;
+}
+
+NSVCDDEF nsvcd_result nsvcd_mesh_cut(const nsvcd_mesh *mesh, const float low[3], const float high[3],
+                                     const nsvcd_allocator *allocator, nsvcd_mesh *part) {
+  if (!low || !high || !part) return NSVCD_ERROR_ARGUMENT;
+  for (size_t k = 0; k < 3; k++) {
+    if (!nsvcd__is_finite(low[k]) || !nsvcd__is_finite(high[k]) || !(low[k] < high[k])) return NSVCD_ERROR_ARGUMENT;
+  }
+  const nsvcd_result result = nsvcd__mesh_check(mesh);
+  if (result) return result;
+  double polygon[10][3];
+  nsvcd_mesh out = {NULL, NULL, 0, 0};
+  for (size_t t = 0; t < mesh->triangle_count; t++) {
+    const size_t corners = nsvcd__cut_triangle(mesh, t, low, high, polygon);
+    out.vertex_count += corners, out.triangle_count += corners ? corners - 2 : 0;
+  }
+  if (out.vertex_count == 0) return NSVCD_ERROR_EMPTY;
+  if (out.vertex_count > NSVCD__MAX_COUNT) return NSVCD_ERROR_TOO_LARGE;
+  out.positions = (float *)nsvcd__alloc_array(allocator, 3 * out.vertex_count, sizeof(float));
+  out.indices = (uint32_t *)nsvcd__alloc_array(allocator, 3 * out.triangle_count, sizeof(uint32_t));
+  if (!out.positions || !out.indices) {
+    nsvcd_mesh_free(&out, allocator);
+    return NSVCD_ERROR_MEMORY;
+  }
+  uint32_t *index = out.indices, first = 0;
+  for (size_t t = 0; t < mesh->triangle_count; t++) {
+    const size_t corners = nsvcd__cut_triangle(mesh, t, low, high, polygon);
+    for (size_t i = 0; i < corners; i++) {
+      for (size_t k = 0; k < 3; k++) out.positions[3 * (first + i) + k] = (float)polygon[i][k];
+    }
+    for (uint32_t i = 2; i < corners; i++) *index++ = first, *index++ = first + i - 1, *index++ = first + i;
+    first += (uint32_t)corners;
+  }
+  *part = out;
   return NSVCD_OK;
 }
 #endif
@@ -1615,7 +1690,8 @@ struct nsvcd_body {
   uint32_t padded;          // P
   float centre[3], radius;  // bounding sphere
   float extent;             // max |p_i| + r_i: no part is farther from the body's origin
-  uint32_t reserved[3];     // zero; room for the triangles that exact verification will need
+  uint32_t open;            // 1: nothing can be inside
+  uint32_t reserved[2];     // zero; room for the triangles that exact verification will need
 };
 
 static size_t nsvcd__round_up(size_t n, size_t multiple) { return (n + multiple - 1) / multiple * multiple; }
@@ -1754,8 +1830,8 @@ static int nsvcd__all_within(const float *values, size_t count, float cap) {
 #ifndef NSVCD_NO_ENCODER
 // Builds a blob in `memory` from N patches: centres (N, 3), radii (N), areas (N, 3), latents (N, LATENT).
 static nsvcd_result nsvcd__body_build(size_t points, const float *centres, const float *radii, const float *areas,
-                                      const int8_t *latents, uint32_t weights_id, void *memory, size_t capacity,
-                                      const nsvcd_body **body) {
+                                      const int8_t *latents, uint32_t weights_id, int open, void *memory,
+                                      size_t capacity, const nsvcd_body **body) {
   size_t size = nsvcd_body_size(points);
   if (size == 0) return NSVCD_ERROR_ARGUMENT;
   if (capacity < size || !nsvcd__is_aligned(memory)) return NSVCD_ERROR_WORKSPACE;
@@ -1769,7 +1845,7 @@ static nsvcd_result nsvcd__body_build(size_t points, const float *centres, const
   memset(memory, 0, size);
   nsvcd_body *b = (nsvcd_body *)memory;
   b->magic = NSVCD__BODY_MAGIC, b->version = NSVCD__BODY_VERSION;
-  b->size = (uint32_t)size, b->weights_id = weights_id;
+  b->size = (uint32_t)size, b->weights_id = weights_id, b->open = open != 0;
   b->points = (uint32_t)points, b->padded = (uint32_t)nsvcd__round_up(points, NSVCD__GROUP);
   float *x = (float *)(b + 1), *y = x + b->padded, *z = y + b->padded, *r = z + b->padded;
   float *area = r + b->padded + 4 * nsvcd__group_slots(b->padded);
@@ -1845,7 +1921,7 @@ NSVCDDEF nsvcd_result nsvcd_body_load(const void *memory, size_t size, const nsv
   const nsvcd_body *b = (const nsvcd_body *)memory;
   if (size < sizeof *b || !nsvcd__is_aligned(memory)) return NSVCD_ERROR_BODY;
   if (b->magic != NSVCD__BODY_MAGIC || b->version != NSVCD__BODY_VERSION) return NSVCD_ERROR_BODY;
-  if (b->weights_id != NSVCD_WEIGHTS_ID) return NSVCD_ERROR_BODY;
+  if (b->weights_id != NSVCD_WEIGHTS_ID || b->open > 1) return NSVCD_ERROR_BODY;
   if (b->points < 1 || b->points > NSVCD_MAX_POINTS) return NSVCD_ERROR_BODY;
   if (b->padded != nsvcd__round_up(b->points, NSVCD__GROUP)) return NSVCD_ERROR_BODY;
   if (b->size != nsvcd_body_size(b->points) || b->size > size) return NSVCD_ERROR_BODY;
@@ -2681,6 +2757,7 @@ static float nsvcd__winding_number(const nsvcd_body *body, const float *point) {
 static int nsvcd__is_inside(const nsvcd_body *inner, const nsvcd_body *outer, const float *rotation,
                             const float *position) {
   float places[3][NSVCD__PROBES], clearance[NSVCD__PROBES], point[3];
+  if (outer->open) return 0;
   nsvcd__v place[3], off[3];
   for (size_t k = 0; k < NSVCD__PROBES; k++) {
     const size_t i = k * inner->points / NSVCD__PROBES;  // neighbours are stored together: equal steps spread over it
@@ -3163,7 +3240,7 @@ NSVCDDEF nsvcd_result nsvcd_encode(const nsvcd_mesh *mesh, const nsvcd_encode_op
   }
   if (!result) {
     result = nsvcd__body_build(patches.count, patches.centres, patches.radii, patches.area_vectors, latents,
-                               NSVCD_WEIGHTS_ID, memory, capacity, body);
+                               NSVCD_WEIGHTS_ID, options && options->open, memory, capacity, body);
   }
   nsvcd__free(allocator, latents);
   nsvcd__patches_free(&patches, allocator);

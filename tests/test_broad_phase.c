@@ -33,7 +33,7 @@ static int8_t latents[NSVCD_MAX_POINTS * NSVCD__LATENT];
 
 static const nsvcd_body *build(size_t points, blob *memory) {
   const nsvcd_body *body = NULL;
-  nsvcd_result result = nsvcd__body_build(points, centres, radii, areas, latents, NSVCD_WEIGHTS_ID, aligned(memory),
+  nsvcd_result result = nsvcd__body_build(points, centres, radii, areas, latents, NSVCD_WEIGHTS_ID, 0, aligned(memory),
                                           blob_capacity, &body);
   CHECK_EQ(result, NSVCD_OK);
   return body;
@@ -682,8 +682,10 @@ static void containment(void) {
     CHECK(!nsvcd__is_contained(inner, outer, eye, far));
     CHECK(nsvcd__is_contained(inner, outer, eye, none));
   }
-  printf("  winding number, worst error from 0.75 / 1 / 1.5 / 2 patch radii on: %.3f %.3f %.3f %.4f; over 0.3: %zu of %zu\n",
-         error[0], error[1], error[2], error[3], rough, clear);
+  printf(
+      "  winding number, worst error from 0.75 / 1 / 1.5 / 2 patch radii on: %.3f %.3f %.3f %.4f; over 0.3: %zu of "
+      "%zu\n",
+      error[0], error[1], error[2], error[3], rough, clear);
   CHECK_GE(clear, 5000);
   CHECK_LE(rough, clear / 1000);  // from NSVCD__CLEARANCE on; a verdict turns at 0.5
   CHECK_LE(error[3], 0.02);

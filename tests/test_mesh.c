@@ -979,6 +979,70 @@ static void mesh_patches_edge_cases(void) {
   nsvcd_mesh_free(&mesh, NULL);
 }
 
+static double mesh_total_area(const nsvcd_mesh *mesh) {
+  double sum = 0;
+  for (size_t t = 0; t < mesh->triangle_count; t++) {
+    double a[3], b[3], n[3];
+    const float *p = mesh->positions + 3 * (size_t)mesh->indices[3 * t];
+    for (size_t k = 0; k < 3; k++) {
+      a[k] = (double)mesh->positions[3 * (size_t)mesh->indices[3 * t + 1] + k] - (double)p[k];
+      b[k] = (double)mesh->positions[3 * (size_t)mesh->indices[3 * t + 2] + k] - (double)p[k];
+    }
+    for (size_t k = 0; k < 3; k++) n[k] = a[(k + 1) % 3] * b[(k + 2) % 3] - a[(k + 2) % 3] * b[(k + 1) % 3];
+    sum += 0.5 * sqrt(n[0] * n[0] + n[1] * n[1] + n[2] * n[2]);
+  }
+  return sum;
+}
+
+// A box of 2 x 2 x 2 cut at random: the area left is known, and every vertex lies within.
+static void mesh_cut_to_a_box(void) {
+  nsvcd_mesh mesh = mesh_box(2, 2, 2), part;
+  float from[3] = {1e9f, 1e9f, 1e9f}, to[3] = {-1e9f, -1e9f, -1e9f};
+  for (size_t i = 0; i < 3 * mesh.vertex_count; i++) {
+    from[i % 3] = fminf(from[i % 3], mesh.positions[i]), to[i % 3] = fmaxf(to[i % 3], mesh.positions[i]);
+  }
+  for (int trial = 0; trial < 200; trial++) {
+    float low[3], high[3];
+    double side[3], area = 0;
+    for (int k = 0; k < 3; k++) {
+      low[k] = from[k] + (float)mesh_uniform(-0.5, 1.9);
+      high[k] = low[k] + (float)mesh_uniform(0.1, 3);
+      side[k] = (double)(fminf(to[k], high[k]) - fmaxf(from[k], low[k]));
+    }
+    for (int k = 0; k < 3; k++) {
+      int faces = (low[k] < from[k]) + (high[k] > to[k]);
+      area += faces * side[(k + 1) % 3] * side[(k + 2) % 3];
+    }
+    nsvcd_result result = nsvcd_mesh_cut(&mesh, low, high, NULL, &part);
+    CHECK_EQ(result, area > 0 ? NSVCD_OK : NSVCD_ERROR_EMPTY);
+    if (result) continue;
+    CHECK_NEAR(mesh_total_area(&part), area, 1e-5);
+    for (size_t i = 0; i < 3 * part.vertex_count; i++) {
+      CHECK(part.positions[i] >= low[i % 3] - 1e-6f && part.positions[i] <= high[i % 3] + 1e-6f);
+    }
+    CHECK_EQ(nsvcd__mesh_check(&part), NSVCD_OK);
+    nsvcd_mesh_free(&part, NULL);
+  }
+  const float low[3] = {-4, -4, -4}, high[3] = {4, 4, 4}, nan[3] = {0, (float)NAN, 0};
+  CHECK_EQ(nsvcd_mesh_cut(&mesh, low, high, NULL, &part), NSVCD_OK);  // all of it
+  CHECK_EQ(part.triangle_count, mesh.triangle_count);
+  nsvcd_mesh_free(&part, NULL);
+  nsvcd_mesh untouched = {NULL, NULL, 7, 7};
+  CHECK_EQ(nsvcd_mesh_cut(&mesh, high, low, NULL, &untouched), NSVCD_ERROR_ARGUMENT);
+  CHECK_EQ(nsvcd_mesh_cut(&mesh, low, nan, NULL, &untouched), NSVCD_ERROR_ARGUMENT);
+  CHECK_EQ(nsvcd_mesh_cut(&mesh, NULL, high, NULL, &untouched), NSVCD_ERROR_ARGUMENT);
+  CHECK_EQ(nsvcd_mesh_cut(NULL, low, high, NULL, &untouched), NSVCD_ERROR_ARGUMENT);
+  for (int fails = 0; fails < 2; fails++) {
+    mesh_heap heap = {0, 0, fails};
+    nsvcd_allocator allocator = {mesh_heap_alloc, mesh_heap_free, NULL};
+    allocator.user = &heap;
+    CHECK_EQ(nsvcd_mesh_cut(&mesh, low, high, &allocator, &untouched), NSVCD_ERROR_MEMORY);
+    CHECK_EQ(heap.live, 0);
+  }
+  CHECK_EQ(untouched.vertex_count, 7);
+  nsvcd_mesh_free(&mesh, NULL);
+}
+
 // Hundreds of thousands of needles, each far longer than a patch is wide: the number of pieces stays bounded.
 static void mesh_patches_of_slivers(void) {
   nsvcd_mesh mesh = mesh_fan(200000, 100, 0.1);
@@ -1020,6 +1084,7 @@ void test_mesh(void) {
   RUN(mesh_patches_are_consistent);
   RUN(mesh_nearest_centre_is_nearest);
   RUN(mesh_patches_are_deterministic);
+  RUN(mesh_cut_to_a_box);
   RUN(mesh_patches_edge_cases);
   RUN(mesh_patches_of_slivers);
 }

@@ -71,7 +71,7 @@ static nsvcd_mesh query_box(double x, double y, double z) {
 
 // Encodes with `points` (0: default) into fresh memory.
 static const nsvcd_body *query_encode(const nsvcd_mesh *mesh, size_t points, query_memory *memory) {
-  nsvcd_encode_options options = {points, 0};
+  nsvcd_encode_options options = {points, 0, 0};
   size_t size = nsvcd_body_size(points ? points : NSVCD_DEFAULT_POINTS);
   const nsvcd_body *body = NULL;
   *memory = query_reserve(size);
@@ -288,7 +288,7 @@ static void query_patch_radius_is_honoured(void) {
   size_t fewer = NSVCD_MAX_POINTS + 1;
   const float wanted[3] = {0.025f, 0.04f, 0.07f};
   for (int i = 0; i < 3; i++) {
-    nsvcd_encode_options options = {0, wanted[i]};
+    nsvcd_encode_options options = {0, wanted[i], 0};
     size_t size = nsvcd_body_size(NSVCD_MAX_POINTS);
     query_memory memory = query_reserve(size);
     const nsvcd_body *body = NULL;
@@ -433,6 +433,22 @@ static void query_inside_is_inside(void) {
   CHECK_EQ(a.status, NSVCD_STATUS_INSIDE);
   poses[0] = query_pose(0.3, 0, 0), poses[1] = query_pose(0.3, 0.02, 0);  // beside it
   a = query_ask(inner, poses, 2, outer, &origin, NULL);
+  CHECK_EQ(a.status, NSVCD_STATUS_CERTIFIED_FREE);
+  query_release(&memory[0]), query_release(&memory[1]);
+  nsvcd_mesh_free(&small, NULL), nsvcd_mesh_free(&large, NULL);
+}
+
+// Of an open body there is no inside.
+static void query_inside_an_open_body(void) {
+  nsvcd_mesh small = query_box(0.02, 0.02, 0.02), large = query_box(0.4, 0.4, 0.4);
+  query_memory memory[2] = {query_reserve(nsvcd_body_size(512)), query_reserve(nsvcd_body_size(512))};
+  const nsvcd_body *inner = NULL, *outer = NULL, *loaded = NULL;
+  nsvcd_encode_options open = {512, 0, 1};
+  CHECK_EQ(nsvcd_encode(&small, &open, NULL, memory[0].at, nsvcd_body_size(512), &inner), NSVCD_OK);
+  CHECK_EQ(nsvcd_encode(&large, &open, NULL, memory[1].at, nsvcd_body_size(512), &outer), NSVCD_OK);
+  CHECK_EQ(nsvcd_body_load(memory[1].at, nsvcd_body_size(512), &loaded), NSVCD_OK);
+  nsvcd_pose origin = query_pose(0, 0, 0);
+  nsvcd_answer a = query_ask(inner, &origin, 1, loaded, &origin, NULL);
   CHECK_EQ(a.status, NSVCD_STATUS_CERTIFIED_FREE);
   query_release(&memory[0]), query_release(&memory[1]);
   nsvcd_mesh_free(&small, NULL), nsvcd_mesh_free(&large, NULL);
@@ -666,7 +682,8 @@ static void query_encode_refuses_bad_input(void) {
   nsvcd_mesh mesh = query_box(0.1, 0.1, 0.1), bad = mesh;
   size_t size = nsvcd_body_size(64);
   query_memory memory = query_reserve(nsvcd_body_size(NSVCD_MAX_POINTS) + QUERY_ALIGN);
-  nsvcd_encode_options options = {64, 0}, too_many = {NSVCD_MAX_POINTS + 1, 0}, negative = {0, -1}, nan = {0, NAN};
+  nsvcd_encode_options options = {64, 0, 0}, too_many = {NSVCD_MAX_POINTS + 1, 0, 0}, negative = {0, -1, 0},
+                       nan = {0, NAN, 0};
   query_encode_refuses(NULL, &options, memory.at, size, NSVCD_ERROR_ARGUMENT);
   query_encode_refuses(&mesh, &options, NULL, size, NSVCD_ERROR_ARGUMENT);
   query_encode_refuses(&mesh, &too_many, memory.at, size, NSVCD_ERROR_ARGUMENT);
@@ -726,7 +743,7 @@ static void query_heap_free(void *memory, void *user) {
 
 static void query_encode_survives_every_failed_allocation(void) {
   nsvcd_mesh mesh = query_solid(5, 0.3);
-  nsvcd_encode_options options = {32, 0};
+  nsvcd_encode_options options = {32, 0, 0};
   size_t size = nsvcd_body_size(32);
   query_memory memory = query_reserve(size), undisturbed = query_reserve(size);
   const nsvcd_body *expected = NULL;
@@ -889,6 +906,7 @@ void test_query(void) {
   RUN(query_scaled_bodies_are_bodies_of_scaled_meshes);
   RUN(query_far_apart_is_certified);
   RUN(query_inside_is_inside);
+  RUN(query_inside_an_open_body);
   RUN(query_inside_an_inside_out_body);
   RUN(query_sizes_at_the_limits);
   RUN(query_a_cavity_is_not_inside);
