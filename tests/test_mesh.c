@@ -1013,6 +1013,7 @@ static void mesh_cut_to_a_box(void) {
       int faces = (low[k] < from[k]) + (high[k] > to[k]);
       area += faces * side[(k + 1) % 3] * side[(k + 2) % 3];
     }
+    if (fmin(fmin(side[0], side[1]), side[2]) <= 0) area = 0;  // the box lies beside it
     nsvcd_result result = nsvcd_mesh_cut(&mesh, low, high, NULL, &part);
     CHECK_EQ(result, area > 0 ? NSVCD_OK : NSVCD_ERROR_EMPTY);
     if (result) continue;
