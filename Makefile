@@ -25,7 +25,7 @@ ifeq ($(BENCH),quick)
 COUNT ?= 200
 endif
 
-.PHONY: bench check-extremes all demo test assets problems accuracy weights format clean help check-header check-examples check-problems
+.PHONY: sizes bench check-extremes all demo test assets problems accuracy weights format clean help check-header check-examples check-problems
 .DELETE_ON_ERROR:
 
 all: build/svcd build/quickstart  ## the examples: build/svcd and build/quickstart
@@ -95,20 +95,20 @@ COUNT_open = $(or $(COUNT),500)
 SETS = standard hollow inside $(REAL) $(if $(filter metaworld,$(REAL)),open)
 CHECK_FLAGS =
 
-$(DATA)/standard.txt: build/problems
+$(DATA)/standard.txt: | build/problems
 	@mkdir -p $(DATA)
 	build/problems --set standard --meshes procedural --count $(COUNT_standard) --seed 401 --out $@
-$(DATA)/hollow.txt: build/problems
+$(DATA)/hollow.txt: | build/problems
 	@mkdir -p $(DATA)
 	build/problems --set hollow --meshes procedural --count $(COUNT_hollow) --seed 404 --out $@
-$(DATA)/inside.txt: build/problems
+$(DATA)/inside.txt: | build/problems
 	@mkdir -p $(DATA)
 	build/problems --set inside --meshes procedural --count $(COUNT_inside) --seed 405 --out $@
-$(DATA)/random_urdfs.txt: build/problems $(DATA)/meshes/random_urdfs
+$(DATA)/random_urdfs.txt: $(DATA)/meshes/random_urdfs | build/problems
 	build/problems --set standard --meshes $(DATA)/meshes/random_urdfs --count $(COUNT_random_urdfs) --seed 402 --out $@
-$(DATA)/metaworld.txt: build/problems $(DATA)/meshes/metaworld
+$(DATA)/metaworld.txt: $(DATA)/meshes/metaworld | build/problems
 	build/problems --set standard --meshes $(DATA)/meshes/metaworld --count $(COUNT_metaworld) --seed 403 --out $@
-$(DATA)/open.txt: build/problems $(DATA)/meshes/metaworld  # meshes that are not closed
+$(DATA)/open.txt: $(DATA)/meshes/metaworld | build/problems  # meshes that are not closed
 	build/problems --set standard --meshes $(DATA)/meshes/metaworld --open only --count $(COUNT_open) --seed 406 --out $@
 # All OBJ files of the archive, flat.
 $(DATA)/meshes/%: | $(MESHES)/%.tar.gz
@@ -129,7 +129,7 @@ build/bench: tests/bench.c $(BENCH_HEADERS) tests/oracle.h examples/problem_file
 
 # Sets at the extremes: 300 problems each, answered by NeuralSVCD alone.
 EXTREMES = thin spin still tiny huge inside cavity far mixed offset
-build/extremes/%.txt: build/problems
+build/extremes/%.txt: | build/problems
 	@mkdir -p build/extremes
 	build/problems --set $* --meshes procedural --count 300 --seed 501 --out $@
 .PRECIOUS: build/extremes/%.txt
@@ -146,8 +146,11 @@ endif
 comma := ,
 space := $(subst x,,x x)
 
+sizes:  ## code and data that each compile-time switch leaves out, host and Cortex-M
+	CC="$(CC)" tests/sizes.sh
+
 bench: build/bench $(BENCH_FILES)  ## every method on the same problems: table, build/bench.tsv, build/bench.svg
-	build/bench $(if $(BENCH),--quick --limit 150,--limit 1000) $(BENCH_SETS)
+	build/bench $(if $(BENCH),--quick --limit 150,--limit 600) $(BENCH_SETS)
 
 # ---------------------------------------------------------------------------------------------------------- training
 
@@ -158,10 +161,10 @@ CALIBRATION = build/calibration
 
 build/train/checkpoint.pt:
 	cd train && $(PYTHON) train.py --out ../build/train --groups 2000 --shapes 6000 --seed 11 --steps 51574
-$(CALIBRATION)/standard.txt: build/problems
+$(CALIBRATION)/standard.txt: | build/problems
 	@mkdir -p $(CALIBRATION)
 	build/problems --set standard --meshes procedural --count 8000 --pool 400 --seed 301 --out $@
-$(CALIBRATION)/hollow.txt: build/problems
+$(CALIBRATION)/hollow.txt: | build/problems
 	@mkdir -p $(CALIBRATION)
 	build/problems --set hollow --meshes procedural --count 4000 --seed 302 --out $@
 .PRECIOUS: $(CALIBRATION)/%.txt

@@ -246,9 +246,9 @@ typedef struct nsvcd_answer {
 // Does the moving body, along `count` poses uniform in t in [0,1] (position linear and rotation slerp in between), hit
 // the fixed body? One pose asks about one placement.
 //   options  NULL for the defaults.  workspace  nsvcd_sweep_workspace_size() bytes, aligned to NSVCD_ALIGNMENT.
-// Allocates nothing; threads may share bodies, each with its own workspace; deterministic. On failure `answer` is left
-// as it was: ARGUMENT, POSE, WORKSPACE. Bodies must come from nsvcd_encode, nsvcd_body_load or nsvcd_body_scale.
-// Source: NeuralSVCD, algorithm 1.
+// Allocates nothing; threads may share bodies, each with its own workspace; deterministic. Time is bounded by the
+// number of patches and poses; README.md has what was measured. On failure `answer` is left as it was: ARGUMENT, POSE,
+// WORKSPACE. Bodies must come from nsvcd_encode, nsvcd_body_load or nsvcd_body_scale. Source: NeuralSVCD, algorithm 1.
 NSVCDDEF size_t nsvcd_sweep_workspace_size(void);
 NSVCDDEF nsvcd_result nsvcd_sweep(const nsvcd_body *moving, const nsvcd_pose *poses, size_t count,
                                   const nsvcd_body *fixed, const nsvcd_pose *fixed_pose,
@@ -3344,7 +3344,7 @@ static nsvcd_result nsvcd__settings_of(const nsvcd_sweep_options *options, size_
                                        nsvcd__settings *settings) {
   const nsvcd_sweep_options none = {0, NSVCD_MODEL_DEFAULT, NSVCD_PRECISION_FLOAT, 0};
   const nsvcd_sweep_options *o = options ? options : &none;
-  if (o->pairs > NSVCD_MAX_PAIRS || (int)o->model < 0 || o->model > NSVCD_MODEL_BASE) return NSVCD_ERROR_ARGUMENT;
+  if (o->pairs > NSVCD_MAX_PAIRS || (unsigned)o->model > (unsigned)NSVCD_MODEL_BASE) return NSVCD_ERROR_ARGUMENT;
   if (o->precision != NSVCD_PRECISION_FLOAT && o->precision != NSVCD_PRECISION_INT8) return NSVCD_ERROR_ARGUMENT;
   const size_t model = (size_t)(o->model ? o->model : NSVCD__LARGEST_MODEL) - (size_t)NSVCD_MODEL_TINY;
   if (!nsvcd_w_heads[model].layers) return NSVCD_ERROR_ARGUMENT;  // compiled out
