@@ -160,7 +160,8 @@ PYTHON ?= python3
 CALIBRATION = build/calibration
 
 build/train/checkpoint.pt:
-	cd train && $(PYTHON) train.py --out ../build/train --groups 2000 --shapes 6000 --seed 11 --steps 51574
+	cd train && $(PYTHON) train.py --out ../build/train --groups 5000 --shapes 6000 --seed 11 --rate 6e-3 --steps 51341 \
+	  --shape '{"channels":4,"heads":[["tiny",[32,16]],["small",[96,32]],["base",[160,128,32]]]}'
 $(CALIBRATION)/standard.txt: | build/problems
 	@mkdir -p $(CALIBRATION)
 	build/problems --set standard --meshes procedural --count 8000 --pool 400 --seed 301 --out $@
