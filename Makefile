@@ -149,7 +149,7 @@ space := $(subst x,,x x)
 sizes:  ## code and data that each compile-time switch leaves out, host and Cortex-M
 	CC="$(CC)" tests/sizes.sh
 
-bench: build/bench $(BENCH_FILES)  ## every method on the same problems: table, build/bench.tsv, build/bench.svg
+bench: build/bench $(BENCH_FILES)  ## every method on the same problems: table, build/tradeoff.tsv, build/tradeoff.svg
 	build/bench $(if $(BENCH),--quick --limit 150,--limit 600) $(BENCH_SETS)
 
 # ---------------------------------------------------------------------------------------------------------- training

@@ -1,6 +1,6 @@
 // bench.c - accuracy against time: every method on the same problems, in one process, on one thread.
 //
-//   bench [--quick] [--limit N] [--out build/bench] NAME=FILE[,FILE...]...
+//   bench [--quick] [--limit N] [--out build/tradeoff] NAME=FILE[,FILE...]...
 //
 // For each set NAME (problem files, FORMATS.md) and each method: rows of settings, with accuracy, misses and false
 // alarms, time per query (pose samples in, verdict out; warm, the least of three runs), bytes per body and the time to
@@ -654,7 +654,7 @@ static int usage(void) {
 int main(int argc, char **argv) {
   int quick = 0, i = 1;
   size_t limit = 0;
-  const char *out = "build/bench";
+  const char *out = "build/tradeoff";
   for (; i < argc && strncmp(argv[i], "--", 2) == 0; i++) {
     if (strcmp(argv[i], "--quick") == 0)
       quick = 1;

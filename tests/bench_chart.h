@@ -125,18 +125,19 @@ static int chart_write(chart *c, const char *path) {
   if (!file) return perror(path), 0;
   qsort(c->marks, c->count, sizeof *c->marks, chart_by_time);
   double width = CHART_STEP * (panels ? panels : 1) + 20, bottom = chart_y(50) + 76;
+  int columns = (c->method_count + 1) / 2;
   fprintf(file,
           "<svg xmlns='http://www.w3.org/2000/svg' viewBox='0 0 %.0f %.0f' font-family='sans-serif' font-size='14'>\n"
           "<rect width='100%%' height='100%%' fill='white'/>\n",
-          width, bottom + 24);
+          width, bottom + 50);
   for (int p = 0; p < panels; p++) {
     chart_axes(file, p, c->titles[p]);
     for (int m = c->method_count - 1; m >= 0; m--) chart_method(file, c, p, m);
   }
   for (int m = 0; m < c->method_count; m++) {
-    double x = 70 + (width - 90) / c->method_count * m;
-    fprintf(file, "<circle cx='%.0f' cy='%.0f' r='6' fill='%s'/><text x='%.0f' y='%.0f'>%s</text>\n", x, bottom,
-            chart_color(c->methods[m]), x + 12, bottom + 5, c->methods[m]);
+    double x = 70 + (width - 90) / columns * (m % columns), y = bottom + 26 * (m / columns);
+    fprintf(file, "<circle cx='%.0f' cy='%.0f' r='6' fill='%s'/><text x='%.0f' y='%.0f'>%s</text>\n", x, y,
+            chart_color(c->methods[m]), x + 12, y + 5, c->methods[m]);
   }
   fprintf(file, "</svg>\n");
   int good = !ferror(file);
