@@ -1651,20 +1651,25 @@ static void nsvcd__wigner(const nsvcd__v *m, nsvcd__v scale, float (*out)[NSVCD_
   }
 }
 
+// One degree: out (size, CHANNELS) = D (size * size, LANES) of lane l times latent (size, CHANNELS).
+static inline void nsvcd__turn_degree(const float *latent, float (*turn)[NSVCD__LANES], size_t l, size_t size,
+                                      float *out) {
+  for (size_t i = 0; i < size; i++) {
+    float sum[NSVCD_W_CHANNELS] = {0};
+    for (size_t k = 0; k < size; k++) {
+      const float m = turn[size * i + k][l];
+      for (size_t c = 0; c < NSVCD_W_CHANNELS; c++) sum[c] += m * latent[NSVCD_W_CHANNELS * k + c];
+    }
+    memcpy(out + NSVCD_W_CHANNELS * i, sum, sizeof sum);
+  }
+}
+
 // A stored latent, turned by D (TURN, LANES) of lane l: vectors (8, CHANNELS), scalars (SCALARS).
 static void nsvcd__turn_latent(const int8_t *z, float (*turn)[NSVCD__LANES], size_t l, float *vectors, float *scalars) {
   float latent[NSVCD__LATENT];
   for (size_t k = 0; k < NSVCD__LATENT; k++) latent[k] = (float)z[k];
-  for (size_t first = 0, size = 3; first < 8; first += size, size = 5, turn += 9) {
-    for (size_t i = 0; i < size; i++) {
-      float sum[NSVCD_W_CHANNELS] = {0};
-      for (size_t k = 0; k < size; k++) {
-        const float m = turn[size * i + k][l], *from = latent + NSVCD_W_CHANNELS * (first + k);
-        for (size_t c = 0; c < NSVCD_W_CHANNELS; c++) sum[c] += m * from[c];
-      }
-      memcpy(vectors + NSVCD_W_CHANNELS * (first + i), sum, sizeof sum);
-    }
-  }
+  nsvcd__turn_degree(latent, turn, l, 3, vectors);
+  nsvcd__turn_degree(latent + 3 * NSVCD_W_CHANNELS, turn + 9, l, 5, vectors + 3 * NSVCD_W_CHANNELS);
   for (size_t k = 0; k < NSVCD_W_SCALARS; k++) scalars[k] = latent[NSVCD__VECTORS + k] * (1.0f / 127);
 }
 
