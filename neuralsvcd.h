@@ -3412,7 +3412,8 @@ static void nsvcd__answer_with(const nsvcd__candidate *candidate, float threshol
 }
 
 // Is the most suspicious of the candidates scored so far clearly a collision, or, where they are all, clearly none?
-// Then no other head needs to look: of 13,000 such answers on the validation sets the base head takes none back.
+// Then no other head needs to look: of 8,300 such answers on the validation sets, N = 128 and 512, the base head takes
+// none back.
 static int nsvcd__is_clear(const nsvcd__question *ask, const nsvcd__candidates *kept, int all, nsvcd_answer *answer) {
   const float threshold = ask->settings.threshold;
   const nsvcd__candidate *most = &kept->items[0];
