@@ -308,6 +308,21 @@ static void nsvcd__mul33_vec(const float *m, const float *v, float *out) {  // o
 
 #define NSVCD__LANES 16
 
+// Functions whose loops over constant arguments must be unrolled: left to its own measure, gcc may not inline them, and
+// the decoder takes four times as long (tests/PERFORMANCE.md).
+#if defined(__GNUC__) || defined(__clang__)
+#define NSVCD__INLINE static inline __attribute__((always_inline))
+#elif defined(_MSC_VER)
+#define NSVCD__INLINE static __forceinline
+#else
+#define NSVCD__INLINE static inline
+#endif
+#if defined(__GNUC__) && !defined(__clang__)
+#define NSVCD__UNROLL _Pragma("GCC unroll 8")  // at -O2 too, so that sums stay in registers
+#else
+#define NSVCD__UNROLL
+#endif
+
 #if !defined(NSVCD_NO_SIMD) && defined(__AVX512F__)
 #include <immintrin.h>
 typedef __m512 nsvcd__v;
@@ -1652,7 +1667,7 @@ static void nsvcd__wigner(const nsvcd__v *m, nsvcd__v scale, float (*out)[NSVCD_
 }
 
 // One degree: out (size, CHANNELS) = D (size * size, LANES) of lane l times latent (size, CHANNELS).
-static inline void nsvcd__turn_degree(const float *latent, float (*turn)[NSVCD__LANES], size_t l, size_t size,
+NSVCD__INLINE void nsvcd__turn_degree(const float *latent, float (*turn)[NSVCD__LANES], size_t l, size_t size,
                                       float *out) {
   for (size_t i = 0; i < size; i++) {
     float sum[NSVCD_W_CHANNELS] = {0};
@@ -2411,7 +2426,7 @@ static inline nsvcd__v nsvcd__v_signed_square(nsvcd__v reach) {
 }
 
 // The test. d: from the resting centre to the start of the chord, v: the chord. Bit l: lane l comes within `reach`.
-static inline uint32_t nsvcd__comes_within(const nsvcd__v *d, const nsvcd__v *v, nsvcd__v inverse, nsvcd__v reach) {
+NSVCD__INLINE uint32_t nsvcd__comes_within(const nsvcd__v *d, const nsvcd__v *v, nsvcd__v inverse, nsvcd__v reach) {
   const nsvcd__v tau = nsvcd__v_clamp(nsvcd__v_mul(nsvcd__v_dot3(d, v), inverse), 0, 1);
   const nsvcd__v nearest[3] = {nsvcd__v_fma(tau, v[0], d[0]), nsvcd__v_fma(tau, v[1], d[1]),
                                nsvcd__v_fma(tau, v[2], d[2])};
@@ -3036,20 +3051,27 @@ static void nsvcd__invariants(const nsvcd__pairs *pairs, size_t count, float *x)
 #ifndef NSVCD_NO_FLOAT
 // `rows` rows of a layer, `tiles` times 16 outputs each: y = w^T x + bias. x (rows, from), y (rows, to), w (inputs,
 // outputs). rows * tiles sums must fit into the registers.
-static inline void nsvcd__layer_tile(const float *w, const float *bias, size_t inputs, size_t outputs, const float *x,
+NSVCD__INLINE void nsvcd__layer_tile(const float *w, const float *bias, size_t inputs, size_t outputs, const float *x,
                                      size_t from, float *y, size_t to, int relu, size_t rows, size_t tiles) {
   nsvcd__v sum[8][4], column[4];
+  NSVCD__UNROLL
   for (size_t p = 0; p < rows; p++) {
+    NSVCD__UNROLL
     for (size_t t = 0; t < tiles; t++) sum[p][t] = nsvcd__v_load(bias + NSVCD__LANES * t);
   }
   for (size_t i = 0; i < inputs; i++, w += outputs) {
+    NSVCD__UNROLL
     for (size_t t = 0; t < tiles; t++) column[t] = nsvcd__v_load(w + NSVCD__LANES * t);
+    NSVCD__UNROLL
     for (size_t p = 0; p < rows; p++) {
       const nsvcd__v input = nsvcd__v_set(x[from * p + i]);
+      NSVCD__UNROLL
       for (size_t t = 0; t < tiles; t++) sum[p][t] = nsvcd__v_fma(input, column[t], sum[p][t]);
     }
   }
+  NSVCD__UNROLL
   for (size_t p = 0; p < rows; p++) {
+    NSVCD__UNROLL
     for (size_t t = 0; t < tiles; t++) {
       nsvcd__v_store(y + to * p + NSVCD__LANES * t, relu ? nsvcd__v_max(sum[p][t], nsvcd__v_set(0)) : sum[p][t]);
     }
@@ -3113,15 +3135,19 @@ static float nsvcd__to_bytes(const float *x, size_t inputs, uint8_t *bytes) {
   }
   return largest / 127;
 }
-static inline void nsvcd__dot_tile(const int8_t *w, size_t inputs, size_t outputs, const uint8_t *bytes, int32_t *dot,
+NSVCD__INLINE void nsvcd__dot_tile(const int8_t *w, size_t inputs, size_t outputs, const uint8_t *bytes, int32_t *dot,
                                    size_t tiles) {
   __m512i sum[4][4];
+  NSVCD__UNROLL
   for (size_t p = 0; p < 4; p++) {
+    NSVCD__UNROLL
     for (size_t t = 0; t < tiles; t++) sum[p][t] = _mm512_setzero_si512();
   }
   for (size_t i = 0; i < inputs; i += 4, w += 4 * outputs) {
+    NSVCD__UNROLL
     for (size_t t = 0; t < tiles; t++) {
       const __m512i column = _mm512_loadu_si512((const void *)(w + 64 * t));
+      NSVCD__UNROLL
       for (size_t p = 0; p < 4; p++) {
         int32_t word;
         memcpy(&word, bytes + inputs * p + i, sizeof word);
@@ -3129,7 +3155,9 @@ static inline void nsvcd__dot_tile(const int8_t *w, size_t inputs, size_t output
       }
     }
   }
+  NSVCD__UNROLL
   for (size_t p = 0; p < 4; p++) {
+    NSVCD__UNROLL
     for (size_t t = 0; t < tiles; t++) _mm512_storeu_si512((void *)(dot + outputs * p + 16 * t), sum[p][t]);
   }
 }
