@@ -2228,6 +2228,9 @@ typedef struct nsvcd__workspace {
   uint64_t near_body[NSVCD__MAX_GROUPS];                // (groups of the fixed body) segments in which the body is near
   uint64_t near[NSVCD__MAX_GROUPS][NSVCD__MAX_GROUPS];  // moving groups, fixed groups
   uint16_t order[NSVCD__MAX_GROUPS];                    // moving groups that are near any, in the order of the search
+  size_t steps, step;                                   // how many they are, and which of them is being searched
+  uint32_t waiting;                                     // fixed groups that it has yet to be searched against
+  uint64_t posed;                                       // segments for which members[] is filled
   nsvcd_pose between[NSVCD__MAX_SEGMENTS + 1];          // samples where the caller's are too few
 } nsvcd__workspace;
 
@@ -2648,10 +2651,11 @@ static size_t nsvcd__group_against_body(nsvcd__workspace *work, const nsvcd_body
   return meetings;
 }
 
-// Starts a search: fills the workspace and returns the number of its steps, 0 if the bodies' spheres never meet.
-static size_t nsvcd__search_begin(const nsvcd_body *moving, const nsvcd_body *fixed, const nsvcd__motion *motion,
-                                  nsvcd__workspace *work) {
+// Starts a search: fills the workspace. Returns 0 if the groups' spheres never meet: then there is no step to take.
+static int nsvcd__search_begin(const nsvcd_body *moving, const nsvcd_body *fixed, const nsvcd__motion *motion,
+                               nsvcd__workspace *work) {
   nsvcd__cut_motion(motion, moving->extent + fixed->extent, work);
+  work->steps = work->step = 0, work->waiting = 0;
   for (size_t b = 0; NSVCD__LANES * b < work->segments; b++) {
     nsvcd__chords_of_sphere(&work->blocks[b], moving->centre[0], moving->centre[1], moving->centre[2], moving->radius,
                             &work->body[b]);
@@ -2673,7 +2677,8 @@ static size_t nsvcd__search_begin(const nsvcd_body *moving, const nsvcd_body *fi
       meetings[at] = meetings[at - 1], work->order[at] = work->order[at - 1];
     meetings[at] = count, work->order[at] = (uint16_t)g, steps++;
   }
-  return steps;
+  work->steps = steps;
+  return steps > 0;
 }
 
 // Patches of group h of the fixed body that moving group g meets, and in which segments.
@@ -2697,30 +2702,44 @@ static uint32_t nsvcd__group_against_members(const nsvcd__workspace *work, const
   return met;
 }
 
-// Step `step` of the search: all runs of one moving group.
-static void nsvcd__search_step(nsvcd__workspace *work, const nsvcd_body *moving, const nsvcd_body *fixed, size_t step,
-                               nsvcd__candidates *kept) {
-  const size_t g = work->order[step], i = NSVCD__GROUP * g, groups = nsvcd__body_groups(fixed);
+// Turns to the moving group that is next in order. Returns the fixed group that it meets for the longest time.
+static size_t nsvcd__search_group(nsvcd__workspace *work, const nsvcd_body *moving, const nsvcd_body *fixed) {
+  const uint64_t *near = work->near[work->order[work->step]];
+  size_t longest = 0, most = 0;
+  nsvcd__chords_of_group(work, moving, work->order[work->step]);
+  for (size_t h = 0; h < nsvcd__body_groups(fixed); h++) {
+    const size_t count = nsvcd__bit_count(near[h]);
+    if (count > 0) work->waiting |= (uint32_t)1 << h;
+    if (count > most) most = count, longest = h;
+  }
+  work->posed = 0;
+  return longest;
+}
+
+// A step of the search: all runs of one pair of groups. Returns 1 if there are more steps to take.
+static int nsvcd__search_step(nsvcd__workspace *work, const nsvcd_body *moving, const nsvcd_body *fixed,
+                              nsvcd__candidates *kept) {
+  const size_t h = work->waiting ? nsvcd__lowest_bit(work->waiting) : nsvcd__search_group(work, moving, fixed);
+  const size_t g = work->order[work->step], i = NSVCD__GROUP * g;
   const float centre[3] = {nsvcd__body_group(moving, 0)[g], nsvcd__body_group(moving, 1)[g],
                            nsvcd__body_group(moving, 2)[g]};
   const float far = 1.000002f * (nsvcd__length3(centre) + nsvcd__body_group(moving, 3)[g]);
-  uint64_t any = 0;
-  nsvcd__chords_of_group(work, moving, g);
-  for (size_t h = 0; h < groups; h++) any |= work->near[g][h];
-  for (; any; any &= any - 1) {
-    const size_t s = nsvcd__lowest_bit(any);
+  const uint64_t wanted = work->near[g][h];
+  uint64_t segments[NSVCD__GROUP];
+  for (uint64_t missing = wanted & ~work->posed; missing; missing &= missing - 1) {
+    const size_t s = nsvcd__lowest_bit(missing);
     nsvcd__chords_of_members(&work->blocks[s / NSVCD__LANES], s % NSVCD__LANES, nsvcd__body_x(moving) + i,
                              nsvcd__body_y(moving) + i, nsvcd__body_z(moving) + i, nsvcd__body_r(moving) + i, far,
                              &work->members[s]);
   }
-  for (size_t h = 0; h < groups; h++) {
-    uint64_t segments[NSVCD__GROUP];
-    if (!work->near[g][h]) continue;
-    for (uint32_t met = nsvcd__group_against_members(work, fixed, h, work->near[g][h], segments); met; met &= met - 1) {
-      const size_t l = nsvcd__lowest_bit(met);
-      nsvcd__members_against_patch(work, moving, g, fixed, NSVCD__GROUP * h + l, segments[l], kept);
-    }
+  work->posed |= wanted;
+  for (uint32_t met = nsvcd__group_against_members(work, fixed, h, wanted, segments); met; met &= met - 1) {
+    const size_t l = nsvcd__lowest_bit(met);
+    nsvcd__members_against_patch(work, moving, g, fixed, NSVCD__GROUP * h + l, segments[l], kept);
   }
+  work->waiting &= ~((uint32_t)1 << h);
+  if (!work->waiting) work->step++;
+  return work->step < work->steps;
 }
 
 static void nsvcd__candidates_start(nsvcd__candidates *kept, nsvcd__candidate *items, size_t limit) {
@@ -3325,7 +3344,7 @@ NSVCDDEF const char *nsvcd_status_string(nsvcd_status status) {
 #define NSVCD__SHORTLIST 4       // times K: the deepest pairs, from which the tiny head chooses
 #define NSVCD__CLEAR_LOGIT 5.0f  // a verdict this positive needs no second pair, and one this clear no second head
 #define NSVCD__PORTION 4         // pairs that the chosen head sees at once
-#define NSVCD__PROBE 8           // new pairs that are worth a look before the search is done
+#define NSVCD__PROBE 8           // new pairs that are worth a first look before the search is done; later a full batch
 
 typedef struct nsvcd__query {
   nsvcd__workspace broad_phase;
@@ -3405,15 +3424,17 @@ static int nsvcd__starts_inside(const nsvcd__question *ask) {
   return nsvcd__is_contained(ask->moving, ask->fixed, rotation, position);
 }
 
-// Scores what has none yet. Returns 0, and does nothing, if those are fewer than `least`.
-static int nsvcd__score(const nsvcd__question *ask, nsvcd__candidates *kept, size_t least) {
+// Scores candidates that have no score yet, `most` at most: the deeper ones, roughly, because a heap ends with them.
+// Returns 0, and does nothing, if there are fewer than `least`.
+static int nsvcd__score(const nsvcd__question *ask, nsvcd__candidates *kept, size_t least, size_t most) {
   nsvcd__candidate *batch[NSVCD__BATCH];
   size_t count = 0, left = 0;
   for (size_t k = 0; k < kept->count; k++) left += kept->items[k].score <= NSVCD__NO_SCORE;
   if (left < least || left == 0) return 0;
-  for (size_t k = 0; k < kept->count; k++) {
-    if (kept->items[k].score > NSVCD__NO_SCORE) continue;
-    batch[count++] = &kept->items[k];
+  left = left < most ? left : most;
+  for (size_t k = kept->count; left > 0; k--) {
+    if (kept->items[k - 1].score > NSVCD__NO_SCORE) continue;
+    batch[count++] = &kept->items[k - 1];
     if (count < NSVCD__BATCH && count < left) continue;
     nsvcd__decode(ask->moving, ask->fixed, &ask->motion, batch, count, ask->settings.ranker, ask->settings.int8);
     left -= count, count = 0;
@@ -3439,6 +3460,11 @@ static void nsvcd__answer_with(const nsvcd__candidate *candidate, float threshol
   answer->moving_patch = candidate->moving, answer->fixed_patch = candidate->fixed;
 }
 
+// Does the tiny head see no collision there, clearly?
+static int nsvcd__is_harmless(const nsvcd__candidate *candidate, float threshold) {
+  return candidate->score < (threshold < 0 ? threshold : 0) - NSVCD__CLEAR_LOGIT;
+}
+
 // Is the most suspicious of the candidates scored so far clearly a collision, or, where they are all, clearly none?
 // Then no other head needs to look: of 8,300 such answers on the validation sets, N = 128 and 512, the base head takes
 // none back.
@@ -3447,16 +3473,18 @@ static int nsvcd__is_clear(const nsvcd__question *ask, const nsvcd__candidates *
   const nsvcd__candidate *most = &kept->items[0];
   for (size_t k = 1; k < kept->count; k++) most = kept->items[k].score > most->score ? &kept->items[k] : most;
   const int yes = most->score > NSVCD__CLEAR_LOGIT + (threshold > 0 ? threshold : 0);
-  const int no = all && most->score < (threshold < 0 ? threshold : 0) - NSVCD__CLEAR_LOGIT;
+  const int no = all && nsvcd__is_harmless(most, threshold);
   if (yes || no) nsvcd__answer_with(most, threshold, answer);
   return yes || no;
 }
 
-// The verdict on the `pairs` most suspicious of the scored candidates, 4 at a time, until one is clearly positive.
+// The verdict on the `pairs` most suspicious of the scored candidates, but for the harmless ones, 4 at a time, until
+// one is clearly positive.
 static void nsvcd__judge(const nsvcd__question *ask, nsvcd__candidates *kept, nsvcd_answer *answer) {
   const nsvcd__settings *settings = &ask->settings;
-  const size_t count = kept->count < settings->pairs ? kept->count : settings->pairs;
+  size_t count = kept->count < settings->pairs ? kept->count : settings->pairs;
   nsvcd__best_first(kept->items, count, kept->count);
+  while (count > 1 && nsvcd__is_harmless(&kept->items[count - 1], settings->threshold)) count--;
   for (size_t first = 0; first < count && answer->logit < NSVCD__CLEAR_LOGIT; first += NSVCD__PORTION) {
     nsvcd__candidate *batch[NSVCD__PORTION] = {NULL};
     const size_t size = count - first < NSVCD__PORTION ? count - first : NSVCD__PORTION;
@@ -3489,19 +3517,20 @@ NSVCDDEF nsvcd_result nsvcd_sweep(const nsvcd_body *moving, const nsvcd_pose *po
   nsvcd__workspace *work = &query->broad_phase;
   nsvcd__candidates kept;
   nsvcd_answer found = {-NSVCD_LOGIT_CERTAIN, 0, 0, 0, 0, NSVCD_STATUS_CERTIFIED_FREE, 0};
-  const size_t steps = nsvcd__search_begin(moving, fixed, &ask.motion, work);
-  const size_t worth = ask.settings.shortlist < NSVCD__PROBE ? ask.settings.shortlist : NSVCD__PROBE;
-  int clear = 0;
+  size_t worth = ask.settings.shortlist < NSVCD__PROBE ? ask.settings.shortlist : NSVCD__PROBE;
+  int clear = 0, more = nsvcd__search_begin(moving, fixed, &ask.motion, work);
   nsvcd__candidates_start(&kept, query->kept, ask.settings.shortlist);
-  for (size_t step = 0; step < steps && !clear; step++) {
-    nsvcd__search_step(work, moving, fixed, step, &kept);
+  while (more && !clear) {
+    more = nsvcd__search_step(work, moving, fixed, &kept);
     // A deep collision shows early. What is scored now need not be scored later, so that looking costs little.
-    if (step + 1 < steps && nsvcd__score(&ask, &kept, worth)) clear = nsvcd__is_clear(&ask, &kept, 0, &found);
+    if (!more || !nsvcd__score(&ask, &kept, worth, worth)) continue;
+    clear = nsvcd__is_clear(&ask, &kept, 0, &found);
+    if (worth == NSVCD__PROBE) worth = NSVCD__BATCH;
   }
   found.overlapping = kept.total;
   if (kept.total > 0) found.status = kept.total > ask.settings.pairs ? NSVCD_STATUS_LIMIT : NSVCD_STATUS_OK;
   if (!clear && kept.count > 0) {
-    nsvcd__score(&ask, &kept, 1);
+    nsvcd__score(&ask, &kept, 1, kept.count);
     if (!nsvcd__is_clear(&ask, &kept, 1, &found)) nsvcd__judge(&ask, &kept, &found);
   }
   if (nsvcd__starts_inside(&ask)) {  // a body inside another need not touch anything

@@ -46,11 +46,11 @@ static void run_stages(const question *q, nsvcd__query *work, double *times) {
   keep_least(times, INIT, start), start = seconds();
   nsvcd__cut_motion(&motion, q->moving->extent + q->fixed->extent, &work->broad_phase);
   keep_least(times, CUT, start), start = seconds();
-  const size_t steps = nsvcd__search_begin(q->moving, q->fixed, &motion, &work->broad_phase);
+  int more = nsvcd__search_begin(q->moving, q->fixed, &motion, &work->broad_phase);
   keep_least(times, BEGIN, start);
   nsvcd__candidates_start(&kept, work->kept, NSVCD__SHORTLIST * NSVCD_DEFAULT_PAIRS);
   start = seconds();
-  for (size_t k = 0; k < steps; k++) nsvcd__search_step(&work->broad_phase, q->moving, q->fixed, k, &kept);
+  while (more) more = nsvcd__search_step(&work->broad_phase, q->moving, q->fixed, &kept);
   keep_least(times, STEPS, start), start = seconds();
   nsvcd__motion_pose(&motion, 0, rotation, position);
   (void)nsvcd__is_contained(q->moving, q->fixed, rotation, position);

@@ -214,9 +214,9 @@ static int deepest_first(const void *a, const void *b) {
 // The whole search: counts all runs, keeps the `limit` deepest in `found`, deepest first.
 static void search(const nsvcd_body *moving, const nsvcd_body *fixed, const nsvcd__motion *motion,
                    nsvcd__workspace *space, nsvcd__candidate *found, size_t limit, nsvcd__candidates *kept) {
-  const size_t steps = nsvcd__search_begin(moving, fixed, motion, space);
+  int more = nsvcd__search_begin(moving, fixed, motion, space);
   nsvcd__candidates_start(kept, found, limit);
-  for (size_t step = 0; step < steps; step++) nsvcd__search_step(space, moving, fixed, step, kept);
+  while (more) more = nsvcd__search_step(space, moving, fixed, kept);
   qsort(found, kept->count, sizeof *found, deepest_first);
 }
 
