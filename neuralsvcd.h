@@ -1992,8 +1992,8 @@ typedef struct nsvcd__motion {
   float fixed_position[3];
   float to_fixed[9];    // world axes to the fixed body's axes
   float to_fixed_q[4];  // the same as a quaternion
-  float turn;           // total length of the rotation arcs, radians
-  float widest;         // the longest of them
+  float low[3];         // of the positions, from the fixed body's origin, in world axes
+  float high[3];
 } nsvcd__motion;
 
 // |x| as bits, in the order of |x|; infinity and NaN are above all numbers.
@@ -2003,19 +2003,27 @@ static uint32_t nsvcd__magnitude(float x) {
   return bits & 0x7fffffffu;
 }
 
-static int nsvcd__pose_is_valid(const nsvcd_pose *pose) {
-  const float *q = pose->rotation;
+// Are all numbers in range and all quaternions of unit length, to 1e-4? low, high: (3) box of the positions.
+static int nsvcd__poses_are_valid(const nsvcd_pose *poses, size_t count, float *low, float *high) {
+  const float *numbers = poses->position;  // 7 to a pose
   uint32_t most = 0;
-  for (size_t k = 0; k < 3; k++) {
-    const uint32_t bits = nsvcd__magnitude(pose->position[k]);
+  float shortest = 1, longest = 1, q[4];
+  for (size_t k = 0; k < 7 * count; k++) {
+    const uint32_t bits = nsvcd__magnitude(numbers[k]);
     most = bits > most ? bits : most;
   }
-  for (size_t k = 0; k < 4; k++) {
-    const uint32_t bits = nsvcd__magnitude(q[k]);
-    most = bits > most ? bits : most;
+  if (most > nsvcd__magnitude(NSVCD_MAX_COORDINATE)) return 0;
+  for (size_t k = 0; k < 3; k++) low[k] = high[k] = poses->position[k];
+  for (; count > 0; count--, poses++) {
+    for (size_t k = 0; k < 3; k++) {
+      const float x = poses->position[k];
+      low[k] = x < low[k] ? x : low[k], high[k] = x > high[k] ? x : high[k];
+    }
+    for (size_t k = 0; k < 4; k++) q[k] = poses->rotation[k];
+    const float square = (q[0] * q[0] + q[1] * q[1]) + (q[2] * q[2] + q[3] * q[3]);
+    shortest = square < shortest ? square : shortest, longest = square > longest ? square : longest;
   }
-  const float square = q[0] * q[0] + q[1] * q[1] + q[2] * q[2] + q[3] * q[3];
-  return most <= nsvcd__magnitude(NSVCD_MAX_COORDINATE) && square >= 0.9998f && square <= 1.0002f;  // unit to 1e-4
+  return shortest >= 0.9998f && longest <= 1.0002f;
 }
 
 static void nsvcd__quat_normalize(const float *q, float *out) {
@@ -2057,36 +2065,34 @@ static void nsvcd__slerp(const float *a, const float *b, float u, float *out) {
   nsvcd__quat_normalize(end, out);
 }
 
-// Not less than the angle between two rotations, unit to 1e-4, and hardly more where it is small: 4 asin(chord / 2) of
-// their chord as quaternions, asin x <= x + (pi/2 - 1) x^3, and half a thousandth for the lengths.
-static float nsvcd__arc_bound(const float *a, const float *b) {
-  const float dot = a[0] * b[0] + a[1] * b[1] + a[2] * b[2] + a[3] * b[3], sign = dot < 0 ? -1.0f : 1.0f;
-  float square = 0;
-  for (size_t k = 0; k < 4; k++) square += (sign * b[k] - a[k]) * (sign * b[k] - a[k]);
-  const float x = 0.50025f * sqrtf(square);
-  return x * (4 + 2.2832f * x * x);
-}
-
 // Validates everything and prepares the motion. Keeps the pointer `poses`.
 static nsvcd_result nsvcd__motion_init(const nsvcd_pose *poses, size_t count, const nsvcd_pose *fixed_pose,
                                        nsvcd__motion *motion) {
   if (!poses || !fixed_pose || count < 1 || count > NSVCD_MAX_POSES) return NSVCD_ERROR_ARGUMENT;
-  if (!nsvcd__pose_is_valid(fixed_pose)) return NSVCD_ERROR_POSE;
-  for (size_t k = 0; k < count; k++) {
-    if (!nsvcd__pose_is_valid(&poses[k])) return NSVCD_ERROR_POSE;
-  }
+  float low[3], high[3];
+  if (!nsvcd__poses_are_valid(fixed_pose, 1, low, high)) return NSVCD_ERROR_POSE;
+  if (!nsvcd__poses_are_valid(poses, count, low, high)) return NSVCD_ERROR_POSE;
   float q[4], from_fixed[9];
   nsvcd__quat_normalize(fixed_pose->rotation, q);
   nsvcd__quat_to_matrix(q, from_fixed);
   nsvcd__transpose33(from_fixed, motion->to_fixed);
   for (size_t k = 0; k < 4; k++) motion->to_fixed_q[k] = k < 3 ? -q[k] : q[k];
   memcpy(motion->fixed_position, fixed_pose->position, sizeof motion->fixed_position);
-  motion->poses = poses, motion->count = count, motion->turn = motion->widest = 0;
-  for (size_t k = 0; k + 1 < count; k++) {
-    const float arc = nsvcd__arc_bound(poses[k].rotation, poses[k + 1].rotation);
-    motion->turn += arc, motion->widest = fmaxf(motion->widest, arc);
+  for (size_t k = 0; k < 3; k++) {
+    motion->low[k] = low[k] - fixed_pose->position[k], motion->high[k] = high[k] - fixed_pose->position[k];
   }
+  motion->poses = poses, motion->count = count;
   return NSVCD_OK;
+}
+
+// Does the moving body's origin always stay more than `distance` from the fixed body's?
+static int nsvcd__motion_is_far(const nsvcd__motion *motion, float distance) {
+  float square = 0;
+  for (size_t k = 0; k < 3; k++) {
+    const float below = motion->low[k], above = -motion->high[k], d = below > above ? below : above;
+    square += d > 0 ? d * d : 0;
+  }
+  return square > 1.00001f * distance * distance;
 }
 
 // Pose a fraction u in [0,1] after sample k: rotation matrix and position from the fixed body's origin, in world axes.
@@ -2217,15 +2223,18 @@ typedef struct nsvcd__segments {
   float spread[NSVCD__LANES], bulge[NSVCD__LANES];
 } nsvcd__segments;
 
+// 16 boxes, as their least and greatest coordinates.
+typedef struct nsvcd__boxes {
+  float low[3][NSVCD__LANES], high[3][NSVCD__LANES];
+} nsvcd__boxes;
+
 typedef struct nsvcd__workspace {
   size_t segments;                                      // S
   float time[NSVCD__MAX_SEGMENTS + 1];                  // of the ends of the segments
   float turn[NSVCD__MAX_SEGMENTS + 1];                  // rotation arc from t = 0 to there, radians
   nsvcd__segments blocks[NSVCD__BLOCKS];                // (S / 16 rounded up)
-  nsvcd__chords body[NSVCD__BLOCKS];                    // the moving body's sphere over all segments
   nsvcd__chords group[NSVCD__BLOCKS];                   // a moving group's
   nsvcd__chords members[NSVCD__MAX_SEGMENTS];           // its 16 members', per segment
-  uint64_t near_body[NSVCD__MAX_GROUPS];                // (groups of the fixed body) segments in which the body is near
   uint64_t near[NSVCD__MAX_GROUPS][NSVCD__MAX_GROUPS];  // moving groups, fixed groups
   uint16_t order[NSVCD__MAX_GROUPS];                    // moving groups that are near any, in the order of the search
   size_t steps, step;                                   // how many they are, and which of them is being searched
@@ -2234,11 +2243,42 @@ typedef struct nsvcd__workspace {
   nsvcd_pose between[NSVCD__MAX_SEGMENTS + 1];          // samples where the caller's are too few
 } nsvcd__workspace;
 
+// Not less than the angle between two rotations, unit to 1e-4, and hardly more where it is small: 4 asin(chord / 2) of
+// their chord as quaternions, asin x <= x + (pi/2 - 1) x^3, and half a thousandth for the lengths. chord2: its square.
+static nsvcd__v nsvcd__v_arc_bound(nsvcd__v chord2) {
+  const nsvcd__v x = nsvcd__v_mul(nsvcd__v_set(0.50025f), nsvcd__v_sqrt(chord2));
+  return nsvcd__v_mul(x, nsvcd__v_fma(nsvcd__v_set(2.2832f), nsvcd__v_mul(x, x), nsvcd__v_set(4)));
+}
+
+// Bounds of the total length of the rotation arcs, radians, and of the longest.
+static void nsvcd__measure_turn(const nsvcd__motion *motion, float *turn, float *widest) {
+  float chord2[NSVCD__LANES], sums[NSVCD__LANES], longest[NSVCD__LANES];
+  nsvcd__v sum = nsvcd__v_set(0), most = sum;
+  for (size_t first = 0; first + 1 < motion->count; first += NSVCD__LANES) {
+    const size_t left = motion->count - 1 - first, count = left < NSVCD__LANES ? left : NSVCD__LANES;
+    for (size_t l = 0; l < NSVCD__LANES; l++) {
+      const float *a = motion->poses[first + (l < count ? l : count - 1)].rotation;
+      const float *b = motion->poses[first + (l < count ? l + 1 : count - 1)].rotation;
+      const float dot = (a[0] * b[0] + a[1] * b[1]) + (a[2] * b[2] + a[3] * b[3]), sign = dot < 0 ? -1.0f : 1.0f;
+      float d[4];
+      for (size_t k = 0; k < 4; k++) d[k] = sign * b[k] - a[k];
+      chord2[l] = (d[0] * d[0] + d[1] * d[1]) + (d[2] * d[2] + d[3] * d[3]);
+    }
+    const nsvcd__v arc = nsvcd__v_arc_bound(nsvcd__v_load(chord2));
+    sum = nsvcd__v_add(sum, arc), most = nsvcd__v_max(most, arc);
+  }
+  nsvcd__v_store(sums, sum), nsvcd__v_store(longest, most);
+  *turn = *widest = 0;
+  for (size_t l = 0; l < NSVCD__LANES; l++) *turn += sums[l], *widest = longest[l] > *widest ? longest[l] : *widest;
+}
+
 // How many segments, and how many to an arc where there are fewer arcs than that (else 0). Ends of segments are always
 // samples, or divide an arc evenly.
 static size_t nsvcd__segment_count(const nsvcd__motion *motion, size_t *per_arc) {
   const size_t arcs = motion->count - 1;
-  const float turn = motion->turn < 1e3f ? motion->turn : 1e3f;
+  float turn, widest;
+  nsvcd__measure_turn(motion, &turn, &widest);
+  turn = turn < 1e3f ? turn : 1e3f;
   const size_t coarse = (size_t)ceilf(turn / NSVCD__SEGMENT_TURN), fine = (size_t)ceilf(turn / NSVCD__FINE_TURN);
   size_t wanted = fine < NSVCD__SEGMENTS ? fine : NSVCD__SEGMENTS;
   if (wanted < coarse) wanted = coarse < NSVCD__MAX_SEGMENTS ? coarse : NSVCD__MAX_SEGMENTS;
@@ -2246,7 +2286,7 @@ static size_t nsvcd__segment_count(const nsvcd__motion *motion, size_t *per_arc)
   *per_arc = 0;
   if (arcs == 0) return 1;
   if (arcs > wanted) return arcs < NSVCD__SEGMENTS ? arcs : wanted < NSVCD__SEGMENTS ? NSVCD__SEGMENTS : wanted;
-  const size_t least = (size_t)ceilf(motion->widest / NSVCD__SEGMENT_TURN), most = NSVCD__MAX_SEGMENTS / arcs;
+  const size_t least = (size_t)ceilf(widest / NSVCD__SEGMENT_TURN), most = NSVCD__MAX_SEGMENTS / arcs;
   *per_arc = wanted / arcs > least ? wanted / arcs : least;
   if (*per_arc > most) *per_arc = most;
   return arcs * *per_arc;
@@ -2290,8 +2330,8 @@ static void nsvcd__load_samples(const nsvcd__samples *samples, const size_t *ind
   for (size_t k = 0; k < 4; k++) q[k] = nsvcd__v_load(lanes[3 + k]);
 }
 
-// nsvcd__arc_bound, lane by lane.
-static nsvcd__v nsvcd__v_arc_bound(const nsvcd__v *a, const nsvcd__v *b) {
+// A bound of the angle between a (4) and b (4), unit quaternions, lane by lane.
+static nsvcd__v nsvcd__v_arc(const nsvcd__v *a, const nsvcd__v *b) {
   nsvcd__v dot = nsvcd__v_mul(a[0], b[0]), square = nsvcd__v_set(0);
   for (size_t k = 1; k < 4; k++) dot = nsvcd__v_fma(a[k], b[k], dot);
   const nsvcd__v sign = nsvcd__v_pick(nsvcd__v_set(0), dot, nsvcd__v_set(1), nsvcd__v_set(-1));
@@ -2299,22 +2339,21 @@ static nsvcd__v nsvcd__v_arc_bound(const nsvcd__v *a, const nsvcd__v *b) {
     const nsvcd__v d = nsvcd__v_sub(nsvcd__v_mul(sign, b[k]), a[k]);
     square = nsvcd__v_fma(d, d, square);
   }
-  const nsvcd__v x = nsvcd__v_mul(nsvcd__v_set(0.50025f), nsvcd__v_sqrt(square));
-  return nsvcd__v_mul(x, nsvcd__v_fma(nsvcd__v_set(2.2832f), nsvcd__v_mul(x, x), nsvcd__v_set(4)));
+  return nsvcd__v_arc_bound(square);
 }
 
 // 16 segments, of which `count` exist; `begin`: (17) their ends as sample indices. turn: arc of each.
 static void nsvcd__cut_block(const nsvcd__motion *motion, const nsvcd__samples *samples, const size_t *begin,
                              size_t count, float lengths, nsvcd__segments *out, float *turn) {
-  nsvcd__v q[4], last_q[4], fixed_q[4], p[3], r0[9], p0[3], r1[9], p1[3], widest = nsvcd__v_set(0), sum = widest,
-                                                                          bulge = widest, spread = widest;
+  nsvcd__v q[4], last_q[4], end_q[4], fixed_q[4], p[3], r0[9], p0[3], r1[9], p1[3],
+      widest = nsvcd__v_set(0), sum = widest, bulge = widest, spread = widest;
   size_t index[NSVCD__LANES], most = 0;
   float share[NSVCD__LANES];
   nsvcd__load_samples(samples, begin, last_q, p);
   nsvcd__v_to_fixed(motion, last_q, p, fixed_q, p0);
   nsvcd__v_matrix(fixed_q, r0);
-  nsvcd__load_samples(samples, begin + 1, q, p);
-  nsvcd__v_to_fixed(motion, q, p, fixed_q, p1);
+  nsvcd__load_samples(samples, begin + 1, end_q, p);
+  nsvcd__v_to_fixed(motion, end_q, p, fixed_q, p1);
   nsvcd__v_matrix(fixed_q, r1);
   for (size_t l = 0; l < NSVCD__LANES; l++) {
     const size_t length = begin[l + 1] - begin[l];
@@ -2330,13 +2369,12 @@ static void nsvcd__cut_block(const nsvcd__motion *motion, const nsvcd__samples *
     p1[i] = nsvcd__v_sub(p1[i], p0[i]);
     nsvcd__v_store(out->moved[i], p1[i]);
   }
-  for (size_t j = 1; j <= most; j++) {
+  for (size_t j = 1; j < most; j++) {  // the samples within; lanes with fewer of them stay at the end
     for (size_t l = 0; l < NSVCD__LANES; l++) index[l] = begin[l] + j < begin[l + 1] ? begin[l] + j : begin[l + 1];
     nsvcd__load_samples(samples, index, q, p);
-    const nsvcd__v arc = nsvcd__v_arc_bound(last_q, q);
+    const nsvcd__v arc = nsvcd__v_arc(last_q, q);
     widest = nsvcd__v_max(widest, arc), sum = nsvcd__v_add(sum, arc);
     memcpy(last_q, q, sizeof q);
-    if (j == most) break;
     nsvcd__v r[9], at[3], square = nsvcd__v_set(0), gap = square;
     const nsvcd__v u = nsvcd__v_min(nsvcd__v_mul(nsvcd__v_set((float)j), nsvcd__v_load(share)), nsvcd__v_set(1));
     nsvcd__v_to_fixed(motion, q, p, fixed_q, at);
@@ -2351,6 +2389,8 @@ static void nsvcd__cut_block(const nsvcd__motion *motion, const nsvcd__samples *
     }
     bulge = nsvcd__v_max(bulge, square), spread = nsvcd__v_max(spread, gap);
   }
+  const nsvcd__v arc = nsvcd__v_arc(last_q, end_q);
+  widest = nsvcd__v_max(widest, arc), sum = nsvcd__v_add(sum, arc);
   bulge = nsvcd__v_fma(nsvcd__v_mul(widest, widest), nsvcd__v_set(0.125f), nsvcd__v_sqrt(bulge));
   spread = nsvcd__v_sqrt(spread);
   for (size_t i = 0; i < 3; i++) p1[i] = nsvcd__v_add(p1[i], p0[i]);
@@ -2428,12 +2468,17 @@ static inline nsvcd__v nsvcd__v_signed_square(nsvcd__v reach) {
   return nsvcd__v_mul(reach, nsvcd__v_max(reach, nsvcd__v_sub(nsvcd__v_set(0), reach)));
 }
 
-// The test. d: from the resting centre to the start of the chord, v: the chord. Bit l: lane l comes within `reach`.
-NSVCD__INLINE uint32_t nsvcd__comes_within(const nsvcd__v *d, const nsvcd__v *v, nsvcd__v inverse, nsvcd__v reach) {
+// Squared distance of the chord from the resting centre. d: from that centre to the start of the chord, v: the chord.
+NSVCD__INLINE nsvcd__v nsvcd__nearest2(const nsvcd__v *d, const nsvcd__v *v, nsvcd__v inverse) {
   const nsvcd__v tau = nsvcd__v_clamp(nsvcd__v_mul(nsvcd__v_dot3(d, v), inverse), 0, 1);
   const nsvcd__v nearest[3] = {nsvcd__v_fma(tau, v[0], d[0]), nsvcd__v_fma(tau, v[1], d[1]),
                                nsvcd__v_fma(tau, v[2], d[2])};
-  return nsvcd__v_le(nsvcd__v_dot3(nearest, nearest), nsvcd__v_signed_square(reach));
+  return nsvcd__v_dot3(nearest, nearest);
+}
+
+// The test. d: from the resting centre to the start of the chord, v: the chord. Bit l: lane l comes within `reach`.
+NSVCD__INLINE uint32_t nsvcd__comes_within(const nsvcd__v *d, const nsvcd__v *v, nsvcd__v inverse, nsvcd__v reach) {
+  return nsvcd__v_le(nsvcd__nearest2(d, v, inverse), nsvcd__v_signed_square(reach));
 }
 
 // 16 moving spheres, or one in 16 segments, against one resting sphere.
@@ -2633,20 +2678,69 @@ static void nsvcd__chords_of_group(nsvcd__workspace *work, const nsvcd_body *mov
   }
 }
 
-// Fills near[g] with the segments, of those `wanted`, in which moving group g meets each group of the fixed body.
+// Boxes in which 16 moving groups, from `first`, stay as long as they are near the fixed body: its axes, metres. Empty
+// ones, low above high, for those that never are. wanted: the segments to look at.
+static void nsvcd__boxes_of_groups(const nsvcd__workspace *work, const nsvcd_body *moving, size_t first,
+                                   const nsvcd_body *fixed, uint64_t wanted, nsvcd__boxes *out) {
+  const nsvcd__v nowhere = nsvcd__v_set(NSVCD__NOWHERE), zero = nsvcd__v_set(0);
+  nsvcd__v low[3], high[3];
+  for (size_t k = 0; k < 3; k++) low[k] = nsvcd__v_sub(zero, nowhere), high[k] = nowhere;
+  for (; wanted; wanted &= wanted - 1) {
+    const size_t s = nsvcd__lowest_bit(wanted);
+    nsvcd__chords c;
+    nsvcd__chords_of_members(&work->blocks[s / NSVCD__LANES], s % NSVCD__LANES, nsvcd__body_group(moving, 0) + first,
+                             nsvcd__body_group(moving, 1) + first, nsvcd__body_group(moving, 2) + first,
+                             nsvcd__body_group(moving, 3) + first, moving->extent, &c);
+    const nsvcd__v x[3] = {nsvcd__v_load(c.x), nsvcd__v_load(c.y), nsvcd__v_load(c.z)};
+    const nsvcd__v v[3] = {nsvcd__v_load(c.vx), nsvcd__v_load(c.vy), nsvcd__v_load(c.vz)};
+    const nsvcd__v d[3] = {nsvcd__v_sub(x[0], nsvcd__v_set(fixed->centre[0])),
+                           nsvcd__v_sub(x[1], nsvcd__v_set(fixed->centre[1])),
+                           nsvcd__v_sub(x[2], nsvcd__v_set(fixed->centre[2]))};
+    const nsvcd__v reach = nsvcd__v_load(c.reach), sum = nsvcd__v_add(reach, nsvcd__v_set(fixed->radius));
+    const nsvcd__v square = nsvcd__nearest2(d, v, nsvcd__v_load(c.inverse));
+    const nsvcd__v near = nsvcd__v_pick(square, nsvcd__v_signed_square(sum), reach, nowhere);
+    for (size_t k = 0; k < 3; k++) {
+      const nsvcd__v end = nsvcd__v_add(x[k], v[k]);
+      low[k] = nsvcd__v_min(low[k], nsvcd__v_sub(nsvcd__v_min(x[k], end), near));
+      high[k] = nsvcd__v_max(high[k], nsvcd__v_add(nsvcd__v_max(x[k], end), near));
+    }
+  }
+  for (size_t k = 0; k < 3; k++) nsvcd__v_store(out->low[k], low[k]), nsvcd__v_store(out->high[k], high[k]);
+}
+
+// The fixed body's groups whose spheres touch the box in lane l.
+static uint32_t nsvcd__groups_at_box(const nsvcd__boxes *boxes, size_t l, const nsvcd_body *fixed) {
+  const float *centre[3] = {nsvcd__body_group(fixed, 0), nsvcd__body_group(fixed, 1), nsvcd__body_group(fixed, 2)};
+  const nsvcd__v zero = nsvcd__v_set(0);
+  uint32_t groups = 0;
+  for (size_t first = 0; first < nsvcd__body_groups(fixed); first += NSVCD__LANES) {
+    nsvcd__v square = zero;
+    for (size_t k = 0; k < 3; k++) {
+      const nsvcd__v c = nsvcd__v_load(centre[k] + first);
+      const nsvcd__v below = nsvcd__v_sub(nsvcd__v_set(boxes->low[k][l]), c);
+      const nsvcd__v above = nsvcd__v_sub(c, nsvcd__v_set(boxes->high[k][l]));
+      const nsvcd__v d = nsvcd__v_max(nsvcd__v_max(below, above), zero);
+      square = nsvcd__v_fma(d, d, square);
+    }
+    groups |= nsvcd__v_le(square, nsvcd__v_signed_square(nsvcd__v_load(nsvcd__body_group(fixed, 3) + first))) << first;
+  }
+  return groups;
+}
+
+// Fills near[g] with the segments in which moving group g meets each group of the fixed body, of those `groups`.
 // Returns how many they are over all groups.
 static size_t nsvcd__group_against_body(nsvcd__workspace *work, const nsvcd_body *moving, size_t g,
-                                        const nsvcd_body *fixed, uint64_t wanted) {
+                                        const nsvcd_body *fixed, uint32_t groups) {
   const float *x = nsvcd__body_group(fixed, 0), *y = nsvcd__body_group(fixed, 1), *z = nsvcd__body_group(fixed, 2);
   const float *r = nsvcd__body_group(fixed, 3);
+  const uint64_t all = ~(uint64_t)0 >> (NSVCD__MAX_SEGMENTS - work->segments);
   size_t meetings = 0;
   nsvcd__chords_of_group(work, moving, g);
-  wanted = nsvcd__meet_in(work->group, wanted, fixed->centre[0], fixed->centre[1], fixed->centre[2], fixed->radius);
-  for (size_t h = 0; h < nsvcd__body_groups(fixed); h++) {
-    uint64_t met = wanted & work->near_body[h];
-    if (met) met = nsvcd__meet_in(work->group, met, x[h], y[h], z[h], r[h]);
-    work->near[g][h] = met;
-    meetings += nsvcd__bit_count(met);
+  memset(work->near[g], 0, nsvcd__body_groups(fixed) * sizeof *work->near[g]);
+  for (; groups; groups &= groups - 1) {
+    const size_t h = nsvcd__lowest_bit(groups);
+    work->near[g][h] = nsvcd__meet_in(work->group, all, x[h], y[h], z[h], r[h]);
+    meetings += nsvcd__bit_count(work->near[g][h]);
   }
   return meetings;
 }
@@ -2655,30 +2749,26 @@ static size_t nsvcd__group_against_body(nsvcd__workspace *work, const nsvcd_body
 static int nsvcd__search_begin(const nsvcd_body *moving, const nsvcd_body *fixed, const nsvcd__motion *motion,
                                nsvcd__workspace *work) {
   nsvcd__cut_motion(motion, moving->extent + fixed->extent, work);
-  work->steps = work->step = 0, work->waiting = 0;
   for (size_t b = 0; NSVCD__LANES * b < work->segments; b++) {
     nsvcd__chords_of_sphere(&work->blocks[b], moving->centre[0], moving->centre[1], moving->centre[2], moving->radius,
-                            &work->body[b]);
+                            &work->group[b]);
   }
   uint64_t wanted = ~(uint64_t)0 >> (NSVCD__MAX_SEGMENTS - work->segments);
-  wanted = nsvcd__meet_in(work->body, wanted, fixed->centre[0], fixed->centre[1], fixed->centre[2], fixed->radius);
-  if (!wanted) return 0;
-  const float *x = nsvcd__body_group(fixed, 0), *y = nsvcd__body_group(fixed, 1), *z = nsvcd__body_group(fixed, 2);
-  const float *r = nsvcd__body_group(fixed, 3);
-  for (size_t h = 0; h < nsvcd__body_groups(fixed); h++) {
-    work->near_body[h] = nsvcd__meet_in(work->body, wanted, x[h], y[h], z[h], r[h]);
-  }
-  size_t steps = 0, meetings[NSVCD__MAX_GROUPS];
-  for (size_t g = 0; g < nsvcd__body_groups(moving); g++) {
-    const size_t count = nsvcd__group_against_body(work, moving, g, fixed, wanted);
-    size_t at = steps;
+  wanted = nsvcd__meet_in(work->group, wanted, fixed->centre[0], fixed->centre[1], fixed->centre[2], fixed->radius);
+  size_t meetings[NSVCD__MAX_GROUPS];
+  nsvcd__boxes boxes;
+  work->steps = work->step = 0, work->waiting = 0;
+  for (size_t g = 0; wanted && g < nsvcd__body_groups(moving); g++) {
+    if (g % NSVCD__LANES == 0) nsvcd__boxes_of_groups(work, moving, g, fixed, wanted, &boxes);
+    const uint32_t groups = nsvcd__groups_at_box(&boxes, g % NSVCD__LANES, fixed);
+    const size_t count = groups ? nsvcd__group_against_body(work, moving, g, fixed, groups) : 0;
+    size_t at = work->steps;
     if (!count) continue;
     for (; at > 0 && meetings[at - 1] < count; at--)
       meetings[at] = meetings[at - 1], work->order[at] = work->order[at - 1];
-    meetings[at] = count, work->order[at] = (uint16_t)g, steps++;
+    meetings[at] = count, work->order[at] = (uint16_t)g, work->steps++;
   }
-  work->steps = steps;
-  return steps > 0;
+  return work->steps > 0;
 }
 
 // Patches of group h of the fixed body that moving group g meets, and in which segments.
@@ -3518,7 +3608,8 @@ NSVCDDEF nsvcd_result nsvcd_sweep(const nsvcd_body *moving, const nsvcd_pose *po
   nsvcd__candidates kept;
   nsvcd_answer found = {-NSVCD_LOGIT_CERTAIN, 0, 0, 0, 0, NSVCD_STATUS_CERTIFIED_FREE, 0};
   size_t worth = ask.settings.shortlist < NSVCD__PROBE ? ask.settings.shortlist : NSVCD__PROBE;
-  int clear = 0, more = nsvcd__search_begin(moving, fixed, &ask.motion, work);
+  const int far = nsvcd__motion_is_far(&ask.motion, moving->extent + fixed->extent);
+  int clear = 0, more = !far && nsvcd__search_begin(moving, fixed, &ask.motion, work);
   nsvcd__candidates_start(&kept, query->kept, ask.settings.shortlist);
   while (more && !clear) {
     more = nsvcd__search_step(work, moving, fixed, &kept);
@@ -3533,7 +3624,7 @@ NSVCDDEF nsvcd_result nsvcd_sweep(const nsvcd_body *moving, const nsvcd_pose *po
     nsvcd__score(&ask, &kept, 1, kept.count);
     if (!nsvcd__is_clear(&ask, &kept, 1, &found)) nsvcd__judge(&ask, &kept, &found);
   }
-  if (nsvcd__starts_inside(&ask)) {  // a body inside another need not touch anything
+  if (!far && nsvcd__starts_inside(&ask)) {  // a body inside another need not touch anything
     found.status = NSVCD_STATUS_INSIDE, found.logit = NSVCD_LOGIT_CERTAIN, found.time = 0;
     found.moving_patch = found.fixed_patch = 0;
   }
