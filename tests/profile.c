@@ -11,17 +11,10 @@
 #include "../examples/problem_file.h"
 
 enum { INIT, CUT, BEGIN, STEPS, PAIRS, INVARIANTS, TINY, BASE, BASE_INT8, INSIDE, ALL, STAGES };
-static const char *const names[STAGES] = {"poses checked, arcs",
-                                          "motion cut",
-                                          "cut, and groups against groups",
-                                          "runs of all moving groups",
-                                          "16 pairs: geometry",
-                                          "16 pairs: invariants",
-                                          "16 pairs: tiny decoder",
-                                          "8 pairs: base decoder",
-                                          "8 pairs: base in int8",
-                                          "containment",
-                                          "a query, whole"};
+static const char *const names[STAGES] = {
+    "poses checked",         "motion cut",           "groups against groups",  "runs of all moving groups",
+    "16 pairs: geometry",    "16 pairs: invariants", "16 pairs: tiny decoder", "8 pairs: base decoder",
+    "8 pairs: base in int8", "containment",          "a query, whole"};
 
 typedef struct question {
   const nsvcd_body *moving, *fixed;
@@ -42,11 +35,12 @@ static void run_stages(const question *q, nsvcd__query *work, double *times) {
   static float x[NSVCD__BATCH * NSVCD__DECODER_IN], logits[NSVCD__BATCH];
   float rotation[9], position[3];
   double start = seconds();
+  (void)nsvcd__motions_check(q->poses, q->count, 1, q->fixed_pose);
   nsvcd__motion_init(q->poses, q->count, q->fixed_pose, &motion);
   keep_least(times, INIT, start), start = seconds();
   nsvcd__cut_motion(&motion, q->moving->extent + q->fixed->extent, &work->broad_phase);
   keep_least(times, CUT, start), start = seconds();
-  int more = nsvcd__search_begin(q->moving, q->fixed, &motion, &work->broad_phase);
+  int more = nsvcd__search_begin(q->moving, q->fixed, &work->broad_phase);
   keep_least(times, BEGIN, start);
   nsvcd__candidates_start(&kept, work->kept, NSVCD__SHORTLIST * NSVCD_DEFAULT_PAIRS);
   start = seconds();
@@ -89,11 +83,91 @@ static const nsvcd_body *encode(const char *from, const char *path, size_t point
   return body;
 }
 
+// What a sampling planner asks: ROLLOUTS motions about one, each off by a bump of N(0, a tenth of the moving body's
+// radius) per axis at mid-motion; one by one, and in a batch. Adds the microseconds per motion.
+#define ROLLOUTS 64
+static void time_rollouts(const question *q, nsvcd__query *work, uint64_t *random, double *single, double *batch,
+                          size_t *alike) {
+  static nsvcd_pose poses[ROLLOUTS * 64];
+  static nsvcd_answer one[ROLLOUTS], many[ROLLOUTS];
+  const float radius = 0.1f * nsvcd_body_describe(q->moving).radius;
+  double least[2] = {1e9, 1e9};
+  if (q->count > 64) return;
+  for (size_t m = 0; m < ROLLOUTS; m++) {
+    float bump[3];
+    for (size_t k = 0; k < 3; k++) {
+      double sum = -6;  // of 12 uniform numbers, less their mean: near enough to normal
+      for (int n = 0; n < 12; n++) {
+        *random = *random * 6364136223846793005u + 1442695040888963407u;
+        sum += (double)(*random >> 40) / 16777216;
+      }
+      bump[k] = radius * (float)sum;
+    }
+    for (size_t t = 0; t < q->count; t++) {
+      const double u = q->count > 1 ? (double)t / (double)(q->count - 1) : 0;
+      poses[m * q->count + t] = q->poses[t];
+      for (size_t k = 0; k < 3; k++) poses[m * q->count + t].position[k] += bump[k] * (float)(4 * u * (1 - u));
+    }
+  }
+  for (int run = 0; run < 3; run++) {
+    double start = seconds();
+    for (size_t m = 0; m < ROLLOUTS; m++) {
+      nsvcd_sweep(q->moving, poses + m * q->count, q->count, q->fixed, q->fixed_pose, NULL, work, sizeof *work,
+                  &one[m]);
+    }
+    least[0] = fmin(least[0], seconds() - start), start = seconds();
+    nsvcd_sweep_batch(q->moving, poses, q->count, ROLLOUTS, q->fixed, q->fixed_pose, NULL, work, sizeof *work, many);
+    least[1] = fmin(least[1], seconds() - start);
+  }
+  for (size_t m = 0; m < ROLLOUTS; m++) *alike += one[m].collides == many[m].collides;
+  *single += 1e6 * least[0] / ROLLOUTS, *batch += 1e6 * least[1] / ROLLOUTS;
+}
+
+// Fused multiply-adds that wait for nothing: what the decoder could reach at best, GFLOP/s.
+static double peak_gflops(void) {
+  nsvcd__v sum[12], x = nsvcd__v_set(0.999f), y = nsvcd__v_set(0.001f);
+  const size_t turns = 1000000;
+  double best = 0;
+  for (int run = 0; run < 5; run++) {
+    for (size_t k = 0; k < 12; k++) sum[k] = nsvcd__v_set((float)k);
+    const double start = seconds();
+    for (size_t n = 0; n < turns; n++) {
+      NSVCD__UNROLL
+      for (size_t k = 0; k < 6; k++) sum[k] = nsvcd__v_fma(sum[k], x, y), sum[k + 6] = nsvcd__v_fma(sum[k + 6], x, y);
+    }
+    const double gflops = 12.0 * 2 * NSVCD__LANES * (double)turns / (seconds() - start) * 1e-9;
+    volatile float sink;
+    float lanes[NSVCD__LANES];
+    for (size_t k = 1; k < 12; k++) sum[0] = nsvcd__v_add(sum[0], sum[k]);
+    nsvcd__v_store(lanes, sum[0]), sink = lanes[0], (void)sink;
+    best = fmax(best, gflops);
+  }
+  return best;
+}
+
+// Batches of `rows` pairs through a head, GFLOP/s.
+static double head_gflops(size_t model, size_t rows, int int8) {
+  static float x[NSVCD__BATCH * NSVCD__DECODER_IN], logits[NSVCD__BATCH];
+  const nsvcd__head *head = &nsvcd_w_heads[model];
+  double flops = 0, best = 0;
+  for (size_t k = 0; k < NSVCD__BATCH * NSVCD__DECODER_IN; k++) x[k] = (float)(k % 7) / 7 - 0.5f;
+  for (size_t l = 0; l < head->layers; l++) flops += 2.0 * head->sizes[l] * head->sizes[l + 1];
+  for (int run = 0; run < 5; run++) {
+    const double start = seconds();
+    for (int n = 0; n < 5000; n++) nsvcd__head_logits(head, x, rows, int8, logits);
+    best = fmax(best, 5000 * flops * (double)rows / (seconds() - start) * 1e-9);
+  }
+  return best;
+}
+
 static void profile(const problem_file *file, size_t points) {
   const size_t size = nsvcd_body_size(points), count = file->problem_count;
   char *bodies = (char *)allocate(file->mesh_count * size);
   void *moving_memory = allocate(size), *fixed_memory = allocate(size);
   nsvcd__query *work = (nsvcd__query *)allocate(sizeof *work);
+  double single = 0, batch = 0;
+  size_t alike = 0, rolled = 0;
+  uint64_t random = 1;
   double *times = (double *)allocate(STAGES * count * sizeof *times), one[STAGES];
   for (size_t i = 0; i < file->mesh_count; i++) encode(file->path, file->meshes[i].path, points, bodies + i * size);
   for (size_t i = 0; i < count; i++) {
@@ -109,6 +183,7 @@ static void profile(const problem_file *file, size_t points) {
       nsvcd_sweep(q.moving, q.poses, q.count, q.fixed, q.fixed_pose, NULL, work, sizeof *work, &answer);
       keep_least(one, ALL, start);
     }
+    if (i % 10 == 0) time_rollouts(&q, work, &random, &single, &batch, &alike), rolled++;
     for (size_t s = 0; s < STAGES; s++) times[s * count + i] = one[s] < 1e9 ? one[s] : 0;
   }
   printf("N = %zu, %zu problems\n", points, count);
@@ -118,6 +193,9 @@ static void profile(const problem_file *file, size_t points) {
     qsort(times + s * count, count, sizeof *times, compare_doubles);
     printf("  %-32s median %6.2f  mean %6.2f us\n", names[s], times[s * count + count / 2], mean);
   }
+  printf("  a motion of %d about each 10th: one by one %.2f, in a batch %.2f us: x %.2f; %.3f %% alike\n", ROLLOUTS,
+         single / (double)rolled, batch / (double)rolled, batch / single,
+         100 * (double)alike / (double)(rolled * ROLLOUTS));
   free(bodies), free(moving_memory), free(fixed_memory), free(work), free(times);
 }
 
@@ -125,6 +203,16 @@ int main(int argc, char **argv) {
   problem_file file;
   if (argc < 2) return fprintf(stderr, "profile FILE [N...]\n"), USAGE;
   if (!read_problems(argv[1], &file)) return REFUSED;
+  const double peak = peak_gflops();
+  printf("fma peak %.0f GFLOP/s\n", peak);
+  for (size_t m = 0; m < 3; m++) {
+    printf("  %-5s of 4, 8, 16 pairs: %4.0f %4.0f %4.0f %% of it; int8 %4.0f %4.0f %4.0f\n",
+           m == 0   ? "tiny"
+           : m == 1 ? "small"
+                    : "base",
+           100 * head_gflops(m, 4, 0) / peak, 100 * head_gflops(m, 8, 0) / peak, 100 * head_gflops(m, 16, 0) / peak,
+           100 * head_gflops(m, 4, 1) / peak, 100 * head_gflops(m, 8, 1) / peak, 100 * head_gflops(m, 16, 1) / peak);
+  }
   if (argc == 2) profile(&file, NSVCD_DEFAULT_POINTS);
   for (int i = 2; i < argc; i++) {
     size_t points;

@@ -203,6 +203,14 @@ static void body_scale(void) {
 
 // ----------------------------------------------------------------------------------------------------- the motion
 
+// As nsvcd_sweep does.
+static nsvcd_result motion_init(const nsvcd_pose *samples, size_t count, const nsvcd_pose *fixed_pose,
+                                nsvcd__motion *motion) {
+  nsvcd_result result = nsvcd__motions_check(samples, count, 1, fixed_pose);
+  if (!result) nsvcd__motion_init(samples, count, fixed_pose, motion);
+  return result;
+}
+
 static nsvcd_pose poses[NSVCD_MAX_POSES];
 static nsvcd__workspace work;
 static nsvcd__candidate items[1 << 20], few[64];
@@ -214,7 +222,8 @@ static int deepest_first(const void *a, const void *b) {
 // The whole search: counts all runs, keeps the `limit` deepest in `found`, deepest first.
 static void search(const nsvcd_body *moving, const nsvcd_body *fixed, const nsvcd__motion *motion,
                    nsvcd__workspace *space, nsvcd__candidate *found, size_t limit, nsvcd__candidates *kept) {
-  int more = nsvcd__search_begin(moving, fixed, motion, space);
+  nsvcd__cut_motion(motion, moving->extent + fixed->extent, space);
+  int more = nsvcd__search_begin(moving, fixed, space);
   nsvcd__candidates_start(kept, found, limit);
   while (more) more = nsvcd__search_step(space, moving, fixed, kept);
   qsort(found, kept->count, sizeof *found, deepest_first);
@@ -312,7 +321,7 @@ static void motion_pose_is_slerp(void) {
     random_quat(fixed.rotation);
     random_motion(count, trial % 3, uniform(0, 12), 1, middle);
     nsvcd__motion motion;
-    CHECK_EQ(nsvcd__motion_init(poses, count, &fixed, &motion), NSVCD_OK);
+    CHECK_EQ(motion_init(poses, count, &fixed, &motion), NSVCD_OK);
     for (int n = 0; n <= 10; n++) {
       float t = n == 10 ? 1 : (float)uniform(0, 1), rotation[9], position[3], out[3];
       const float point[3] = {0.3f, -0.2f, 0.9f};
@@ -340,7 +349,7 @@ static void poses_at_are_poses(void) {
     nsvcd__motion motion;
     random_quat(fixed.rotation);
     random_motion(count, trial % 3, uniform(0, 12), 1, middle);
-    CHECK_EQ(nsvcd__motion_init(poses, count, &fixed, &motion), NSVCD_OK);
+    CHECK_EQ(motion_init(poses, count, &fixed, &motion), NSVCD_OK);
     for (size_t l = 0; l < NSVCD__LANES; l++) times[l] = l == 0 ? 0 : l == 1 ? 1 : (float)uniform(0, 1);
     nsvcd__v_poses_at(&motion, times, NSVCD__LANES, q, p);
     nsvcd__v_matrix(q, m);
@@ -382,18 +391,18 @@ static void bad_poses(void) {
   memset(&motion, 7, sizeof motion);
   nsvcd__motion before = motion;
   for (int n = 0; n < 5; n++) poses[n] = good;
-  CHECK_EQ(nsvcd__motion_init(poses, 0, &good, &motion), NSVCD_ERROR_ARGUMENT);
-  CHECK_EQ(nsvcd__motion_init(poses, (size_t)NSVCD_MAX_POSES + 1, &good, &motion), NSVCD_ERROR_ARGUMENT);
-  CHECK_EQ(nsvcd__motion_init(NULL, 5, &good, &motion), NSVCD_ERROR_ARGUMENT);
-  CHECK_EQ(nsvcd__motion_init(poses, 5, NULL, &motion), NSVCD_ERROR_ARGUMENT);
+  CHECK_EQ(motion_init(poses, 0, &good, &motion), NSVCD_ERROR_ARGUMENT);
+  CHECK_EQ(motion_init(poses, (size_t)NSVCD_MAX_POSES + 1, &good, &motion), NSVCD_ERROR_ARGUMENT);
+  CHECK_EQ(motion_init(NULL, 5, &good, &motion), NSVCD_ERROR_ARGUMENT);
+  CHECK_EQ(motion_init(poses, 5, NULL, &motion), NSVCD_ERROR_ARGUMENT);
   const float bad[6] = {(float)NAN, (float)INFINITY, -(float)INFINITY, 3e38f, 2e6f, 1e30f};
   for (int at = 0; at < 7; at++) {
     for (int n = 0; n < 6; n++) {
       nsvcd_pose evil = good;
       *(at < 3 ? &evil.position[at] : &evil.rotation[at - 3]) = bad[n];
-      CHECK_EQ(nsvcd__motion_init(poses, 5, &evil, &motion), NSVCD_ERROR_POSE);
+      CHECK_EQ(motion_init(poses, 5, &evil, &motion), NSVCD_ERROR_POSE);
       poses[4] = evil;
-      CHECK_EQ(nsvcd__motion_init(poses, 5, &good, &motion), NSVCD_ERROR_POSE);
+      CHECK_EQ(motion_init(poses, 5, &good, &motion), NSVCD_ERROR_POSE);
       poses[4] = good;
     }
   }
@@ -402,7 +411,7 @@ static void bad_poses(void) {
     nsvcd_pose q = good;
     q.rotation[3] = lengths[n];
     nsvcd__motion m;
-    CHECK_EQ(nsvcd__motion_init(&q, 1, &good, &m), n < 3 ? NSVCD_ERROR_POSE : NSVCD_OK);
+    CHECK_EQ(motion_init(&q, 1, &good, &m), n < 3 ? NSVCD_ERROR_POSE : NSVCD_OK);
   }
   CHECK(memcmp(&motion, &before, sizeof motion) == 0);  // outputs untouched
 }
@@ -442,7 +451,7 @@ static void try_motion(const nsvcd_body *moving, const nsvcd_body *fixed, size_t
                        size_t samples, tally *sum) {
   static unsigned char pair_met[NSVCD_MAX_POINTS][NSVCD_MAX_POINTS];
   nsvcd__motion motion;
-  CHECK_EQ(nsvcd__motion_init(poses, count, fixed_pose, &motion), NSVCD_OK);
+  CHECK_EQ(motion_init(poses, count, fixed_pose, &motion), NSVCD_OK);
   nsvcd__candidates all, best;
   search(moving, fixed, &motion, &work, items, sizeof items / sizeof *items, &all);
   CHECK_EQ(all.count, all.total);
@@ -550,7 +559,7 @@ static void deviation_is_bounded(void) {
     }
     random_motion(count, trial % 4 == 1 ? trial % 3 : 0, trial % 2 ? uniform(0, 12) : 0, paths[trial % 4], middle);
     nsvcd__motion motion;
-    CHECK_EQ(nsvcd__motion_init(poses, count, &fixed, &motion), NSVCD_OK);
+    CHECK_EQ(motion_init(poses, count, &fixed, &motion), NSVCD_OK);
     nsvcd__cut_motion(&motion, 1, &work);
     pose64 f = to_double(&fixed);
     for (int n = 0; n < 200; n++) {
@@ -585,7 +594,7 @@ static void ties(void) {
   nsvcd__motion motion;
   nsvcd__candidates all, best;
   poses[0] = fixed, poses[0].position[0] = 0;
-  CHECK_EQ(nsvcd__motion_init(poses, 1, &fixed, &motion), NSVCD_OK);
+  CHECK_EQ(motion_init(poses, 1, &fixed, &motion), NSVCD_OK);
   search(a, b, &motion, &work, items, 1600, &all);
   CHECK_EQ(all.total, 1600);
   for (size_t limit = 1; limit <= 64; limit++) {
@@ -604,7 +613,7 @@ static void closed_form(void) {
   for (int n = 0; n < 2; n++) poses[n] = fixed, poses[n].position[0] = n ? 5 : -5, poses[n].position[1] = 0;
   nsvcd__motion motion;
   nsvcd__candidates kept;
-  CHECK_EQ(nsvcd__motion_init(poses, 2, &fixed, &motion), NSVCD_OK);
+  CHECK_EQ(motion_init(poses, 2, &fixed, &motion), NSVCD_OK);
   search(a, b, &motion, &work, items, 8, &kept);
   CHECK_EQ(kept.total, 1);
   CHECK_NEAR(items[0].t_enter, 0.5 - sqrt(4 - 2.25) / 10, 1e-5);
@@ -614,7 +623,7 @@ static void closed_form(void) {
   search(a, b, &motion, &work, items, 0, &kept);  // only counting
   CHECK_EQ(kept.total, 1);
   fixed.position[1] = 2.001f;
-  CHECK_EQ(nsvcd__motion_init(poses, 2, &fixed, &motion), NSVCD_OK);
+  CHECK_EQ(motion_init(poses, 2, &fixed, &motion), NSVCD_OK);
   search(a, b, &motion, &work, items, 8, &kept);
   CHECK_EQ(kept.total, 0);
 }
@@ -629,7 +638,7 @@ static void runs_are_cut(void) {
   nsvcd__motion motion;
   nsvcd__candidates kept;
   random_motion(17, 0, 360 * degrees, 0, middle);
-  CHECK_EQ(nsvcd__motion_init(poses, 17, &fixed, &motion), NSVCD_OK);
+  CHECK_EQ(motion_init(poses, 17, &fixed, &motion), NSVCD_OK);
   search(a, b, &motion, &work, items, 100, &kept);
   qsort(items, kept.count, sizeof *items, by_pair);
   CHECK_GE(kept.count, 8);
@@ -730,7 +739,7 @@ static void time_broad_phase(const char *name, double least_gap, double most_gap
       nsvcd__candidates kept;
       clock_t start = clock();
       for (int repeat = 0; repeat < 50; repeat++) {
-        nsvcd__motion_init(poses, 17, &fixed, &motion);
+        motion_init(poses, 17, &fixed, &motion);
         search(a, b, &motion, &work, few, 8, &kept);
       }
       times[n] = 1e6 * (double)(clock() - start) / CLOCKS_PER_SEC / 50;
