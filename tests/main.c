@@ -8,6 +8,7 @@ void test_network(void);
 void test_broad_phase(void);
 void test_oracle(void);
 void test_query(void);
+void test_cost(void);
 
 int main(int argc, char **argv) {
   check.filter = argc > 1 ? argv[1] : NULL;
@@ -15,6 +16,7 @@ int main(int argc, char **argv) {
   test_network();
   test_broad_phase();
   test_oracle();
+  test_cost();
   test_query();
   printf("%d passed, %d failed\n", check.passed, check.failed);
   return check.failed > 0;

@@ -1,0 +1,219 @@
+// What a query costs: the bound that nsvcd_sweep states, batches, and threads.
+#define NSVCD_STATIC
+#define NEURALSVCD_IMPLEMENTATION
+#include <stddef.h>
+static struct { size_t tests, ranked, judged; } tally;
+#define NSVCD__TALLY(what, amount) (tally.what += (amount))
+#include "../neuralsvcd.h"
+
+#include "query_scene.h"
+
+#include <pthread.h>
+
+void test_cost(void);
+
+// ------------------------------------------------------------------------------------------------------------- bound
+
+// A body whose spheres are all so large that they meet everything, wherever it is: the worst that a blob can be.
+static void cost_blow_up(query_memory *memory, float factor) {
+  struct nsvcd_body *body = (struct nsvcd_body *)memory->at;
+  float *r = (float *)(body + 1) + 3 * (size_t)body->padded;
+  float *group_r = (float *)(body + 1) + 4 * (size_t)body->padded + 3 * nsvcd__group_slots(body->padded);
+  for (size_t i = 0; i < body->padded; i++) r[i] *= r[i] > 0 ? factor : 1;
+  for (size_t i = 0; i < nsvcd__group_slots(body->padded); i++) group_r[i] *= group_r[i] > 0 ? factor : 1;
+  body->radius *= factor, body->extent *= factor;
+}
+
+// All steps of the search, as if nothing were clear before its end. Returns how many segments the motion has.
+static size_t cost_search(const query_scene *s) {
+  static nsvcd__query query;
+  nsvcd__motion motion;
+  nsvcd__candidates kept;
+  nsvcd__motion_init(s->motion, QUERY_POSES, &s->fixed_pose, &motion);
+  nsvcd__candidates_start(&kept, query.kept, 32);
+  nsvcd__cut_motion(&motion, s->moving->extent + s->fixed->extent, &query.broad_phase);
+  int more = nsvcd__search_begin(s->moving, s->fixed, &query.broad_phase);
+  while (more) more = nsvcd__search_step(&query.broad_phase, s->moving, s->fixed, &kept);
+  return query.broad_phase.segments;
+}
+
+// Counted, not timed, so that it holds on every machine: random scenes, and bodies made to meet in every test.
+static void cost_is_bounded(void) {
+  const nsvcd_model models[3] = {NSVCD_MODEL_TINY, NSVCD_MODEL_SMALL, NSVCD_MODEL_BASE};
+  const size_t pairs[4] = {1, 3, 8, NSVCD_MAX_PAIRS};
+  size_t most_ranked = 0, most_judged = 0;
+  double share = 0;
+  for (uint64_t seed = 1; seed <= 90; seed++) {
+    query_scene s;
+    query_scene_open(&s, seed);
+    const size_t groups = nsvcd__body_groups(s.moving) * nsvcd__body_groups(s.fixed);
+    if (seed > 30)
+      cost_blow_up(&s.memory[0], seed > 60 ? 100 : 1.5f), cost_blow_up(&s.memory[1], seed > 60 ? 100 : 1.5f);
+    memset(&tally, 0, sizeof tally);
+    const size_t segments = cost_search(&s), bound = 18 * segments * groups + 3 * segments;
+    CHECK_GE(bound, tally.tests);
+    share = fmax(share, (double)tally.tests / (double)bound);
+    for (size_t n = 0; n < 12; n++) {
+      const size_t k = pairs[n / 3];
+      const nsvcd_sweep_options options = query_options(k, models[n % 3], 0);
+      memset(&tally, 0, sizeof tally);
+      query_ask(s.moving, s.motion, QUERY_POSES, s.fixed, &s.fixed_pose, &options);
+      CHECK_GE(bound, tally.tests);
+      CHECK_GE(n % 3 == 0 ? 3 * k : 12 * k, tally.ranked);
+      CHECK_GE(n % 3 == 0 ? 0 : k, tally.judged);
+      if (k != 8) continue;
+      most_ranked = tally.ranked > most_ranked ? tally.ranked : most_ranked;
+      most_judged = tally.judged > most_judged ? tally.judged : most_judged;
+    }
+    query_scene_close(&s);
+  }
+  printf("  of the bound: %.0f %% of the tests, %zu of 96 pairs ranked, %zu of 8 judged\n", 100 * share, most_ranked,
+         most_judged);
+  CHECK_GE(share, 0.8);  // else the bound says little, or the worst case is not here
+  CHECK_GE(most_ranked, 48);
+  CHECK_EQ(most_judged, 8);
+}
+
+// ----------------------------------------------------------------------------------------------------------- batches
+
+#define COST_MOTIONS 48
+
+typedef struct cost_batch {
+  query_scene scene;
+  nsvcd_pose poses[COST_MOTIONS * QUERY_POSES];
+  nsvcd_answer single[COST_MOTIONS], batch[COST_MOTIONS];
+} cost_batch;
+
+// Motions about that of a scene, every other one far off it, so that hits and misses alternate.
+static void cost_open(cost_batch *b, uint64_t seed) {
+  shapes_rng rng = {seed};
+  query_scene_open(&b->scene, seed);
+  for (size_t m = 0; m < COST_MOTIONS; m++) {
+    double offset[3];
+    const double reach = m / 8 % 2 ? 0.2 : 0.02;
+    for (int k = 0; k < 3; k++) offset[k] = shapes_uniform(&rng, -reach, reach);
+    for (size_t i = 0; i < QUERY_POSES; i++) {
+      nsvcd_pose *pose = &b->poses[m * QUERY_POSES + i];
+      *pose = b->scene.motion[i];
+      for (int k = 0; k < 3; k++) pose->position[k] += (float)offset[k];
+    }
+  }
+}
+
+static nsvcd_result cost_ask_batch(const cost_batch *b, const nsvcd_sweep_options *options, void *workspace,
+                                   nsvcd_answer *answers) {
+  const query_scene *s = &b->scene;
+  return nsvcd_sweep_batch(s->moving, b->poses, QUERY_POSES, COST_MOTIONS, s->fixed, &s->fixed_pose, options, workspace,
+                           nsvcd_sweep_workspace_size(), answers);
+}
+
+// An answer of a batch is nsvcd_sweep's, or both are collisions and the batch's is clear.
+static void cost_batch_agrees_with_single_queries(void) {
+  size_t same = 0, otherwise = 0, hits = 0;
+  static cost_batch b;
+  for (uint64_t seed = 1; seed <= 30; seed++) {
+    cost_open(&b, seed);
+    for (int model = NSVCD_MODEL_TINY; model <= NSVCD_MODEL_BASE; model++) {
+      const nsvcd_sweep_options options = query_options(0, (nsvcd_model)model, seed % 2 ? 0 : 0.999f);
+      memset(b.batch, 0xff, sizeof b.batch);
+      CHECK_EQ(cost_ask_batch(&b, &options, query_workspace(), b.batch), NSVCD_OK);
+      for (size_t m = 0; m < COST_MOTIONS; m++) {
+        const nsvcd_answer one = query_ask(b.scene.moving, b.poses + m * QUERY_POSES, QUERY_POSES, b.scene.fixed,
+                                           &b.scene.fixed_pose, &options);
+        hits += one.collides != 0;
+        if (query_same_answer(&one, &b.batch[m])) {
+          same++;
+          continue;
+        }
+        otherwise++;
+        CHECK(one.collides && b.batch[m].collides && b.batch[m].logit >= NSVCD__CLEAR_LOGIT);
+      }
+    }
+    query_scene_close(&b.scene);
+  }
+  printf("  %zu answers to the bit, %zu other clear collisions, %zu collisions\n", same, otherwise, hits);
+  CHECK_GE(same, 1000);  // else this test saw only one kind
+  CHECK_GE(otherwise, 100);
+}
+
+static void cost_batch_refuses_as_a_query_does(void) {
+  static cost_batch b;
+  cost_open(&b, 3);
+  const query_scene *s = &b.scene;
+  void *w = query_workspace();
+  const size_t size = nsvcd_sweep_workspace_size();
+  nsvcd_answer before[COST_MOTIONS];
+  memset(b.batch, 0x5a, sizeof b.batch), memcpy(before, b.batch, sizeof before);
+  b.poses[COST_MOTIONS * QUERY_POSES - 1].rotation[0] = 2;  // the very last
+  CHECK_EQ(cost_ask_batch(&b, NULL, w, b.batch), NSVCD_ERROR_POSE);
+  CHECK_EQ(nsvcd_sweep_batch(s->moving, NULL, 2, 2, s->fixed, &s->fixed_pose, NULL, w, size, b.batch),
+           NSVCD_ERROR_ARGUMENT);
+  CHECK_EQ(nsvcd_sweep_batch(s->moving, b.poses, 0, 2, s->fixed, &s->fixed_pose, NULL, w, size, b.batch),
+           NSVCD_ERROR_ARGUMENT);
+  CHECK_EQ(nsvcd_sweep_batch(s->moving, b.poses, 2, SIZE_MAX / 2, s->fixed, &s->fixed_pose, NULL, w, size, b.batch),
+           NSVCD_ERROR_ARGUMENT);
+  CHECK_EQ(nsvcd_sweep_batch(s->moving, b.poses, 2, 2, s->fixed, &s->fixed_pose, NULL, w, size, NULL),
+           NSVCD_ERROR_ARGUMENT);
+  CHECK_EQ(nsvcd_sweep_batch(s->moving, b.poses, 2, 2, s->fixed, &s->fixed_pose, NULL, w, size - 1, b.batch),
+           NSVCD_ERROR_WORKSPACE);
+  CHECK_EQ(nsvcd_sweep_batch(s->moving, b.poses, 2, 0, s->fixed, &s->fixed_pose, NULL, w, size, b.batch), NSVCD_OK);
+  CHECK(memcmp(before, b.batch, sizeof before) == 0);
+  query_scene_close(&b.scene);
+}
+
+// ----------------------------------------------------------------------------------------------------------- threads
+
+#define COST_THREADS 4
+
+typedef struct cost_thread {
+  pthread_t thread;
+  const cost_batch *work;
+  nsvcd_answer single[COST_MOTIONS], batch[COST_MOTIONS];
+  nsvcd_result result;
+} cost_thread;
+
+static void *cost_run(void *argument) {
+  cost_thread *t = (cost_thread *)argument;
+  const query_scene *s = &t->work->scene;
+  query_memory memory = query_reserve(nsvcd_sweep_workspace_size());
+  t->result = NSVCD_OK;
+  for (int round = 0; round < 5 && !t->result; round++) {
+    for (size_t m = 0; m < COST_MOTIONS && !t->result; m++) {
+      t->result = nsvcd_sweep(s->moving, t->work->poses + m * QUERY_POSES, QUERY_POSES, s->fixed, &s->fixed_pose, NULL,
+                              memory.at, nsvcd_sweep_workspace_size(), &t->single[m]);
+    }
+    if (!t->result) t->result = cost_ask_batch(t->work, NULL, memory.at, t->batch);
+  }
+  query_release(&memory);
+  return NULL;
+}
+
+// Threads that share bodies, each with a workspace of its own, answer as one thread does, to the bit.
+static void cost_threads_agree(void) {
+  static cost_batch b;
+  static cost_thread threads[COST_THREADS], alone;
+  for (uint64_t seed = 1; seed <= 8; seed++) {
+    cost_open(&b, seed);
+    alone.work = &b, cost_run(&alone);
+    for (size_t t = 0; t < COST_THREADS; t++) {
+      threads[t].work = &b;
+      CHECK_EQ(pthread_create(&threads[t].thread, NULL, cost_run, &threads[t]), 0);
+    }
+    for (size_t t = 0; t < COST_THREADS; t++) pthread_join(threads[t].thread, NULL);
+    for (size_t t = 0; t < COST_THREADS; t++) {
+      CHECK_EQ(threads[t].result, NSVCD_OK);
+      for (size_t m = 0; m < COST_MOTIONS; m++) {
+        CHECK(query_same_answer(&threads[t].single[m], &alone.single[m]));
+        CHECK(query_same_answer(&threads[t].batch[m], &alone.batch[m]));
+      }
+    }
+    query_scene_close(&b.scene);
+  }
+}
+
+void test_cost(void) {
+  RUN(cost_is_bounded);
+  RUN(cost_batch_agrees_with_single_queries);
+  RUN(cost_batch_refuses_as_a_query_does);
+  RUN(cost_threads_agree);
+}
