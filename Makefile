@@ -25,7 +25,7 @@ ifeq ($(BENCH),quick)
 COUNT ?= 200
 endif
 
-.PHONY: profile sizes bench check-extremes all demo test assets problems accuracy weights format clean help check-header check-examples check-problems
+.PHONY: profile instructions sizes bench check-extremes all demo test assets problems accuracy weights format clean help check-header check-examples check-problems
 .DELETE_ON_ERROR:
 
 all: build/svcd build/quickstart  ## the examples: build/svcd and build/quickstart
@@ -146,11 +146,14 @@ endif
 comma := ,
 space := $(subst x,,x x)
 
-build/profile: tests/profile.c examples/problem_file.h $(LIBRARY) | build
+build/profile: tests/profile.c examples/problem_file.h examples/shapes.h $(LIBRARY) | build
 	$(CC) $(ALL_CFLAGS) -Wno-unused-function -o $@ tests/profile.c -lm
 profile: build/profile $(DATA)/random_urdfs.txt $(DATA)/hollow.txt  ## where a query's time goes, stage by stage
 	build/profile $(DATA)/random_urdfs.txt 64 128 512
 	build/profile $(DATA)/hollow.txt 512
+
+instructions: $(DATA)/random_urdfs.txt  ## what a query executes, counted by callgrind
+	CC="$(CC)" tests/instructions.sh $(DATA)/random_urdfs.txt 64 512
 
 sizes:  ## code and data that each compile-time switch leaves out, host and Cortex-M
 	CC="$(CC)" tests/sizes.sh
