@@ -3976,7 +3976,9 @@ static void nsvcd__by_invariants(const nsvcd__pairs *pairs, const float *x, cons
   nsvcd__first_lanes(views.w, 3, view.w), nsvcd__first_lanes(views.lean, 3, view.lean);
   nsvcd__first_lanes(views.frame, 9, view.frame), nsvcd__first_lanes(pairs->rotation, 9, rotation);
   nsvcd__first_lanes(pairs->v, 3, v), nsvcd__first_lanes(pairs->w, 3, w);
-  const float sign = nsvcd__dot3(view.v, v) * view.inverse + nsvcd__dot3(view.w, w) < 0 ? -1.0f : 1.0f;  // of time
+  // Of time. At rest 0: the logit is an even function of the motion, so that by symmetry its derivative is.
+  const float same = nsvcd__dot3(view.v, v) * view.inverse + nsvcd__dot3(view.w, w);
+  const float sign = same < 0 ? -1.0f : same > 0 ? 1.0f : 0.0f;
 
   // Torques in the frame: on the moving patch's latent, then on all that the frame sees.
   const size_t facts = 2 * NSVCD__LATENT, first = view.order > 0 ? 0 : NSVCD__VECTORS, second = NSVCD__VECTORS - first;
