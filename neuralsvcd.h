@@ -3810,10 +3810,10 @@ static void nsvcd__add_scaled3(float scale, const float *a, float *out) {
 static void nsvcd__add_cross3(const float *a, const float *b, float *out) {  // out += a x b
   out[0] += a[1] * b[2] - a[2] * b[1], out[1] += a[2] * b[0] - a[0] * b[2], out[2] += a[0] * b[1] - a[1] * b[0];
 }
-// by_a += the derivative of |a|, times `by`; at 0, where it has none, nothing.
+// by_a += the derivative of |a|, times `by`. At 0, to rounding, where it has none: nothing, the mean of all directions.
 static void nsvcd__by_length3(const float *a, float by, float *by_a) {
   const float length = nsvcd__length3(a);
-  if (length > 0) nsvcd__add_scaled3(by / length, a, by_a);
+  if (length > 1e-6f) nsvcd__add_scaled3(by / length, a, by_a);
 }
 static void nsvcd__first_lanes(const nsvcd__v *a, size_t count, float *out) {
   float lanes[NSVCD__LANES];
@@ -3976,9 +3976,10 @@ static void nsvcd__by_invariants(const nsvcd__pairs *pairs, const float *x, cons
   nsvcd__first_lanes(views.w, 3, view.w), nsvcd__first_lanes(views.lean, 3, view.lean);
   nsvcd__first_lanes(views.frame, 9, view.frame), nsvcd__first_lanes(pairs->rotation, 9, rotation);
   nsvcd__first_lanes(pairs->v, 3, v), nsvcd__first_lanes(pairs->w, 3, w);
-  // Of time. At rest 0: the logit is an even function of the motion, so that by symmetry its derivative is.
+  // Of time. 0 at rest, to rounding: the logit is an even function of the motion, and its derivative there has no
+  // limit, because the time of nearest approach has none.
   const float same = nsvcd__dot3(view.v, v) * view.inverse + nsvcd__dot3(view.w, w);
-  const float sign = same < 0 ? -1.0f : same > 0 ? 1.0f : 0.0f;
+  const float sign = fabsf(same) < 1e-12f ? 0.0f : same < 0 ? -1.0f : 1.0f;
 
   // Torques in the frame: on the moving patch's latent, then on all that the frame sees.
   const size_t facts = 2 * NSVCD__LATENT, first = view.order > 0 ? 0 : NSVCD__VECTORS, second = NSVCD__VECTORS - first;

@@ -12,13 +12,13 @@
 #define REFERENCE_POSES 8
 
 typedef struct reference_pose {
-  double position[3], rotation[4];  // as nsvcd_pose
+  double position[3], rotation[4];  // as nsvcd_pose, but from the fixed body's origin
 } reference_pose;
 
 typedef struct reference_pair {
   double c1[3], c2[3], r1, r2, unit;   // centres, each in its body's axes; radii
   double z1[NSVCD__LATENT], z2[NSVCD__LATENT];
-  double fixed_position[3], to_fixed[9];
+  double to_fixed[9];
   double segment[2][2], reach[2];      // in which the spheres meet, and part: from, to; the distance at which they do
   const nsvcd__head *head;
   size_t count;
@@ -77,7 +77,7 @@ static void reference_at(const reference_pair *pair, const reference_pose *poses
   reference_matrix(q, world);
   reference_mul33(pair->to_fixed, world, m);
   for (int i = 0; i < 3; i++) {
-    along[i] = a->position[i] + (arcs ? u * (b->position[i] - a->position[i]) : 0) - pair->fixed_position[i];
+    along[i] = a->position[i] + (arcs ? u * (b->position[i] - a->position[i]) : 0);
   }
   reference_mul(pair->to_fixed, along, p);
 }
@@ -258,17 +258,23 @@ static void reference_gradient(const reference_pair *pair, const reference_pose 
   }
 }
 
-// What a query in float decided, for the reference. work: as that query left it.
-static void reference_open(const nsvcd_body *moving, const nsvcd_body *fixed, const nsvcd_pose *fixed_pose,
-                           size_t count, const nsvcd__workspace *work, const nsvcd__candidate *candidate,
-                           const nsvcd__head *head, reference_pair *pair) {
+// What a query in float decided, for the reference, and its poses. work: as that query left it.
+static void reference_open(const nsvcd_body *moving, const nsvcd_pose *poses, size_t count, const nsvcd_body *fixed,
+                           const nsvcd_pose *fixed_pose, const nsvcd__workspace *work,
+                           const nsvcd__candidate *candidate, const nsvcd__head *head, reference_pair *pair,
+                           reference_pose *exact) {
   const size_t i = candidate->moving, j = candidate->fixed;
   double q[4], m[9];
   pair->head = head, pair->count = count;
+  for (size_t n = 0; n < count; n++) {
+    for (int k = 0; k < 3; k++) {
+      exact[n].position[k] = (double)poses[n].position[k] - (double)fixed_pose->position[k];
+    }
+    for (int k = 0; k < 4; k++) exact[n].rotation[k] = (double)poses[n].rotation[k];
+  }
   for (size_t k = 0; k < 3; k++) {
     pair->c1[k] = (double)nsvcd__body_floats(moving, k * moving->padded)[i];
     pair->c2[k] = (double)nsvcd__body_floats(fixed, k * fixed->padded)[j];
-    pair->fixed_position[k] = (double)fixed_pose->position[k];
   }
   pair->r1 = (double)nsvcd__body_r(moving)[i], pair->r2 = (double)nsvcd__body_r(fixed)[j];
   pair->unit = pair->r1 + pair->r2;
