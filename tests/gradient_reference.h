@@ -16,10 +16,10 @@ typedef struct reference_pose {
 } reference_pose;
 
 typedef struct reference_pair {
-  double c1[3], c2[3], r1, r2, unit;   // centres, each in its body's axes; radii
+  double c1[3], c2[3], r1, r2, unit;  // centres, each in its body's axes; radii
   double z1[NSVCD__LATENT], z2[NSVCD__LATENT];
   double to_fixed[9];
-  double segment[2][2], reach[2];      // in which the spheres meet, and part: from, to; the distance at which they do
+  double segment[2][2], reach[2];  // in which the spheres meet, and part: from, to; the distance at which they do
   const nsvcd__head *head;
   size_t count;
 } reference_pair;
@@ -124,7 +124,13 @@ static void reference_latent(const double *z, const double *frame, double k, dou
     for (int i = 0; i < 9; i++) transposed[i] = frame[i % 3 * 3 + i / 3];
     reference_mul33(frame, m, left);
     reference_mul33(left, transposed, turned);
-    const double b[8] = {x[0], x[1], x[2], third * turned[1], third * turned[5], 1.5 * turned[8], third * turned[2],
+    const double b[8] = {x[0],
+                         x[1],
+                         x[2],
+                         third * turned[1],
+                         third * turned[5],
+                         1.5 * turned[8],
+                         third * turned[2],
                          third / 2 * (turned[0] - turned[4])};
     for (size_t i = 0; i < 8; i++) out[NSVCD_W_CHANNELS * i + c] = k * b[i];
   }

@@ -54,9 +54,9 @@ static nsvcd_answer ask_sweep(const scene *s) {
 // The answer, and what decided. Did a network answer?
 static int decide(const scene *s, nsvcd_answer *answer, nsvcd__decisive *decisive) {
   nsvcd__question ask;
-  CHECK_EQ(nsvcd__prepare(s->moving, s->fixed, &s->options, query_workspace(), nsvcd_sweep_workspace_size(), answer,
-                          &ask),
-           NSVCD_OK);
+  CHECK_EQ(
+      nsvcd__prepare(s->moving, s->fixed, &s->options, query_workspace(), nsvcd_sweep_workspace_size(), answer, &ask),
+      NSVCD_OK);
   nsvcd__motion_init(s->poses, s->count, &s->fixed_pose, &ask.motion);
   ask.decisive = decisive;
   nsvcd__answer(&ask, (nsvcd__query *)query_workspace(), NULL, answer);
@@ -242,6 +242,36 @@ static int one_patch_each(scene *s, shapes_rng *rng, size_t n) {
   s->moving = pool[1][shapes_pick(rng, POOL)], s->fixed = pool[1][shapes_pick(rng, POOL)];
   return n % 2 ? moderate(s, rng, n) : nearly_along_the_line(s, rng, n / 2);
 }
+// Two spheres that touch for a short time.
+static int grazing_spheres(scene *s, shapes_rng *rng, size_t n) {
+  float centre[2][3] = {{0}}, radius[2] = {0};
+  double along[3], across[3], arm[3], m[9], q[4];
+  s->moving = pool[1][shapes_pick(rng, POOL)], s->fixed = pool[1][shapes_pick(rng, POOL)];
+  pass_by(s, rng, 2 + n % 3, 0, 0, 0, 0);
+  CHECK(nsvcd_body_patch(s->moving, 0, centre[0], &radius[0]) && nsvcd_body_patch(s->fixed, 0, centre[1], &radius[1]));
+  const double reach = (double)(radius[0] + radius[1]), most = 1 - pow(10, shapes_uniform(rng, -6, -1));
+  shapes_direction(rng, arm), shapes_direction(rng, along);
+  reference_cross(along, arm, across);
+  const double scale = most * reach / reference_length(across);
+  for (int body = 0; body < 2; body++) {
+    const nsvcd_pose *pose = body ? &s->fixed_pose : &s->poses[0];
+    double c[3], turned[3];
+    if (body == 0) memset(arm, 0, sizeof arm);
+    for (int k = 0; k < 4; k++) q[k] = (double)pose->rotation[k];
+    for (int k = 0; k < 3; k++) c[k] = (double)centre[body][k];
+    reference_matrix(q, m);
+    reference_mul(m, c, turned);
+    for (int k = 0; k < 3; k++) arm[k] = body ? arm[k] + turned[k] : -turned[k];
+  }
+  for (size_t i = 0; i < s->count; i++) {
+    const double t = 2 * (double)i / (double)(s->count - 1) - 1;
+    for (int k = 0; k < 3; k++) {
+      const double place = arm[k] + scale * across[k] + t * reach * along[k];
+      s->poses[i].position[k] = (float)((double)s->fixed_pose.position[k] + place);
+    }
+  }
+  return 1;
+}
 static int other_options(scene *s, shapes_rng *rng, size_t n) {
   const float recall[4] = {0, 0.99f, 0.999f, 0.9999f};
 #if defined(NSVCD_NO_SMALL) || defined(NSVCD_NO_BASE)
@@ -256,34 +286,37 @@ static int other_options(scene *s, shapes_rng *rng, size_t n) {
   return moderate(s, rng, n);
 }
 
-// most: the greatest share of gradients that may be off by more than 1 %, of those that are not explained, and the
-// greatest median error; each about twice what was measured.
+// Limits, little above what was measured: the share of gradients that are off by more than 1 %, and of those of them
+// that are at no kink; the median and the 99th percentile of the error. Of motions exactly along the line between the
+// centres every tenth is at a jump, for then rounding says which way time runs; there the limit says little.
 typedef struct family {
   const char *name;
   int (*make)(scene *, shapes_rng *, size_t);
-  double most, unexplained, median;
+  double beyond, unexplained, median, most;
 } family;
 
 static const family families[] = {
-    {"moderate", moderate, 0.01, 0, 1e-5},
-    {"straight, no turn", straight, 0.01, 0, 1e-5},
-    {"half turns", half_turns, 0.01, 0, 1e-5},
-    {"wild samples", wild_samples, 0.01, 0, 1e-5},
-    {"at rest", at_rest, 0.01, 0, 1e-5},
-    {"slow", slow, 0.01, 0, 1e-5},
-    {"nearly along the line", nearly_along_the_line, 0.01, 0, 1e-5},
-    {"along the line", along_the_line, 0.01, 0, 1e-5},
-    {"turn about the pair", turn_about_the_pair, 0.01, 0, 1e-5},
-    {"turn about the origin", turn_about_the_origin, 0.01, 0, 1e-5},
-    {"deep", deep, 0.01, 0, 1e-5},
-    {"shallow", shallow, 0.01, 0, 1e-5},
-    {"far from zero", far_from_zero, 0.01, 0, 1e-5},
-    {"tiny or huge", tiny_or_huge, 0.01, 0, 1e-5},
-    {"of unlike size", of_unlike_size, 0.01, 0, 1e-5},
-    {"one patch each", one_patch_each, 0.01, 0, 1e-5},
-    {"other options", other_options, 0.01, 0, 1e-5},
+    {"moderate", moderate, 0.0015, 0, 2e-06, 0.0001},
+    {"straight, no turn", straight, 0.001, 0, 2e-06, 0.0001},
+    {"half turns", half_turns, 0.001, 0, 2e-06, 0.0001},
+    {"wild samples", wild_samples, 0.001, 0, 2e-06, 0.0001},
+    {"at rest", at_rest, 0.004, 0.001, 0.0001, 0.004},
+    {"slow", slow, 0.01, 0.0015, 4e-05, 0.006},
+    {"nearly along the line", nearly_along_the_line, 0.001, 0, 3e-06, 0.002},
+    {"along the line", along_the_line, 0.12, 0.001, 4e-06, 9},
+    {"turn about the pair", turn_about_the_pair, 0.01, 0.001, 4e-06, 0.002},
+    {"turn about the origin", turn_about_the_origin, 0.0015, 0, 2e-06, 0.0001},
+    {"deep", deep, 0.001, 0, 3e-06, 0.0001},
+    {"shallow", shallow, 0.001, 0, 3e-06, 0.0002},
+    {"far from zero", far_from_zero, 0.001, 0, 2e-06, 0.0001},
+    {"tiny or huge", tiny_or_huge, 0.001, 0, 2e-06, 0.0001},
+    {"of unlike size", of_unlike_size, 0.001, 0, 2e-06, 0.0001},
+    {"one patch each", one_patch_each, 0.001, 0, 2e-06, 0.0002},
+    {"grazing spheres", grazing_spheres, 0.17, 0.006, 0.0004, 0.4},
+    {"other options", other_options, 0.001, 0, 2e-06, 0.0001},
 };
 #define FAMILIES (sizeof families / sizeof families[0])
+#define SHALLOW 11
 
 // The n-th scene of a family, the same in every run. Does a network answer?
 static int scene_of(size_t f, size_t n, scene *s, nsvcd_answer *answer, nsvcd__decisive *decisive) {
@@ -329,11 +362,11 @@ static int is_at_a_kink(const reference_pair *pair, const reference_pose *poses,
 }
 
 static void gradient_matches_the_reference(void) {
-  const size_t cases = 400;
+  const size_t cases = 2000;
   pool_open();
   printf("  %-22s  cases   median    99 %%   beyond 1 %%: grazing, kinks, unexplained; logit off\n", "family");
   for (size_t f = 0; f < FAMILIES; f++) {
-    static double errors[1000];
+    static double errors[2000];
     size_t count = 0, beyond = 0, grazing = 0, kinks = 0, unexplained = 0, broken = 0;
     double logit_off = 0;
     for (size_t n = 0; n < cases; n++) {
@@ -364,9 +397,12 @@ static void gradient_matches_the_reference(void) {
       shapes_rng rng = {n};
       const int kink = is_at_a_kink(&pair, poses, length, metres, radians, expected, &rng);
       beyond++;
-      if (graze < 0.01) grazing++;
-      else if (kink) kinks++;
-      else unexplained++;
+      if (graze < 0.01)
+        grazing++;
+      else if (kink)
+        kinks++;
+      else
+        unexplained++;
       if (getenv("GRADIENT_VERBOSE")) {
         printf("    %zu: %.2g, count %zu, graze %.2g, kink %d, logit %.5f %.5f, times %.6f %.6f, %.6f %.6f\n", n, error,
                s.count, graze, kink, logit, (double)decisive.candidate.score, times[0],
@@ -376,16 +412,229 @@ static void gradient_matches_the_reference(void) {
     qsort(errors, count, sizeof *errors, compare_doubles);
     printf("  %-22s  %4zu  %.1e  %.1e  %5.2f %%: %3zu %3zu %3zu; %.1e\n", families[f].name, count, errors[count / 2],
            errors[count * 99 / 100], 100 * (double)beyond / (double)count, grazing, kinks, unexplained, logit_off);
-    CHECK_GE(count, 0.3 * (double)cases);
+    CHECK_GE(count, 0.8 * (double)cases);
     CHECK_EQ(broken, 0);
-    CHECK_LE((double)beyond / (double)count, families[f].most);
+    CHECK_LE((double)beyond / (double)count, families[f].beyond);
     CHECK_LE((double)unexplained / (double)count, families[f].unexplained);
     CHECK_LE(errors[count / 2], families[f].median);
+    CHECK_LE(errors[count * 99 / 100], families[f].most);
+  }
+}
+
+// ------------------------------------------------------------------------------------------------ against nsvcd_sweep
+
+// s, displaced by `step` times `along` (count, 6).
+static scene displaced(const scene *s, double step, const double *along) {
+  scene out = *s;
+  for (size_t n = 0; n < s->count; n++) {
+    const double turn[3] = {step * along[6 * n + 3], step * along[6 * n + 4], step * along[6 * n + 5]};
+    for (size_t k = 0; k < 3; k++) out.poses[n].position[k] += (float)(step * along[6 * n + k]);
+    turn_pose(&out.poses[n], turn);
+  }
+  return out;
+}
+
+// Differences of nsvcd_sweep's logit, up the gradient and in a random direction, where the same pair and head decide on
+// both sides: 1e-3 of the moving body's size apart, so that kinks within that and rounding count as well.
+static void gradient_follows_the_logit(void) {
+  pool_open();
+  for (size_t f = 0; f < 4; f++) {
+    size_t count[2] = {0, 0}, close[2] = {0, 0}, asked = 0;
+    for (size_t n = 0; n < 1000; n++) {
+      scene s;
+      nsvcd_answer answer;
+      nsvcd__decisive decisive, beside[2];
+      float gradient[6 * REFERENCE_POSES];
+      if (!scene_of(f, n, &s, &answer, &decisive)) continue;
+      CHECK_EQ(ask_gradient(&s, &answer, gradient), NSVCD_OK);
+      const double length = (double)s.moving->extent;
+      shapes_rng rng = {n};
+      for (int random = 0; random < 2; random++) {
+        double along[6 * REFERENCE_POSES], norm = 0, slope = 0, steepest = 0, logit[2];
+        int same = 1;
+        for (size_t i = 0; i < 6 * s.count; i++) {
+          const double unit = i % 6 < 3 ? length : 1, g = unit * (double)gradient[i];
+          along[i] = random ? shapes_normal(&rng) : g;
+          norm += along[i] * along[i], slope += along[i] * g, steepest += g * g;
+          along[i] *= unit;
+        }
+        norm = sqrt(norm), slope /= norm, steepest = sqrt(steepest);
+        for (size_t i = 0; i < 6 * s.count; i++) along[i] /= norm;
+        for (int side = 0; side < 2; side++) {
+          const scene moved = displaced(&s, side ? 5e-4 : -5e-4, along);
+          nsvcd_answer there = ask_sweep(&moved);
+          same = same && there.moving_patch == answer.moving_patch && there.fixed_patch == answer.fixed_patch &&
+                 decide(&moved, &there, &beside[side]) && beside[side].head == decisive.head &&
+                 fabsf(beside[side].candidate.t_least - decisive.candidate.t_least) < 0.1f;
+          logit[side] = (double)there.logit;
+        }
+        asked++;
+        if (!same) continue;
+        count[random]++, close[random] += fabs((logit[1] - logit[0]) / 1e-3 - slope) <= 0.1 * steepest;
+      }
+    }
+    printf(
+        "  %-22s  within 10 %% of nsvcd_sweep's differences: %.1f %% of %zu up the gradient, %.1f %% of %zu others\n",
+        families[f].name, 100 * (double)close[0] / (double)count[0], count[0],
+        100 * (double)close[1] / (double)count[1], count[1]);
+    CHECK_GE(count[0] + count[1], 0.68 * (double)asked);
+    CHECK_GE(close[0], 0.93 * (double)count[0]);
+    CHECK_GE(close[1], 0.98 * (double)count[1]);
+  }
+}
+
+// ----------------------------------------------------------------------------------------------------------- contract
+
+// Calls with every argument as it should be but for those given; answer and gradient must be left alone.
+static void check_refused(const scene *s, const nsvcd_pose *poses, size_t count, void *workspace, size_t size,
+                          const nsvcd_sweep_options *options, int with_gradient, nsvcd_result expected) {
+  float gradient[6 * REFERENCE_POSES], before[6 * REFERENCE_POSES];
+  nsvcd_answer answer, untouched;
+  memset(gradient, 0x5a, sizeof gradient), memset(before, 0x5a, sizeof before);
+  memset(&answer, 0x5a, sizeof answer), memset(&untouched, 0x5a, sizeof untouched);
+  CHECK_EQ(nsvcd_sweep_gradient(s->moving, poses, count, s->fixed, &s->fixed_pose, options, workspace, size, &answer,
+                                with_gradient ? gradient : NULL),
+           expected);
+  CHECK(memcmp(gradient, before, sizeof before) == 0);
+  CHECK(memcmp(&answer, &untouched, sizeof answer) == 0);
+}
+
+static void gradient_refuses(void) {
+  scene s;
+  nsvcd_answer answer;
+  nsvcd__decisive decisive;
+  const size_t size = nsvcd_sweep_workspace_size();
+  char *workspace = (char *)query_workspace();
+  size_t n = 0;
+  pool_open();
+  while (!scene_of(0, n, &s, &answer, &decisive) || s.count < 3) n++;
+  const nsvcd_sweep_options wrong = query_options(NSVCD_MAX_PAIRS + 1, NSVCD_MODEL_DEFAULT, 0);
+  nsvcd_pose broken[REFERENCE_POSES];
+  check_refused(&s, s.poses, s.count, workspace, size, NULL, 0, NSVCD_ERROR_ARGUMENT);
+  check_refused(&s, NULL, s.count, workspace, size, NULL, 1, NSVCD_ERROR_ARGUMENT);
+  check_refused(&s, s.poses, 0, workspace, size, NULL, 1, NSVCD_ERROR_ARGUMENT);
+  check_refused(&s, s.poses, s.count, workspace, size, &wrong, 1, NSVCD_ERROR_ARGUMENT);
+  check_refused(&s, s.poses, s.count, NULL, size, NULL, 1, NSVCD_ERROR_WORKSPACE);
+  check_refused(&s, s.poses, s.count, workspace, size - 1, NULL, 1, NSVCD_ERROR_WORKSPACE);
+  check_refused(&s, s.poses, s.count, workspace + 1, size, NULL, 1, NSVCD_ERROR_WORKSPACE);
+  for (size_t k = 0; k < 2; k++) {
+    memcpy(broken, s.poses, sizeof broken);
+    *(k ? &broken[1].rotation[3] : &broken[2].position[0]) = (float)NAN;
+    check_refused(&s, broken, s.count, workspace, size, NULL, 1, NSVCD_ERROR_POSE);
+  }
+  float gradient[6 * REFERENCE_POSES];
+  CHECK_EQ(
+      nsvcd_sweep_gradient(s.moving, s.poses, s.count, s.fixed, &s.fixed_pose, NULL, workspace, size, NULL, gradient),
+      NSVCD_ERROR_ARGUMENT);
+}
+
+// The answer is nsvcd_sweep's to the bit, the gradient no function of what the workspace held, and all that is written
+// is (count, 6).
+static void gradient_answers_as_sweep(void) {
+  size_t statuses[4] = {0, 0, 0, 0};
+  pool_open();
+  for (size_t f = 0; f < FAMILIES; f++) {
+    for (size_t n = 0; n < 100; n++) {
+      scene s;
+      nsvcd_answer answer, expected;
+      nsvcd__decisive decisive;
+      float gradient[2][6 * REFERENCE_POSES + 1];
+      (void)scene_of(f, n, &s, &answer, &decisive);
+      if (s.count == 0) continue;
+      for (int i = 0; i < 2; i++) {
+        memset(query_workspace(), i ? 0xff : 0, nsvcd_sweep_workspace_size());
+        for (size_t k = 0; k <= 6 * REFERENCE_POSES; k++) gradient[i][k] = 7;
+        CHECK_EQ(ask_gradient(&s, &answer, gradient[i]), NSVCD_OK);
+        CHECK_EQ(gradient[i][6 * s.count], 7);
+      }
+      expected = ask_sweep(&s);
+      CHECK(query_same_answer(&answer, &expected));
+      CHECK(memcmp(gradient[0], gradient[1], 6 * s.count * sizeof(float)) == 0);
+      double most = 0;
+      for (size_t k = 0; k < 6 * s.count; k++) most = fmax(most, fabs((double)gradient[0][k]));
+      const int network = answer.status == NSVCD_STATUS_OK || answer.status == NSVCD_STATUS_LIMIT;
+      CHECK(network ? most > 0 : !(most > 0));
+      statuses[answer.status]++;
+    }
+  }
+  CHECK_GE(statuses[NSVCD_STATUS_OK], 10);
+  CHECK_GE(statuses[NSVCD_STATUS_CERTIFIED_FREE], 10);
+  CHECK_GE(statuses[NSVCD_STATUS_LIMIT], 10);
+  CHECK_GE(statuses[NSVCD_STATUS_INSIDE], 1);
+}
+
+// Of two poses that nothing distinguishes but their order, a pose that the decisive pair does not pass gets nothing.
+static void gradient_is_zero_where_the_pair_is_not(void) {
+  size_t zero = 0, cases = 0;
+  pool_open();
+  for (size_t n = 0; n < 200; n++) {
+    scene s;
+    nsvcd_answer answer;
+    nsvcd__decisive decisive;
+    float gradient[6 * REFERENCE_POSES];
+    if (!scene_of(3, n, &s, &answer, &decisive) || s.count < 4) continue;
+    CHECK_EQ(ask_gradient(&s, &answer, gradient), NSVCD_OK);
+    cases++;
+    for (size_t k = 0; k < s.count; k++) {
+      const float arcs = (float)(s.count - 1), *row = gradient + 6 * k;
+      const int passed =
+          decisive.candidate.t_exit * arcs > (float)k - 1.001f && decisive.candidate.t_enter * arcs < (float)k + 1.001f;
+      if (passed) continue;
+      zero++;
+      for (size_t i = 0; i < 6; i++) CHECK_EQ(row[i], 0);
+    }
+  }
+  CHECK_GE(cases, 50);
+  CHECK_GE(zero, 50);
+}
+
+// --------------------------------------------------------------------------------------------------------------- time
+
+static void gradient_takes_microseconds(void) {
+  pool_open();
+  for (size_t head = 0; head < 3; head += 2) {  // by the head that decides: tiny, base
+    static double times[2][1000], extra[1000];
+    size_t count = 0;
+    for (size_t n = 0; n < 1000 && count < 150; n++) {
+      scene s;
+      nsvcd_answer answer;
+      nsvcd__decisive decisive;
+      float gradient[6 * REFERENCE_POSES];
+      if (!scene_of(head ? SHALLOW : 0, n, &s, &answer, &decisive)) continue;
+      if (decisive.head != &nsvcd_w_heads[head]) continue;
+      double least[2] = {1e9, 1e9};
+      for (int run = 0; run < 10; run++) {
+        const int turns = 20;
+        const clock_t start = clock();
+        for (int i = 0; i < turns; i++) {
+          nsvcd_sweep(s.moving, s.poses, s.count, s.fixed, &s.fixed_pose, &s.options, query_workspace(),
+                      nsvcd_sweep_workspace_size(), &answer);
+        }
+        const clock_t middle = clock();
+        for (int i = 0; i < turns; i++) ask_gradient(&s, &answer, gradient);
+        least[0] = fmin(least[0], 1e6 * (double)(middle - start) / CLOCKS_PER_SEC / turns);
+        least[1] = fmin(least[1], 1e6 * (double)(clock() - middle) / CLOCKS_PER_SEC / turns);
+      }
+      times[0][count] = least[0], times[1][count] = least[1], extra[count++] = least[1] - least[0];
+    }
+    if (count == 0) continue;  // compiled out
+    for (int i = 0; i < 2; i++) qsort(times[i], count, sizeof(double), compare_doubles);
+    qsort(extra, count, sizeof(double), compare_doubles);
+    printf(
+        "  median of %zu, %s decides: nsvcd_sweep %.2f us, nsvcd_sweep_gradient %.2f us; the gradient %.2f, 90 %% "
+        "%.2f\n",
+        count, head ? "base" : "tiny", times[0][count / 2], times[1][count / 2], extra[count / 2],
+        extra[count * 9 / 10]);
   }
 }
 
 void test_gradient(void) {
   RUN(gradient_matches_the_reference);
+  RUN(gradient_follows_the_logit);
+  RUN(gradient_refuses);
+  RUN(gradient_answers_as_sweep);
+  RUN(gradient_is_zero_where_the_pair_is_not);
+  RUN(gradient_takes_microseconds);
 }
 
 #ifdef TEST_ALONE
