@@ -12,10 +12,11 @@
 void test_gradient(void);
 
 #define POOL 8  // solids
-#ifdef NSVCD_NO_FLOAT
-#define EXPLAIN_INT8 1
+// Where tiny decides alone, other pairs do than those for which the limits were measured.
+#if defined(NSVCD_NO_SMALL) && defined(NSVCD_NO_BASE)
+#define SLACK 1.5
 #else
-#define EXPLAIN_INT8 0
+#define SLACK 1
 #endif
 
 typedef struct scene {
@@ -287,7 +288,8 @@ static int other_options(scene *s, shapes_rng *rng, size_t n) {
 }
 
 // Limits, little above what was measured: the share of gradients that are off by more than 1 %, and of those of them
-// that are at no kink; the median and the 99th percentile of the error. Of motions exactly along the line between the
+// that are at no kink; the median of the error, and its 99th percentile where
+// that is below 1 %. Of motions exactly along the line between the
 // centres every tenth is at a jump, for then rounding says which way time runs; there the limit says little.
 typedef struct family {
   const char *name;
@@ -301,10 +303,10 @@ static const family families[] = {
     {"half turns", half_turns, 0.001, 0, 2e-06, 0.0001},
     {"wild samples", wild_samples, 0.001, 0, 2e-06, 0.0001},
     {"at rest", at_rest, 0.004, 0.001, 0.0001, 0.004},
-    {"slow", slow, 0.01, 0.0015, 4e-05, 0.006},
+    {"slow", slow, 0.0085, 0.0015, 4e-05, 0.006},
     {"nearly along the line", nearly_along_the_line, 0.001, 0, 3e-06, 0.002},
-    {"along the line", along_the_line, 0.12, 0.001, 4e-06, 9},
-    {"turn about the pair", turn_about_the_pair, 0.01, 0.001, 4e-06, 0.002},
+    {"along the line", along_the_line, 0.12, 0.001, 4e-06, 1},
+    {"turn about the pair", turn_about_the_pair, 0.0095, 0.001, 4e-06, 0.002},
     {"turn about the origin", turn_about_the_origin, 0.0015, 0, 2e-06, 0.0001},
     {"deep", deep, 0.001, 0, 3e-06, 0.0001},
     {"shallow", shallow, 0.001, 0, 3e-06, 0.0002},
@@ -312,7 +314,7 @@ static const family families[] = {
     {"tiny or huge", tiny_or_huge, 0.001, 0, 2e-06, 0.0001},
     {"of unlike size", of_unlike_size, 0.001, 0, 2e-06, 0.0001},
     {"one patch each", one_patch_each, 0.001, 0, 2e-06, 0.0002},
-    {"grazing spheres", grazing_spheres, 0.17, 0.006, 0.0004, 0.4},
+    {"grazing spheres", grazing_spheres, 0.17, 0.006, 0.0004, 1},
     {"other options", other_options, 0.001, 0, 2e-06, 0.0001},
 };
 #define FAMILIES (sizeof families / sizeof families[0])
@@ -389,9 +391,11 @@ static void gradient_matches_the_reference(void) {
       const double logit = reference_logit(&pair, poses, times, &graze);
       reference_gradient(&pair, poses, metres, radians, expected);
       const double error = relative_error(found, expected, s.count, length);
-      if (!s.options.precision && !EXPLAIN_INT8) {
+#ifndef NSVCD_NO_FLOAT
+      if (!s.options.precision) {
         logit_off = fmax(logit_off, fabs(logit - (double)decisive.candidate.score) / fmax(1, fabs(logit)));
       }
+#endif
       errors[count++] = error;
       if (error <= 0.01) continue;
       shapes_rng rng = {n};
@@ -414,10 +418,11 @@ static void gradient_matches_the_reference(void) {
            errors[count * 99 / 100], 100 * (double)beyond / (double)count, grazing, kinks, unexplained, logit_off);
     CHECK_GE(count, 0.8 * (double)cases);
     CHECK_EQ(broken, 0);
-    CHECK_LE((double)beyond / (double)count, families[f].beyond);
+    const double allowed = SLACK * families[f].beyond;
+    CHECK_LE((double)beyond / (double)count, allowed);
     CHECK_LE((double)unexplained / (double)count, families[f].unexplained);
-    CHECK_LE(errors[count / 2], families[f].median);
-    CHECK_LE(errors[count * 99 / 100], families[f].most);
+    CHECK_LE(errors[count / 2], SLACK * families[f].median);
+    if (allowed < 0.01) CHECK_LE(errors[count * 99 / 100], families[f].most);
   }
 }
 
@@ -630,11 +635,15 @@ static void gradient_takes_microseconds(void) {
 
 void test_gradient(void) {
   RUN(gradient_matches_the_reference);
+#ifndef NSVCD_NO_FLOAT  // the int8 logit has steps
   RUN(gradient_follows_the_logit);
+#endif
   RUN(gradient_refuses);
   RUN(gradient_answers_as_sweep);
   RUN(gradient_is_zero_where_the_pair_is_not);
+#ifndef TEST_ALONE
   RUN(gradient_takes_microseconds);
+#endif
 }
 
 #ifdef TEST_ALONE
