@@ -278,11 +278,12 @@ NSVCDDEF nsvcd_result nsvcd_sweep_batch(const nsvcd_body *moving, const nsvcd_po
 // (metres, world axes), then by a small rotation about that origin (rotation vector, radians, world axes, applied on
 // the left). Zero where no network answered (CERTIFIED_FREE, INSIDE) and for poses that the decisive pair does not
 // pass. It is that of the pair and the stretch of time that decided: the logit is the greatest of several, and so has
-// kinks, also where the network (ReLU) and the frame of a pair have theirs. The ends of the stretch move with the
-// poses, but for those at t = 0 or 1 and where a segment of the search begins or ends; the spheres' allowance for what
-// the motion does between its samples is taken as constant. In int8 arithmetic it is the derivative of the float
-// decoder, or, without that, of the function that the int8 one rounds. Errors as nsvcd_sweep's, and then `gradient` is
-// left as it was; it must not be NULL. Takes a few microseconds more. Source: reverse mode; this library.
+// kinks, also where the network (ReLU) and the frame of a pair have theirs; where the pair is at rest, or does not
+// turn, it is the mean of both sides. The ends of the stretch move with the poses, but for those at t = 0 or 1 and
+// where a segment of the search begins or ends; the unit of length and the spheres' allowance for what the motion does
+// between its samples are taken as constant. In int8 arithmetic it is the derivative of the float decoder, or, without
+// that, of the function that the int8 one rounds. Errors as nsvcd_sweep's, and then `gradient` is left as it was; it
+// must not be NULL. Takes 2 to 3 microseconds more. Source: reverse mode; this library.
 NSVCDDEF nsvcd_result nsvcd_sweep_gradient(const nsvcd_body *moving, const nsvcd_pose *poses, size_t count,
                                            const nsvcd_body *fixed, const nsvcd_pose *fixed_pose,
                                            const nsvcd_sweep_options *options, void *workspace, size_t workspace_size,
@@ -3005,7 +3006,8 @@ static int nsvcd__is_contained(const nsvcd_body *moving, const nsvcd_body *fixed
 #define NSVCD__FACTS 12
 #define NSVCD__INPUTS (2 * NSVCD__LATENT + NSVCD__FACTS)
 #define NSVCD__DECODER_IN ((NSVCD__INPUTS + 15) / 16 * 16)  // zeros at the end
-#define NSVCD__LEAN 0.05f                                   // share of the lean in axis 2
+#define NSVCD__MOST_INPUTS (NSVCD_W_WIDEST > NSVCD__DECODER_IN ? NSVCD_W_WIDEST : NSVCD__DECODER_IN)  // of a layer
+#define NSVCD__LEAN 0.05f  // share of the lean in axis 2
 #define NSVCD__SIDE 1e-4f  // a lean less than this to one side of axes 1 and 2 is on neither
 
 typedef struct nsvcd__pairs {
@@ -3301,8 +3303,6 @@ static void nsvcd__layer(const float *w, const float *bias, size_t inputs, size_
 #endif  // NSVCD_NO_FLOAT
 
 #ifndef NSVCD_NO_INT8
-#define NSVCD__MOST_INPUTS (NSVCD_W_WIDEST > NSVCD__DECODER_IN ? NSVCD_W_WIDEST : NSVCD__DECODER_IN)
-
 // A layer in integers: its inputs over the largest of them are bytes in [1, 255] about 128, because the processors'
 // instructions multiply unsigned by signed bytes; sums are exact in int32, and 128 times the sum of the weights too
 // much.
@@ -3800,10 +3800,6 @@ NSVCDDEF nsvcd_result nsvcd_sweep_batch(const nsvcd_body *moving, const nsvcd_po
 // The derivative by the pose of a rigid body is a wrench: a force (by a displacement of its origin) and a torque (by a
 // small rotation about that). A force f on a point at `arm` from the origin is that force, and the torque arm x f.
 
-typedef struct nsvcd__wrench {
-  float force[3], torque[3];
-} nsvcd__wrench;
-
 static void nsvcd__add_scaled3(float scale, const float *a, float *out) {
   for (size_t k = 0; k < 3; k++) out[k] += scale * a[k];
 }
@@ -3847,7 +3843,7 @@ static inline nsvcd__v nsvcd__weights_at(size_t weights, size_t output, size_t o
 
 // The derivative of a head's logit by its inputs: x, by_x (DECODER_IN). That of ReLU at 0 is 0.
 static void nsvcd__head_gradient(const nsvcd__head *head, const float *x, float *by_x) {
-  float values[5][NSVCD_W_WIDEST], by[NSVCD_W_WIDEST] = {1}, by_inputs[NSVCD_W_WIDEST], lanes[NSVCD__LANES];
+  float values[5][NSVCD_W_WIDEST], by[NSVCD__MOST_INPUTS] = {1}, by_inputs[NSVCD__MOST_INPUTS], lanes[NSVCD__LANES];
   size_t weights = head->weights, output = head->outputs, l = 0;
   for (; l + 1 < head->layers; l++) {
     const size_t inputs = head->sizes[l], outputs = head->sizes[l + 1];
@@ -3855,8 +3851,8 @@ static void nsvcd__head_gradient(const nsvcd__head *head, const float *x, float 
     float *y = values[l];
     memcpy(y, nsvcd_w_decoder_bias + output, outputs * sizeof *y);
     for (size_t i = 0; i < inputs; i++) {
-      const nsvcd__v input = nsvcd__v_set(in[i]);
       if (!(in[i] < 0 || in[i] > 0)) continue;  // about half of them
+      const nsvcd__v input = nsvcd__v_set(in[i]);
       for (size_t o = 0; o < outputs; o += NSVCD__LANES) {
         const nsvcd__v w = nsvcd__weights_at(weights, output, outputs, i, o);
         nsvcd__v_store(y + o, nsvcd__v_fma(input, w, nsvcd__v_load(y + o)));
@@ -4001,15 +3997,15 @@ static void nsvcd__by_invariants(const nsvcd__pairs *pairs, const float *x, cons
 
 // ---- samples
 
-// From a wrench on the body at time t, in the fixed body's axes, to `gradient`, by the samples before and after t.
+// From a force and a torque on the body at time t, fixed body's axes, to `gradient`, by the samples before and after t.
 // Returns the derivative by t. With R = exp(2 u h n) A, the shorter arc from A to B = exp(2 h n) A, small rotations a
 // of A and b of B (on the left) turn R along n by (1 - u) a + u b, and across n by
 //   sin((1 - u) h) / sin h of a turned by u h about n, and sin(u h) / sin h of b turned by -(1 - u) h.
-static float nsvcd__by_samples(const nsvcd__motion *motion, float t, const nsvcd__wrench *wrench, float *gradient) {
+static float nsvcd__by_samples(const nsvcd__motion *motion, float t, const float *fixed_force,
+                               const float *fixed_torque, float *gradient) {
   float from_fixed[9], force[3], torque[3], qa[4], qb[4], n[3], moved[3];
   nsvcd__transpose33(motion->to_fixed, from_fixed);
-  nsvcd__mul33_vec(from_fixed, wrench->force, force);
-  nsvcd__mul33_vec(from_fixed, wrench->torque, torque);
+  nsvcd__mul33_vec(from_fixed, fixed_force, force), nsvcd__mul33_vec(from_fixed, fixed_torque, torque);
   const size_t arcs = motion->count - 1;
   if (arcs == 0) {
     nsvcd__add_scaled3(1, force, gradient), nsvcd__add_scaled3(1, torque, gradient + 3);
@@ -4053,7 +4049,8 @@ static void nsvcd__instants_of(const nsvcd__question *ask, const nsvcd__candidat
   while (!(t1 <= time[b + 1]) && time[b + 1] < 1) b++;
   const float t[7] = {t0, t1, 0.5f * (t0 + t1), time[a], time[a + 1], time[b], time[b + 1]};
   memcpy(at->t, t, sizeof t);
-  at->enters = t0 > time[a] && t0<time[a + 1], at->leaves = t1> time[b] && t1 < time[b + 1];
+  at->enters = time[a] < t0 && t0 < time[a + 1];
+  at->leaves = time[b] < t1 && t1 < time[b + 1];
   const nsvcd__v c[3] = {nsvcd__v_set(nsvcd__body_x(moving)[i]), nsvcd__v_set(nsvcd__body_y(moving)[i]),
                          nsvcd__v_set(nsvcd__body_z(moving)[i])};
   nsvcd__v q[4], p[3], r[9], arm[3];
@@ -4066,13 +4063,13 @@ static void nsvcd__instants_of(const nsvcd__question *ask, const nsvcd__candidat
   }
 }
 
-// A force on the patch's centre at instant l, and a torque on the body. Returns the derivative by the time.
+// A force on the patch's centre at instant l, and a torque on the body (or NULL). Returns the derivative by the time.
 static float nsvcd__by_instant(const nsvcd__question *ask, const nsvcd__instants *at, size_t l, const float *force,
                                const float *torque, float *gradient) {
-  nsvcd__wrench wrench;
-  memcpy(wrench.force, force, sizeof wrench.force), memcpy(wrench.torque, torque, sizeof wrench.torque);
-  nsvcd__add_cross3(at->arm[l], force, wrench.torque);
-  return nsvcd__by_samples(&ask->motion, at->t[l], &wrench, gradient);
+  float sum[3] = {0};
+  if (torque) nsvcd__add_scaled3(1, torque, sum);
+  nsvcd__add_cross3(at->arm[l], force, sum);
+  return nsvcd__by_samples(&ask->motion, at->t[l], force, sum, gradient);
 }
 
 // The adjoint of the time at which the spheres meet (l = 0) or part (l = 1): |y| = reach with y = x0 + tau x - c, from
@@ -4081,7 +4078,7 @@ static float nsvcd__by_instant(const nsvcd__question *ask, const nsvcd__instants
 static void nsvcd__by_contact(const nsvcd__question *ask, const nsvcd__instants *at, size_t l, const float *centre,
                               float by_time, float *gradient) {
   const size_t s = 3 + 2 * l;
-  const float length = at->t[s + 1] - at->t[s], tau = (at->t[l] - at->t[s]) / length, zero[3] = {0, 0, 0};
+  const float length = at->t[s + 1] - at->t[s], tau = (at->t[l] - at->t[s]) / length;
   float chord[3], y[3], before[3], after[3];
   nsvcd__sub3(at->place[s + 1], at->place[s], chord), nsvcd__sub3(at->place[s], centre, y);
   nsvcd__add_scaled3(tau, chord, y);
@@ -4089,8 +4086,8 @@ static void nsvcd__by_contact(const nsvcd__question *ask, const nsvcd__instants 
   if (!(least > 0)) return;
   const float rate = (l == 0 ? length : -length) * by_time / (dot > least ? dot : least);
   for (size_t k = 0; k < 3; k++) before[k] = (1 - tau) * rate * y[k], after[k] = tau * rate * y[k];
-  nsvcd__by_instant(ask, at, s, before, zero, gradient);
-  nsvcd__by_instant(ask, at, s + 1, after, zero, gradient);
+  nsvcd__by_instant(ask, at, s, before, NULL, gradient);
+  nsvcd__by_instant(ask, at, s + 1, after, NULL, gradient);
 }
 
 // The derivative of the decisive logit by the poses, added to `gradient` (count, 6). time: of the segments' ends.
@@ -4100,7 +4097,7 @@ static void nsvcd__gradient(const nsvcd__question *ask, const nsvcd__decisive *d
   nsvcd__pairs pairs;
   nsvcd__by_pair by;
   nsvcd__instants at;
-  float x[NSVCD__BATCH * NSVCD__DECODER_IN], by_x[NSVCD__DECODER_IN], w[3], n[3], centre[3], arm[3], none[3] = {0};
+  float x[NSVCD__BATCH * NSVCD__DECODER_IN], by_x[NSVCD__DECODER_IN], w[3], n[3], centre[3], arm[3];
   nsvcd__pairs_of(ask->moving, ask->fixed, &ask->motion, &one, 1, &pairs);
   nsvcd__invariants(&pairs, 1, x);
   nsvcd__head_gradient(decisive->head, x, by_x);
@@ -4111,12 +4108,13 @@ static void nsvcd__gradient(const nsvcd__question *ask, const nsvcd__decisive *d
   // The adjoint of nsvcd__pairs_of. v = w x arm + (x1 - x0) / 2, where arm goes from the moving centre half way to the
   // other; w is half the rotation vector of R1 R0^-1, which small rotations of R0 and R1 turn as nsvcd__by_samples
   // says.
-  float enter[3] = {0}, leave[3] = {0}, torque0[3] = {0}, torque1[3] = {0};
-  for (size_t k = 0; k < 3; k++) arm[k] = 0.5f * (centre[k] - at.place[2][k]);
+  float enter[3], leave[3], across[3] = {0}, torque0[3] = {0}, torque1[3] = {0};
+  for (size_t k = 0; k < 3; k++) {
+    enter[k] = -0.5f * by.v[k], leave[k] = 0.5f * by.v[k], arm[k] = 0.5f * (centre[k] - at.place[2][k]);
+  }
   nsvcd__add_cross3(arm, by.v, by.w);
-  nsvcd__add_cross3(by.v, w, none);
-  nsvcd__add_scaled3(-0.5f, none, by.p1);
-  nsvcd__add_scaled3(-0.5f, by.v, enter), nsvcd__add_scaled3(0.5f, by.v, leave);
+  nsvcd__add_cross3(by.v, w, across);
+  nsvcd__add_scaled3(-0.5f, across, by.p1);
   const float h = nsvcd__length3(w), half = 0.5f * (h > 1e-3f ? h / sinf(h) : 1);
   for (size_t k = 0; k < 3; k++) n[k] = h > 0 ? w[k] / h : 0;
   nsvcd__add_turned3(by.w, n, -0.5f, -half, -h, torque0);

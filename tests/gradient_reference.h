@@ -9,7 +9,7 @@
 #include <math.h>
 #include <string.h>
 
-#define REFERENCE_POSES 8
+#define REFERENCE_POSES 40
 
 typedef struct reference_pose {
   double position[3], rotation[4];  // as nsvcd_pose, but from the fixed body's origin

@@ -164,6 +164,13 @@ static int wild_samples(scene *s, shapes_rng *rng, size_t n) {
   pass_by(s, rng, count_between(rng, 2, 8), shapes_uniform(rng, 0.3, 1), 1, 0.2, shapes_uniform(rng, 0.1, 0.6));
   return 1;
 }
+// More poses than segments: some segments have poses within.
+static int many_samples(scene *s, shapes_rng *rng, size_t n) {
+  (void)n;
+  pass_by(s, rng, count_between(rng, 17, REFERENCE_POSES), shapes_uniform(rng, 0.3, 1), shapes_uniform(rng, 0.5, 2),
+          shapes_uniform(rng, 0, 0.1), shapes_uniform(rng, 0, 0.02));
+  return 1;
+}
 static int at_rest(scene *s, shapes_rng *rng, size_t n) {  // one pose, or the same one repeated
   pass_by(s, rng, n % 2 ? 1 : count_between(rng, 2, 4), shapes_uniform(rng, 0.3, 0.9), 0, 0, 0);
   return 1;
@@ -243,6 +250,39 @@ static int one_patch_each(scene *s, shapes_rng *rng, size_t n) {
   s->moving = pool[1][shapes_pick(rng, POOL)], s->fixed = pool[1][shapes_pick(rng, POOL)];
   return n % 2 ? moderate(s, rng, n) : nearly_along_the_line(s, rng, n / 2);
 }
+// A pair whose centres all but coincide: axis 1 of its frame is then the lean.
+static int centres_meet(scene *s, shapes_rng *rng, size_t n) {
+  double a[3], b[3], off[3], axis[3];
+  (void)n;
+  pass_by(s, rng, 1, shapes_uniform(rng, 0.3, 0.9), 0, 0, 0);
+  if (!decisive_centres(s, a, b)) return 0;
+  const double size = (double)nsvcd_body_describe(s->moving).mean_patch_radius;
+  shapes_direction(rng, off), shapes_direction(rng, axis);
+  for (int k = 0; k < 3; k++) {
+    s->poses[0].position[k] += (float)(b[k] - a[k] + 1.5e-5 * size * off[k]);
+    off[k] *= 0.1 * size;
+  }
+  s->count = count_between(rng, 2, 4);
+  move_about(s, b, off, axis, 0.02);
+  return 1;
+}
+// Bodies of one patch whose latents have no lean, some at rest: axis 2 of those is then that of a convention.
+static int without_lean(scene *s, shapes_rng *rng, size_t n) {
+  const size_t size = nsvcd_body_size(1);
+  for (int k = 0; k < 2; k++) {
+    const nsvcd_body *from = pool[1][shapes_pick(rng, POOL)];
+    const float none[3] = {0, 0, 0};
+    float centre[3], radius;
+    int8_t latent[NSVCD__LATENT];
+    CHECK(nsvcd_body_patch(from, 0, centre, &radius));
+    memcpy(latent, nsvcd__body_latents(from), sizeof latent);
+    for (size_t i = 0; i < 3; i++) latent[NSVCD_W_CHANNELS * i] = 0;
+    CHECK_EQ(nsvcd__body_build(1, centre, &radius, none, latent, NSVCD_WEIGHTS_ID, 1, scaled_memory[k].at, size,
+                               k ? &s->fixed : &s->moving),
+             NSVCD_OK);
+  }
+  return n % 2 ? at_rest(s, rng, 1) : moderate(s, rng, n);
+}
 // Two spheres that touch for a short time.
 static int grazing_spheres(scene *s, shapes_rng *rng, size_t n) {
   float centre[2][3] = {{0}}, radius[2] = {0};
@@ -288,9 +328,9 @@ static int other_options(scene *s, shapes_rng *rng, size_t n) {
 }
 
 // Limits, little above what was measured: the share of gradients that are off by more than 1 %, and of those of them
-// that are at no kink; the median of the error, and its 99th percentile where
-// that is below 1 %. Of motions exactly along the line between the
-// centres every tenth is at a jump, for then rounding says which way time runs; there the limit says little.
+// that are at no kink; the median of the error, and its 99th percentile where less than 1 % may be beyond 1 %. Of
+// motions exactly along the line between the centres every tenth is at a jump, for then rounding says which way time
+// runs; and where centres meet, or spheres graze, single precision has few digits left: little is asked of those.
 typedef struct family {
   const char *name;
   int (*make)(scene *, shapes_rng *, size_t);
@@ -302,6 +342,7 @@ static const family families[] = {
     {"straight, no turn", straight, 0.001, 0, 2e-06, 0.0001},
     {"half turns", half_turns, 0.001, 0, 2e-06, 0.0001},
     {"wild samples", wild_samples, 0.001, 0, 2e-06, 0.0001},
+    {"many samples", many_samples, 0.001, 0, 2e-06, 0.0001},
     {"at rest", at_rest, 0.004, 0.001, 0.0001, 0.004},
     {"slow", slow, 0.0085, 0.0015, 4e-05, 0.006},
     {"nearly along the line", nearly_along_the_line, 0.001, 0, 3e-06, 0.002},
@@ -315,10 +356,12 @@ static const family families[] = {
     {"of unlike size", of_unlike_size, 0.001, 0, 2e-06, 0.0001},
     {"one patch each", one_patch_each, 0.001, 0, 2e-06, 0.0002},
     {"grazing spheres", grazing_spheres, 0.17, 0.006, 0.0004, 1},
+    {"centres meet", centres_meet, 0.32, 0.002, 0.0005, 1},
+    {"without lean", without_lean, 0.001, 0, 2e-06, 0.0005},
     {"other options", other_options, 0.001, 0, 2e-06, 0.0001},
 };
 #define FAMILIES (sizeof families / sizeof families[0])
-#define SHALLOW 11
+#define SHALLOW 12
 
 // The n-th scene of a family, the same in every run. Does a network answer?
 static int scene_of(size_t f, size_t n, scene *s, nsvcd_answer *answer, nsvcd__decisive *decisive) {
@@ -364,11 +407,11 @@ static int is_at_a_kink(const reference_pair *pair, const reference_pose *poses,
 }
 
 static void gradient_matches_the_reference(void) {
-  const size_t cases = 2000;
   pool_open();
   printf("  %-22s  cases   median    99 %%   beyond 1 %%: grazing, kinks, unexplained; logit off\n", "family");
   for (size_t f = 0; f < FAMILIES; f++) {
     static double errors[2000];
+    const size_t cases = families[f].make == many_samples ? 300 : 2000;  // each takes longer
     size_t count = 0, beyond = 0, grazing = 0, kinks = 0, unexplained = 0, broken = 0;
     double logit_off = 0;
     for (size_t n = 0; n < cases; n++) {
@@ -407,11 +450,6 @@ static void gradient_matches_the_reference(void) {
         kinks++;
       else
         unexplained++;
-      if (getenv("GRADIENT_VERBOSE")) {
-        printf("    %zu: %.2g, count %zu, graze %.2g, kink %d, logit %.5f %.5f, times %.6f %.6f, %.6f %.6f\n", n, error,
-               s.count, graze, kink, logit, (double)decisive.candidate.score, times[0],
-               (double)decisive.candidate.t_enter, times[1], (double)decisive.candidate.t_exit);
-      }
     }
     qsort(errors, count, sizeof *errors, compare_doubles);
     printf("  %-22s  %4zu  %.1e  %.1e  %5.2f %%: %3zu %3zu %3zu; %.1e\n", families[f].name, count, errors[count / 2],
