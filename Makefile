@@ -25,7 +25,7 @@ ifeq ($(BENCH),quick)
 COUNT ?= 200
 endif
 
-.PHONY: profile instructions sizes bench check-extremes all demo test assets problems accuracy weights format clean help check-header check-examples check-problems
+.PHONY: profile instructions sizes bench check-extremes all demo test assets problems accuracy weights format clean help check-header check-examples check-problems check-gradient
 .DELETE_ON_ERROR:
 
 all: build/svcd build/quickstart  ## the examples: build/svcd and build/quickstart
@@ -53,12 +53,12 @@ assets: build/make_assets  ## writes examples/assets/*.obj, which are in the rep
 
 # ------------------------------------------------------------------------------------------------------------- tests
 
-TESTS = main test_mesh test_network test_broad_phase test_oracle test_query test_cost
+TESTS = main test_mesh test_network test_broad_phase test_oracle test_query test_gradient test_cost
 TEST_OBJECTS = $(TESTS:%=build/%.o)
 # Each test file holds its own copy of the header, and uses only a part of its private functions.
 TEST_WARNINGS = -Wall -Wextra -Werror -Wno-unused-function
 
-build/%.o: tests/%.c tests/check.h tests/oracle.h tests/query_scene.h examples/shapes.h $(wildcard tests/data/*.h) $(LIBRARY) | build
+build/%.o: tests/%.c tests/check.h tests/oracle.h tests/query_scene.h tests/gradient_reference.h examples/shapes.h $(wildcard tests/data/*.h) $(LIBRARY) | build
 	$(CC) $(CFLAGS) -pthread -std=c99 $(TEST_WARNINGS) $(CCD_CFLAGS) -c -o $@ $<
 build/tests: $(TEST_OBJECTS)
 	$(CC) $(CFLAGS) -pthread -o $@ $(TEST_OBJECTS) $(CCD_LIBS) -lm
@@ -70,10 +70,17 @@ check-examples: all build/make_assets  # they run, and they say no as FORMATS.md
 check-problems: build/problems build/svcd  # every set that the generator can make
 	tests/problems.sh
 
+# The gradient, with each of these switches.
+GRADIENT_SWITCHES = SIMD FLOAT INT8 BASE SMALL,BASE
+build/gradient_%: tests/test_gradient.c tests/gradient_reference.h tests/query_scene.h $(LIBRARY) | build
+	$(CC) $(CFLAGS) -std=c99 $(TEST_WARNINGS) -DTEST_ALONE $(patsubst %,-DNSVCD_NO_%,$(subst $(comma), ,$*)) -o $@ $< -lm
+check-gradient: $(GRADIENT_SWITCHES:%=build/gradient_%)
+	@for test in $^; do echo $$test; $$test >$$test.txt || { cat $$test.txt; exit 1; }; tail -1 $$test.txt; done
+
 check-extremes: build/problems build/svcd  # tiny, huge, far, thin, spinning ...
 	tests/extremes.sh
 
-test: build/tests check-header check-examples check-problems check-extremes  ## everything; the last line is `N passed, N failed`
+test: build/tests check-header check-gradient check-examples check-problems check-extremes  ## everything; the last line is `N passed, N failed`
 	build/tests
 
 # ---------------------------------------------------------------------------------------------------------- accuracy

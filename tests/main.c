@@ -8,6 +8,7 @@ void test_network(void);
 void test_broad_phase(void);
 void test_oracle(void);
 void test_query(void);
+void test_gradient(void);
 void test_cost(void);
 
 int main(int argc, char **argv) {
@@ -18,6 +19,7 @@ int main(int argc, char **argv) {
   test_oracle();
   test_cost();
   test_query();
+  test_gradient();
   printf("%d passed, %d failed\n", check.passed, check.failed);
   return check.failed > 0;
 }

@@ -1,0 +1,695 @@
+// nsvcd_sweep_gradient: against differences of a reference in double, against those of nsvcd_sweep itself, its
+// contract, and what it costs. TEST_ALONE: with a main of its own, for builds with the header's switches.
+#define NSVCD_STATIC
+#define NEURALSVCD_IMPLEMENTATION
+#include "../neuralsvcd.h"
+
+#include "query_scene.h"
+#include "gradient_reference.h"
+
+#include <time.h>
+
+void test_gradient(void);
+
+#define POOL 8  // solids
+// Where tiny decides alone, other pairs do than those for which the limits were measured.
+#if defined(NSVCD_NO_SMALL) && defined(NSVCD_NO_BASE)
+#define SLACK 1.5
+#else
+#define SLACK 1
+#endif
+
+typedef struct scene {
+  const nsvcd_body *moving, *fixed;
+  nsvcd_pose poses[REFERENCE_POSES], fixed_pose;
+  size_t count;
+  nsvcd_sweep_options options;
+} scene;
+
+static query_memory pool_memory[2][POOL], scaled_memory[2];
+static const nsvcd_body *pool[2][POOL];  // of 64 patches, of one
+
+static void pool_open(void) {
+  const size_t points[2] = {QUERY_POINTS, 1};
+  if (pool[0][0]) return;
+  for (size_t i = 0; i < POOL; i++) {
+    nsvcd_mesh mesh = query_solid(900 + i, i % 2 ? 0.2 : 0.3);
+    for (size_t n = 0; n < 2; n++) pool[n][i] = query_encode(&mesh, points[n], &pool_memory[n][i]);
+    nsvcd_mesh_free(&mesh, NULL);
+  }
+  for (size_t n = 0; n < 2; n++) scaled_memory[n] = query_reserve(nsvcd_body_size(QUERY_POINTS));
+}
+static const nsvcd_body *pool_scaled(size_t n, const nsvcd_body *body, double scale) {
+  const nsvcd_body *out = NULL;
+  CHECK_EQ(nsvcd_body_scale(body, (float)scale, scaled_memory[n].at, nsvcd_body_size(QUERY_POINTS), &out), NSVCD_OK);
+  return out;
+}
+
+static nsvcd_result ask_gradient(const scene *s, nsvcd_answer *answer, float *gradient) {
+  return nsvcd_sweep_gradient(s->moving, s->poses, s->count, s->fixed, &s->fixed_pose, &s->options, query_workspace(),
+                              nsvcd_sweep_workspace_size(), answer, gradient);
+}
+static nsvcd_answer ask_sweep(const scene *s) {
+  return query_ask(s->moving, s->poses, s->count, s->fixed, &s->fixed_pose, &s->options);
+}
+// The answer, and what decided. Did a network answer?
+static int decide(const scene *s, nsvcd_answer *answer, nsvcd__decisive *decisive) {
+  nsvcd__question ask;
+  CHECK_EQ(
+      nsvcd__prepare(s->moving, s->fixed, &s->options, query_workspace(), nsvcd_sweep_workspace_size(), answer, &ask),
+      NSVCD_OK);
+  nsvcd__motion_init(s->poses, s->count, &s->fixed_pose, &ask.motion);
+  ask.decisive = decisive;
+  nsvcd__answer(&ask, (nsvcd__query *)query_workspace(), NULL, answer);
+  return answer->status == NSVCD_STATUS_OK || answer->status == NSVCD_STATUS_LIMIT;
+}
+
+// ---------------------------------------------------------------------------------------------------------- families
+
+static void turn_pose(nsvcd_pose *pose, const double *by) {  // by a rotation vector, on the left
+  double q[4], turned[4];
+  for (int k = 0; k < 4; k++) q[k] = (double)pose->rotation[k];
+  reference_turn(by, q, turned);
+  const double length = sqrt(reference_dot(turned, turned) + turned[3] * turned[3]);
+  for (int k = 0; k < 4; k++) pose->rotation[k] = (float)(turned[k] / length);
+}
+
+// `count` poses past the fixed body: at mid-motion `away` from its origin, `travel` between the ends, turning by
+// `angle` between neighbours, and each pose off by up to `jitter`. All but angles in parts of the bodies' extents.
+static void pass_by(scene *s, shapes_rng *rng, size_t count, double away, double travel, double angle, double jitter) {
+  const double size = 0.5 * (double)(s->moving->extent + s->fixed->extent);
+  double from[3], along[3], axis[3], turn[3], off[3];
+  nsvcd_pose start;
+  shapes_direction(rng, from), shapes_direction(rng, along), shapes_direction(rng, axis);
+  query_random_pose(rng, size, &s->fixed_pose);
+  query_random_pose(rng, 0, &start);
+  s->count = count;
+  for (size_t n = 0; n < count; n++) {
+    const double t = count > 1 ? (double)n / (double)(count - 1) - 0.5 : 0;
+    nsvcd_pose *pose = &s->poses[n];
+    *pose = start;
+    shapes_direction(rng, off);
+    for (int k = 0; k < 3; k++) {
+      const double place = away * from[k] + travel * t * along[k] + jitter * off[k];
+      pose->position[k] = (float)((double)s->fixed_pose.position[k] + size * place);
+      turn[k] = angle * (double)n * axis[k];
+    }
+    turn_pose(pose, turn);
+    for (int k = 0; k < 3; k++) turn[k] = jitter * off[2 - k];
+    turn_pose(pose, turn);
+  }
+}
+
+// The centres of the pair that decides, at mid-motion, world axes. Is there any?
+static int decisive_centres(const scene *s, double *moving, double *fixed) {
+  nsvcd_answer answer;
+  nsvcd__decisive decisive;
+  reference_pair pair;
+  reference_pose poses[REFERENCE_POSES];
+  double in_fixed[2][3], m[9], q[4];
+  if (!decide(s, &answer, &decisive)) return 0;
+  reference_open(s->moving, s->poses, s->count, s->fixed, &s->fixed_pose,
+                 &((nsvcd__query *)query_workspace())->broad_phase, &decisive.candidate, decisive.head, &pair, poses);
+  reference_place(&pair, poses, 0.5, in_fixed[0]);
+  memcpy(in_fixed[1], pair.c2, sizeof pair.c2);
+  for (int k = 0; k < 4; k++) q[k] = (double)s->fixed_pose.rotation[k];
+  reference_matrix(q, m);
+  reference_mul(m, in_fixed[0], moving), reference_mul(m, in_fixed[1], fixed);
+  for (int k = 0; k < 3; k++) {
+    moving[k] += (double)s->fixed_pose.position[k], fixed[k] += (double)s->fixed_pose.position[k];
+  }
+  return 1;
+}
+
+// Poses about one placement: steps along `along` and turns by `angle` to each side about `axis` through `centre`.
+static void move_about(scene *s, const double *centre, const double *along, const double *axis, double angle) {
+  const nsvcd_pose middle = s->poses[0];
+  for (size_t n = 0; n < s->count; n++) {
+    const double t = 2 * (double)n / (double)(s->count - 1) - 1;
+    const double turn[3] = {t * angle * axis[0], t * angle * axis[1], t * angle * axis[2]}, unit[4] = {0, 0, 0, 1};
+    double arm[3], turned[3], q[4], m[9];
+    for (int k = 0; k < 3; k++) arm[k] = (double)middle.position[k] - centre[k];
+    reference_turn(turn, unit, q);
+    reference_matrix(q, m);
+    reference_mul(m, arm, turned);
+    s->poses[n] = middle;
+    for (int k = 0; k < 3; k++) s->poses[n].position[k] = (float)(centre[k] + turned[k] + t * along[k]);
+    turn_pose(&s->poses[n], turn);
+  }
+}
+
+static size_t count_between(shapes_rng *rng, int least, int most) {
+  return (size_t)(least + shapes_pick(rng, most - least + 1));
+}
+
+static int moderate(scene *s, shapes_rng *rng, size_t n) {
+  (void)n;
+  pass_by(s, rng, count_between(rng, 2, 8), shapes_uniform(rng, 0.3, 1), shapes_uniform(rng, 0.2, 1.5),
+          shapes_uniform(rng, 0, 0.3), 0);
+  return 1;
+}
+static int straight(scene *s, shapes_rng *rng, size_t n) {
+  (void)n;
+  pass_by(s, rng, count_between(rng, 2, 8), shapes_uniform(rng, 0.3, 1), shapes_uniform(rng, 0.2, 1.5), 0, 0);
+  return 1;
+}
+static int half_turns(scene *s, shapes_rng *rng, size_t n) {
+  (void)n;
+  pass_by(s, rng, count_between(rng, 2, 4), shapes_uniform(rng, 0.3, 1.2), shapes_uniform(rng, 0, 1),
+          shapes_uniform(rng, 0.85, 0.9999) * 3.14159265, 0);
+  return 1;
+}
+static int wild_samples(scene *s, shapes_rng *rng, size_t n) {
+  (void)n;
+  pass_by(s, rng, count_between(rng, 2, 8), shapes_uniform(rng, 0.3, 1), 1, 0.2, shapes_uniform(rng, 0.1, 0.6));
+  return 1;
+}
+// More poses than segments: some segments have poses within.
+static int many_samples(scene *s, shapes_rng *rng, size_t n) {
+  (void)n;
+  pass_by(s, rng, count_between(rng, 17, REFERENCE_POSES), shapes_uniform(rng, 0.3, 1), shapes_uniform(rng, 0.5, 2),
+          shapes_uniform(rng, 0, 0.1), shapes_uniform(rng, 0, 0.02));
+  return 1;
+}
+static int at_rest(scene *s, shapes_rng *rng, size_t n) {  // one pose, or the same one repeated
+  pass_by(s, rng, n % 2 ? 1 : count_between(rng, 2, 4), shapes_uniform(rng, 0.3, 0.9), 0, 0, 0);
+  return 1;
+}
+static int slow(scene *s, shapes_rng *rng, size_t n) {
+  const double speed = pow(10, shapes_uniform(rng, -5, -1));
+  (void)n;
+  pass_by(s, rng, count_between(rng, 2, 4), shapes_uniform(rng, 0.3, 0.9), speed, speed * shapes_uniform(rng, 0, 1), 0);
+  return 1;
+}
+// Towards the other centre of the pair, off by the angle `off`, and turning by `angle` about the moving one.
+static int approach(scene *s, shapes_rng *rng, double off, double angle) {
+  double a[3], b[3], along[3], axis[3], line[3];
+  pass_by(s, rng, 1, shapes_uniform(rng, 0.3, 0.9), 0, 0, 0);
+  if (!decisive_centres(s, a, b)) return 0;
+  const double step = shapes_uniform(rng, 0.1, 2);
+  for (int k = 0; k < 3; k++) line[k] = step * (b[k] - a[k]);
+  shapes_direction(rng, axis);
+  reference_cross(axis, line, along);
+  for (int k = 0; k < 3; k++) along[k] = line[k] + off * along[k];
+  s->count = count_between(rng, 2, 4);
+  move_about(s, a, along, axis, angle);
+  return 1;
+}
+static int nearly_along_the_line(scene *s, shapes_rng *rng, size_t n) {
+  return approach(s, rng, pow(10, shapes_uniform(rng, -3, -1)), n % 2 ? 0 : shapes_uniform(rng, 0, 0.5));
+}
+static int along_the_line(scene *s, shapes_rng *rng, size_t n) {
+  return approach(s, rng, 0, n % 2 ? 0 : shapes_uniform(rng, 0, 0.5));
+}
+static int turn_about_the_pair(scene *s, shapes_rng *rng, size_t n) {
+  double a[3], b[3], axis[3];
+  const double none[3] = {0, 0, 0};
+  (void)n;
+  pass_by(s, rng, 1, shapes_uniform(rng, 0.3, 0.9), 0, 0, 0);
+  if (!decisive_centres(s, a, b)) return 0;
+  for (int k = 0; k < 3; k++) a[k] = 0.5 * (a[k] + b[k]);
+  shapes_direction(rng, axis);
+  s->count = count_between(rng, 2, 4);
+  move_about(s, a, none, axis, shapes_uniform(rng, 0.02, 1));
+  return 1;
+}
+static int turn_about_the_origin(scene *s, shapes_rng *rng, size_t n) {
+  (void)n;
+  pass_by(s, rng, count_between(rng, 2, 8), shapes_uniform(rng, 0.3, 1), 0, shapes_uniform(rng, 0.02, 1), 0);
+  return 1;
+}
+static int deep(scene *s, shapes_rng *rng, size_t n) {
+  (void)n;
+  pass_by(s, rng, count_between(rng, 2, 8), shapes_uniform(rng, 0, 0.3), 3, shapes_uniform(rng, 0, 0.3), 0);
+  return 1;
+}
+static int shallow(scene *s, shapes_rng *rng, size_t n) {
+  (void)n;
+  pass_by(s, rng, count_between(rng, 2, 8), shapes_uniform(rng, 1, 1.5), shapes_uniform(rng, 0.1, 1),
+          shapes_uniform(rng, 0, 0.3), 0);
+  return 1;
+}
+static int far_from_zero(scene *s, shapes_rng *rng, size_t n) {
+  nsvcd_pose common = {{0, 0, 0}, {0, 0, 0, 1}};
+  for (int k = 0; k < 3; k++) common.position[k] = (float)shapes_uniform(rng, -1000, 1000);
+  if (!moderate(s, rng, n)) return 0;
+  s->fixed_pose = query_moved(&common, &s->fixed_pose);
+  for (size_t i = 0; i < s->count; i++) s->poses[i] = query_moved(&common, &s->poses[i]);
+  return 1;
+}
+static int tiny_or_huge(scene *s, shapes_rng *rng, size_t n) {
+  const double scale = n % 2 ? 1e-3 : 1e3;
+  s->moving = pool_scaled(0, s->moving, scale), s->fixed = pool_scaled(1, s->fixed, scale);
+  return moderate(s, rng, n);
+}
+static int of_unlike_size(scene *s, shapes_rng *rng, size_t n) {
+  s->moving = pool_scaled(0, s->moving, n % 2 ? 0.1 : 10);
+  return moderate(s, rng, n);
+}
+static int one_patch_each(scene *s, shapes_rng *rng, size_t n) {
+  s->moving = pool[1][shapes_pick(rng, POOL)], s->fixed = pool[1][shapes_pick(rng, POOL)];
+  return n % 2 ? moderate(s, rng, n) : nearly_along_the_line(s, rng, n / 2);
+}
+// A pair whose centres all but coincide: axis 1 of its frame is then the lean.
+static int centres_meet(scene *s, shapes_rng *rng, size_t n) {
+  double a[3], b[3], off[3], axis[3];
+  (void)n;
+  pass_by(s, rng, 1, shapes_uniform(rng, 0.3, 0.9), 0, 0, 0);
+  if (!decisive_centres(s, a, b)) return 0;
+  const double size = (double)nsvcd_body_describe(s->moving).mean_patch_radius;
+  shapes_direction(rng, off), shapes_direction(rng, axis);
+  for (int k = 0; k < 3; k++) {
+    s->poses[0].position[k] += (float)(b[k] - a[k] + 1.5e-5 * size * off[k]);
+    off[k] *= 0.1 * size;
+  }
+  s->count = count_between(rng, 2, 4);
+  move_about(s, b, off, axis, 0.02);
+  return 1;
+}
+// Bodies of one patch whose latents have no lean, some at rest: axis 2 of those is then that of a convention.
+static int without_lean(scene *s, shapes_rng *rng, size_t n) {
+  const size_t size = nsvcd_body_size(1);
+  for (int k = 0; k < 2; k++) {
+    const nsvcd_body *from = pool[1][shapes_pick(rng, POOL)];
+    const float none[3] = {0, 0, 0};
+    float centre[3], radius;
+    int8_t latent[NSVCD__LATENT];
+    CHECK(nsvcd_body_patch(from, 0, centre, &radius));
+    memcpy(latent, nsvcd__body_latents(from), sizeof latent);
+    for (size_t i = 0; i < 3; i++) latent[NSVCD_W_CHANNELS * i] = 0;
+    CHECK_EQ(nsvcd__body_build(1, centre, &radius, none, latent, NSVCD_WEIGHTS_ID, 1, scaled_memory[k].at, size,
+                               k ? &s->fixed : &s->moving),
+             NSVCD_OK);
+  }
+  return n % 2 ? at_rest(s, rng, 1) : moderate(s, rng, n);
+}
+// Two spheres that touch for a short time.
+static int grazing_spheres(scene *s, shapes_rng *rng, size_t n) {
+  float centre[2][3] = {{0}}, radius[2] = {0};
+  double along[3], across[3], arm[3], m[9], q[4];
+  s->moving = pool[1][shapes_pick(rng, POOL)], s->fixed = pool[1][shapes_pick(rng, POOL)];
+  pass_by(s, rng, 2 + n % 3, 0, 0, 0, 0);
+  CHECK(nsvcd_body_patch(s->moving, 0, centre[0], &radius[0]) && nsvcd_body_patch(s->fixed, 0, centre[1], &radius[1]));
+  const double reach = (double)(radius[0] + radius[1]), most = 1 - pow(10, shapes_uniform(rng, -6, -1));
+  shapes_direction(rng, arm), shapes_direction(rng, along);
+  reference_cross(along, arm, across);
+  const double scale = most * reach / reference_length(across);
+  for (int body = 0; body < 2; body++) {
+    const nsvcd_pose *pose = body ? &s->fixed_pose : &s->poses[0];
+    double c[3], turned[3];
+    if (body == 0) memset(arm, 0, sizeof arm);
+    for (int k = 0; k < 4; k++) q[k] = (double)pose->rotation[k];
+    for (int k = 0; k < 3; k++) c[k] = (double)centre[body][k];
+    reference_matrix(q, m);
+    reference_mul(m, c, turned);
+    for (int k = 0; k < 3; k++) arm[k] = body ? arm[k] + turned[k] : -turned[k];
+  }
+  for (size_t i = 0; i < s->count; i++) {
+    const double t = 2 * (double)i / (double)(s->count - 1) - 1;
+    for (int k = 0; k < 3; k++) {
+      const double place = arm[k] + scale * across[k] + t * reach * along[k];
+      s->poses[i].position[k] = (float)((double)s->fixed_pose.position[k] + place);
+    }
+  }
+  return 1;
+}
+static int other_options(scene *s, shapes_rng *rng, size_t n) {
+  const float recall[4] = {0, 0.99f, 0.999f, 0.9999f};
+#if defined(NSVCD_NO_SMALL) || defined(NSVCD_NO_BASE)
+  s->options.model = NSVCD_MODEL_TINY;
+#else
+  s->options.model = (nsvcd_model)shapes_pick(rng, 4);
+#endif
+  s->options.recall = recall[n % 4], s->options.pairs = count_between(rng, 1, 64);
+#if !defined(NSVCD_NO_INT8)
+  s->options.precision = shapes_pick(rng, 2) ? NSVCD_PRECISION_INT8 : NSVCD_PRECISION_FLOAT;
+#endif
+  return moderate(s, rng, n);
+}
+
+// Limits, little above what was measured: the share of gradients that are off by more than 1 %, and of those of them
+// that are at no kink; the median of the error, and its 99th percentile where less than 1 % may be beyond 1 %. Of
+// motions exactly along the line between the centres every tenth is at a jump, for then rounding says which way time
+// runs; and where centres meet, or spheres graze, single precision has few digits left: little is asked of those.
+typedef struct family {
+  const char *name;
+  int (*make)(scene *, shapes_rng *, size_t);
+  double beyond, unexplained, median, most;
+} family;
+
+static const family families[] = {
+    {"moderate", moderate, 0.0015, 0, 2e-06, 0.0001},
+    {"straight, no turn", straight, 0.001, 0, 2e-06, 0.0001},
+    {"half turns", half_turns, 0.001, 0, 2e-06, 0.0001},
+    {"wild samples", wild_samples, 0.001, 0, 2e-06, 0.0001},
+    {"many samples", many_samples, 0.001, 0, 2e-06, 0.0001},
+    {"at rest", at_rest, 0.004, 0.001, 0.0001, 0.004},
+    {"slow", slow, 0.0085, 0.0015, 4e-05, 0.006},
+    {"nearly along the line", nearly_along_the_line, 0.001, 0, 3e-06, 0.002},
+    {"along the line", along_the_line, 0.12, 0.001, 4e-06, 1},
+    {"turn about the pair", turn_about_the_pair, 0.0095, 0.001, 4e-06, 0.002},
+    {"turn about the origin", turn_about_the_origin, 0.0015, 0, 2e-06, 0.0001},
+    {"deep", deep, 0.001, 0, 3e-06, 0.0001},
+    {"shallow", shallow, 0.001, 0, 3e-06, 0.0002},
+    {"far from zero", far_from_zero, 0.001, 0, 2e-06, 0.0001},
+    {"tiny or huge", tiny_or_huge, 0.001, 0, 2e-06, 0.0001},
+    {"of unlike size", of_unlike_size, 0.001, 0, 2e-06, 0.0001},
+    {"one patch each", one_patch_each, 0.001, 0, 2e-06, 0.0002},
+    {"grazing spheres", grazing_spheres, 0.17, 0.006, 0.0004, 1},
+    {"centres meet", centres_meet, 0.32, 0.002, 0.0005, 1},
+    {"without lean", without_lean, 0.001, 0, 2e-06, 0.0005},
+    {"other options", other_options, 0.001, 0, 2e-06, 0.0001},
+};
+#define FAMILIES (sizeof families / sizeof families[0])
+#define SHALLOW 12
+
+// The n-th scene of a family, the same in every run. Does a network answer?
+static int scene_of(size_t f, size_t n, scene *s, nsvcd_answer *answer, nsvcd__decisive *decisive) {
+  shapes_rng rng = {1000003 * (uint64_t)f + n};
+  memset(s, 0, sizeof *s);
+  s->moving = pool[0][shapes_pick(&rng, POOL)], s->fixed = pool[0][shapes_pick(&rng, POOL)];
+  return families[f].make(s, &rng, n) && decide(s, answer, decisive);
+}
+
+// -------------------------------------------------------------------------------------------------- against reference
+
+static int compare_doubles(const void *a, const void *b) {
+  const double x = *(const double *)a, y = *(const double *)b;
+  return (x > y) - (x < y);
+}
+
+// |a - b| / |b| of two gradients (count, 6), forces times `length` beside torques.
+static double relative_error(const double *a, const double *b, size_t count, double length) {
+  double difference = 0, size = 0;
+  for (size_t i = 0; i < 6 * count; i++) {
+    const double unit = i % 6 < 3 ? length : 1, d = unit * (a[i] - b[i]), g = unit * b[i];
+    difference += d * d, size += g * g;
+  }
+  return difference > 0 ? sqrt(difference / size) : 0;
+}
+
+// Does the reference's own gradient change by more than 1 % where the poses move by what rounding to float does: 3e-7
+// of a turn or the bodies' size? Then it has a kink or a jump there (ReLU, the frame, a clamp, contact).
+static int is_at_a_kink(const reference_pair *pair, const reference_pose *poses, double length, double metres,
+                        double radians, const double *expected, shapes_rng *rng) {
+  for (int trial = 0; trial < 12; trial++) {
+    reference_pose moved[REFERENCE_POSES];
+    double other[6 * REFERENCE_POSES];
+    memcpy(moved, poses, pair->count * sizeof *poses);
+    for (size_t i = 0; i < 6 * pair->count; i++) {
+      const double by = 3e-7 * shapes_uniform(rng, -1, 1);
+      reference_displace(&moved[i / 6], i % 6, i % 6 < 3 ? length * by : by);
+    }
+    reference_gradient(pair, moved, metres, radians, other);
+    if (!(relative_error(other, expected, pair->count, length) <= 0.01)) return 1;
+  }
+  return 0;
+}
+
+static void gradient_matches_the_reference(void) {
+  pool_open();
+  printf("  %-22s  cases   median    99 %%   beyond 1 %%: grazing, kinks, unexplained; logit off\n", "family");
+  for (size_t f = 0; f < FAMILIES; f++) {
+    static double errors[2000];
+    const size_t cases = families[f].make == many_samples ? 300 : 2000;  // each takes longer
+    size_t count = 0, beyond = 0, grazing = 0, kinks = 0, unexplained = 0, broken = 0;
+    double logit_off = 0;
+    for (size_t n = 0; n < cases; n++) {
+      scene s;
+      nsvcd_answer answer;
+      nsvcd__decisive decisive;
+      reference_pair pair;
+      reference_pose poses[REFERENCE_POSES];
+      float gradient[6 * REFERENCE_POSES];
+      double found[6 * REFERENCE_POSES], expected[6 * REFERENCE_POSES], times[2], graze;
+      if (!scene_of(f, n, &s, &answer, &decisive)) continue;
+      reference_open(s.moving, s.poses, s.count, s.fixed, &s.fixed_pose,
+                     &((nsvcd__query *)query_workspace())->broad_phase, &decisive.candidate, decisive.head, &pair,
+                     poses);
+      CHECK_EQ(ask_gradient(&s, &answer, gradient), NSVCD_OK);
+      const double length = (double)s.moving->extent, metres = 1e-8 * pair.unit, radians = metres / length;
+      for (size_t i = 0; i < 6 * s.count; i++) {
+        found[i] = (double)gradient[i], broken += !nsvcd__is_finite(gradient[i]);
+      }
+      const double logit = reference_logit(&pair, poses, times, &graze);
+      reference_gradient(&pair, poses, metres, radians, expected);
+      const double error = relative_error(found, expected, s.count, length);
+#ifndef NSVCD_NO_FLOAT
+      if (!s.options.precision) {
+        logit_off = fmax(logit_off, fabs(logit - (double)decisive.candidate.score) / fmax(1, fabs(logit)));
+      }
+#endif
+      errors[count++] = error;
+      if (error <= 0.01) continue;
+      shapes_rng rng = {n};
+      const int kink = is_at_a_kink(&pair, poses, length, metres, radians, expected, &rng);
+      beyond++;
+      if (graze < 0.01)
+        grazing++;
+      else if (kink)
+        kinks++;
+      else
+        unexplained++;
+    }
+    qsort(errors, count, sizeof *errors, compare_doubles);
+    printf("  %-22s  %4zu  %.1e  %.1e  %5.2f %%: %3zu %3zu %3zu; %.1e\n", families[f].name, count, errors[count / 2],
+           errors[count * 99 / 100], 100 * (double)beyond / (double)count, grazing, kinks, unexplained, logit_off);
+    CHECK_GE(count, 0.8 * (double)cases);
+    CHECK_EQ(broken, 0);
+    const double allowed = SLACK * families[f].beyond;
+    CHECK_LE((double)beyond / (double)count, allowed);
+    CHECK_LE((double)unexplained / (double)count, families[f].unexplained);
+    CHECK_LE(errors[count / 2], SLACK * families[f].median);
+    if (allowed < 0.01) CHECK_LE(errors[count * 99 / 100], families[f].most);
+  }
+}
+
+// ------------------------------------------------------------------------------------------------ against nsvcd_sweep
+
+// s, displaced by `step` times `along` (count, 6).
+static scene displaced(const scene *s, double step, const double *along) {
+  scene out = *s;
+  for (size_t n = 0; n < s->count; n++) {
+    const double turn[3] = {step * along[6 * n + 3], step * along[6 * n + 4], step * along[6 * n + 5]};
+    for (size_t k = 0; k < 3; k++) out.poses[n].position[k] += (float)(step * along[6 * n + k]);
+    turn_pose(&out.poses[n], turn);
+  }
+  return out;
+}
+
+// Differences of nsvcd_sweep's logit, up the gradient and in a random direction, where the same pair and head decide on
+// both sides: 1e-3 of the moving body's size apart, so that kinks within that and rounding count as well.
+static void gradient_follows_the_logit(void) {
+  pool_open();
+  for (size_t f = 0; f < 4; f++) {
+    size_t count[2] = {0, 0}, close[2] = {0, 0}, asked = 0;
+    for (size_t n = 0; n < 1000; n++) {
+      scene s;
+      nsvcd_answer answer;
+      nsvcd__decisive decisive, beside[2];
+      float gradient[6 * REFERENCE_POSES];
+      if (!scene_of(f, n, &s, &answer, &decisive)) continue;
+      CHECK_EQ(ask_gradient(&s, &answer, gradient), NSVCD_OK);
+      const double length = (double)s.moving->extent;
+      shapes_rng rng = {n};
+      for (int random = 0; random < 2; random++) {
+        double along[6 * REFERENCE_POSES], norm = 0, slope = 0, steepest = 0, logit[2];
+        int same = 1;
+        for (size_t i = 0; i < 6 * s.count; i++) {
+          const double unit = i % 6 < 3 ? length : 1, g = unit * (double)gradient[i];
+          along[i] = random ? shapes_normal(&rng) : g;
+          norm += along[i] * along[i], slope += along[i] * g, steepest += g * g;
+          along[i] *= unit;
+        }
+        norm = sqrt(norm), slope /= norm, steepest = sqrt(steepest);
+        for (size_t i = 0; i < 6 * s.count; i++) along[i] /= norm;
+        for (int side = 0; side < 2; side++) {
+          const scene moved = displaced(&s, side ? 5e-4 : -5e-4, along);
+          nsvcd_answer there = ask_sweep(&moved);
+          same = same && there.moving_patch == answer.moving_patch && there.fixed_patch == answer.fixed_patch &&
+                 decide(&moved, &there, &beside[side]) && beside[side].head == decisive.head &&
+                 fabsf(beside[side].candidate.t_least - decisive.candidate.t_least) < 0.1f;
+          logit[side] = (double)there.logit;
+        }
+        asked++;
+        if (!same) continue;
+        count[random]++, close[random] += fabs((logit[1] - logit[0]) / 1e-3 - slope) <= 0.1 * steepest;
+      }
+    }
+    printf(
+        "  %-22s  within 10 %% of nsvcd_sweep's differences: %.1f %% of %zu up the gradient, %.1f %% of %zu others\n",
+        families[f].name, 100 * (double)close[0] / (double)count[0], count[0],
+        100 * (double)close[1] / (double)count[1], count[1]);
+    CHECK_GE(count[0] + count[1], 0.68 * (double)asked);
+    CHECK_GE(close[0], 0.93 * (double)count[0]);
+    CHECK_GE(close[1], 0.98 * (double)count[1]);
+  }
+}
+
+// ----------------------------------------------------------------------------------------------------------- contract
+
+// Calls with every argument as it should be but for those given; answer and gradient must be left alone.
+static void check_refused(const scene *s, const nsvcd_pose *poses, size_t count, void *workspace, size_t size,
+                          const nsvcd_sweep_options *options, int with_gradient, nsvcd_result expected) {
+  float gradient[6 * REFERENCE_POSES], before[6 * REFERENCE_POSES];
+  nsvcd_answer answer, untouched;
+  memset(gradient, 0x5a, sizeof gradient), memset(before, 0x5a, sizeof before);
+  memset(&answer, 0x5a, sizeof answer), memset(&untouched, 0x5a, sizeof untouched);
+  CHECK_EQ(nsvcd_sweep_gradient(s->moving, poses, count, s->fixed, &s->fixed_pose, options, workspace, size, &answer,
+                                with_gradient ? gradient : NULL),
+           expected);
+  CHECK(memcmp(gradient, before, sizeof before) == 0);
+  CHECK(memcmp(&answer, &untouched, sizeof answer) == 0);
+}
+
+static void gradient_refuses(void) {
+  scene s;
+  nsvcd_answer answer;
+  nsvcd__decisive decisive;
+  const size_t size = nsvcd_sweep_workspace_size();
+  char *workspace = (char *)query_workspace();
+  size_t n = 0;
+  pool_open();
+  while (!scene_of(0, n, &s, &answer, &decisive) || s.count < 3) n++;
+  const nsvcd_sweep_options wrong = query_options(NSVCD_MAX_PAIRS + 1, NSVCD_MODEL_DEFAULT, 0);
+  nsvcd_pose broken[REFERENCE_POSES];
+  check_refused(&s, s.poses, s.count, workspace, size, NULL, 0, NSVCD_ERROR_ARGUMENT);
+  check_refused(&s, NULL, s.count, workspace, size, NULL, 1, NSVCD_ERROR_ARGUMENT);
+  check_refused(&s, s.poses, 0, workspace, size, NULL, 1, NSVCD_ERROR_ARGUMENT);
+  check_refused(&s, s.poses, s.count, workspace, size, &wrong, 1, NSVCD_ERROR_ARGUMENT);
+  check_refused(&s, s.poses, s.count, NULL, size, NULL, 1, NSVCD_ERROR_WORKSPACE);
+  check_refused(&s, s.poses, s.count, workspace, size - 1, NULL, 1, NSVCD_ERROR_WORKSPACE);
+  check_refused(&s, s.poses, s.count, workspace + 1, size, NULL, 1, NSVCD_ERROR_WORKSPACE);
+  for (size_t k = 0; k < 2; k++) {
+    memcpy(broken, s.poses, sizeof broken);
+    *(k ? &broken[1].rotation[3] : &broken[2].position[0]) = (float)NAN;
+    check_refused(&s, broken, s.count, workspace, size, NULL, 1, NSVCD_ERROR_POSE);
+  }
+  float gradient[6 * REFERENCE_POSES];
+  CHECK_EQ(
+      nsvcd_sweep_gradient(s.moving, s.poses, s.count, s.fixed, &s.fixed_pose, NULL, workspace, size, NULL, gradient),
+      NSVCD_ERROR_ARGUMENT);
+}
+
+// The answer is nsvcd_sweep's to the bit, the gradient no function of what the workspace held, and all that is written
+// is (count, 6).
+static void gradient_answers_as_sweep(void) {
+  size_t statuses[4] = {0, 0, 0, 0};
+  pool_open();
+  for (size_t f = 0; f < FAMILIES; f++) {
+    for (size_t n = 0; n < 100; n++) {
+      scene s;
+      nsvcd_answer answer, expected;
+      nsvcd__decisive decisive;
+      float gradient[2][6 * REFERENCE_POSES + 1];
+      (void)scene_of(f, n, &s, &answer, &decisive);
+      if (s.count == 0) continue;
+      for (int i = 0; i < 2; i++) {
+        memset(query_workspace(), i ? 0xff : 0, nsvcd_sweep_workspace_size());
+        for (size_t k = 0; k <= 6 * REFERENCE_POSES; k++) gradient[i][k] = 7;
+        CHECK_EQ(ask_gradient(&s, &answer, gradient[i]), NSVCD_OK);
+        CHECK_EQ(gradient[i][6 * s.count], 7);
+      }
+      expected = ask_sweep(&s);
+      CHECK(query_same_answer(&answer, &expected));
+      CHECK(memcmp(gradient[0], gradient[1], 6 * s.count * sizeof(float)) == 0);
+      double most = 0;
+      for (size_t k = 0; k < 6 * s.count; k++) most = fmax(most, fabs((double)gradient[0][k]));
+      const int network = answer.status == NSVCD_STATUS_OK || answer.status == NSVCD_STATUS_LIMIT;
+      CHECK(network ? most > 0 : !(most > 0));
+      statuses[answer.status]++;
+    }
+  }
+  CHECK_GE(statuses[NSVCD_STATUS_OK], 10);
+  CHECK_GE(statuses[NSVCD_STATUS_CERTIFIED_FREE], 10);
+  CHECK_GE(statuses[NSVCD_STATUS_LIMIT], 10);
+  CHECK_GE(statuses[NSVCD_STATUS_INSIDE], 1);
+}
+
+// Of two poses that nothing distinguishes but their order, a pose that the decisive pair does not pass gets nothing.
+static void gradient_is_zero_where_the_pair_is_not(void) {
+  size_t zero = 0, cases = 0;
+  pool_open();
+  for (size_t n = 0; n < 200; n++) {
+    scene s;
+    nsvcd_answer answer;
+    nsvcd__decisive decisive;
+    float gradient[6 * REFERENCE_POSES];
+    if (!scene_of(3, n, &s, &answer, &decisive) || s.count < 4) continue;
+    CHECK_EQ(ask_gradient(&s, &answer, gradient), NSVCD_OK);
+    cases++;
+    for (size_t k = 0; k < s.count; k++) {
+      const float arcs = (float)(s.count - 1), *row = gradient + 6 * k;
+      const int passed =
+          decisive.candidate.t_exit * arcs > (float)k - 1.001f && decisive.candidate.t_enter * arcs < (float)k + 1.001f;
+      if (passed) continue;
+      zero++;
+      for (size_t i = 0; i < 6; i++) CHECK_EQ(row[i], 0);
+    }
+  }
+  CHECK_GE(cases, 50);
+  CHECK_GE(zero, 50);
+}
+
+// --------------------------------------------------------------------------------------------------------------- time
+
+static void gradient_takes_microseconds(void) {
+  pool_open();
+  for (size_t head = 0; head < 3; head += 2) {  // by the head that decides: tiny, base
+    static double times[2][1000], extra[1000];
+    size_t count = 0;
+    for (size_t n = 0; n < 1000 && count < 150; n++) {
+      scene s;
+      nsvcd_answer answer;
+      nsvcd__decisive decisive;
+      float gradient[6 * REFERENCE_POSES];
+      if (!scene_of(head ? SHALLOW : 0, n, &s, &answer, &decisive)) continue;
+      if (decisive.head != &nsvcd_w_heads[head]) continue;
+      double least[2] = {1e9, 1e9};
+      for (int run = 0; run < 10; run++) {
+        const int turns = 20;
+        const clock_t start = clock();
+        for (int i = 0; i < turns; i++) {
+          nsvcd_sweep(s.moving, s.poses, s.count, s.fixed, &s.fixed_pose, &s.options, query_workspace(),
+                      nsvcd_sweep_workspace_size(), &answer);
+        }
+        const clock_t middle = clock();
+        for (int i = 0; i < turns; i++) ask_gradient(&s, &answer, gradient);
+        least[0] = fmin(least[0], 1e6 * (double)(middle - start) / CLOCKS_PER_SEC / turns);
+        least[1] = fmin(least[1], 1e6 * (double)(clock() - middle) / CLOCKS_PER_SEC / turns);
+      }
+      times[0][count] = least[0], times[1][count] = least[1], extra[count++] = least[1] - least[0];
+    }
+    if (count == 0) continue;  // compiled out
+    for (int i = 0; i < 2; i++) qsort(times[i], count, sizeof(double), compare_doubles);
+    qsort(extra, count, sizeof(double), compare_doubles);
+    printf(
+        "  median of %zu, %s decides: nsvcd_sweep %.2f us, nsvcd_sweep_gradient %.2f us; the gradient %.2f, 90 %% "
+        "%.2f\n",
+        count, head ? "base" : "tiny", times[0][count / 2], times[1][count / 2], extra[count / 2],
+        extra[count * 9 / 10]);
+  }
+}
+
+void test_gradient(void) {
+  RUN(gradient_matches_the_reference);
+#ifndef NSVCD_NO_FLOAT  // the int8 logit has steps
+  RUN(gradient_follows_the_logit);
+#endif
+  RUN(gradient_refuses);
+  RUN(gradient_answers_as_sweep);
+  RUN(gradient_is_zero_where_the_pair_is_not);
+#ifndef TEST_ALONE
+  RUN(gradient_takes_microseconds);
+#endif
+}
+
+#ifdef TEST_ALONE
+check_state check;
+int main(int argc, char **argv) {
+  check.filter = argc > 1 ? argv[1] : NULL;
+  test_gradient();
+  printf("%d passed, %d failed\n", check.passed, check.failed);
+  return check.failed > 0;
+}
+#endif
