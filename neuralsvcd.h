@@ -30,7 +30,8 @@
 //   NSVCD_NO_OBJ      no OBJ reader at all
 //   NSVCD_NO_ENCODER  no nsvcd_encode and no OBJ reader: bodies come from nsvcd_body_load
 //   NSVCD_NO_SMALL, NSVCD_NO_BASE   without these decoders; the default is the largest that is left
-//   NSVCD_NO_GRADIENT no nsvcd_sweep_gradient
+//   NSVCD_NO_GRADIENT no nsvcd_sweep_gradient, and no optimizer
+//   NSVCD_NO_OPTIMIZER  no trajectory optimizer
 //   NSVCD_NO_INT8, NSVCD_NO_FLOAT   without this arithmetic of the decoders; without float, int8 is the default
 //   NSVCD_NO_SIMD     plain C where the compiler's flags allow AVX-512, AVX2 with FMA, SSE2 or NEON
 //
@@ -63,6 +64,9 @@
 
 #if defined(NSVCD_NO_ENCODER) && !defined(NSVCD_NO_OBJ)
 #define NSVCD_NO_OBJ
+#endif
+#if defined(NSVCD_NO_GRADIENT) && !defined(NSVCD_NO_OPTIMIZER)
+#define NSVCD_NO_OPTIMIZER
 #endif
 #if defined(NSVCD_NO_INT8) && defined(NSVCD_NO_FLOAT)
 #error "neuralsvcd.h: NSVCD_NO_INT8 and NSVCD_NO_FLOAT leave no decoder"
@@ -288,6 +292,117 @@ NSVCDDEF nsvcd_result nsvcd_sweep_gradient(const nsvcd_body *moving, const nsvcd
                                            const nsvcd_body *fixed, const nsvcd_pose *fixed_pose,
                                            const nsvcd_sweep_options *options, void *workspace, size_t workspace_size,
                                            nsvcd_answer *answer, float *gradient);
+#endif
+
+#ifndef NSVCD_NO_OPTIMIZER
+// ---------------------------------------------------------------------------------------------- trajectories
+// A trajectory of F joints is a spline through control points: the start, M via points, the goal, control (M + 2, F),
+// uniform in t in [0,1]. Between two points it is of degree five, with the velocity and the acceleration of central
+// differences at via points, and at rest at both ends; so both are continuous everywhere.
+
+#define NSVCD_MAX_JOINTS 32
+#define NSVCD_MAX_VIA_POINTS 32
+#define NSVCD_MAX_SEGMENTS 4096
+
+// The joints at t (F), or with derivative = 1, 2, 3 their velocity, acceleration, jerk by t. control: (via_points + 2,
+// F); t is taken into [0,1]. No errors. Source: quintic Hermite interpolation, as the paper's authors use it.
+NSVCDDEF void nsvcd_spline(const float *control, size_t via_points, size_t joints, float t, size_t derivative,
+                           float *out);
+
+// Two bodies that can meet, by their indices. b is the one held fixed in a query: the larger or the resting one.
+typedef struct nsvcd_body_pair {
+  uint32_t a, b;
+} nsvcd_body_pair;
+
+typedef enum nsvcd_plan_status {
+  NSVCD_PLAN_CONVERGED = 0,  // the trajectory is within the limits and free of collision, as far as the network knows
+  NSVCD_PLAN_LIMIT,          // the iterations ended before one was found; this is the best
+  NSVCD_PLAN_CANCELLED,      // by the progress callback; this is the best so far
+  NSVCD_PLAN_START,          // the start is out of the limits or in collision: control is a straight line
+  NSVCD_PLAN_GOAL            // the goal is
+} nsvcd_plan_status;
+NSVCDDEF const char *nsvcd_plan_status_string(nsvcd_plan_status status);
+
+typedef struct nsvcd_plan_progress {
+  size_t seed, iteration;  // of `iterations` in this stage
+  size_t iterations;
+  int refining;  // 0: MPPI, 1: L-BFGS
+  float cost;    // of the best trajectory of this seed; `collision` of it: 0 means free, by the coarse check
+  float collision;
+  const float *control;  // (via_points + 2, F), valid during the call
+  size_t via_points;
+} nsvcd_plan_progress;
+
+// A scene: who moves how, and who can meet whom. Nothing else is looked at. All callbacks get `user`; they must be
+// deterministic, and may be called in any order.
+typedef struct nsvcd_plan_problem {
+  size_t joints;              // F, 1..NSVCD_MAX_JOINTS
+  const float *low, *high;    // (F), limits
+  const float *start, *goal;  // (F)
+  const nsvcd_body *const
+      *bodies;                   // (B). What is grasped moves with the hand because `place` says so: nothing is encoded
+  size_t body_count;             // anew. Ones in no pair may be NULL
+  const nsvcd_body_pair *pairs;  // (P)
+  size_t pair_count;
+  void (*place)(void *user, const float *joints, nsvcd_pose *poses);  // (F) -> (B), in the world
+  // (F) -> (B, 6, F): per body, by a joint, the displacement of its origin and its rotation vector, in the world's
+  // axes. NULL: by differences of `place`.
+  void (*jacobian)(void *user, const float *joints, float *jacobian);
+  // Instead of the network: the cost of collision of poses (samples, B), along the trajectory, whether it collides,
+  // and, unless `gradient` is NULL, its derivative (samples, B, 6), as nsvcd_sweep_gradient's, to be added. NULL: the
+  // network.
+  float (*collision)(void *user, const nsvcd_pose *poses, size_t samples, int *collides, float *gradient);
+  int (*progress)(void *user, const nsvcd_plan_progress *progress);  // once per iteration; not 0 cancels. May be NULL
+  void *user;
+} nsvcd_plan_problem;
+
+#define NSVCD_NONE ((size_t)-1)
+typedef struct nsvcd_plan_stage {
+  size_t via_points;  // M
+  size_t
+      segments;  // of the trajectory, each swept as one motion; with options.discrete, of which the ends are looked at
+  size_t iterations;  // at most; NSVCD_NONE: leave the stage out
+  size_t samples;     // trajectories per iteration of MPPI; gradients in a bundle of L-BFGS
+} nsvcd_plan_stage;
+
+// Zero is the default everywhere: that of the paper's dish insertion. Weights that are negative count as zero.
+typedef struct nsvcd_plan_options {
+  uint64_t seed;                       // of all random numbers
+  size_t seeds;                        // starts, tried until one ends free; 2
+  nsvcd_plan_stage explore;            // MPPI: 5, 24, 40, 200
+  nsvcd_plan_stage refine;             // L-BFGS: 10, 22, 10, 10
+  float velocity, acceleration, jerk;  // weights of the means of squares over the motion: 10, 2, 10
+  float collision;                     // weight of the logits' sum over pairs and segments: 1
+  float duration;                      // seconds from start to goal, which only weights the terms above: 4
+  float margin;                        // logits above minus this cost: 2
+  float spread;                        // of MPPI's first samples, radians or metres, at mid-motion: 0.5
+  float bundle;                        // of L-BFGS's gradients: 0.01
+  int discrete;                        // poses instead of sweeps
+  size_t check;                        // segments of the last check; 4 times the finest stage
+  nsvcd_sweep_options sweep;
+} nsvcd_plan_options;
+
+typedef struct nsvcd_plan_answer {
+  nsvcd_plan_status status;
+  float cost, smoothness;    // of the trajectory, the latter without collision and limits
+  float logit;               // greatest of the last check; with a custom collision cost that cost
+  float time;                // where, in [0,1]
+  uint32_t pair;             // and between whom
+  size_t seeds, iterations;  // used, of both stages
+  size_t trajectories;       // that were costed
+  size_t sweeps;             // queries asked of the network
+} nsvcd_plan_answer;
+
+// Finds a smooth trajectory from start to goal on which no pair meets. control: (M + 2, F) with the M of options.refine
+// (of explore, if that is left out), always written. options: NULL for the defaults. workspace:
+// nsvcd_plan_workspace_size(problem, options) bytes, aligned to NSVCD_ALIGNMENT; 0 if problem or options are refused.
+// Allocates nothing; deterministic; ends within seeds * (iterations of both stages) iterations, of `samples`
+// trajectories, and for L-BFGS 5 more, each. Errors: ARGUMENT (sizes, options, NULL), NUMBER (limits, start or goal
+// not finite), POSE (from `place`), WORKSPACE; then control and answer are not written.
+// Source: MPPI (Williams et al. 2017), then L-BFGS with bundled gradients (Suh et al. 2022); NeuralSVCD, appendix D.
+NSVCDDEF size_t nsvcd_plan_workspace_size(const nsvcd_plan_problem *problem, const nsvcd_plan_options *options);
+NSVCDDEF nsvcd_result nsvcd_plan(const nsvcd_plan_problem *problem, const nsvcd_plan_options *options, void *workspace,
+                                 size_t workspace_size, float *control, nsvcd_plan_answer *answer);
 #endif
 
 #ifdef __cplusplus
@@ -4148,6 +4263,854 @@ NSVCDDEF nsvcd_result nsvcd_sweep_gradient(const nsvcd_body *moving, const nsvcd
   return NSVCD_OK;
 }
 #endif  // NSVCD_NO_GRADIENT
+
+#ifndef NSVCD_NO_OPTIMIZER
+// ------------------------------------------------------------------------------------------------------ spline
+// Control points -> positions and derivatives. All is linear in the control points: the weights of one moment are (M +
+// 2), the means of squares over the whole motion are quadratic forms (M + 2, M + 2), the same for each joint.
+
+// The weights of the control points in the joints' derivative of the given order by t.
+static void nsvcd__spline_weights(size_t via, double t, size_t derivative, double *weights) {
+  // Polynomials of u in [0,1]: of the position, velocity and acceleration at its left end, then at its right.
+  static const double basis[6][6] = {{1, 0, 0, -10, 15, -6}, {0, 1, 0, -6, 8, -3}, {0, 0, 0.5, -1.5, 1.5, -0.5},
+                                     {0, 0, 0, 10, -15, 6},  {0, 0, 0, -4, 7, -3}, {0, 0, 0, 0.5, -1, 0.5}};
+  const size_t last = via + 1;
+  const double at = (t < 0 ? 0 : t > 1 ? 1 : t) * (double)last;
+  const size_t left = (size_t)at < last ? (size_t)at : last - 1;
+  const double u = at - (double)left;
+  double scale = 1;
+  for (size_t k = 0; k < derivative; k++) scale *= (double)last;
+  for (size_t k = 0; k <= last; k++) weights[k] = 0;
+  for (size_t end = 0; end < 2; end++) {
+    const size_t point = left + end;
+    double value[3];
+    for (size_t k = 0; k < 3; k++) {
+      double power = scale;
+      value[k] = 0;
+      for (size_t n = derivative; n < 6; n++, power *= u) {
+        double factor = basis[3 * end + k][n];
+        for (size_t d = 0; d < derivative; d++) factor *= (double)(n - d);
+        value[k] += factor * power;
+      }
+    }
+    weights[point] += value[0];
+    if (point == 0 || point == last) continue;  // at rest
+    weights[point + 1] += 0.5 * value[1] + value[2], weights[point - 1] += value[2] - 0.5 * value[1];
+    weights[point] -= 2 * value[2];
+  }
+}
+
+NSVCDDEF void nsvcd_spline(const float *control, size_t via_points, size_t joints, float t, size_t derivative,
+                           float *out) {
+  double weights[NSVCD_MAX_VIA_POINTS + 2];
+  if (via_points > NSVCD_MAX_VIA_POINTS) return;
+  nsvcd__spline_weights(via_points, (double)t, derivative, weights);
+  for (size_t j = 0; j < joints; j++) {
+    double sum = 0;
+    for (size_t k = 0; k < via_points + 2; k++) sum += weights[k] * (double)control[k * joints + j];
+    out[j] = (float)sum;
+  }
+}
+
+// Adds weight * mean over t of the derivative's square to the form (M + 2, M + 2). Five points of Gauss and Legendre
+// per piece: exact, as the squares are of degree 8 at most.
+static void nsvcd__add_mean_square(size_t via, size_t derivative, double weight, double *form) {
+  static const double nodes[5] = {0.046910077030668, 0.230765344947158, 0.5, 0.769234655052842, 0.953089922969332};
+  static const double shares[5] = {0.118463442528095, 0.239314335249683, 0.284444444444444, 0.239314335249683,
+                                   0.118463442528095};
+  const size_t count = via + 2;
+  double w[NSVCD_MAX_VIA_POINTS + 2];
+  for (size_t piece = 0; piece < via + 1; piece++) {
+    for (size_t n = 0; n < 5; n++) {
+      nsvcd__spline_weights(via, ((double)piece + nodes[n]) / (double)(via + 1), derivative, w);
+      for (size_t i = 0; i < count; i++) {
+        const double scaled = weight * shares[n] / (double)(via + 1) * w[i];
+        for (size_t j = 0; j < count; j++) form[i * count + j] += scaled * w[j];
+      }
+    }
+  }
+}
+
+// L L^T = a, lower; a, l: (n, n). Of a symmetric positive definite a; what rounding makes of it is kept positive.
+static void nsvcd__cholesky(const double *a, size_t n, double *l) {
+  for (size_t i = 0; i < n; i++) {
+    for (size_t j = 0; j < n; j++) {
+      double sum = a[i * n + j];
+      for (size_t k = 0; k < (i < j ? i : j); k++) sum -= l[i * n + k] * l[j * n + k];
+      if (j < i) l[i * n + j] = sum / l[j * n + j];
+      if (j == i) l[i * n + i] = sqrt(sum > 1e-9 * a[i * n + i] ? sum : 1e-9 * a[i * n + i]);
+      if (j > i) l[i * n + j] = 0;
+    }
+  }
+}
+static void nsvcd__solve_lower(const double *l, size_t n, double *x) {  // x = L^-1 x
+  for (size_t i = 0; i < n; i++) {
+    for (size_t k = 0; k < i; k++) x[i] -= l[i * n + k] * x[k];
+    x[i] /= l[i * n + i];
+  }
+}
+static void nsvcd__solve_upper(const double *l, size_t n, double *x) {  // x = L^-T x
+  for (size_t i = n; i-- > 0;) {
+    for (size_t k = i + 1; k < n; k++) x[i] -= l[k * n + i] * x[k];
+    x[i] /= l[i * n + i];
+  }
+}
+
+// --------------------------------------------------------------------------------------------------- optimizer
+// In: a problem. Out: control points. Top to bottom:
+//
+//   memory      everything in the caller's workspace
+//   collision   poses along a trajectory -> cost, and its derivative by the poses (wrenches)
+//   cost        control points -> smoothness + limits + collision, and the derivative by the control points
+//   explore     MPPI: smooth random changes of a mean, weighted by exp(-cost / temperature)
+//   refine      L-BFGS with bundled gradients, in the metric of the smoothness
+//   check       the result, finely
+
+#define NSVCD__LIMIT_COST 1000.0f  // per radian^2 or metre^2, mean over the samples: joints out of their limits
+#define NSVCD__HISTORY 8           // L-BFGS: steps remembered
+#define NSVCD__STEPS 5             // step lengths tried
+
+typedef struct nsvcd__stage {
+  size_t via, samples;  // M; poses along the trajectory: segments + 1
+  size_t iterations, count;
+  double *form;      // (M + 2, M + 2): smoothness
+  double *factor;    // (M, M): Cholesky's, of the rows and columns of the via points
+  double deviation;  // of factor^-T times normal numbers: the greatest of a via point
+  float *weights;    // (samples, M + 2)
+} nsvcd__stage;
+
+typedef struct nsvcd__planner {
+  const nsvcd_plan_problem *problem;
+  nsvcd_plan_options options;  // with the defaults filled in
+  nsvcd__stage explore, refine, check;
+  nsvcd__query *query;
+  uint64_t random;
+  nsvcd_result error;  // the first that a query or a pose gave
+  size_t trajectories, sweeps;
+  float *path;           // (samples, F)
+  nsvcd_pose *poses;     // (samples, B)
+  nsvcd_pose *moved;     // (B)
+  float *centres;        // (4, B, samples): x, y, z of bounding spheres, and how far they stray until the next sample
+  unsigned char *meets;  // (samples)
+  float *wrenches;       // (samples, B, 6)
+  float *jacobian;       // (B, 6, F)
+  float *by_path;        // (F)
+  float *control, *best, *trial, *gradient, *sum, *offset;  // (MAX + 2, F) each
+  float *tries;                                             // (count, M, F)
+  float *costs;                                             // (count)
+  float *steps, *changes;                                   // (HISTORY, M, F) each
+  double *vector;                                           // (M, F)
+} nsvcd__planner;
+
+// What a trajectory costs.
+typedef struct nsvcd__cost {
+  float total, smoothness, collision;
+  int collides;
+} nsvcd__cost;
+
+// ---- memory
+
+// The next `bytes` of a workspace, or, where base is NULL, only counts them.
+static void *nsvcd__take(char *base, size_t *used, size_t bytes) {
+  void *at = base ? base + *used : NULL;
+  *used += nsvcd__round_up(bytes, NSVCD_ALIGNMENT);
+  return at;
+}
+
+static int nsvcd__stage_of(const nsvcd_plan_stage *given, size_t via, size_t segments, size_t iterations, size_t count,
+                           nsvcd__stage *stage) {
+  stage->via = given->via_points ? given->via_points : via;
+  stage->samples = (given->segments ? given->segments : segments) + 1;
+  stage->iterations = given->iterations == NSVCD_NONE ? 0 : given->iterations ? given->iterations : iterations;
+  stage->count = given->samples ? given->samples : count;
+  return stage->via <= NSVCD_MAX_VIA_POINTS && stage->samples <= NSVCD_MAX_SEGMENTS + 1 && stage->count <= 100000 &&
+         stage->iterations <= 100000;
+}
+
+static float nsvcd__default(float given, float otherwise) {  // negative: none
+  return given > 0 ? given : given < 0 ? 0 : otherwise;
+}
+
+// Fills in the defaults. Returns 0 for what cannot be.
+static int nsvcd__planner_settings(const nsvcd_plan_problem *problem, const nsvcd_plan_options *options,
+                                   nsvcd__planner *p) {
+  memset(p, 0, sizeof *p);
+  if (!problem || problem->joints - 1 >= NSVCD_MAX_JOINTS || problem->body_count > 65536 || !problem->place) return 0;
+  if (!problem->low || !problem->high || !problem->start || !problem->goal) return 0;
+  if (problem->pair_count > 0 && (!problem->pairs || (!problem->bodies && !problem->collision))) return 0;
+  for (size_t k = 0; k < problem->pair_count; k++) {
+    const nsvcd_body_pair *pair = &problem->pairs[k];
+    if (pair->a >= problem->body_count || pair->b >= problem->body_count || pair->a == pair->b) return 0;
+    if (!problem->collision && (!problem->bodies[pair->a] || !problem->bodies[pair->b])) return 0;
+  }
+  p->problem = problem;
+  if (options) p->options = *options;
+  nsvcd_plan_options *o = &p->options;
+  const float floats[9] = {o->velocity, o->acceleration, o->jerk,   o->collision,   o->duration,
+                           o->margin,   o->spread,       o->bundle, o->sweep.recall};
+  for (size_t k = 0; k < 9; k++) {
+    if (!nsvcd__is_finite(floats[k])) return 0;
+  }
+  if (!nsvcd__stage_of(&o->explore, 5, 24, 40, 200, &p->explore)) return 0;
+  if (!nsvcd__stage_of(&o->refine, 10, 22, 10, 10, &p->refine)) return 0;
+  if (o->refine.iterations == NSVCD_NONE) p->refine.via = p->explore.via;
+  o->seeds = o->seeds ? o->seeds : 2;
+  o->velocity = nsvcd__default(o->velocity, 10), o->acceleration = nsvcd__default(o->acceleration, 2);
+  o->jerk = nsvcd__default(o->jerk, 10), o->collision = nsvcd__default(o->collision, 1);
+  o->duration = o->duration > 0 ? o->duration : 4;
+  o->margin = nsvcd__default(o->margin, 2), o->spread = nsvcd__default(o->spread, 0.5f);
+  o->bundle = nsvcd__default(o->bundle, 0.01f);
+  p->check = p->refine;
+  const size_t finest = p->explore.samples > p->refine.samples ? p->explore.samples : p->refine.samples;
+  p->check.samples = (o->check ? o->check : 4 * (finest - 1)) + 1;
+  return p->check.samples <= 4 * NSVCD_MAX_SEGMENTS + 1 && o->seeds <= 1000;
+}
+
+static void nsvcd__stage_memory(nsvcd__stage *stage, char *base, size_t *used) {
+  const size_t via = stage->via, all = via + 2;
+  stage->form = (double *)nsvcd__take(base, used, all * all * sizeof(double));
+  stage->factor = (double *)nsvcd__take(base, used, via * via * sizeof(double));
+  stage->weights = (float *)nsvcd__take(base, used, stage->samples * all * sizeof(float));
+}
+
+// Lays the planner's memory out in base, or, where that is NULL, only measures. Returns the bytes.
+static size_t nsvcd__planner_memory(nsvcd__planner *p, char *base) {
+  const size_t f = p->problem->joints, b = p->problem->body_count;
+  const size_t via = p->explore.via > p->refine.via ? p->explore.via : p->refine.via;
+  const size_t count = p->explore.count > p->refine.count ? p->explore.count : p->refine.count;
+  const size_t samples = p->check.samples > p->explore.samples
+                             ? (p->check.samples > p->refine.samples ? p->check.samples : p->refine.samples)
+                             : (p->explore.samples > p->refine.samples ? p->explore.samples : p->refine.samples);
+  const size_t point = (via + 2) * f * sizeof(float);
+  size_t used = 0;
+  p->query = (nsvcd__query *)nsvcd__take(base, &used, sizeof(nsvcd__query));
+  nsvcd__stage_memory(&p->explore, base, &used);
+  nsvcd__stage_memory(&p->refine, base, &used);
+  nsvcd__stage_memory(&p->check, base, &used);
+  p->path = (float *)nsvcd__take(base, &used, samples * f * sizeof(float));
+  p->poses = (nsvcd_pose *)nsvcd__take(base, &used, samples * b * sizeof(nsvcd_pose));
+  p->moved = (nsvcd_pose *)nsvcd__take(base, &used, b * sizeof(nsvcd_pose));
+  p->centres = (float *)nsvcd__take(base, &used, 4 * samples * b * sizeof(float));
+  p->meets = (unsigned char *)nsvcd__take(base, &used, samples);
+  p->wrenches = (float *)nsvcd__take(base, &used, samples * b * 6 * sizeof(float));
+  p->jacobian = (float *)nsvcd__take(base, &used, b * 6 * f * sizeof(float));
+  p->by_path = (float *)nsvcd__take(base, &used, f * sizeof(float));
+  p->control = (float *)nsvcd__take(base, &used, point), p->best = (float *)nsvcd__take(base, &used, point);
+  p->trial = (float *)nsvcd__take(base, &used, point), p->gradient = (float *)nsvcd__take(base, &used, point);
+  p->sum = (float *)nsvcd__take(base, &used, point), p->offset = (float *)nsvcd__take(base, &used, point);
+  p->tries = (float *)nsvcd__take(base, &used, count * point);
+  p->costs = (float *)nsvcd__take(base, &used, count * sizeof(float));
+  p->steps = (float *)nsvcd__take(base, &used, NSVCD__HISTORY * point);
+  p->changes = (float *)nsvcd__take(base, &used, NSVCD__HISTORY * point);
+  p->vector = (double *)nsvcd__take(base, &used, (via + 2) * sizeof(double));
+  return used;
+}
+
+static void nsvcd__stage_init(const nsvcd_plan_options *o, nsvcd__stage *stage) {
+  const size_t via = stage->via, all = via + 2;
+  const double weights[3] = {(double)o->velocity, (double)o->acceleration, (double)o->jerk};
+  double rate = 1, w[NSVCD_MAX_VIA_POINTS + 2], trace = 0;
+  for (size_t k = 0; k < all * all; k++) stage->form[k] = 0;
+  for (size_t d = 1; d <= 3; d++) {
+    rate /= (double)o->duration * (double)o->duration;
+    nsvcd__add_mean_square(via, d, rate * weights[d - 1], stage->form);
+  }
+  for (size_t k = 0; k < all; k++) trace += stage->form[k * all + k];
+  double *inner = stage->factor;  // in place: row i is read before it is written
+  for (size_t i = 0; i < via; i++) {
+    for (size_t j = 0; j < via; j++) inner[i * via + j] = stage->form[(i + 1) * all + j + 1] + (i == j && trace <= 0);
+  }
+  nsvcd__cholesky(inner, via, stage->factor);
+  stage->deviation = 0;
+  for (size_t k = 0; k < via; k++) {  // the variance of via point k is |L^-1 e_k|^2
+    double square = 0;
+    for (size_t i = 0; i < via; i++) w[i] = i == k;
+    nsvcd__solve_lower(stage->factor, via, w);
+    for (size_t i = 0; i < via; i++) square += w[i] * w[i];
+    stage->deviation = sqrt(square) > stage->deviation ? sqrt(square) : stage->deviation;
+  }
+  for (size_t s = 0; s < stage->samples; s++) {
+    nsvcd__spline_weights(via, stage->samples > 1 ? (double)s / (double)(stage->samples - 1) : 0, 0, w);
+    for (size_t k = 0; k < all; k++) stage->weights[s * all + k] = (float)w[k];
+  }
+}
+
+// ---- collision
+
+// a as seen from b.
+static void nsvcd__relative_pose(const nsvcd_pose *a, const nsvcd_pose *b, nsvcd_pose *out) {
+  const float *p = a->rotation, *q = b->rotation;
+  float m[9], back[9], d[3];
+  nsvcd__quat_to_matrix(q, m), nsvcd__transpose33(m, back);
+  nsvcd__sub3(a->position, b->position, d), nsvcd__mul33_vec(back, d, out->position);
+  out->rotation[0] = q[3] * p[0] - q[0] * p[3] - (q[1] * p[2] - q[2] * p[1]);
+  out->rotation[1] = q[3] * p[1] - q[1] * p[3] - (q[2] * p[0] - q[0] * p[2]);
+  out->rotation[2] = q[3] * p[2] - q[2] * p[3] - (q[0] * p[1] - q[1] * p[0]);
+  out->rotation[3] = q[3] * p[3] + q[0] * p[0] + q[1] * p[1] + q[2] * p[2];
+}
+
+// The bounding spheres' centres at each sample. Between two samples a centre leaves the chord by no more than its
+// distance from the body's origin times 1 - cos of half the angle of the turn.
+static void nsvcd__find_centres(nsvcd__planner *p, size_t samples) {
+  const size_t bodies = p->problem->body_count, all = bodies * samples;
+  for (size_t b = 0; b < bodies; b++) {
+    const nsvcd_body *body = p->problem->bodies[b];
+    if (!body) continue;
+    float *x = p->centres + b * samples;
+    const float arm = nsvcd__length3(body->centre);
+    for (size_t s = 0; s < samples; s++) {
+      const nsvcd_pose *pose = &p->poses[s * bodies + b], *next = s + 1 < samples ? pose + bodies : pose;
+      const float *q = pose->rotation, *r = next->rotation;
+      float m[9], turned[3];
+      nsvcd__quat_to_matrix(q, m), nsvcd__mul33_vec(m, body->centre, turned);
+      for (size_t k = 0; k < 3; k++) x[k * all + s] = pose->position[k] + turned[k];
+      const float stray = 1.00001f - fabsf(q[0] * r[0] + q[1] * r[1] + q[2] * r[2] + q[3] * r[3]);
+      x[3 * all + s] = stray > 0 ? arm * stray : 0;
+    }
+  }
+}
+
+// Marks the segments, or with `discrete` the samples, in which the pair's spheres come near each other.
+static void nsvcd__find_near(nsvcd__planner *p, const nsvcd_body_pair *pair, size_t samples, size_t stride) {
+  const size_t all = p->problem->body_count * samples;
+  const float *a = p->centres + pair->a * samples, *b = p->centres + pair->b * samples;
+  const float reach = p->problem->bodies[pair->a]->radius + p->problem->bodies[pair->b]->radius;
+  for (size_t s = 0; s + stride < samples; s++) {
+    float middle = 0, move = 0;
+    for (size_t k = 0; k < 3; k++) {
+      const float d0 = a[k * all + s] - b[k * all + s], d1 = a[k * all + s + stride] - b[k * all + s + stride];
+      middle += 0.25f * (d0 + d1) * (d0 + d1), move += 0.25f * (d1 - d0) * (d1 - d0);
+    }
+    const float limit = 1.00001f * (reach + a[3 * all + s] + b[3 * all + s] + sqrtf(move));
+    p->meets[s] = middle <= limit * limit;
+  }
+}
+
+// What a logit costs: nothing far below zero, its excess over -margin above; and the derivative by the logit.
+static float nsvcd__cost_of_logit(float logit, float margin, float *slope) {
+  const float x = logit + margin, soft = 2;
+  *slope = x <= 0 ? 0 : x < soft ? x / soft : 1;
+  return x <= 0 ? 0 : x < soft ? 0.5f * x * x / soft : x - 0.5f * soft;
+}
+
+// A force and a torque in b's axes on a, and what they do to b, in the world: poses (B), wrenches (B, 6).
+static void nsvcd__add_wrench(const nsvcd_body_pair *pair, const nsvcd_pose *poses, float scale, const float *wrench,
+                              float *wrenches) {
+  float m[9], force[3], torque[3], arm[3], moment[3] = {0, 0, 0};
+  nsvcd__quat_to_matrix(poses[pair->b].rotation, m);
+  nsvcd__mul33_vec(m, wrench, force), nsvcd__mul33_vec(m, wrench + 3, torque);
+  nsvcd__sub3(poses[pair->a].position, poses[pair->b].position, arm);
+  nsvcd__add_cross3(arm, force, moment);
+  for (size_t k = 0; k < 3; k++) {
+    wrenches[6 * pair->a + k] += scale * force[k], wrenches[6 * pair->a + 3 + k] += scale * torque[k];
+    wrenches[6 * pair->b + k] -= scale * force[k];
+    wrenches[6 * pair->b + 3 + k] -= scale * (torque[k] + moment[k]);
+  }
+}
+
+// The most suspicious moment of a trajectory.
+typedef struct nsvcd__worst {
+  float logit, time;
+  uint32_t pair;
+} nsvcd__worst;
+
+// The network's cost of the poses (samples, B), up to the first sum above `limit`; adds to wrenches (samples, B, 6)
+// unless that is NULL. worst may be NULL.
+static float nsvcd__network_cost(nsvcd__planner *p, size_t samples, float limit, int *collides, float *wrenches,
+                                 nsvcd__worst *worst) {
+  const nsvcd_plan_problem *problem = p->problem;
+  const size_t bodies = problem->body_count, stride = !p->options.discrete && samples > 1;
+  const nsvcd_pose origin = {{0, 0, 0}, {0, 0, 0, 1}};
+  float sum = 0;
+  nsvcd__find_centres(p, samples);
+  for (size_t k = 0; k < problem->pair_count; k++) {
+    const nsvcd_body_pair *pair = &problem->pairs[k];
+    const nsvcd_body *a = problem->bodies[pair->a], *b = problem->bodies[pair->b];
+    nsvcd__find_near(p, pair, samples, stride);
+    for (size_t s = 0; s + stride < samples && sum <= limit; s++) {
+      nsvcd_pose motion[2];
+      nsvcd_answer answer;
+      float gradient[12], slope;
+      if (!p->meets[s]) continue;
+      for (size_t n = 0; n <= stride; n++) {
+        const nsvcd_pose *row = p->poses + (s + n) * bodies;
+        nsvcd__relative_pose(&row[pair->a], &row[pair->b], &motion[n]);
+      }
+      nsvcd_result error = wrenches ? nsvcd_sweep_gradient(a, motion, 1 + stride, b, &origin, &p->options.sweep,
+                                                           p->query, sizeof *p->query, &answer, gradient)
+                                    : nsvcd_sweep(a, motion, 1 + stride, b, &origin, &p->options.sweep, p->query,
+                                                  sizeof *p->query, &answer);
+      p->sweeps++;
+      if (error) {
+        p->error = error;
+        return 0;
+      }
+      *collides |= answer.collides;
+      sum += nsvcd__cost_of_logit(answer.logit, p->options.margin, &slope);
+      if (worst && answer.logit > worst->logit) {
+        worst->logit = answer.logit, worst->pair = (uint32_t)k;
+        worst->time = samples > 1 ? ((float)s + (float)stride * answer.time) / (float)(samples - 1) : 0;
+      }
+      for (size_t n = 0; wrenches && slope > 0 && n <= stride; n++) {
+        const size_t row = (s + n) * bodies;
+        nsvcd__add_wrench(pair, p->poses + row, slope, gradient + 6 * n, wrenches + 6 * row);
+      }
+    }
+  }
+  return sum;
+}
+
+// ---- cost
+
+// The derivative of the cost by the joints of one sample, from the wrenches (B, 6) there. Returns 0 if there are none.
+static int nsvcd__by_joints(nsvcd__planner *p, const float *joints, const nsvcd_pose *poses, const float *wrenches,
+                            float *by_joints) {
+  const nsvcd_plan_problem *problem = p->problem;
+  const size_t f = problem->joints, bodies = problem->body_count;
+  const float step = 1e-3f;
+  float moved[NSVCD_MAX_JOINTS];
+  size_t k = 0;
+  while (k < 6 * bodies && !(wrenches[k] < 0 || wrenches[k] > 0)) k++;
+  if (k == 6 * bodies) return 0;
+  if (problem->jacobian) problem->jacobian(problem->user, joints, p->jacobian);
+  memcpy(moved, joints, f * sizeof *moved);
+  for (size_t j = 0; j < f; j++) {
+    by_joints[j] = 0;
+    if (!problem->jacobian) {
+      moved[j] = joints[j] + step;
+      problem->place(problem->user, moved, p->moved);
+      moved[j] = joints[j];
+    }
+    for (size_t b = 0; b < bodies; b++) {
+      const float *w = wrenches + 6 * b;
+      if (problem->jacobian) {
+        for (size_t i = 0; i < 6; i++) by_joints[j] += w[i] * p->jacobian[(6 * b + i) * f + j];
+        continue;
+      }
+      const float *q = poses[b].rotation;
+      float *r = p->moved[b].rotation, sign = 2, turn[3] = {0, 0, 0};
+      if (q[0] * r[0] + q[1] * r[1] + q[2] * r[2] + q[3] * r[3] < 0) sign = -2;
+      for (size_t i = 0; i < 3; i++) turn[i] = q[3] * r[i] - r[3] * q[i];
+      nsvcd__add_cross3(q, r, turn);  // the vector of r q^-1
+      for (size_t i = 0; i < 3; i++) {
+        by_joints[j] +=
+            w[i] * (p->moved[b].position[i] - poses[b].position[i]) / step + w[3 + i] * sign * turn[i] / step;
+      }
+    }
+  }
+  return 1;
+}
+
+// What the trajectory costs, up to `limit`: a sum beyond it is not finished. gradient: (M + 2, F), written, or NULL.
+static nsvcd__cost nsvcd__cost_of(nsvcd__planner *p, const nsvcd__stage *stage, const float *control, float limit,
+                                  float *gradient, nsvcd__worst *worst) {
+  const nsvcd_plan_problem *problem = p->problem;
+  const size_t f = problem->joints, all = stage->via + 2, samples = stage->samples, bodies = problem->body_count;
+  nsvcd__cost cost = {0, 0, 0, 0};
+  double smoothness = 0;
+  p->trajectories++;
+  for (size_t j = 0; j < f; j++) {
+    for (size_t i = 0; i < all; i++) {
+      double sum = 0;
+      for (size_t k = 0; k < all; k++) sum += stage->form[i * all + k] * (double)control[k * f + j];
+      smoothness += sum * (double)control[i * f + j];
+      if (gradient) gradient[i * f + j] = (float)(2 * sum);
+    }
+  }
+  cost.smoothness = cost.total = (float)smoothness;
+  const float share = NSVCD__LIMIT_COST / (float)samples;
+  for (size_t s = 0; s < samples; s++) {
+    float *joints = p->path + s * f;
+    const float *w = stage->weights + s * all;
+    for (size_t j = 0; j < f; j++) {
+      float sum = 0;
+      for (size_t k = 0; k < all; k++) sum += w[k] * control[k * f + j];
+      const float out = sum < problem->low[j]    ? sum - problem->low[j]
+                        : sum > problem->high[j] ? sum - problem->high[j]
+                                                 : 0;
+      joints[j] = sum;
+      cost.total += share * out * out;
+      if (fabsf(out) > 1e-5f) cost.collides = 1;
+      for (size_t k = 0; gradient && k < all; k++) gradient[k * f + j] += 2 * share * out * w[k];
+    }
+  }
+  if (cost.total > limit || p->error) return cost;
+  for (size_t s = 0; s < samples; s++) problem->place(problem->user, p->path + s * f, p->poses + s * bodies);
+  float *wrenches = gradient ? p->wrenches : NULL;
+  if (gradient) memset(wrenches, 0, samples * bodies * 6 * sizeof *wrenches);
+  if (!nsvcd__poses_are_valid(p->poses, samples * bodies)) {
+    p->error = NSVCD_ERROR_POSE;
+    return cost;
+  }
+  const float weight = p->options.collision;
+  if (problem->collision) {
+    cost.collision = problem->collision(problem->user, p->poses, samples, &cost.collides, wrenches);
+    if (worst) worst->logit = cost.collision;
+  } else {
+    cost.collision = nsvcd__network_cost(p, samples, weight > 0 ? (limit - cost.total) / weight : limit, &cost.collides,
+                                         wrenches, worst);
+  }
+  cost.total += weight * cost.collision;
+  for (size_t s = 0; gradient && s < samples; s++) {
+    const size_t row = s * bodies;
+    if (!nsvcd__by_joints(p, p->path + s * f, p->poses + row, wrenches + 6 * row, p->by_path)) continue;
+    for (size_t k = 0; k < all; k++) {
+      for (size_t j = 0; j < f; j++) gradient[k * f + j] += weight * stage->weights[s * all + k] * p->by_path[j];
+    }
+  }
+  if (!nsvcd__is_finite(cost.total)) p->error = NSVCD_ERROR_NUMBER;
+  return cost;
+}
+
+// ---- explore
+
+static double nsvcd__uniform(nsvcd__planner *p) {  // (0, 1]; splitmix64
+  uint64_t z = p->random += UINT64_C(0x9e3779b97f4a7c15);
+  z = (z ^ (z >> 30)) * UINT64_C(0xbf58476d1ce4e5b9);
+  z = (z ^ (z >> 27)) * UINT64_C(0x94d049bb133111eb);
+  return (double)((z ^ (z >> 31)) >> 11) * 1.1102230246251565e-16 + 5.5e-17;
+}
+static double nsvcd__normal(nsvcd__planner *p) {  // Box and Muller
+  const double radius = sqrt(-2 * log(nsvcd__uniform(p)));
+  return radius * cos(6.283185307179586 * nsvcd__uniform(p));
+}
+
+// A smooth random change of the via points, (M, F), zero at the ends: its inverse covariance is the form of the
+// smoothness, scaled so that the greatest deviation of a joint is deviations (F).
+static void nsvcd__smooth_noise(nsvcd__planner *p, const nsvcd__stage *stage, const float *deviations, float *out) {
+  const size_t f = p->problem->joints, via = stage->via;
+  for (size_t j = 0; j < f; j++) {
+    for (size_t k = 0; k < via; k++) p->vector[k] = nsvcd__normal(p);
+    nsvcd__solve_upper(stage->factor, via, p->vector);
+    const double scale = (double)deviations[j] / stage->deviation;
+    for (size_t k = 0; k < via; k++) out[k * f + j] = (float)(scale * p->vector[k]);
+  }
+}
+
+// control + offset (M, F), with via points taken into the limits.
+static void nsvcd__change(const nsvcd__planner *p, size_t via, const float *control, const float *offset, float scale,
+                          float *out) {
+  const size_t f = p->problem->joints;
+  memcpy(out, control, (via + 2) * f * sizeof *out);
+  for (size_t k = 0; k < via * f; k++) {
+    const float x = control[f + k] + scale * offset[k], low = p->problem->low[k % f], high = p->problem->high[k % f];
+    out[f + k] = x < low ? low : x > high ? high : x;
+  }
+}
+
+static int nsvcd__report(nsvcd__planner *p, size_t seed, size_t iteration, const nsvcd__stage *stage, int refining,
+                         const nsvcd__cost *cost) {
+  const nsvcd_plan_progress progress = {seed,        iteration,       stage->iterations, refining,
+                                        cost->total, cost->collision, p->best,           stage->via};
+  return p->problem->progress && p->problem->progress(p->problem->user, &progress);
+}
+
+// The k-th smallest of costs (count).
+static float nsvcd__kth_cost(const float *costs, size_t count, size_t k) {
+  float least = 0;
+  for (size_t i = 0; i < count; i++) {
+    size_t below = 0, same = 0;
+    for (size_t n = 0; n < count; n++) below += costs[n] < costs[i], same += costs[n] <= costs[i];
+    if (below <= k && k < same) least = costs[i];
+  }
+  return least;
+}
+
+#define NSVCD__PATIENCE 5  // iterations without a gain of 1 %, once the best is free, before MPPI ends
+
+// MPPI from p->control, the mean, on; leaves the best trajectory in p->best. Returns its cost; *cancelled if so.
+static nsvcd__cost nsvcd__explore(nsvcd__planner *p, size_t seed, nsvcd_plan_answer *answer, int *cancelled) {
+  const nsvcd__stage *stage = &p->explore;
+  const size_t f = p->problem->joints, via = stage->via, numbers = via * f, elite = stage->count / 10;
+  float deviations[NSVCD_MAX_JOINTS], first[NSVCD_MAX_JOINTS], temperature = 0;
+  nsvcd__cost best = nsvcd__cost_of(p, stage, p->control, INFINITY, NULL, NULL);
+  memcpy(p->best, p->control, (via + 2) * f * sizeof *p->best);
+  for (size_t j = 0; j < f; j++) {  // no more than a quarter of the joint's range
+    const float quarter = 0.25f * (p->problem->high[j] - p->problem->low[j]);
+    first[j] = deviations[j] = p->options.spread < quarter ? p->options.spread : quarter;
+  }
+  float before = best.total;
+  size_t waited = 0;
+  for (size_t i = 0; i < stage->iterations && !*cancelled && !p->error && waited < NSVCD__PATIENCE; i++) {
+    float least = INFINITY, total = 0;
+    for (size_t n = 0; n < stage->count; n++) {
+      float *offset = p->tries + n * numbers;
+      if (n > 0) nsvcd__smooth_noise(p, stage, deviations, offset);
+      if (n == 0) memset(offset, 0, numbers * sizeof *offset);
+      if (n == 1) {  // the best so far competes
+        for (size_t k = 0; k < numbers; k++) offset[k] = p->best[f + k] - p->control[f + k];
+      }
+      nsvcd__change(p, via, p->control, offset, 1, p->trial);
+      for (size_t k = 0; k < numbers; k++) offset[k] = p->trial[f + k] - p->control[f + k];
+      // What is 20 temperatures worse than another weighs nothing: its cost need not be known exactly.
+      const float limit = i > 0 ? least + 20 * temperature : INFINITY;
+      const nsvcd__cost cost = nsvcd__cost_of(p, stage, p->trial, limit, NULL, NULL);
+      p->costs[n] = cost.total;
+      if (cost.total < least) least = cost.total;
+      if (cost.total >= best.total || cost.total > limit) continue;
+      best = cost;
+      memcpy(p->best, p->trial, (via + 2) * f * sizeof *p->best);
+    }
+    if (p->error) break;
+    temperature = 0.5f * (nsvcd__kth_cost(p->costs, stage->count, elite) - least) + 1e-6f * (1 + least);
+    memset(p->sum, 0, numbers * sizeof *p->sum);
+    for (size_t n = 0; n < stage->count; n++) {
+      p->costs[n] = expf((least - p->costs[n]) / temperature);
+      total += p->costs[n];
+    }
+    for (size_t n = 0; n < stage->count; n++) {
+      const float weight = p->costs[n] / total;
+      for (size_t k = 0; weight > 1e-9f && k < numbers; k++) p->sum[k] += weight * p->tries[n * numbers + k];
+    }
+    for (size_t j = 0; j < f; j++) {  // the spread of the good ones about their mean, slowly
+      float square = 0;
+      for (size_t n = 0; n < stage->count; n++) {
+        const float weight = p->costs[n] / total;
+        for (size_t k = j; weight > 1e-9f && k < numbers; k += f) {
+          const float d = p->tries[n * numbers + k] - p->sum[k];
+          square += weight * d * d / (float)via;
+        }
+      }
+      const float variance = 0.9f * deviations[j] * deviations[j] + 0.1f * 2 * square, floor = 1e-3f * first[j];
+      deviations[j] = variance > floor * first[j] ? sqrtf(variance) : sqrtf(floor * first[j]);
+    }
+    nsvcd__change(p, via, p->control, p->sum, 0.9f, p->trial);
+    memcpy(p->control, p->trial, (via + 2) * f * sizeof *p->control);
+    answer->iterations++;
+    waited = best.collides || best.total < 0.99f * before ? 0 : waited + 1;
+    before = best.total < 0.99f * before ? best.total : before;
+    *cancelled = nsvcd__report(p, seed, i, stage, 0, &best);
+  }
+  return best;
+}
+
+// ---- refine
+
+static double nsvcd__dot(const float *a, const float *b, size_t count) {
+  double sum = 0;
+  for (size_t k = 0; k < count; k++) sum += (double)a[k] * (double)b[k];
+  return sum;
+}
+
+// x (M, F) times the inverse of the smoothness' form, in place.
+static void nsvcd__by_metric(nsvcd__planner *p, const nsvcd__stage *stage, float *x) {
+  const size_t f = p->problem->joints, via = stage->via;
+  for (size_t j = 0; j < f; j++) {
+    for (size_t k = 0; k < via; k++) p->vector[k] = (double)x[k * f + j];
+    nsvcd__solve_lower(stage->factor, via, p->vector);
+    nsvcd__solve_upper(stage->factor, via, p->vector);
+    for (size_t k = 0; k < via; k++) x[k * f + j] = (float)p->vector[k];
+  }
+}
+
+// The mean of the gradients at control + each of the bundle's offsets (in p->tries), (M, F) -> p->sum.
+static void nsvcd__bundled_gradient(nsvcd__planner *p, const nsvcd__stage *stage, const float *control) {
+  const size_t f = p->problem->joints, numbers = stage->via * f;
+  memset(p->sum, 0, numbers * sizeof *p->sum);
+  for (size_t n = 0; n < stage->count && !p->error; n++) {
+    nsvcd__change(p, stage->via, control, p->tries + n * numbers, 1, p->trial);
+    nsvcd__cost_of(p, stage, p->trial, INFINITY, p->gradient, NULL);
+    for (size_t k = 0; k < numbers; k++) p->sum[k] += p->gradient[f + k] / (float)stage->count;
+  }
+}
+
+// L-BFGS's direction for the gradient in p->sum -> p->offset, (M, F). `kept` of `stored` steps are the last ones.
+static void nsvcd__direction(nsvcd__planner *p, const nsvcd__stage *stage, size_t kept, size_t stored) {
+  const size_t numbers = stage->via * p->problem->joints;
+  double alpha[NSVCD__HISTORY], scale = 0.5;
+  float *d = p->offset;
+  for (size_t k = 0; k < numbers; k++) d[k] = -p->sum[k];
+  for (size_t n = 0; n < kept; n++) {
+    const float *s = p->steps + (stored - 1 - n) % NSVCD__HISTORY * numbers;
+    const float *y = p->changes + (stored - 1 - n) % NSVCD__HISTORY * numbers;
+    alpha[n] = nsvcd__dot(s, d, numbers) / nsvcd__dot(s, y, numbers);
+    for (size_t k = 0; k < numbers; k++) d[k] -= (float)alpha[n] * y[k];
+  }
+  nsvcd__by_metric(p, stage, d);
+  for (size_t k = 0; k < numbers; k++) d[k] *= (float)scale;
+  for (size_t n = kept; n-- > 0;) {
+    const float *s = p->steps + (stored - 1 - n) % NSVCD__HISTORY * numbers;
+    const float *y = p->changes + (stored - 1 - n) % NSVCD__HISTORY * numbers;
+    const double beta = nsvcd__dot(y, d, numbers) / nsvcd__dot(s, y, numbers);
+    for (size_t k = 0; k < numbers; k++) d[k] += (float)(alpha[n] - beta) * s[k];
+  }
+}
+
+// L-BFGS from p->best on, which it improves; `cost` is what that costs.
+static nsvcd__cost nsvcd__refine(nsvcd__planner *p, size_t seed, nsvcd_plan_answer *answer, int *cancelled) {
+  static const float lengths[NSVCD__STEPS] = {1, 0.5f, 0.2f, 0.05f, 0.01f};
+  const nsvcd__stage *stage = &p->refine;
+  const size_t f = p->problem->joints, via = stage->via, numbers = via * f, point = (via + 2) * f * sizeof(float);
+  float deviations[NSVCD_MAX_JOINTS];
+  size_t kept = 0, stored = 0, failed = 0;
+  nsvcd__cost best = nsvcd__cost_of(p, stage, p->best, INFINITY, NULL, NULL);
+  for (size_t j = 0; j < f; j++) deviations[j] = p->options.bundle;
+  // The same offsets at each iteration: the mean is then a function, and its gradients differ by where they are taken.
+  for (size_t n = 0; n < stage->count; n++) nsvcd__smooth_noise(p, stage, deviations, p->tries + n * numbers);
+  for (size_t i = 0; i < stage->iterations && failed < 2 && !*cancelled && !p->error; i++) {
+    float *step = p->steps + stored % NSVCD__HISTORY * numbers,
+          *change = p->changes + stored % NSVCD__HISTORY * numbers;
+    memcpy(p->control, p->best, point);
+    nsvcd__bundled_gradient(p, stage, p->control);
+    if (stored > 0 && i > 0) {
+      // `change` of the last step was left as minus the gradient before it.
+      float *last = p->changes + (stored - 1) % NSVCD__HISTORY * numbers;
+      const float *moved = p->steps + (stored - 1) % NSVCD__HISTORY * numbers;
+      for (size_t k = 0; failed == 0 && k < numbers; k++) last[k] += p->sum[k];
+      if (!(nsvcd__dot(moved, last, numbers) > 1e-12)) stored--, kept = kept ? kept - 1 : 0;
+    }
+    nsvcd__direction(p, stage, kept, stored);
+    (void)step, (void)change;
+    nsvcd__cost found = best;
+    for (size_t n = 0; n < NSVCD__STEPS && !p->error; n++) {
+      nsvcd__change(p, via, p->control, p->offset, lengths[n], p->trial);
+      const nsvcd__cost cost = nsvcd__cost_of(p, stage, p->trial, found.total, NULL, NULL);
+      if (!(cost.total < found.total)) continue;
+      found = cost;
+      memcpy(p->best, p->trial, point);
+    }
+    if (found.total < best.total) {
+      step = p->steps + stored % NSVCD__HISTORY * numbers, change = p->changes + stored % NSVCD__HISTORY * numbers;
+      for (size_t k = 0; k < numbers; k++) step[k] = p->best[f + k] - p->control[f + k], change[k] = -p->sum[k];
+      stored++, kept = kept < NSVCD__HISTORY ? kept + 1 : kept;
+      failed = 0;
+    } else {
+      failed++, kept = 0, stored = 0;
+    }
+    best = found;
+    answer->iterations++;
+    *cancelled = nsvcd__report(p, seed, i, stage, 1, &best);
+  }
+  return best;
+}
+
+// ---- plan
+
+// The smoothest control points from start to goal, (M + 2, F): where the form's derivative is zero.
+static void nsvcd__smoothest(nsvcd__planner *p, const nsvcd__stage *stage, float *control) {
+  const size_t f = p->problem->joints, via = stage->via, all = via + 2;
+  for (size_t j = 0; j < f; j++) {
+    const double start = (double)p->problem->start[j], goal = (double)p->problem->goal[j];
+    for (size_t k = 0; k < via; k++) {
+      const double *row = stage->form + (k + 1) * all;
+      p->vector[k] = -row[0] * start - row[all - 1] * goal;
+    }
+    nsvcd__solve_lower(stage->factor, via, p->vector);
+    nsvcd__solve_upper(stage->factor, via, p->vector);
+    for (size_t k = 0; k < via; k++) control[(k + 1) * f + j] = (float)p->vector[k];
+  }
+  memcpy(control, p->problem->start, f * sizeof *control);
+  memcpy(control + (via + 1) * f, p->problem->goal, f * sizeof *control);
+}
+
+// The same curve, nearly, through another number of via points: p->best.
+static void nsvcd__resample(nsvcd__planner *p, size_t from, size_t to) {
+  const size_t f = p->problem->joints;
+  if (from == to) return;
+  for (size_t k = 0; k < to + 2; k++) {
+    nsvcd_spline(p->best, from, f, (float)k / (float)(to + 1), 0, p->trial + k * f);
+  }
+  memcpy(p->best, p->trial, (to + 2) * f * sizeof *p->best);
+}
+
+// Are the joints within the limits, and free of collision?
+static int nsvcd__is_good(nsvcd__planner *p, const float *joints) {
+  const nsvcd_plan_problem *problem = p->problem;
+  int collides = 0;
+  for (size_t j = 0; j < problem->joints; j++) {
+    if (joints[j] < problem->low[j] || joints[j] > problem->high[j]) return 0;
+  }
+  problem->place(problem->user, joints, p->poses);
+  if (!nsvcd__poses_are_valid(p->poses, problem->body_count)) p->error = NSVCD_ERROR_POSE;
+  if (p->error) return 0;
+  if (problem->collision) {
+    problem->collision(problem->user, p->poses, 1, &collides, NULL);
+  } else {
+    nsvcd__network_cost(p, 1, INFINITY, &collides, NULL, NULL);
+  }
+  return !collides;
+}
+
+NSVCDDEF const char *nsvcd_plan_status_string(nsvcd_plan_status status) {
+  switch (status) {
+    case NSVCD_PLAN_CONVERGED:
+      return "converged";
+    case NSVCD_PLAN_LIMIT:
+      return "limit";
+    case NSVCD_PLAN_CANCELLED:
+      return "cancelled";
+    case NSVCD_PLAN_START:
+      return "infeasible start";
+    case NSVCD_PLAN_GOAL:
+      return "infeasible goal";
+    default:
+      return "unknown status";
+  }
+}
+
+NSVCDDEF size_t nsvcd_plan_workspace_size(const nsvcd_plan_problem *problem, const nsvcd_plan_options *options) {
+  nsvcd__planner planner;
+  return nsvcd__planner_settings(problem, options, &planner) ? nsvcd__planner_memory(&planner, NULL) : 0;
+}
+
+NSVCDDEF nsvcd_result nsvcd_plan(const nsvcd_plan_problem *problem, const nsvcd_plan_options *options, void *workspace,
+                                 size_t workspace_size, float *control, nsvcd_plan_answer *answer) {
+  nsvcd__planner planner, *p = &planner;
+  nsvcd_plan_answer found = {NSVCD_PLAN_CONVERGED, 0, 0, 0, 0, 0, 0, 0, 0, 0};
+  int cancelled = 0;
+  if (!nsvcd__planner_settings(problem, options, p) || !control || !answer) return NSVCD_ERROR_ARGUMENT;
+  if (!workspace || !nsvcd__is_aligned(workspace) || workspace_size < nsvcd__planner_memory(p, (char *)workspace))
+    return NSVCD_ERROR_WORKSPACE;
+  const size_t f = problem->joints, point = (p->refine.via + 2) * f * sizeof(float);
+  for (size_t j = 0; j < f; j++) {
+    const float numbers[4] = {problem->low[j], problem->high[j], problem->start[j], problem->goal[j]};
+    for (size_t k = 0; k < 4; k++) {
+      if (nsvcd__magnitude(numbers[k]) > nsvcd__magnitude(NSVCD_MAX_COORDINATE)) return NSVCD_ERROR_NUMBER;
+    }
+    if (problem->low[j] > problem->high[j]) return NSVCD_ERROR_ARGUMENT;
+  }
+  nsvcd__stage_init(&p->options, &p->explore), nsvcd__stage_init(&p->options, &p->refine);
+  nsvcd__stage_init(&p->options, &p->check);
+  p->random = p->options.seed;
+  if (!nsvcd__is_good(p, problem->start))
+    found.status = NSVCD_PLAN_START;
+  else if (!nsvcd__is_good(p, problem->goal))
+    found.status = NSVCD_PLAN_GOAL;
+  nsvcd__smoothest(p, &p->refine, p->best);
+  for (; found.status == NSVCD_PLAN_CONVERGED && found.seeds < p->options.seeds && !p->error; found.seeds++) {
+    nsvcd__worst worst = {-NSVCD_LOGIT_CERTAIN, 0, 0};
+    nsvcd__smoothest(p, &p->explore, p->control);
+    if (found.seeds > 0) {  // another start
+      float deviations[NSVCD_MAX_JOINTS];
+      for (size_t j = 0; j < f; j++) deviations[j] = p->options.spread;
+      nsvcd__smooth_noise(p, &p->explore, deviations, p->offset);
+      nsvcd__change(p, p->explore.via, p->control, p->offset, 1, p->trial);
+      memcpy(p->control, p->trial, (p->explore.via + 2) * f * sizeof(float));
+    }
+    nsvcd__explore(p, found.seeds, &found, &cancelled);
+    nsvcd__resample(p, p->explore.via, p->refine.via);
+    nsvcd__refine(p, found.seeds, &found, &cancelled);
+    const nsvcd__cost cost = nsvcd__cost_of(p, &p->check, p->best, INFINITY, NULL, &worst);
+    if (p->error) break;
+    if (found.seeds == 0 || !cost.collides || cost.total < found.cost) {
+      memcpy(control, p->best, point);
+      found.cost = cost.total, found.smoothness = cost.smoothness;
+      found.logit = worst.logit, found.time = worst.time, found.pair = worst.pair;
+    }
+    if (cancelled || !cost.collides) {
+      found.status = cancelled ? NSVCD_PLAN_CANCELLED : NSVCD_PLAN_CONVERGED;
+      found.seeds++;
+      break;
+    }
+    if (found.seeds + 1 == p->options.seeds) found.status = NSVCD_PLAN_LIMIT;
+  }
+  if (p->error) return p->error;
+  if (found.seeds == 0) memcpy(control, p->best, point);
+  found.trajectories = p->trajectories, found.sweeps = p->sweeps;
+  *answer = found;
+  return NSVCD_OK;
+}
+#endif  // NSVCD_NO_OPTIMIZER
 
 #endif  // NEURALSVCD_IMPLEMENTATION
 
