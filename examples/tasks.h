@@ -1,0 +1,415 @@
+// tasks.h - three motion planning tasks: dishes into a rack, a peg into a hole with two arms, a pickaxe through a mine.
+//
+// In:  a seed. Out: a scene (bodies, what carries them, which pairs can meet) and one to three planning problems (start
+// and goal in joint space). task_place turns joint values into the poses of all bodies; task_check judges a trajectory
+// by the exact oracle. Everything follows from the seed. What the sources leave open is chosen in comments marked
+// "chosen". Metres, radians, seconds, right-handed, z up, quaternions x y z w.
+//
+//   task_scene scene;
+//   if (!task_dish_episode(&scene, 7)) ...            // or task_bimanual_episode, task_mining_episode
+//   for (int i = 0; i < scene.problem_count; i++) {
+//     task_select(&scene, i);                         // before encoding pairs: it changes who carries what
+//     ... plan from scene.problems[i].start to scene.problems[i].goal ...
+//     if (task_check(&scene, joints, samples, NULL)) ...
+//   }
+//   task_free(&scene);
+#ifndef NSVCD_EXAMPLES_TASKS_H
+#define NSVCD_EXAMPLES_TASKS_H
+
+#include "../neuralsvcd.h"
+#include "../tests/oracle.h"
+#include "shapes.h"
+
+#define TASK_DEF SHAPES_DEF
+#define TASK_MAX_JOINTS 12
+#define TASK_MAX_BODIES 96
+#define TASK_MAX_PAIRS 1024
+#define TASK_PI 3.14159265358979323846
+
+// Link 0 is the world; link i + 1 is what joint i moves.
+typedef struct task_joint {
+  double origin[3], rpy[3], axis[3];  // the joint's frame in its parent link; roll, pitch, yaw as in URDF
+  double low, high;                   // radians, or metres if it slides
+  double speed;                       // per second, at most
+  int slides;
+  int parent;  // a link
+} task_joint;
+
+typedef enum task_kind {
+  TASK_ROBOT,
+  TASK_HELD,   // grasped: moves with a link
+  TASK_SCENE,  // stands still
+  TASK_FLOOR,  // stands still, below the robot: the links of its foot never meet it
+  TASK_ABSENT  // takes no part in this problem
+} task_kind;
+
+typedef struct task_body {
+  const char *name;
+  nsvcd_mesh mesh;     // for nsvcd_encode
+  oracle_mesh exact;   // the same triangles
+  oracle_pose offset;  // in its link
+  int link;
+  task_kind kind;
+  int near;  // a robot's body is not tested against those on this many links before its own: they overlap by design
+} task_body;
+
+typedef struct task_problem {
+  float start[TASK_MAX_JOINTS], goal[TASK_MAX_JOINTS];
+  float approach[TASK_MAX_JOINTS];  // from here to the goal a straight insertion is free; planners do not get to see it
+} task_problem;
+
+typedef struct task_scene {
+  const char *name;
+  task_joint joints[TASK_MAX_JOINTS];
+  oracle_pose origins[TASK_MAX_JOINTS];  // origin and rpy as poses
+  int joint_count;
+  int foot;  // links up to this one never meet the floor
+  task_body bodies[TASK_MAX_BODIES];
+  int body_count;
+  int pairs[TASK_MAX_PAIRS][2];  // bodies that can meet; where one stands still, it is the first
+  int pair_count;
+  task_problem problems[3];
+  int problem_count;
+  int selected;     // problem
+  int held[3];      // bodies: the dish of each problem; peg and block; pickaxe
+  oracle_pose settled[3];  // of the dishes
+  shapes_rng rng;
+  int failed;  // no memory, or too many bodies or pairs
+} task_scene;
+
+// ----------------------------------------------------------------------------------------------------------- poses
+
+TASK_DEF oracle_pose task_pose(double x, double y, double z, double roll, double pitch, double yaw) {
+  const double ax[3] = {1, 0, 0}, ay[3] = {0, 1, 0}, az[3] = {0, 0, 1};
+  double qx[4], qy[4], qz[4], turn[4];
+  oracle_pose pose = {{x, y, z}, {0, 0, 0, 1}};
+  oracle_axis_angle(ax, roll, qx), oracle_axis_angle(ay, pitch, qy), oracle_axis_angle(az, yaw, qz);
+  oracle_quat_mul(qz, qy, turn);
+  oracle_quat_mul(turn, qx, pose.rotation);
+  return pose;
+}
+TASK_DEF oracle_pose task_compose(const oracle_pose *a, const oracle_pose *b) {
+  oracle_pose out;
+  oracle_transform(a, b->position, out.position);
+  oracle_quat_mul(a->rotation, b->rotation, out.rotation);
+  return out;
+}
+// b as seen from a.
+TASK_DEF oracle_pose task_relative(const oracle_pose *a, const oracle_pose *b) {
+  oracle_pose out;
+  double m[9], d[3], inverse[4] = {-a->rotation[0], -a->rotation[1], -a->rotation[2], a->rotation[3]};
+  oracle_matrix(a->rotation, m);
+  oracle_sub(b->position, a->position, d);
+  oracle_rotate_back(m, d, out.position);
+  oracle_quat_mul(inverse, b->rotation, out.rotation);
+  return out;
+}
+
+// ------------------------------------------------------------------------------------------------- scene and bodies
+
+TASK_DEF void task_free(task_scene *scene) {
+  for (int i = 0; i < scene->body_count; i++) {
+    free(scene->bodies[i].mesh.positions), free(scene->bodies[i].mesh.indices);
+    oracle_mesh_free(&scene->bodies[i].exact);
+  }
+  memset(scene, 0, sizeof *scene);
+}
+TASK_DEF void task_begin(task_scene *scene, const char *name, uint64_t seed) {
+  memset(scene, 0, sizeof *scene);
+  scene->name = name, scene->rng.state = seed;
+}
+// Takes the mesh over, empties it, and returns the new body's index.
+TASK_DEF int task_add(task_scene *scene, const char *name, task_kind kind, int link, int near, oracle_pose offset,
+                      shapes_mesh *mesh) {
+  task_body *body = &scene->bodies[scene->body_count];
+  float *positions = (float *)malloc((3 * mesh->vertices + 1) * sizeof(float));
+  if (mesh->failed || !positions || scene->body_count == TASK_MAX_BODIES) {
+    shapes_free(mesh), free(positions);
+    return scene->failed = 1, 0;
+  }
+  memset(body, 0, sizeof *body);
+  for (size_t i = 0; i < 3 * mesh->vertices; i++) {  // the oracle shall see what the network sees: floats
+    positions[i] = (float)mesh->positions[i];
+    mesh->positions[i] = (double)positions[i];
+  }
+  body->name = name, body->kind = kind, body->link = link, body->near = near, body->offset = offset;
+  body->mesh.positions = positions, body->mesh.vertex_count = mesh->vertices;
+  body->mesh.indices = mesh->indices, body->mesh.triangle_count = mesh->triangles;
+  if (!oracle_mesh_init(&body->exact, mesh->positions, mesh->vertices, mesh->indices, mesh->triangles, 1))
+    scene->failed = 1;
+  mesh->indices = NULL;
+  shapes_free(mesh);
+  return scene->body_count++;
+}
+// Appends a serial chain on a link; returns its first new link.
+TASK_DEF int task_add_chain(task_scene *scene, const task_joint *joints, int count, int parent) {
+  int first = scene->joint_count + 1;
+  for (int i = 0; i < count; i++) {
+    task_joint *joint = &scene->joints[scene->joint_count];
+    *joint = joints[i];
+    joint->parent = i ? scene->joint_count : parent;
+    const double *o = joint->origin, *r = joint->rpy;
+    scene->origins[scene->joint_count++] = task_pose(o[0], o[1], o[2], r[0], r[1], r[2]);
+  }
+  return first;
+}
+// The poses of all links, the world first: (joint_count + 1).
+TASK_DEF void task_links(const task_scene *scene, const double *joints, oracle_pose *links) {
+  links[0] = task_pose(0, 0, 0, 0, 0, 0);
+  for (int i = 0; i < scene->joint_count; i++) {
+    const task_joint *joint = &scene->joints[i];
+    oracle_pose frame = task_compose(&links[joint->parent], &scene->origins[i]), move = {{0, 0, 0}, {0, 0, 0, 1}};
+    for (int k = 0; joint->slides && k < 3; k++) move.position[k] = joints[i] * joint->axis[k];
+    if (!joint->slides) oracle_axis_angle(joint->axis, joints[i], move.rotation);
+    links[i + 1] = task_compose(&frame, &move);
+  }
+}
+TASK_DEF oracle_pose task_body_pose(const task_scene *scene, int body, const oracle_pose *links) {
+  const task_body *b = &scene->bodies[body];
+  return b->link ? task_compose(&links[b->link], &b->offset) : b->offset;
+}
+// user: a task_scene. joints: (joint_count). poses: (body_count), those that stand still too. Absent bodies lie 10 m
+// below the floor.
+TASK_DEF void task_place(void *user, const float *joints, nsvcd_pose *poses) {
+  const task_scene *scene = (const task_scene *)user;
+  double q[TASK_MAX_JOINTS];
+  oracle_pose links[TASK_MAX_JOINTS + 1];
+  for (int i = 0; i < scene->joint_count; i++) q[i] = (double)joints[i];
+  task_links(scene, q, links);
+  for (int i = 0; i < scene->body_count; i++) {
+    oracle_pose pose = task_body_pose(scene, i, links);
+    if (scene->bodies[i].kind == TASK_ABSENT) pose = task_pose(0, 0, -10, 0, 0, 0);
+    for (int k = 0; k < 3; k++) poses[i].position[k] = (float)pose.position[k];
+    for (int k = 0; k < 4; k++) poses[i].rotation[k] = (float)pose.rotation[k];
+  }
+}
+
+// ----------------------------------------------------------------------------------------------------------- pairs
+
+TASK_DEF int task_moves(const task_body *body) { return body->kind == TASK_ROBOT || body->kind == TASK_HELD; }
+// Is link `above` among the `near` links before `link`, or the same?
+TASK_DEF int task_is_near(const task_scene *scene, int above, int link, int near) {
+  for (; link != above && link && near; near--) link = scene->joints[link - 1].parent;
+  return link == above;
+}
+TASK_DEF int task_can_meet(const task_scene *scene, const task_body *a, const task_body *b) {
+  if (a->kind == TASK_ABSENT || b->kind == TASK_ABSENT || (!task_moves(a) && !task_moves(b))) return 0;
+  if (a->kind == TASK_FLOOR || b->kind == TASK_FLOOR) return a->link > scene->foot || b->link > scene->foot;
+  if (!task_moves(a) || !task_moves(b)) return 1;
+  return !task_is_near(scene, a->link, b->link, b->near) && !task_is_near(scene, b->link, a->link, a->near);
+}
+TASK_DEF void task_find_pairs(task_scene *scene) {
+  scene->pair_count = 0;
+  for (int a = 0; a < scene->body_count; a++)
+    for (int b = a + 1; b < scene->body_count; b++) {
+      if (!task_can_meet(scene, &scene->bodies[a], &scene->bodies[b])) continue;
+      if (scene->pair_count == TASK_MAX_PAIRS) {
+        scene->failed = 1;
+        return;
+      }
+      int swap = !task_moves(&scene->bodies[b]);
+      scene->pairs[scene->pair_count][0] = swap ? b : a;
+      scene->pairs[scene->pair_count++][1] = swap ? a : b;
+    }
+}
+
+// ----------------------------------------------------------------------------------------------------------- judge
+
+#define TASK_FINE 0.02    // radians or metres of a joint between two poses: a chord at 1 m is then 0.05 mm off its arc
+#define TASK_REACHED 1e-3  // radians or metres of each joint: what counts as the goal
+#define TASK_TOLERANCE 1e-5  // metres: a pair that comes nearer than this counts as a collision
+
+typedef struct task_verdict {
+  int free, in_limits, at_goal;  // all three: success
+  int pair[2];                   // if not free: the first bodies found to meet,
+  double time;                   // and when, in [0,1] over the samples
+} task_verdict;
+
+// Does the pair keep `clearance` from each other? a, b: (count) poses in the world, position linear and rotation slerp
+// in between. Runs of samples between which the second body's sphere is far from the first one's box are skipped.
+TASK_DEF int task_pair_free(const task_body *fixed, const task_body *moving, const oracle_pose *a, const oracle_pose *b,
+                            int count, double clearance, oracle_pose *relative, double *time) {
+  const oracle_options options = {TASK_TOLERANCE, fmax(clearance, TASK_TOLERANCE), 0, 0};
+  const oracle_pose origin = {{0, 0, 0}, {0, 0, 0, 1}};
+  int run = 0;  // poses in `relative`
+  for (int i = 0; i < count; i++) {
+    int next = i + 1 < count ? i + 1 : i;
+    double center[3], gap = 0, step;
+    relative[run] = task_relative(&a[i], &b[i]);
+    oracle_transform(&relative[run], moving->exact.center, center);
+    for (int k = 0; k < 3; k++) {
+      double d = fmax(fmax(fixed->exact.low[k] - center[k], center[k] - fixed->exact.high[k]), 0);
+      gap += d * d;
+    }
+    step = oracle_path_bound(&fixed->exact, &a[i], &a[next]) + oracle_path_bound(&moving->exact, &b[i], &b[next]);
+    int near = sqrt(gap) - moving->exact.radius <= clearance + step;
+    run = near || run ? run + 1 : 0;  // the pose after the last near one ends the run
+    if (!run || (near && i + 1 < count)) continue;
+    oracle_result r = oracle_sweep(&moving->exact, relative, (size_t)run, &fixed->exact, &origin, &options);
+    if (time) *time = count > 1 ? (i + 1 - run + r.time * (run - 1)) / (count - 1) : 0;
+    if (r.status != ORACLE_FREE || r.lower < clearance) return 0;
+    run = 0;
+  }
+  return 1;
+}
+// Joint values (samples, joint_count), linear in between: do all pairs keep `clearance`? No memory counts as no.
+TASK_DEF int task_keeps(const task_scene *scene, const double *joints, int samples, double clearance,
+                        task_verdict *verdict) {
+  int joint_count = scene->joint_count, count = 1, at = 0, pair = 0;
+  for (int pass = 0; pass < 1; pass++)
+    for (int s = 0; s + 1 < samples; s++) {
+      double most = 0;
+      for (int j = 0; j < joint_count; j++)
+        most = fmax(most, fabs(joints[(s + 1) * joint_count + j] - joints[s * joint_count + j]));
+      count += (int)fmax(1, ceil(most / TASK_FINE));
+    }
+  double *times = (double *)malloc((size_t)count * sizeof *times);  // of the fine poses
+  oracle_pose *world = (oracle_pose *)malloc((size_t)count * (size_t)(scene->body_count + 1) * sizeof *world);
+  oracle_pose *relative = world + (size_t)count * (size_t)scene->body_count;
+  if (!times || !world) return free(times), free(world), 0;
+  for (int s = 0; s < samples; s++) {
+    double most = 0, q[TASK_MAX_JOINTS];
+    oracle_pose links[TASK_MAX_JOINTS + 1];
+    const double *q0 = joints + s * joint_count, *q1 = s + 1 < samples ? q0 + joint_count : q0;
+    for (int j = 0; j < joint_count; j++) most = fmax(most, fabs(q1[j] - q0[j]));
+    int steps = (int)fmax(1, ceil(most / TASK_FINE));
+    for (int i = 0; i < steps; i++, at++) {
+      for (int j = 0; j < joint_count; j++) q[j] = q0[j] + (q1[j] - q0[j]) * i / steps;
+      task_links(scene, q, links);
+      times[at] = s + (double)i / steps;
+      for (int b = 0; b < scene->body_count; b++) world[b * count + at] = task_body_pose(scene, b, links);
+    }
+  }
+  for (; pair < scene->pair_count; pair++) {
+    int a = scene->pairs[pair][0], b = scene->pairs[pair][1];
+    double time;
+    if (task_pair_free(&scene->bodies[a], &scene->bodies[b], world + a * count, world + b * count, count, clearance,
+                       relative, &time))
+      continue;
+    if (verdict) {
+      verdict->pair[0] = a, verdict->pair[1] = b;
+      verdict->time = samples > 1 ? times[(int)(time * (count - 1))] / (samples - 1) : 0;
+    }
+    break;
+  }
+  free(times), free(world);
+  return pair == scene->pair_count;
+}
+TASK_DEF int task_in_limits(const task_scene *scene, const double *joints) {
+  for (int j = 0; j < scene->joint_count; j++)  // floats may be off by their rounding
+    if (!(joints[j] >= scene->joints[j].low - 1e-5 && joints[j] <= scene->joints[j].high + 1e-5)) return 0;
+  return 1;
+}
+// A whole trajectory (samples, joint_count), joints linear in between, against the selected problem. Returns 1 for
+// success. verdict may be NULL.
+TASK_DEF int task_check(const task_scene *scene, const float *joints, int samples, task_verdict *verdict) {
+  task_verdict v = {0, 1, 1, {0, 0}, 0};
+  int count = scene->joint_count;
+  const float *goal = scene->problems[scene->selected].goal, *start = scene->problems[scene->selected].start;
+  double *q = (double *)malloc((size_t)(samples * count) * sizeof *q);
+  for (int i = 0; q && i < samples * count; i++) q[i] = (double)joints[i];
+  for (int s = 0; q && s < samples; s++) v.in_limits &= task_in_limits(scene, q + s * count);
+  for (int j = 0; j < count; j++) {  // "reaches the goal" includes: from the start
+    v.at_goal &= fabs((double)(joints[(samples - 1) * count + j] - goal[j])) <= TASK_REACHED;
+    v.at_goal &= fabs((double)(joints[j] - start[j])) <= TASK_REACHED;
+  }
+  v.free = q && task_keeps(scene, q, samples, 0, &v);
+  free(q);
+  if (verdict) *verdict = v;
+  return v.free && v.in_limits && v.at_goal;
+}
+
+// ---------------------------------------------------------------------------------------------- inverse kinematics
+
+// Where `body` is, as seen from body `base` (-1: the world), less the target: position, then rotation vector.
+TASK_DEF void task_error(const task_scene *scene, const double *joints, int body, int base, const oracle_pose *target,
+                         double *error) {
+  oracle_pose links[TASK_MAX_JOINTS + 1], pose;
+  task_links(scene, joints, links);
+  pose = task_body_pose(scene, body, links);
+  if (base >= 0) {
+    oracle_pose frame = task_body_pose(scene, base, links);
+    pose = task_relative(&frame, &pose);
+  }
+  oracle_sub(pose.position, target->position, error);
+  double angle = oracle_quat_arc(target->rotation, pose.rotation, error + 3);
+  for (int k = 0; k < 3; k++) error[3 + k] *= angle;
+}
+// Solves the symmetric positive definite a x = b in place: Cholesky.
+TASK_DEF void task_solve6(double a[6][6], double *b) {
+  for (int i = 0; i < 6; i++)
+    for (int j = 0; j <= i; j++) {
+      double sum = a[i][j];
+      for (int k = 0; k < j; k++) sum -= a[i][k] * a[j][k];
+      a[i][j] = i == j ? sqrt(sum) : sum / a[j][j];
+    }
+  for (int i = 0; i < 6; i++) {
+    for (int k = 0; k < i; k++) b[i] -= a[i][k] * b[k];
+    b[i] /= a[i][i];
+  }
+  for (int i = 5; i >= 0; i--) {
+    for (int k = i + 1; k < 6; k++) b[i] -= a[k][i] * b[k];
+    b[i] /= a[i][i];
+  }
+}
+// Damped least squares from the joints given, which it improves within their limits. Returns 1 once `body` is at the
+// target, as seen from body `base` (-1: the world), to 1e-6.
+TASK_DEF int task_ik(const task_scene *scene, double *joints, int body, int base, const oracle_pose *target) {
+  double e[6], moved[6], jacobian[6][TASK_MAX_JOINTS];
+  for (int iteration = 0; iteration < 60; iteration++) {
+    double norm = 0, a[6][6];
+    task_error(scene, joints, body, base, target, e);
+    for (int k = 0; k < 6; k++) norm += e[k] * e[k];
+    if (norm < 1e-12) return 1;
+    for (int j = 0; j < scene->joint_count; j++) {
+      double keep = joints[j];
+      joints[j] += 1e-6;
+      task_error(scene, joints, body, base, target, moved);
+      joints[j] = keep;
+      for (int k = 0; k < 6; k++) jacobian[k][j] = (moved[k] - e[k]) / 1e-6;
+    }
+    for (int i = 0; i < 6; i++)
+      for (int k = 0; k < 6; k++) {
+        a[i][k] = i == k ? 1e-6 + 1e-2 * fmin(norm, 1) : 0;  // the damping fades as the target comes near
+        for (int j = 0; j < scene->joint_count; j++) a[i][k] += jacobian[i][j] * jacobian[k][j];
+      }
+    task_solve6(a, e);
+    for (int j = 0; j < scene->joint_count; j++) {
+      double step = 0;
+      for (int k = 0; k < 6; k++) step -= jacobian[k][j] * e[k];
+      joints[j] += fmax(-0.3, fmin(0.3, step));
+      joints[j] = fmax(scene->joints[j].low, fmin(scene->joints[j].high, joints[j]));
+    }
+  }
+  return 0;
+}
+// Joint values about `around`, each at most `spread` away (0: anywhere), within the limits.
+TASK_DEF void task_random_joints(task_scene *scene, const double *around, double spread, double *joints) {
+  for (int j = 0; j < scene->joint_count; j++) {
+    double low = scene->joints[j].low, high = scene->joints[j].high;
+    if (around) low = fmax(low, around[j] - spread), high = fmin(high, around[j] + spread);
+    joints[j] = shapes_uniform(&scene->rng, low, high);
+  }
+}
+// As floats, and back: what is checked shall be what is handed out.
+TASK_DEF void task_round(const task_scene *scene, double *joints, float *out) {
+  for (int j = 0; j < scene->joint_count; j++) joints[j] = (double)(out[j] = (float)joints[j]);
+}
+#define TASK_STEPS 12  // of an insertion
+// From joints at `target`, backs out along `direction` (in base's frame, metres) in a straight line. Returns 1 and the
+// joints reached if all of it is free.
+TASK_DEF int task_back_out(const task_scene *scene, const double *joints, int body, int base, const oracle_pose *target,
+                           const double *direction, double *reached) {
+  double path[(TASK_STEPS + 1) * TASK_MAX_JOINTS];
+  int count = scene->joint_count;
+  size_t row = (size_t)count * sizeof(double);
+  memcpy(path, joints, row);
+  for (int s = 1; s <= TASK_STEPS; s++) {
+    oracle_pose pose = *target;
+    for (int k = 0; k < 3; k++) pose.position[k] += direction[k] * s / TASK_STEPS;
+    memcpy(path + s * count, path + (s - 1) * count, row);
+    if (!task_ik(scene, path + s * count, body, base, &pose)) return 0;
+  }
+  memcpy(reached, path + TASK_STEPS * count, row);
+  return task_keeps(scene, path, TASK_STEPS + 1, 0, NULL);
+}
