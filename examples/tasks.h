@@ -72,7 +72,8 @@ typedef struct task_scene {
   int problem_count;
   int selected;     // problem
   int held[3];      // bodies: the dish of each problem; peg and block; pickaxe
-  oracle_pose settled[3];  // of the dishes
+  oracle_pose grasps[3];   // of the dishes in the hand
+  oracle_pose settled[3];  // and in the rack, once released
   shapes_rng rng;
   int failed;  // no memory, or too many bodies or pairs
 } task_scene;
@@ -186,6 +187,35 @@ TASK_DEF void task_place(void *user, const float *joints, nsvcd_pose *poses) {
 
 // ----------------------------------------------------------------------------------------------------------- pairs
 
+// A bound on how far a body's points get from the first joint of its chain, in `root`. Infinite where a joint slides.
+TASK_DEF double task_reach(const task_scene *scene, const task_body *body, double *root) {
+  double center[3], reach;
+  int link = body->link;
+  oracle_transform(&body->offset, body->exact.center, center);
+  reach = oracle_length(center) + body->exact.radius;
+  memset(root, 0, 3 * sizeof *root);
+  for (; link; link = scene->joints[link - 1].parent) {
+    if (scene->joints[link - 1].slides) return HUGE_VAL;
+    if (scene->joints[link - 1].parent)
+      reach += oracle_length(scene->origins[link - 1].position);
+    else
+      memcpy(root, scene->origins[link - 1].position, 3 * sizeof *root);
+  }
+  return reach;
+}
+// Can the robot's body get to the one that stands still, were its joints free of limits?
+TASK_DEF int task_reaches(const task_scene *scene, const task_body *body, const task_body *still) {
+  double root[3], m[9], d[3], local[3], gap = 0;
+  double reach = task_reach(scene, body, root);
+  oracle_matrix(still->offset.rotation, m);
+  oracle_sub(root, still->offset.position, d);
+  oracle_rotate_back(m, d, local);
+  for (int k = 0; k < 3; k++) {
+    double out = fmax(fmax(still->exact.low[k] - local[k], local[k] - still->exact.high[k]), 0);
+    gap += out * out;
+  }
+  return sqrt(gap) <= reach;
+}
 TASK_DEF int task_moves(const task_body *body) { return body->kind == TASK_ROBOT || body->kind == TASK_HELD; }
 // Is link `above` among the `near` links before `link`, or the same?
 TASK_DEF int task_is_near(const task_scene *scene, int above, int link, int near) {
@@ -194,8 +224,11 @@ TASK_DEF int task_is_near(const task_scene *scene, int above, int link, int near
 }
 TASK_DEF int task_can_meet(const task_scene *scene, const task_body *a, const task_body *b) {
   if (a->kind == TASK_ABSENT || b->kind == TASK_ABSENT || (!task_moves(a) && !task_moves(b))) return 0;
-  if (a->kind == TASK_FLOOR || b->kind == TASK_FLOOR) return a->link > scene->foot || b->link > scene->foot;
-  if (!task_moves(a) || !task_moves(b)) return 1;
+  if (a->kind == TASK_FLOOR || b->kind == TASK_FLOOR) {
+    if (a->link <= scene->foot && b->link <= scene->foot) return 0;
+  }
+  if (!task_moves(a)) return task_reaches(scene, b, a);
+  if (!task_moves(b)) return task_reaches(scene, a, b);
   return !task_is_near(scene, a->link, b->link, b->near) && !task_is_near(scene, b->link, a->link, a->near);
 }
 TASK_DEF void task_find_pairs(task_scene *scene) {
@@ -256,13 +289,12 @@ TASK_DEF int task_pair_free(const task_body *fixed, const task_body *moving, con
 TASK_DEF int task_keeps(const task_scene *scene, const double *joints, int samples, double clearance,
                         task_verdict *verdict) {
   int joint_count = scene->joint_count, count = 1, at = 0, pair = 0;
-  for (int pass = 0; pass < 1; pass++)
-    for (int s = 0; s + 1 < samples; s++) {
-      double most = 0;
-      for (int j = 0; j < joint_count; j++)
-        most = fmax(most, fabs(joints[(s + 1) * joint_count + j] - joints[s * joint_count + j]));
-      count += (int)fmax(1, ceil(most / TASK_FINE));
-    }
+  for (int s = 0; s + 1 < samples; s++) {
+    double most = 0;
+    for (int j = 0; j < joint_count; j++)
+      most = fmax(most, fabs(joints[(s + 1) * joint_count + j] - joints[s * joint_count + j]));
+    count += (int)fmax(1, ceil(most / TASK_FINE));
+  }
   double *times = (double *)malloc((size_t)count * sizeof *times);  // of the fine poses
   oracle_pose *world = (oracle_pose *)malloc((size_t)count * (size_t)(scene->body_count + 1) * sizeof *world);
   oracle_pose *relative = world + (size_t)count * (size_t)scene->body_count;
@@ -413,3 +445,101 @@ TASK_DEF int task_back_out(const task_scene *scene, const double *joints, int bo
   memcpy(reached, path + TASK_STEPS * count, row);
   return task_keeps(scene, path, TASK_STEPS + 1, 0, NULL);
 }
+
+// ---------------------------------------------------------------------------------------------------------- robots
+
+TASK_DEF oracle_pose task_at(double x, double y, double z) { return task_pose(x, y, z, 0, 0, 0); }
+TASK_DEF void task_capsule(shapes_mesh *mesh, double ax, double ay, double az, double bx, double by, double bz,
+                           double radius) {
+  const double up[3] = {0, 0, 1}, d[3] = {bx - ax, by - ay, bz - az};
+  double axis[3], q[4] = {0, 0, 0, 1}, length = oracle_length(d);
+  size_t first = mesh->vertices;
+  oracle_cross(up, d, axis);
+  double sine = oracle_length(axis) / length;
+  if (sine > 0) {
+    for (int k = 0; k < 3; k++) axis[k] /= sine * length;
+    oracle_axis_angle(axis, atan2(sine, d[2] / length), q);
+  }
+  shapes_capsule(mesh, radius, length, 12);
+  shapes_place(mesh, first, q, (ax + bx) / 2, (ay + by) / 2, (az + bz) / 2);
+}
+
+#define TASK_TIP 0.19  // metres along z of the UR5's last link: the tips of the fingers
+
+// The UR5 by its Denavit-Hartenberg table; link frames lie on the joints' axes. Six bodies. Chosen: the shoulder's
+// housing is part of the upright foot, which a turn of joint 1 does not change; the jaw stands open at a width that
+// takes every dish, as the hand is one body.
+TASK_DEF void task_add_ur5(task_scene *scene, int parent) {
+  const double p = TASK_PI;
+  const task_joint joints[6] = {{{0, 0, 0}, {0, 0, 0}, {0, 0, 1}, -2 * p, 2 * p, p, 0, 0},
+                                {{0, 0, 0.089159}, {p / 2, 0, 0}, {0, 0, 1}, -2 * p, 2 * p, p, 0, 0},
+                                {{-0.425, 0, 0}, {0, 0, 0}, {0, 0, 1}, -p, p, p, 0, 0},
+                                {{-0.39225, 0, 0}, {0, 0, 0}, {0, 0, 1}, -2 * p, 2 * p, p, 0, 0},
+                                {{0, 0, 0.10915}, {p / 2, 0, 0}, {0, 0, 1}, -2 * p, 2 * p, p, 0, 0},
+                                {{0, 0, 0.09465}, {-p / 2, 0, 0}, {0, 0, 1}, -2 * p, 2 * p, p, 0, 0}};
+  const oracle_pose none = task_at(0, 0, 0);
+  shapes_mesh mesh;
+  int first = task_add_chain(scene, joints, 6, parent);
+  size_t at;
+  memset(&mesh, 0, sizeof mesh);
+  scene->foot = first;
+  shapes_cylinder(&mesh, 0.07, 0.15, 16);
+  task_add(scene, "foot", TASK_ROBOT, first, 1, task_at(0, 0, 0.075), &mesh);
+  task_capsule(&mesh, 0, 0, 0.13585, -0.425, 0, 0.13585, 0.06);
+  task_capsule(&mesh, 0, 0, 0.11, 0, 0, 0.14, 0.055);
+  task_add(scene, "upper arm", TASK_ROBOT, first + 1, 1, none, &mesh);
+  task_capsule(&mesh, 0, 0, 0.0165, -0.39225, 0, 0.0165, 0.06);
+  task_add(scene, "forearm", TASK_ROBOT, first + 2, 1, none, &mesh);
+  task_capsule(&mesh, 0, 0, 0.03, 0, 0, 0.10915, 0.04);
+  task_add(scene, "wrist 1", TASK_ROBOT, first + 3, 1, none, &mesh);
+  task_capsule(&mesh, 0, 0, 0, 0, 0, 0.09465, 0.04);  // comes within 1 cm of the forearm, by design
+  task_add(scene, "wrist 2", TASK_ROBOT, first + 4, 2, none, &mesh);
+  shapes_cylinder(&mesh, 0.0375, 0.05, 16);
+  shapes_place(&mesh, 0, NULL, 0, 0, 0.0573);
+  shapes_box_at(&mesh, 0, 0, 0.1073, 0.07, 0.06, 0.055);
+  for (int s = -1; s <= 1; s += 2) {
+    at = mesh.vertices;
+    shapes_box(&mesh, 0.01, 0.03, 0.062, 1);
+    shapes_place(&mesh, at, NULL, s * 0.027, 0, TASK_TIP - 0.031);
+  }
+  task_add(scene, "hand", TASK_ROBOT, first + 5, 2, none, &mesh);
+}
+// A configuration from which the hand looks down: elbow up, the arm towards `azimuth`, the jaw turned by `turn`.
+TASK_DEF void task_ur5_down(double azimuth, double turn, double *joints) {
+  const double nominal[6] = {azimuth - TASK_PI - 0.2, -1.3, 1.7, -1.97, -1.57, turn};
+  memcpy(joints, nominal, sizeof nominal);
+}
+
+// ARMADA's arm: side 0 left, 1 right, its mirror image. Returns its first link. Three bodies. Chosen: where the boxes
+// sit on their links, so that each spans from joint to joint.
+TASK_DEF int task_add_armada_arm(task_scene *scene, int side) {
+  const double p = TASK_PI, h = TASK_PI / 2;
+  task_joint joints[6] = {{{0.02, 0.1036, 0.8358}, {0, 0, 0}, {0, 0, 1}, -1.571, 0.873, 10, 0, 0},
+                          {{-0.02205, 0, 0.0528}, {-h, 0, h}, {0, 0, 1}, -1.571, 1.396, 10, 0, 0},
+                          {{0.023, 0, 0.0565}, {-h, 0, -h}, {0, 0, 1}, -3.142, 1.396, 10, 0, 0},
+                          {{-0.25, 0, 0.08318}, {0, 0, h}, {0, 0, 1}, -0.785, 1.309, 10, 0, 0},
+                          {{0.014, 0.0001, 0}, {-h, 0, -h}, {0, 0, 1}, -3.665, 3.665, 15, 0, 0},
+                          {{0.012203, 0, 0.2634}, {h, 0, h}, {0, 0, 1}, -2.182, 2.182, 15, 0, 0}};
+  const double right_roll[6] = {0, h, h, p, -h, h}, right_yaw[6] = {0, -h, h, -h, -h, h};
+  const double mirror = side ? -1 : 1;
+  shapes_mesh mesh;
+  memset(&mesh, 0, sizeof mesh);
+  for (int i = 0; side && i < 6; i++) {
+    double low = joints[i].low;
+    joints[i].low = -joints[i].high, joints[i].high = -low;
+    joints[i].rpy[0] = right_roll[i], joints[i].rpy[2] = right_yaw[i];
+  }
+  if (side) joints[0].origin[1] *= -1, joints[3].axis[2] = -1;
+  int first = task_add_chain(scene, joints, 6, 0);
+  shapes_box(&mesh, 0.325, 0.12, 0.12, 2);
+  task_add(scene, side ? "right upper arm" : "left upper arm", TASK_ROBOT, first + 2, 3, task_at(-0.125, 0, 0.04),
+           &mesh);
+  shapes_box(&mesh, 0.044, 0.058, 0.29, 2);
+  task_add(scene, side ? "right forearm" : "left forearm", TASK_ROBOT, first + 4, 2, task_at(0.006, 0, 0.12), &mesh);
+  shapes_box(&mesh, 0.05, 0.165, 0.053, 2);
+  task_add(scene, side ? "right hand" : "left hand", TASK_ROBOT, first + 5, 1, task_at(mirror * 0.021, 0.02, -0.0165),
+           &mesh);
+  return first;
+}
+
+#endif
