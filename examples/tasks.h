@@ -429,9 +429,9 @@ TASK_DEF void task_round(const task_scene *scene, double *joints, float *out) {
 }
 #define TASK_STEPS 12  // of an insertion
 // From joints at `target`, backs out along `direction` (in base's frame, metres) in a straight line. Returns 1 and the
-// joints reached if all of it is free.
+// joints reached if all of it is free by `clearance`.
 TASK_DEF int task_back_out(const task_scene *scene, const double *joints, int body, int base, const oracle_pose *target,
-                           const double *direction, double *reached) {
+                           const double *direction, double clearance, double *reached) {
   double path[(TASK_STEPS + 1) * TASK_MAX_JOINTS];
   int count = scene->joint_count;
   size_t row = (size_t)count * sizeof(double);
@@ -443,7 +443,7 @@ TASK_DEF int task_back_out(const task_scene *scene, const double *joints, int bo
     if (!task_ik(scene, path + s * count, body, base, &pose)) return 0;
   }
   memcpy(reached, path + TASK_STEPS * count, row);
-  return task_keeps(scene, path, TASK_STEPS + 1, 0, NULL);
+  return task_keeps(scene, path, TASK_STEPS + 1, clearance, NULL);
 }
 
 // ---------------------------------------------------------------------------------------------------------- robots
@@ -540,6 +540,177 @@ TASK_DEF int task_add_armada_arm(task_scene *scene, int side) {
   task_add(scene, side ? "right hand" : "left hand", TASK_ROBOT, first + 5, 1, task_at(mirror * 0.021, 0.02, -0.0165),
            &mesh);
   return first;
+}
+
+// ----------------------------------------------------------------------------------------------- what all tasks share
+
+#define TASK_CLEAR 0.003    // metres: start, goal and the way out of the goal keep this from everything. Chosen.
+#define TASK_SAMPLES 100    // of starts, or of ways to reach a goal, before the whole scene is drawn anew. Chosen.
+
+// Makes problem `index` the one that bodies and pairs are arranged for. A dish rests in the rack once its problem is
+// over, and is absent before. The other tasks have one problem.
+TASK_DEF void task_select(task_scene *scene, int index) {
+  scene->selected = index;
+  for (int i = 0; scene->problem_count > 1 && i < scene->problem_count; i++) {
+    task_body *dish = &scene->bodies[scene->held[i]];
+    dish->kind = i < index ? TASK_SCENE : i == index ? TASK_HELD : TASK_ABSENT;
+    dish->link = i == index ? scene->joint_count : 0;
+    dish->offset = i < index ? scene->settled[i] : scene->grasps[i];
+  }
+  task_find_pairs(scene);
+}
+TASK_DEF int task_configuration_free(const task_scene *scene, const double *joints, double clearance) {
+  return task_in_limits(scene, joints) && task_keeps(scene, joints, 1, clearance, NULL);
+}
+// Takes joints as the goal of problem `index` if they are free there and `direction` leads straight out.
+TASK_DEF int task_take_goal(task_scene *scene, int index, double *joints, int body, int base, const oracle_pose *target,
+                            const double *direction) {
+  double reached[TASK_MAX_JOINTS];
+  task_problem *problem = &scene->problems[index];
+  task_round(scene, joints, problem->goal);
+  if (!task_configuration_free(scene, joints, TASK_CLEAR)) return 0;
+  if (!task_back_out(scene, joints, body, base, target, direction, TASK_CLEAR / 2, reached)) return 0;
+  task_round(scene, reached, problem->approach);
+  return 1;
+}
+
+// ---------------------------------------------------------------------------------------------------- dish insertion
+
+#define TASK_DISHES 6
+#define TASK_SLOTS 4
+#define TASK_PITCH 0.075  // metres from slot to slot
+#define TASK_WIRE 0.004   // radius
+#define TASK_RAIL 0.035   // height at which dishes stand
+
+static const char *const task_dish_names[TASK_DISHES] = {"dinner plate", "dessert plate", "soup plate",
+                                                         "bowl",         "saucer",        "oval platter"};
+
+// About z, the middle of its height at 0.
+TASK_DEF void task_dish(shapes_mesh *mesh, int kind) {
+  const double radius[TASK_DISHES] = {0.130, 0.100, 0.115, 0.090, 0.080, 0.130};
+  const double height[TASK_DISHES] = {0.024, 0.020, 0.036, 0.040, 0.018, 0.026};
+  double r = radius[kind], h = height[kind];
+  if (kind == 3)
+    shapes_bowl(mesh, r, h, 0.005, 20);
+  else
+    shapes_plate(mesh, r, h, 0.005, 24);
+  for (size_t i = 0; kind == 5 && i < mesh->vertices; i++) mesh->positions[3 * i + 1] *= 0.75;
+  shapes_place(mesh, 0, NULL, 0, 0, -h / 2);
+}
+// Slots along x; dishes stand on two rails along x, between upright prongs.
+TASK_DEF void task_rack(shapes_mesh *mesh) {
+  double end = TASK_SLOTS * TASK_PITCH / 2 + 0.012;
+  for (int s = -1; s <= 1; s += 2) {
+    double y = s * 0.05, rail[2][3] = {{-end, y, TASK_RAIL}, {end, y, TASK_RAIL}};
+    double cross[2][3] = {{s * end, -0.08, TASK_RAIL}, {s * end, 0.08, TASK_RAIL}};
+    shapes_rod_between(mesh, rail[0], rail[1], TASK_WIRE, 6);
+    shapes_rod_between(mesh, cross[0], cross[1], TASK_WIRE, 6);
+    for (int i = 0; i <= TASK_SLOTS; i++) {
+      double x = (i - TASK_SLOTS / 2.0) * TASK_PITCH, prong[2][3] = {{x, y, TASK_RAIL}, {x, s * 0.06, 0.125}};
+      shapes_rod_between(mesh, prong[0], prong[1], TASK_WIRE, 6);
+    }
+    for (int i = -1; i <= 1; i += 2) {
+      double leg[2][3] = {{i * end, s * 0.08, 0.001}, {i * end, s * 0.08, TASK_RAIL}};
+      shapes_rod_between(mesh, leg[0], leg[1], 1.5 * TASK_WIRE, 6);
+    }
+  }
+}
+// Lets a dish down from `pose` until it touches the rack. No physics: it does not tip. A tenth of the tolerance of the
+// search above the touch, so that it is free.
+TASK_DEF oracle_pose task_rest(const oracle_mesh *dish, const oracle_pose *pose, const oracle_mesh *rack,
+                               const oracle_pose *rack_pose) {
+  const oracle_options options = {TASK_TOLERANCE, 0, 1, 1};
+  const double drop = 0.2;
+  oracle_pose way[2] = {*pose, *pose};
+  way[1].position[2] -= drop;
+  oracle_result r = oracle_sweep(dish, way, 2, rack, rack_pose, &options);
+  way[0].position[2] -= r.status == ORACLE_COLLIDES ? r.time * drop - 2 * TASK_TOLERANCE : 0;
+  return way[0];
+}
+// A start for problem `index`: the dish held beside the rack, at a height from which the straight way crosses it.
+// Chosen: 35 to 100 degrees off the rack, every other joint within 0.4 rad of looking down.
+TASK_DEF int task_dish_start(task_scene *scene, int index, double azimuth) {
+  double nominal[6], q[6];
+  oracle_pose links[TASK_MAX_JOINTS + 1];
+  for (int attempt = 0; attempt < TASK_SAMPLES; attempt++) {
+    double off = shapes_uniform(&scene->rng, 0.6, 1.75) * (shapes_pick(&scene->rng, 2) ? 1 : -1);
+    task_ur5_down(azimuth + off, shapes_uniform(&scene->rng, -1.5, 1.5), nominal);
+    task_random_joints(scene, nominal, 0.4, q);
+    q[0] = nominal[0];
+    task_links(scene, q, links);
+    double z = task_body_pose(scene, scene->held[index], links).position[2];
+    if (z < 0.16 || z > 0.40) continue;
+    task_round(scene, q, scene->problems[index].start);
+    if (task_configuration_free(scene, q, 0.01)) return 1;
+  }
+  return 0;
+}
+// Start, goal and resting place of problem `index`, its dish into `slot`.
+TASK_DEF int task_dish_problem(task_scene *scene, int index, int slot, int rack, double azimuth) {
+  const double lift = 0.01, up[3] = {0, 0, 0.13};  // chosen: released 1 cm above its rest
+  const int dish = scene->held[index];
+  const oracle_pose *rack_pose = &scene->bodies[rack].offset;
+  // The hand looks down, its jaw closes along the rack.
+  oracle_pose above = task_pose((slot - (TASK_SLOTS - 1) / 2.0) * TASK_PITCH, 0, 0.3, TASK_PI, 0, 0);
+  oracle_pose turn = scene->grasps[index], target = task_compose(rack_pose, &above);
+  memset(turn.position, 0, sizeof turn.position);
+  target = task_compose(&target, &turn);
+  target = scene->settled[index] =
+      task_rest(&scene->bodies[dish].exact, &target, &scene->bodies[rack].exact, rack_pose);
+  target.position[2] += lift;
+  task_select(scene, index);
+  for (int attempt = 0; attempt < 8; attempt++) {
+    double nominal[6], q[6];
+    task_ur5_down(azimuth, shapes_uniform(&scene->rng, -2, 2), nominal);
+    task_random_joints(scene, nominal, 0.2, q);
+    q[5] = nominal[5];
+    if (task_ik(scene, q, dish, -1, &target) && task_take_goal(scene, index, q, dish, -1, &target, up))
+      return task_dish_start(scene, index, azimuth);
+  }
+  return 0;
+}
+// One draw of rack, dishes and slots. Returns 0 if the rack is out of reach or no start is free.
+TASK_DEF int task_dish_draw(task_scene *scene, int rack) {
+  double azimuth = shapes_uniform(&scene->rng, -0.6, 0.6), far = shapes_uniform(&scene->rng, 0.45, 0.6);
+  double yaw = shapes_uniform(&scene->rng, -TASK_PI / 2, TASK_PI / 2);
+  int slots[TASK_SLOTS];
+  scene->bodies[rack].offset = task_pose(far * cos(azimuth), far * sin(azimuth), 0, 0, 0, yaw);
+  for (int i = 0; i < TASK_SLOTS; i++) {
+    int j = shapes_pick(&scene->rng, i + 1);
+    slots[i] = slots[j], slots[j] = i;
+  }
+  for (int i = 0; i < scene->problem_count; i++)
+    if (!task_dish_problem(scene, i, slots[i], rack, azimuth)) return 0;
+  return 1;
+}
+// A UR5 puts three of six dishes into a rack: three problems. Returns 0 without memory, or if 100 draws do not do.
+TASK_DEF int task_dish_episode(task_scene *scene, uint64_t seed) {
+  int order[TASK_DISHES], found = 0;
+  shapes_mesh mesh;
+  memset(&mesh, 0, sizeof mesh);
+  task_begin(scene, "dish insertion", seed);
+  task_add_ur5(scene, 0);
+  shapes_box(&mesh, 1.2, 1.8, 0.04, 8);
+  task_add(scene, "table", TASK_FLOOR, 0, 0, task_at(0.2, 0, -0.02), &mesh);
+  task_rack(&mesh);
+  int rack = task_add(scene, "rack", TASK_SCENE, 0, 0, task_at(0, 0, 0), &mesh);
+  for (int i = 0; i < TASK_DISHES; i++) {
+    int j = shapes_pick(&scene->rng, i + 1);
+    order[i] = order[j], order[j] = i;
+  }
+  scene->problem_count = 3;
+  for (int i = 0; i < 3; i++) {
+    task_dish(&mesh, order[i]);
+    // Seen from the hand, the dish's axis is x; 15 mm of its rim are between the fingers. An oval one is held on its
+    // long side.
+    double rim = 0;
+    for (size_t v = 0; v < mesh.vertices; v++) rim = fmax(rim, mesh.positions[3 * v]);
+    scene->grasps[i] = task_pose(0, 0, TASK_TIP - 0.015 + rim, 0, TASK_PI / 2, 0);
+    scene->held[i] = task_add(scene, task_dish_names[order[i]], TASK_ABSENT, 0, 1, task_at(0, 0, -10), &mesh);
+  }
+  for (int draw = 0; draw < 100 && !found && !scene->failed; draw++) found = task_dish_draw(scene, rack);
+  if (found && !scene->failed) return task_select(scene, 0), 1;
+  return task_free(scene), 0;
 }
 
 #endif
