@@ -70,8 +70,8 @@ typedef struct task_scene {
   int pair_count;
   task_problem problems[3];
   int problem_count;
-  int selected;     // problem
-  int held[3];      // bodies: the dish of each problem; peg and block; pickaxe
+  int selected;            // problem
+  int held[3];             // bodies: the dish of each problem; peg and block; pickaxe
   oracle_pose grasps[3];   // of the dishes in the hand
   oracle_pose settled[3];  // and in the rack, once released
   shapes_rng rng;
@@ -248,7 +248,7 @@ TASK_DEF void task_find_pairs(task_scene *scene) {
 
 // ----------------------------------------------------------------------------------------------------------- judge
 
-#define TASK_FINE 0.02    // radians or metres of a joint between two poses: a chord at 1 m is then 0.05 mm off its arc
+#define TASK_FINE 0.02     // radians or metres of a joint between two poses: a chord at 1 m is then 0.05 mm off its arc
 #define TASK_REACHED 1e-3  // radians or metres of each joint: what counts as the goal
 #define TASK_TOLERANCE 1e-5  // metres: a pair that comes nearer than this counts as a collision
 
@@ -544,8 +544,8 @@ TASK_DEF int task_add_armada_arm(task_scene *scene, int side) {
 
 // ----------------------------------------------------------------------------------------------- what all tasks share
 
-#define TASK_CLEAR 0.003    // metres: start, goal and the way out of the goal keep this from everything. Chosen.
-#define TASK_SAMPLES 100    // of starts, or of ways to reach a goal, before the whole scene is drawn anew. Chosen.
+#define TASK_CLEAR 0.003  // metres: start, goal and the way out of the goal keep this from everything. Chosen.
+#define TASK_SAMPLES 100  // of starts, or of ways to reach a goal, before the whole scene is drawn anew. Chosen.
 
 // Makes problem `index` the one that bodies and pairs are arranged for. A dish rests in the rack once its problem is
 // over, and is absent before. The other tasks have one problem.
@@ -710,6 +710,138 @@ TASK_DEF int task_dish_episode(task_scene *scene, uint64_t seed) {
   }
   for (int draw = 0; draw < 100 && !found && !scene->failed; draw++) found = task_dish_draw(scene, rack);
   if (found && !scene->failed) return task_select(scene, 0), 1;
+  return task_free(scene), 0;
+}
+
+// ------------------------------------------------------------------------------------------------ bimanual insertion
+
+#define TASK_MAX_CORNERS 16
+
+// A cross-section: `corners` of a polygon, all sides of which are moved outwards by `grow`. half: half extents.
+typedef struct task_section {
+  int corners;
+  double half[2];
+} task_section;
+
+TASK_DEF void task_outline(const task_section *section, double grow, double (*out)[2]) {
+  int n = section->corners;
+  for (int i = 0; i < n; i++) {  // a regular polygon whose inscribed circle has radius 1, stretched
+    double angle = 2 * TASK_PI * (i + 0.5) / n, r = 1 / cos(TASK_PI / n);
+    out[i][0] = (section->half[0] + grow) * r * cos(angle), out[i][1] = (section->half[1] + grow) * r * sin(angle);
+  }
+}
+// The tip at the origin, pointing along z, chamfered.
+TASK_DEF void task_peg(shapes_mesh *mesh, const task_section *section, double length) {
+  const double chamfer = 0.004, z[3] = {-length, -chamfer, 0}, grow[3] = {0, 0, -chamfer};
+  const uint32_t n = (uint32_t)section->corners;
+  double p[TASK_MAX_CORNERS][2];
+  for (int ring = 0; ring < 3; ring++) {
+    task_outline(section, grow[ring], p);
+    for (uint32_t i = 0; i < n; i++) shapes_vertex(mesh, p[i][0], p[i][1], z[ring]);
+  }
+  for (uint32_t i = 0; i < 2 * n; i++) {
+    uint32_t next = i / n * n + (i + 1) % n;
+    shapes_quad(mesh, i, next, next + n, i + n);
+  }
+  for (uint32_t i = 1; i + 1 < n; i++)
+    shapes_triangle(mesh, 0, i + 1, i), shapes_triangle(mesh, 2 * n, 2 * n + i, 2 * n + i + 1);
+}
+// A block with a blind hole: the mouth at the origin, opening along z.
+TASK_DEF void task_block(shapes_mesh *mesh, const task_section *section, double clearance, double wall, double depth,
+                         double floor) {
+  const double z[4] = {-depth - floor, 0, 0, -depth};
+  const double grow[4] = {clearance + wall, clearance + wall, clearance, clearance};
+  const uint32_t n = (uint32_t)section->corners;
+  double p[TASK_MAX_CORNERS][2];
+  for (int ring = 0; ring < 4; ring++) {  // up the outside, over the rim, down the hole
+    task_outline(section, grow[ring], p);
+    for (uint32_t i = 0; i < n; i++) shapes_vertex(mesh, p[i][0], p[i][1], z[ring]);
+  }
+  for (uint32_t i = 0; i < 3 * n; i++) {
+    uint32_t next = i / n * n + (i + 1) % n;
+    shapes_quad(mesh, i, next, next + n, i + n);
+  }
+  for (uint32_t i = 1; i + 1 < n; i++)
+    shapes_triangle(mesh, 0, i + 1, i), shapes_triangle(mesh, 3 * n, 3 * n + i, 3 * n + i + 1);
+}
+// Draws the right arm's joints until the block is in front of the chest, its hole towards the left hand; then solves
+// for the left arm with the peg at `peg`, as seen from the block, from the best of some draws.
+TASK_DEF int task_bimanual_pose(task_scene *scene, const oracle_pose *peg, double *joints) {
+  const int peg_body = scene->held[0], block = scene->held[1];
+  oracle_pose links[TASK_MAX_JOINTS + 1], pose;
+  double m[9], q[TASK_MAX_JOINTS], e[6], least = HUGE_VAL;
+  int good = 0;
+  for (int attempt = 0; attempt < 2000 && !good; attempt++) {
+    task_random_joints(scene, NULL, 0, joints);
+    task_links(scene, joints, links);
+    pose = task_body_pose(scene, block, links);
+    oracle_matrix(pose.rotation, m);
+    good = pose.position[0] > 0.22 && pose.position[0] < 0.45 && fabs(pose.position[1]) < 0.1 && m[5] > 0.8 &&
+           pose.position[2] > 0.55 && pose.position[2] < 0.95;
+  }
+  memcpy(q, joints, sizeof q);
+  for (int attempt = 0; attempt < 100 && good; attempt++) {
+    task_error(scene, q, peg_body, block, peg, e);
+    double error = 3 * oracle_length(e) + oracle_length(e + 3);
+    if (error < least) least = error, memcpy(joints, q, 6 * sizeof *q);
+    task_random_joints(scene, NULL, 0, q);
+    memcpy(q + 6, joints + 6, 6 * sizeof *q);
+  }
+  if (!good) return 0;
+  pose = task_compose(&pose, peg);
+  return task_ik(scene, joints, peg_body, -1, &pose);
+}
+// ARMADA puts a peg into the hole of a block that it holds in the other hand. Returns 0 without memory, or if 2000
+// draws do not do. Chosen: 4 to 8 mm of room on every side, 30 to 50 mm into the hole; at the start the peg's tip is
+// 8 to 18 cm beside the hole's axis, so that it must go round the rim.
+TASK_DEF int task_bimanual_episode(task_scene *scene, uint64_t seed) {
+  const int corners[4] = {16, 4, 6, 4};
+  shapes_mesh mesh;
+  shapes_rng *rng = &scene->rng;
+  int found = 0;
+  memset(&mesh, 0, sizeof mesh);
+  task_begin(scene, "bimanual insertion", seed);
+  shapes_box(&mesh, 0.11, 0.31, 1, 4);
+  task_add(scene, "torso", TASK_ROBOT, 0, 0, task_at(0, 0, 0.5), &mesh);
+  task_add_armada_arm(scene, 0), task_add_armada_arm(scene, 1);
+  int shape = shapes_pick(rng, 4);
+  double r = shapes_uniform(rng, 0.011, 0.018), clearance = shapes_uniform(rng, 0.004, 0.008);
+  double inserted = shapes_uniform(rng, 0.03, 0.05), depth = inserted + 0.01, floor = 0.055, length = 0.16;
+  task_section section = {corners[shape], {r, shape == 3 ? 1.7 * r : r}};
+  // Both hands hold their thing by its end, straight on but for a tilt, at any angle about its axis.
+  for (int side = 0; side < 2; side++) {
+    double tilt = shapes_uniform(rng, -0.3, 0.3), twist = shapes_uniform(rng, -TASK_PI, TASK_PI);
+    oracle_pose tool = task_pose(side ? -0.021 : 0.021, 0.06, -0.0165, -TASK_PI / 2 + tilt, 0, 0);
+    oracle_pose end = task_pose(0, 0, side ? depth + floor : length, 0, 0, twist);
+    if (side)
+      task_block(&mesh, &section, clearance, 0.01, depth, floor);
+    else
+      task_peg(&mesh, &section, length);
+    scene->held[side] =
+        task_add(scene, side ? "block" : "peg", TASK_HELD, 6 + 6 * side, 0, task_compose(&tool, &end), &mesh);
+  }
+  scene->problem_count = 1;
+  task_find_pairs(scene);
+  for (int draw = 0; draw < 2000 && !found && !scene->failed; draw++) {
+    const double out[3] = {0, 0, inserted + 0.03};
+    double joints[TASK_MAX_JOINTS], side = shapes_uniform(rng, -TASK_PI, TASK_PI),
+                                    far = shapes_uniform(rng, 0.08, 0.18);
+    double tilt = shapes_uniform(rng, -0.5, 0.5), up = shapes_uniform(rng, -0.02, 0.06);
+    // A section looks the same after one corner's turn.
+    double turn =
+        2 * TASK_PI / section.corners * (shape == 3 ? 2 * shapes_pick(rng, 2) : shapes_pick(rng, section.corners));
+    oracle_pose goal = task_pose(0, 0, -inserted, TASK_PI, 0, turn);
+    oracle_pose start =
+        task_pose(far * cos(side), far * sin(side), up, TASK_PI + tilt, shapes_uniform(rng, -0.5, 0.5), turn);
+    if (!task_bimanual_pose(scene, &goal, joints)) continue;
+    if (!task_take_goal(scene, 0, joints, scene->held[0], scene->held[1], &goal, out)) continue;
+    for (int attempt = 0; attempt < 20 && !found; attempt++) {
+      if (!task_bimanual_pose(scene, &start, joints)) continue;
+      task_round(scene, joints, scene->problems[0].start);
+      found = task_configuration_free(scene, joints, 0.01);
+    }
+  }
+  if (found && !scene->failed) return 1;
   return task_free(scene), 0;
 }
 
