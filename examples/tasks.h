@@ -483,8 +483,8 @@ TASK_DEF void task_add_ur5(task_scene *scene, int parent) {
   size_t at;
   memset(&mesh, 0, sizeof mesh);
   scene->foot = first;
-  shapes_cylinder(&mesh, 0.07, 0.15, 16);
-  task_add(scene, "foot", TASK_ROBOT, first, 1, task_at(0, 0, 0.075), &mesh);
+  shapes_cylinder(&mesh, 0.07, 0.18, 16);  // 3 cm of it stand in what carries it
+  task_add(scene, "foot", TASK_ROBOT, first, 1, task_at(0, 0, 0.06), &mesh);
   task_capsule(&mesh, 0, 0, 0.13585, -0.425, 0, 0.13585, 0.06);
   task_capsule(&mesh, 0, 0, 0.11, 0, 0, 0.14, 0.055);
   task_add(scene, "upper arm", TASK_ROBOT, first + 1, 1, none, &mesh);
@@ -842,6 +842,169 @@ TASK_DEF int task_bimanual_episode(task_scene *scene, uint64_t seed) {
     }
   }
   if (found && !scene->failed) return 1;
+  return task_free(scene), 0;
+}
+
+// ------------------------------------------------------------------------------------------------------- mining site
+
+#define TASK_OBSTACLES 8
+#define TASK_TUNNEL 11.0       // metres long, from x = -0.6
+#define TASK_TUNNEL_WIDTH 3.0  // from rock to rock, less what juts out
+
+static const char *const task_obstacle_names[TASK_OBSTACLES] = {"wagon",       "loaded wagon",  "tipped wagon",
+                                                                "fallen beam", "support frame", "beam stack",
+                                                                "rock heap",   "crossed props"};
+
+TASK_DEF void task_turned_box(shapes_mesh *mesh, double x, double y, double z, double dx, double dy, double dz,
+                              double roll, double pitch, double yaw) {
+  const oracle_pose turn = task_pose(0, 0, 0, roll, pitch, yaw);
+  size_t first = mesh->vertices;
+  shapes_box(mesh, dx, dy, dz, 3);
+  shapes_place(mesh, first, turn.rotation, x, y, z);
+}
+TASK_DEF void task_rock(shapes_mesh *mesh, double x, double y, double z, double rx, double ry, double rz) {
+  size_t first = mesh->vertices;
+  shapes_ellipsoid(mesh, rx, ry, rz, 10);
+  shapes_place(mesh, first, NULL, x, y, z);
+}
+TASK_DEF void task_wagon(shapes_mesh *mesh) {
+  size_t first = mesh->vertices;
+  shapes_drawer(mesh, 1.1, 0.7, 0.5, 0.04);
+  shapes_place(mesh, first, NULL, 0, 0, 0.22);
+  for (int i = 0; i < 4; i++) {
+    double x = i % 2 ? 0.35 : -0.35, y = i / 2 ? 0.3 : -0.3, hub[2][3] = {{x, y - 0.03, 0.14}, {x, y + 0.03, 0.14}};
+    shapes_rod_between(mesh, hub[0], hub[1], 0.13, 14);
+  }
+}
+// Stands on z = 0, its middle 0.55 m from the middle of the tunnel, on the side of +y.
+TASK_DEF void task_obstacle(shapes_mesh *mesh, int kind) {
+  const oracle_pose tipped = task_pose(0, 0, 0, 1.45, 0, 0.3);
+  shapes_rng rng = {7};
+  switch (kind) {
+    case 0:
+      task_wagon(mesh);
+      break;
+    case 1:
+      task_wagon(mesh);
+      for (int i = 0; i < 10; i++) {
+        double x = shapes_uniform(&rng, -0.4, 0.4), y = shapes_uniform(&rng, -0.22, 0.22);
+        task_rock(mesh, x, y, shapes_uniform(&rng, 0.6, 0.78), 0.13, 0.11, 0.1);
+      }
+      break;
+    case 2:
+      task_wagon(mesh);
+      shapes_place(mesh, 0, tipped.rotation, 0, 0.4, 0.36);
+      break;
+    case 3:  // from high up the wall down to the middle
+      task_turned_box(mesh, 0, 0.05, 0.62, 0.2, 1.75, 0.2, -0.72, 0, 0.2);
+      task_rock(mesh, 0.1, -0.55, 0.08, 0.28, 0.2, 0.16);
+      break;
+    case 4:  // the way leads through the frame, beside the brace
+      shapes_box_at(mesh, 0, -0.35, 0.75, 0.18, 0.18, 1.5), shapes_box_at(mesh, 0, -1.85, 0.75, 0.18, 0.18, 1.5);
+      shapes_box_at(mesh, 0, -0.6, 1.6, 0.2, 2.7, 0.2);
+      task_turned_box(mesh, 0, 0.2, 0.7, 0.12, 1.5, 0.12, 0.85, 0, 0);
+      break;
+    case 5:
+      for (int i = 0; i < 7; i++) {
+        double y = i < 4 ? -0.33 + 0.24 * i : -0.2 + 0.24 * (i - 4);
+        task_turned_box(mesh, 0.05 * (i % 3), y, i < 4 ? 0.11 : 0.32, 1.3, 0.2, 0.2, 0, 0, 0.05 * (i % 4) - 0.07);
+      }
+      break;
+    case 6:
+      for (int i = 0; i < 14; i++) {
+        double x = shapes_uniform(&rng, -0.5, 0.5), y = shapes_uniform(&rng, -0.35, 0.6);
+        double r = shapes_uniform(&rng, 0.15, 0.28);
+        task_rock(mesh, x, y, 0.1 + 0.4 * fmax(0, y), r, 0.8 * r, 0.8 * r);
+      }
+      break;
+    default:
+      task_turned_box(mesh, -0.08, 0.1, 0.7, 0.14, 0.14, 1.7, 0.6, 0, 0);
+      task_turned_box(mesh, 0.08, 0.1, 0.7, 0.14, 0.14, 1.7, -0.6, 0, 0);
+      break;
+  }
+}
+// Handle along x with the grip at the origin, head along z, 0.42 m ahead.
+TASK_DEF void task_pickaxe(shapes_mesh *mesh) {
+  double head[9][3];
+  task_capsule(mesh, -0.2, 0, 0, 0.44, 0, 0, 0.016);
+  for (int i = 0; i < 9; i++) {
+    double z = 0.05 * (i - 4);
+    head[i][0] = 0.42 - 1.2 * z * z, head[i][1] = 0, head[i][2] = z;
+  }
+  shapes_tube(mesh, (const double(*)[3])head, 9, 0.018, 8, 0);
+}
+// The tunnel: floor tiles, rock on both sides with a jagged face, the coal face at the end. Cut into lengths that suit
+// the encoder. Chosen: no roof, as nothing reaches it; the rock is 2 m high.
+TASK_DEF void task_tunnel(task_scene *scene) {
+  const double length = TASK_TUNNEL / 4;
+  shapes_rng rng = {11};  // the mine is the same for every seed
+  shapes_mesh mesh;
+  memset(&mesh, 0, sizeof mesh);
+  for (int i = 0; i < 4; i++) {
+    double x = -0.6 + length * (i + 0.5);
+    shapes_box(&mesh, length, TASK_TUNNEL_WIDTH + 0.6, 0.06, 10);
+    task_add(scene, "floor", TASK_FLOOR, 0, 0, task_at(x, 0, -0.03), &mesh);
+    for (int side = 0; side < 2; side++) {
+      double p[10][2];
+      for (int k = 0; k < 8; k++) {
+        double jut = k % 7 ? shapes_uniform(&rng, 0, 0.2) : 0.1;
+        p[k][0] = length * (k / 7.0 - 0.5), p[k][1] = TASK_TUNNEL_WIDTH / 2 - jut;
+      }
+      p[8][0] = length / 2, p[9][0] = -length / 2, p[8][1] = p[9][1] = TASK_TUNNEL_WIDTH / 2 + 0.3;
+      shapes_extrude(&mesh, (const double(*)[2])p, 10, 2);
+      task_add(scene, side ? "right rock" : "left rock", TASK_SCENE, 0, 0, task_pose(x, 0, 1, 0, 0, side ? TASK_PI : 0),
+               &mesh);
+    }
+  }
+  shapes_box(&mesh, 0.3, TASK_TUNNEL_WIDTH, 2, 6);
+  task_add(scene, "coal face", TASK_SCENE, 0, 0, task_at(TASK_TUNNEL - 0.45, 0, 1), &mesh);
+}
+// A UR5 on a base that slides and turns (x, y, yaw, then the arm) carries a pickaxe past four of eight obstacles to the
+// end of the tunnel. Returns 0 without memory, or if no start is free. Chosen: which places and sides the obstacles
+// stand on; 3 cm of air under the base, and 6 between it and the level upper arm; the base's limits and speeds; the
+// goal.
+TASK_DEF int task_mining_episode(task_scene *scene, uint64_t seed) {
+  const double p = TASK_PI, foot = 0.34, back[3] = {-0.4, 0, 0};
+  const task_joint base[3] = {{{0, 0, foot}, {0, 0, 0}, {1, 0, 0}, -0.2, 10.2, 1, 1, 0},
+                              {{0, 0, 0}, {0, 0, 0}, {0, 1, 0}, -1.2, 1.2, 1, 1, 0},
+                              {{0, 0, 0}, {0, 0, 0}, {0, 0, 1}, -p, p, 1.5, 0, 0}};
+  const double carry[9] = {0.2, 0, 0, -p, -1.9, 2.2, -1.87, -p / 2, 0};
+  const double dig[9] = {9.5, 0.1, 0, -p, -1.9, 1.9, -p, -p / 2, p};
+  const double place[4] = {2.1, 4.2, 6.3, 8.2};
+  shapes_mesh mesh;
+  double joints[TASK_MAX_JOINTS];
+  oracle_pose links[TASK_MAX_JOINTS + 1], target;
+  int order[TASK_OBSTACLES], found = 0;
+  memset(&mesh, 0, sizeof mesh);
+  task_begin(scene, "mining site", seed);
+  task_add_chain(scene, base, 3, 0);
+  shapes_box(&mesh, 0.43, 0.35, 0.29, 3);
+  task_add(scene, "base", TASK_ROBOT, 3, 0, task_at(-0.135, 0, -0.165), &mesh);
+  task_add_ur5(scene, 3);
+  task_pickaxe(&mesh);
+  scene->held[0] = task_add(scene, "pickaxe", TASK_HELD, 9, 1, task_pose(0, 0, TASK_TIP - 0.02, 0, 0, p / 2), &mesh);
+  task_tunnel(scene);
+  for (int i = 0; i < TASK_OBSTACLES; i++) {
+    int j = shapes_pick(&scene->rng, i + 1);
+    order[i] = order[j], order[j] = i;
+  }
+  for (int i = 0; i < 4; i++) {  // left and right in turn
+    task_obstacle(&mesh, order[i]);
+    task_add(scene, task_obstacle_names[order[i]], TASK_SCENE, 0, 0,
+             task_pose(place[i], i % 2 ? -0.55 : 0.55, 0, 0, 0, i % 2 ? p : 0), &mesh);
+  }
+  scene->problem_count = 1;
+  task_find_pairs(scene);
+  memcpy(joints, dig, sizeof dig);
+  task_links(scene, joints, links);
+  target = task_body_pose(scene, scene->held[0], links);
+  if (!scene->failed && task_take_goal(scene, 0, joints, scene->held[0], -1, &target, back))
+    for (int attempt = 0; attempt < TASK_SAMPLES && !found; attempt++) {
+      task_random_joints(scene, carry, 0.4, joints);
+      task_round(scene, joints, scene->problems[0].start);
+      found = task_configuration_free(scene, joints, 0.02);
+    }
+  if (found) return 1;
   return task_free(scene), 0;
 }
 
