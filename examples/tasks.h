@@ -988,10 +988,10 @@ TASK_DEF int task_mining_episode(task_scene *scene, uint64_t seed) {
     int j = shapes_pick(&scene->rng, i + 1);
     order[i] = order[j], order[j] = i;
   }
-  for (int i = 0; i < 4; i++) {  // left and right in turn
+  for (int i = 0; i < 4; i++) {  // two on the left, then two on the right
     task_obstacle(&mesh, order[i]);
     task_add(scene, task_obstacle_names[order[i]], TASK_SCENE, 0, 0,
-             task_pose(place[i], i % 2 ? -0.55 : 0.55, 0, 0, 0, i % 2 ? p : 0), &mesh);
+             task_pose(place[i], i < 2 ? 0.55 : -0.55, 0, 0, 0, i < 2 ? 0 : p), &mesh);
   }
   scene->problem_count = 1;
   task_find_pairs(scene);
