@@ -155,47 +155,61 @@ static int preview_measure(int episodes, int first) {
 
 // ---------------------------------------------------------------------------------------------------------- pictures
 
-static int preview_draw(task_scene *scene, const char *path, const draw_view *views, int view_count) {
-  int panels = view_count * scene->problem_count, width = 24, x = 24;
-  for (int i = 0; i < panels; i++) width += views[i % view_count].width + 24;
-  FILE *svg = draw_open(path, width, views[0].height + 108, scene->name,
-                        "blue: the robot at the start; green: at the goal; pale: on the straight way between");
-  if (!svg) return 0;
-  for (int i = 0; i < panels; i++) {
-    const draw_view *view = &views[i % view_count];
-    task_select(scene, i / view_count);
-    const task_problem *problem = &scene->problems[scene->selected];
-    draw_list list = {view, NULL, 0, 0, 0};
-    draw_panel(svg, x, 84, view);
-    draw_still(&list, scene);
-    for (int ghost = 1; ghost < 4; ghost++) {
-      float joints[TASK_MAX_JOINTS];
-      for (int j = 0; j < scene->joint_count; j++)
-        joints[j] = problem->start[j] + (problem->goal[j] - problem->start[j]) * (float)ghost / 4;
-      draw_robot(&list, scene, joints, &draw_steel, &draw_orange, 0.25);
-    }
-    draw_robot(&list, scene, problem->start, &draw_blue, &draw_orange, 1);
-    draw_robot(&list, scene, problem->goal, &draw_green, &draw_orange, 1);
-    draw_flush(svg, &list);
-    draw_panel_end(svg, view, scene->bodies[scene->held[i / view_count]].name);
-    x += view->width + 24;
+// A panel: the selected problem on a path of `samples`, `ghosts` of them pale; both ends, or one of them, solid.
+static void preview_panel(FILE *svg, int x, task_scene *scene, const draw_view *view, const float *path, int samples,
+                          int ghosts, int start, int goal, const char *caption) {
+  const task_problem *problem = &scene->problems[scene->selected];
+  draw_list list = {view, NULL, 0, 0, 0};
+  float line[2 * TASK_MAX_JOINTS], *end = line + scene->joint_count;
+  memcpy(line, problem->start, sizeof problem->start);
+  memcpy(end, problem->goal, (size_t)scene->joint_count * sizeof *end);
+  float straight[20 * TASK_MAX_JOINTS];
+  for (int i = 0; i < 20 * scene->joint_count; i++) {
+    int j = i % scene->joint_count;
+    straight[i] = line[j] + (end[j] - line[j]) * (float)(i / scene->joint_count) / 19;
   }
-  return draw_close(svg);
+  draw_panel(svg, x, 84, view);
+  draw_still(&list, scene);
+  for (int i = 1; i <= ghosts; i++)
+    draw_robot(&list, scene, path + i * (samples - 1) / (ghosts + 1) * scene->joint_count, &draw_steel, &draw_orange,
+               0.3);
+  if (start) draw_robot(&list, scene, problem->start, &draw_blue, &draw_orange, 1);
+  if (goal) draw_robot(&list, scene, problem->goal, &draw_green, &draw_orange, 1);
+  draw_flush(svg, &list);
+  draw_trace(svg, view, scene, scene->held[scene->selected], straight, 20, "#c22f3a");
+  draw_trace(svg, view, scene, scene->held[scene->selected], path, samples, "#12824c");
+  draw_panel_end(svg, view, caption);
+}
+static int preview_draw(int task, uint64_t seed, const char *path, const draw_view *view) {
+  static task_scene scene;
+  static double found_path[PREVIEW_MAX * TASK_MAX_JOINTS];
+  static float way[PREVIEW_MAX * TASK_MAX_JOINTS];
+  if (!preview_episode(&scene, task, seed)) return fprintf(stderr, "no episode\n"), 0;
+  int panels = task == 0 ? 3 : task == 1 ? 2 : 1, ok = 1;
+  FILE *svg = draw_open(path, 24 + panels * (view->width + 24), view->height + 108, scene.name,
+                        "blue: the start; green: the goal; red: the straight line in joint space, which collides; green "
+                        "line: a free way, found by random via points");
+  if (!svg) return task_free(&scene), 0;
+  for (int i = 0; i < panels; i++) {
+    int found[2], x = 24 + i * (view->width + 24);
+    task_select(&scene, task ? 0 : i);
+    int samples = preview_solve(&scene, task, 1000, found_path, found);
+    if (!samples) ok = fprintf(stderr, "problem %d: no way found\n", i) < 0, samples = 1;
+    for (int k = 0; k < samples * scene.joint_count; k++) way[k] = (float)found_path[k];
+    preview_panel(svg, x, &scene, view, way, samples, task == 1 ? 0 : task == 2 ? 5 : 3, task != 1 || i == 0,
+                  task != 1 || i == 1, task == 1 ? (i ? "goal" : "start") : scene.bodies[scene.held[i]].name);
+  }
+  task_free(&scene);
+  return draw_close(svg) && ok;
 }
 
 int main(int argc, char **argv) {
-  static task_scene scene;
-  if (argc > 2) return preview_measure(atoi(argv[2]), argc > 3 ? atoi(argv[3]) : 0);
-  const draw_view dish = {-0.9, 0.45, {0.2, 0, 0.28}, 420, 560, 520, 0.06};
-  const draw_view bimanual[2] = {{0.4, 0.35, {0.15, 0, 0.72}, 640, 620, 620, 0.04},
-                                 {0.4, 0.9, {0.3, 0, 0.72}, 900, 620, 620, 0.04}};
-  const draw_view mining = {-1.25, 0.75, {4.9, -0.1, 0.4}, 118, 1340, 520, 0.3};
+  const draw_view dish = {-0.9, 0.5, {0.3, 0, 0.25}, 480, 560, 520, 0.05};
+  const draw_view bimanual = {0.5, 0.45, {0.22, 0.03, 0.72}, 700, 700, 640, 0.03};
+  const draw_view mining = {-1.45, 0.8, {4.95, 0.25, 0.4}, 130, 1480, 520, 0.2};
   uint64_t seed = argc > 1 ? (uint64_t)atoi(argv[1]) : 1;
-  if (!preview_episode(&scene, 0, seed) || !preview_draw(&scene, "build/task_dish.svg", &dish, 1)) return 1;
-  task_free(&scene);
-  if (!preview_episode(&scene, 1, seed) || !preview_draw(&scene, "build/task_bimanual.svg", bimanual, 2)) return 1;
-  task_free(&scene);
-  if (!preview_episode(&scene, 2, seed) || !preview_draw(&scene, "build/task_mining.svg", &mining, 1)) return 1;
-  task_free(&scene);
-  return 0;
+  if (argc > 2) return preview_measure(atoi(argv[2]), argc > 3 ? atoi(argv[3]) : 0);
+  return !(preview_draw(0, seed, "build/task_dish.svg", &dish) &&
+           preview_draw(1, seed, "build/task_bimanual.svg", &bimanual) &&
+           preview_draw(2, seed, "build/task_mining.svg", &mining));
 }
