@@ -970,7 +970,7 @@ TASK_DEF int task_mining_episode(task_scene *scene, uint64_t seed) {
                               {{0, 0, 0}, {0, 0, 0}, {0, 0, 1}, -p, p, 1.5, 0, 0}};
   const double carry[9] = {0.2, 0, 0, -p, -1.9, 2.2, -1.87, -p / 2, 0};
   const double dig[9] = {9.5, 0.1, 0, -p, -1.9, 1.9, -p, -p / 2, p};
-  const double place[4] = {2.1, 4.2, 6.3, 8.2};
+  const double place[4] = {2.0, 3.9, 5.8, 7.6};
   shapes_mesh mesh;
   double joints[TASK_MAX_JOINTS];
   oracle_pose links[TASK_MAX_JOINTS + 1], target;

@@ -122,7 +122,7 @@ static int preview_measure(int episodes, int first) {
       }
       made += preview_now() - begin, worst = fmax(worst, preview_now() - begin);
       for (int i = 0; i < scene.problem_count; i++) {
-        const int n = scene.joint_count, tries = 1000;
+        const int n = scene.joint_count, tries = 300;
         task_select(&scene, i);
         problems++, pairs = pairs > scene.pair_count ? pairs : scene.pair_count;
         bodies = bodies > scene.body_count ? bodies : scene.body_count;
