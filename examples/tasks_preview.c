@@ -34,7 +34,7 @@ static int preview_points(task_scene *scene, int vias, int task, double spread, 
       double line[2 * TASK_MAX_JOINTS];
       for (int j = 0; j < n; j++) {
         // In the mine the base goes where it likes across the tunnel, and the arm keeps still.
-        double wide = task < 2 ? spread : j == 0 ? 0.8 : j == 1 ? 1.2 : 0.2;
+        double wide = task < 2 ? spread : j == 0 ? 1 : j == 1 ? 1.2 : 0.2;
         points[v][j] = (double)p->start[j] + u * ((double)end[j] - (double)p->start[j]);
         if (random) points[v][j] += shapes_uniform(&scene->rng, -wide, wide);
         points[v][j] = fmax(scene->joints[j].low, fmin(scene->joints[j].high, points[v][j]));
@@ -46,8 +46,8 @@ static int preview_points(task_scene *scene, int vias, int task, double spread, 
   }
   return vias + 3;
 }
-// The quintic Hermite spline of a trajectory optimizer: control points at equal times, velocity by central, acceleration
-// by second differences, both 0 at the ends.
+// The quintic Hermite spline of a trajectory optimizer: control points at equal times, velocity by central,
+// acceleration by second differences, both 0 at the ends.
 static int preview_spline(const double (*c)[TASK_MAX_JOINTS], int count, int joints, int steps, double *out) {
   int at = 0;
   for (int i = 0; i + 1 < count; i++)
@@ -109,6 +109,7 @@ static int preview_measure(int episodes, int first) {
   static double path[PREVIEW_MAX * TASK_MAX_JOINTS];
   static float line[PREVIEW_MAX * TASK_MAX_JOINTS];
   static task_scene scene;
+  setvbuf(stdout, NULL, _IOLBF, 0);
   printf("%-20s %8s %6s %6s %9s %9s %9s %8s %8s %9s %9s\n", "task", "problems", "bodies", "pairs", "make ms",
          "worst ms", "straight", "lines", "spline", "check ms", "worst ms");
   for (int task = first; task < 3; task++) {
@@ -186,9 +187,10 @@ static int preview_draw(int task, uint64_t seed, const char *path, const draw_vi
   static float way[PREVIEW_MAX * TASK_MAX_JOINTS];
   if (!preview_episode(&scene, task, seed)) return fprintf(stderr, "no episode\n"), 0;
   int panels = task == 0 ? 3 : task == 1 ? 2 : 1, ok = 1;
-  FILE *svg = draw_open(path, 24 + panels * (view->width + 24), view->height + 108, scene.name,
-                        "blue: the start; green: the goal; red: the straight line in joint space, which collides; green "
-                        "line: a free way, found by random via points");
+  FILE *svg =
+      draw_open(path, 24 + panels * (view->width + 24), view->height + 108, scene.name,
+                "blue: the start; green: the goal; red: the straight line in joint space, which collides; green "
+                "line: a free way, found by random via points");
   if (!svg) return task_free(&scene), 0;
   for (int i = 0; i < panels; i++) {
     int found[2], x = 24 + i * (view->width + 24);
@@ -196,8 +198,12 @@ static int preview_draw(int task, uint64_t seed, const char *path, const draw_vi
     int samples = preview_solve(&scene, task, 1000, found_path, found);
     if (!samples) ok = fprintf(stderr, "problem %d: no way found\n", i) < 0, samples = 1;
     for (int k = 0; k < samples * scene.joint_count; k++) way[k] = (float)found_path[k];
-    preview_panel(svg, x, &scene, view, way, samples, task == 1 ? 0 : task == 2 ? 5 : 3, task != 1 || i == 0,
-                  task != 1 || i == 1, task == 1 ? (i ? "goal" : "start") : scene.bodies[scene.held[i]].name);
+    preview_panel(svg, x, &scene, view, way, samples,
+                  task == 1   ? 0
+                  : task == 2 ? 5
+                              : 3,
+                  task != 1 || i == 0, task != 1 || i == 1,
+                  task == 1 ? (i ? "goal" : "start") : scene.bodies[scene.held[i]].name);
   }
   task_free(&scene);
   return draw_close(svg) && ok;

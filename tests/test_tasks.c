@@ -271,7 +271,7 @@ static void tasks_judge_agrees_with_distances(void) {
         }
       }
       int free_line = task_keeps(&scene, line, 2, 0, NULL);
-      if (least <= 0) CHECK(!free_line);     // a collision that sampling sees, the judge sees
+      if (least <= 0) CHECK(!free_line);      // a collision that sampling sees, the judge sees
       if (!free_line) CHECK_LE(least, 0.02);  // and none where nothing is near
       collisions += !free_line, problems++;
       task_free(&scene);
