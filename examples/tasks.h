@@ -907,7 +907,7 @@ TASK_DEF void task_obstacle(shapes_mesh *mesh, int kind) {
     case 5:
       for (int i = 0; i < 7; i++) {
         double y = i < 4 ? -0.33 + 0.24 * i : -0.2 + 0.24 * (i - 4);
-        task_turned_box(mesh, 0.05 * (i % 3), y, i < 4 ? 0.11 : 0.32, 1.3, 0.2, 0.2, 0, 0, 0.05 * (i % 4) - 0.07);
+        task_turned_box(mesh, 0.05 * (i % 3), y, i < 4 ? 0.11 : 0.32, 1.1, 0.2, 0.2, 0, 0, 0.05 * (i % 4) - 0.07);
       }
       break;
     case 6:
@@ -969,8 +969,8 @@ TASK_DEF int task_mining_episode(task_scene *scene, uint64_t seed) {
                               {{0, 0, 0}, {0, 0, 0}, {0, 1, 0}, -1.2, 1.2, 1, 1, 0},
                               {{0, 0, 0}, {0, 0, 0}, {0, 0, 1}, -p, p, 1.5, 0, 0}};
   const double carry[9] = {0.2, 0, 0, -p, -1.9, 2.2, -1.87, -p / 2, 0};
-  const double dig[9] = {9.5, 0.1, 0, -p, -1.9, 1.9, -p, -p / 2, p};
-  const double place[4] = {2.0, 3.9, 5.8, 7.6};
+  const double dig[9] = {9.5, 0.2, 0, -p, -1.9, 1.9, -p, -p / 2, p};
+  const double place[4] = {2.0, 3.6, 6.1, 7.8};
   shapes_mesh mesh;
   double joints[TASK_MAX_JOINTS];
   oracle_pose links[TASK_MAX_JOINTS + 1], target;
