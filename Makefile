@@ -25,7 +25,7 @@ ifeq ($(BENCH),quick)
 COUNT ?= 200
 endif
 
-.PHONY: profile instructions sizes bench check-extremes all demo test assets problems accuracy weights format clean help check-header check-examples check-problems check-gradient
+.PHONY: preview profile instructions sizes bench check-extremes all demo test assets problems accuracy weights format clean help check-header check-examples check-problems check-gradient
 .DELETE_ON_ERROR:
 
 all: build/svcd build/quickstart  ## the examples: build/svcd and build/quickstart
@@ -42,23 +42,28 @@ build/svcd: examples/svcd.c examples/problem_file.h $(LIBRARY) | build
 	$(CC) $(ALL_CFLAGS) -o $@ examples/svcd.c -lm
 build/quickstart: examples/quickstart.c examples/picture.h $(LIBRARY) | build
 	$(CC) $(ALL_CFLAGS) -o $@ examples/quickstart.c -lm
+build/tasks_preview: examples/tasks_preview.c examples/draw.h examples/tasks.h examples/shapes.h tests/oracle.h $(LIBRARY) | build
+	$(CC) $(ALL_CFLAGS) -o $@ examples/tasks_preview.c -lm
 build/make_assets: examples/make_assets.c examples/shapes.h | build
 	$(CC) $(ALL_CFLAGS) -o $@ examples/make_assets.c -lm
 
 demo: build/quickstart  ## a mug carried past a dish rack: two verdicts and build/demo.svg
 	build/quickstart
 
+preview: build/tasks_preview  ## the planning tasks as pictures: build/task_*.svg
+	build/tasks_preview
+
 assets: build/make_assets  ## writes examples/assets/*.obj, which are in the repository, anew
 	build/make_assets examples/assets
 
 # ------------------------------------------------------------------------------------------------------------- tests
 
-TESTS = main test_mesh test_network test_broad_phase test_oracle test_query test_gradient test_cost
+TESTS = main test_mesh test_network test_broad_phase test_oracle test_query test_gradient test_cost test_tasks
 TEST_OBJECTS = $(TESTS:%=build/%.o)
 # Each test file holds its own copy of the header, and uses only a part of its private functions.
 TEST_WARNINGS = -Wall -Wextra -Werror -Wno-unused-function
 
-build/%.o: tests/%.c tests/check.h tests/oracle.h tests/query_scene.h tests/gradient_reference.h examples/shapes.h $(wildcard tests/data/*.h) $(LIBRARY) | build
+build/%.o: tests/%.c tests/check.h tests/oracle.h tests/query_scene.h tests/gradient_reference.h examples/shapes.h examples/tasks.h $(wildcard tests/data/*.h) $(LIBRARY) | build
 	$(CC) $(CFLAGS) -pthread -std=c99 $(TEST_WARNINGS) $(CCD_CFLAGS) -c -o $@ $<
 build/tests: $(TEST_OBJECTS)
 	$(CC) $(CFLAGS) -pthread -o $@ $(TEST_OBJECTS) $(CCD_LIBS) -lm

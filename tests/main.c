@@ -10,6 +10,7 @@ void test_oracle(void);
 void test_query(void);
 void test_gradient(void);
 void test_cost(void);
+void test_tasks(void);
 
 int main(int argc, char **argv) {
   check.filter = argc > 1 ? argv[1] : NULL;
@@ -20,6 +21,7 @@ int main(int argc, char **argv) {
   test_cost();
   test_query();
   test_gradient();
+  test_tasks();
   printf("%d passed, %d failed\n", check.passed, check.failed);
   return check.failed > 0;
 }
