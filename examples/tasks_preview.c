@@ -1,6 +1,7 @@
 // tasks_preview.c - looks at the three planning tasks of tasks.h, without planning.
 //
-//   build/tasks_preview            writes build/task_dish.svg, build/task_bimanual.svg, build/task_mining.svg
+//   build/tasks_preview            writes build/task_dish.svg, build/task_bimanual.svg, build/task_mining.svg and
+//                                  a film, build/task_film.svg
 //   build/tasks_preview 7          those of seed 7
 //   build/tasks_preview measure N  N episodes of each task: bodies, pairs, time, how hard they are
 #define NSVCD_STATIC
@@ -170,6 +171,7 @@ static void preview_panel(FILE *svg, int x, task_scene *scene, const draw_view *
     straight[i] = line[j] + (end[j] - line[j]) * (float)(i / scene->joint_count) / 19;
   }
   draw_panel(svg, x, 84, view);
+  draw_floor(&list, scene), draw_flush(svg, &list);
   draw_still(&list, scene);
   for (int i = 1; i <= ghosts; i++)
     draw_robot(&list, scene, path + i * (samples - 1) / (ghosts + 1) * scene->joint_count, &draw_steel, &draw_orange,
@@ -186,7 +188,7 @@ static int preview_draw(int task, uint64_t seed, const char *path, const draw_vi
   static double found_path[PREVIEW_MAX * TASK_MAX_JOINTS];
   static float way[PREVIEW_MAX * TASK_MAX_JOINTS];
   if (!preview_episode(&scene, task, seed)) return fprintf(stderr, "no episode\n"), 0;
-  int panels = task == 0 ? 3 : task == 1 ? 2 : 1, ok = 1;
+  int panels = task == 2 ? 1 : 3, ok = 1;
   FILE *svg =
       draw_open(path, 24 + panels * (view->width + 24), view->height + 108, scene.name,
                 "blue: the start; green: the goal; red: the straight line in joint space, which collides; green "
@@ -209,13 +211,41 @@ static int preview_draw(int task, uint64_t seed, const char *path, const draw_vi
   return draw_close(svg) && ok;
 }
 
+// The peg's way into the hole as a film.
+static int preview_film(uint64_t seed, const char *path, const draw_view *view) {
+  const int frames = 40;
+  static task_scene scene;
+  static double found_path[PREVIEW_MAX * TASK_MAX_JOINTS];
+  int found[2];
+  if (!task_bimanual_episode(&scene, seed)) return fprintf(stderr, "no episode\n"), 0;
+  int samples = preview_solve(&scene, 1, 1000, found_path, found);
+  FILE *svg =
+      draw_open(path, view->width + 48, view->height + 108, scene.name, "a free way, found by random via points");
+  if (!svg || !samples) return task_free(&scene), 0;
+  draw_panel(svg, 24, 84, view);
+  for (int i = 0; i < frames; i++) {
+    draw_list list = {view, NULL, 0, 0, 0};
+    float joints[TASK_MAX_JOINTS];
+    for (int j = 0; j < scene.joint_count; j++)
+      joints[j] = (float)found_path[i * (samples - 1) / (frames - 1) * scene.joint_count + j];
+    draw_frame(svg, i, frames, 4);
+    draw_still(&list, &scene), draw_robot(&list, &scene, joints, &draw_blue, &draw_orange, 1);
+    draw_flush(svg, &list);
+    draw_frame_end(svg);
+  }
+  draw_panel_end(svg, view, "");
+  task_free(&scene);
+  return draw_close(svg);
+}
+
 int main(int argc, char **argv) {
-  const draw_view dish = {-0.9, 0.5, {0.3, 0, 0.25}, 480, 560, 520, 0.05};
+  const draw_view dish = {-0.9, 0.5, {0.25, 0, 0.25}, 410, 560, 520, 0.1};
   const draw_view bimanual = {0.5, 0.45, {0.22, 0.03, 0.72}, 700, 700, 640, 0.03};
   const draw_view mining = {-1.45, 0.8, {4.95, 0.25, 0.4}, 130, 1480, 520, 0.2};
   uint64_t seed = argc > 1 ? (uint64_t)atoi(argv[1]) : 1;
   if (argc > 2) return preview_measure(atoi(argv[2]), argc > 3 ? atoi(argv[3]) : 0);
-  return !(preview_draw(0, seed, "build/task_dish.svg", &dish) &&
+  const draw_view film = {0.5, 0.45, {0.22, 0.03, 0.72}, 560, 560, 520, 0.08};
+  return !(preview_film(seed, "build/task_film.svg", &film) && preview_draw(0, seed, "build/task_dish.svg", &dish) &&
            preview_draw(1, seed, "build/task_bimanual.svg", &bimanual) &&
            preview_draw(2, seed, "build/task_mining.svg", &mining));
 }
