@@ -186,6 +186,8 @@ TASK_DEF void task_place(void *user, const float *joints, nsvcd_pose *poses) {
 }
 
 // ----------------------------------------------------------------------------------------------------------- pairs
+// Left out, as they cannot meet: what stands still among itself; neighbouring links, which overlap by design; a thing
+// and the hand that holds it; the foot and the floor; what is farther from a robot's first joint than a body's reach.
 
 // A bound on how far a body's points get from the first joint of its chain, in `root`. Infinite where a joint slides.
 TASK_DEF double task_reach(const task_scene *scene, const task_body *body, double *root) {

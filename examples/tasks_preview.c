@@ -200,12 +200,17 @@ static int preview_draw(int task, uint64_t seed, const char *path, const draw_vi
     int samples = preview_solve(&scene, task, 1000, found_path, found);
     if (!samples) ok = fprintf(stderr, "problem %d: no way found\n", i) < 0, samples = 1;
     for (int k = 0; k < samples * scene.joint_count; k++) way[k] = (float)found_path[k];
-    preview_panel(svg, x, &scene, view, way, samples,
-                  task == 1   ? 0
-                  : task == 2 ? 5
-                              : 3,
-                  task != 1 || i == 0, task != 1 || i == 1,
-                  task == 1 ? (i ? "goal" : "start") : scene.bodies[scene.held[i]].name);
+    draw_view near = *view;
+    if (task == 1 && i == 2) {  // close to the hole
+      nsvcd_pose poses[TASK_MAX_BODIES];
+      task_place(&scene, scene.problems[0].goal, poses);
+      for (int k = 0; k < 3; k++) near.look_at[k] = (double)poses[scene.held[1]].position[k];
+      near.scale *= 3.5, near.cut /= 3;
+    }
+    const char *const steps[3] = {"start", "goal", "goal, from near"};
+    const int ghosts[3] = {3, 0, 5};
+    preview_panel(svg, x, &scene, &near, way, samples, ghosts[task], task != 1 || i == 0, task != 1 || i > 0,
+                  task == 1 ? steps[i] : scene.bodies[scene.held[i]].name);
   }
   task_free(&scene);
   return draw_close(svg) && ok;
