@@ -4,8 +4,6 @@
 //                                  a film, build/task_film.svg
 //   build/tasks_preview 7          those of seed 7
 //   build/tasks_preview measure N  N episodes of each task: bodies, pairs, time, how hard they are
-#define NSVCD_STATIC
-#define NEURALSVCD_IMPLEMENTATION
 #include "draw.h"
 
 #include <time.h>
@@ -111,10 +109,10 @@ static int preview_measure(int episodes, int first) {
   static float line[PREVIEW_MAX * TASK_MAX_JOINTS];
   static task_scene scene;
   setvbuf(stdout, NULL, _IOLBF, 0);
-  printf("%-20s %8s %6s %6s %9s %9s %9s %8s %8s %9s %9s\n", "task", "problems", "bodies", "pairs", "make ms",
-         "worst ms", "straight", "lines", "spline", "check ms", "worst ms");
+  printf("%-20s %8s %6s %6s %9s %9s %9s %8s %8s %8s %9s %9s\n", "task", "problems", "bodies", "pairs", "make ms",
+         "worst ms", "straight", "no via", "lines", "spline", "check ms", "worst ms");
   for (int task = first; task < 3; task++) {
-    int problems = 0, hits = 0, lines = 0, splines = 0, checks = 0, pairs = 0, bodies = 0;
+    int problems = 0, hits = 0, simple = 0, lines = 0, splines = 0, checks = 0, pairs = 0, bodies = 0;
     double made = 0, worst = 0, checked = 0, slowest = 0;
     for (int e = 0; e < episodes; e++) {
       double begin = preview_now();
@@ -132,7 +130,7 @@ static int preview_measure(int episodes, int first) {
           path[j] = (double)scene.problems[i].start[j], path[n + j] = (double)scene.problems[i].goal[j];
         hits += !task_keeps(&scene, path, 2, 0, NULL);
         int found[2], samples = preview_solve(&scene, task, tries, path, found);
-        lines += found[0] >= 0, splines += found[1] >= 0;
+        simple += found[0] == 0, lines += found[0] >= 0, splines += found[1] >= 0;
         if (!samples) printf("%s seed %d problem %d: no spline found, lines %d\n", names[task], e, i, found[0]);
         if (!samples) continue;
         for (int s = 0; s < 200; s++)  // the same path at 200 samples
@@ -147,9 +145,9 @@ static int preview_measure(int episodes, int first) {
       }
       task_free(&scene);
     }
-    printf("%-20s %8d %6d %6d %9.1f %9.1f %8.1f%% %7.1f%% %7.1f%% %9.1f %9.1f\n", names[task], problems, bodies, pairs,
-           1e3 * made / episodes, 1e3 * worst, 100.0 * hits / problems, 100.0 * lines / problems,
-           100.0 * splines / problems, 1e3 * checked / checks, 1e3 * slowest);
+    printf("%-20s %8d %6d %6d %9.1f %9.1f %8.1f%% %7.1f%% %7.1f%% %7.1f%% %9.1f %9.1f\n", names[task], problems, bodies,
+           pairs, 1e3 * made / episodes, 1e3 * worst, 100.0 * hits / problems, 100.0 * simple / problems,
+           100.0 * lines / problems, 100.0 * splines / problems, 1e3 * checked / checks, 1e3 * slowest);
     fflush(stdout);
   }
   return 0;
