@@ -2,7 +2,7 @@
 //
 // In:  a seed. Out: a scene (bodies, what carries them, which pairs can meet) and one to three planning problems (start
 // and goal in joint space). task_place turns joint values into the poses of all bodies; task_check judges a trajectory
-// by the exact oracle. Everything follows from the seed: starts and goals to the bit, by gcc and clang, -O0 to -O3.
+// by the exact oracle. Everything follows from the seed: starts and goals to the bit, measured with gcc and clang.
 // What the sources leave open is chosen in comments marked "chosen". Metres, radians, seconds, right-handed, z up,
 // quaternions x y z w.
 //
