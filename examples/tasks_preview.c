@@ -3,7 +3,7 @@
 //   build/tasks_preview            writes build/task_dish.svg, build/task_bimanual.svg, build/task_mining.svg and
 //                                  a film, build/task_film.svg
 //   build/tasks_preview 7          those of seed 7
-//   build/tasks_preview measure N  N episodes of each task: bodies, pairs, time, how hard they are
+//   build/tasks_preview measure N [SEED]  N episodes of each task: bodies, pairs, time, how hard they are
 #include "draw.h"
 
 #include <time.h>
@@ -103,7 +103,7 @@ static int preview_solve(task_scene *scene, int task, int tries, double *out, in
   }
   return 0;
 }
-static int preview_measure(int episodes, int first) {
+static int preview_measure(int episodes, int first_seed) {
   const char *const names[3] = {"dish insertion", "bimanual insertion", "mining site"};
   static double path[PREVIEW_MAX * TASK_MAX_JOINTS];
   static float line[PREVIEW_MAX * TASK_MAX_JOINTS];
@@ -111,10 +111,10 @@ static int preview_measure(int episodes, int first) {
   setvbuf(stdout, NULL, _IOLBF, 0);
   printf("%-20s %8s %6s %6s %9s %9s %9s %8s %8s %8s %9s %9s\n", "task", "problems", "bodies", "pairs", "make ms",
          "worst ms", "straight", "no via", "lines", "spline", "check ms", "worst ms");
-  for (int task = first; task < 3; task++) {
+  for (int task = 0; task < 3; task++) {
     int problems = 0, hits = 0, simple = 0, lines = 0, splines = 0, checks = 0, pairs = 0, bodies = 0;
     double made = 0, worst = 0, checked = 0, slowest = 0;
-    for (int e = 0; e < episodes; e++) {
+    for (int e = first_seed; e < first_seed + episodes; e++) {
       double begin = preview_now();
       if (!preview_episode(&scene, task, (uint64_t)e)) {
         printf("%s: seed %d fails\n", names[task], e);
@@ -122,7 +122,7 @@ static int preview_measure(int episodes, int first) {
       }
       made += preview_now() - begin, worst = fmax(worst, preview_now() - begin);
       for (int i = 0; i < scene.problem_count; i++) {
-        const int n = scene.joint_count, tries = 300;
+        const int n = scene.joint_count, tries = task == 2 ? 300 : 2000;
         task_select(&scene, i);
         problems++, pairs = pairs > scene.pair_count ? pairs : scene.pair_count;
         bodies = bodies > scene.body_count ? bodies : scene.body_count;
