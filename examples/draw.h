@@ -5,11 +5,12 @@
 // only one depth. One panel:
 //
 //   FILE *svg = draw_open("scene.svg", 800, 600, "title", "what is to be seen");
-//   draw_panel(svg, 20, 80, &view, "caption");
+//   draw_panel(svg, 20, 84, &view);
 //   draw_list list = {&view, NULL, 0, 0, 0};
-//   draw_still(&list, &scene), draw_robot(&list, &scene, joints, draw_blue, 1);
+//   draw_floor(&list, &scene), draw_flush(svg, &list);  // first, as everything stands on it
+//   draw_still(&list, &scene), draw_robot(&list, &scene, joints, &draw_blue, &draw_orange, 1);
 //   draw_flush(svg, &list);
-//   draw_panel_end(svg, &view);
+//   draw_panel_end(svg, &view, "caption");
 //   draw_close(svg);
 #ifndef NSVCD_EXAMPLES_DRAW_H
 #define NSVCD_EXAMPLES_DRAW_H
@@ -34,6 +35,7 @@ typedef struct draw_colour {
 } draw_colour;
 
 static const draw_colour draw_steel = {{92, 104, 120}, {222, 228, 236}};
+static const draw_colour draw_china = {{138, 150, 170}, {250, 252, 255}};
 static const draw_colour draw_cream = {{168, 150, 120}, {252, 244, 226}};
 static const draw_colour draw_rock = {{120, 112, 104}, {206, 198, 188}};
 static const draw_colour draw_wood = {{112, 76, 40}, {214, 172, 118}};
@@ -124,7 +126,12 @@ DRAW_DEF void draw_body(draw_list *list, const task_body *body, const oracle_pos
 DRAW_DEF int draw_is_fixed(const task_scene *scene, const task_body *body) {
   return body->kind == TASK_ROBOT && body->link <= scene->foot && !scene->joints[0].slides;
 }
-// What stands still; rock towards the viewer is left out, as it would hide what goes on behind it.
+DRAW_DEF void draw_floor(draw_list *list, const task_scene *scene) {
+  for (int i = 0; i < scene->body_count; i++)
+    if (scene->bodies[i].kind == TASK_FLOOR)
+      draw_body(list, &scene->bodies[i], &scene->bodies[i].offset, &draw_cream, 1);
+}
+// What stands still on it; rock towards the viewer is left out, as it would hide what goes on behind it.
 DRAW_DEF void draw_still(draw_list *list, const task_scene *scene) {
   for (int i = 0; i < scene->body_count; i++) {
     const task_body *body = &scene->bodies[i];
@@ -132,16 +139,12 @@ DRAW_DEF void draw_still(draw_list *list, const task_scene *scene) {
     double center[3];
     oracle_transform(&body->offset, body->exact.center, center);
     if (draw_is_fixed(scene, body)) draw_body(list, body, &body->offset, &draw_steel, 1);
-    if (body->kind != TASK_SCENE && body->kind != TASK_FLOOR) continue;
+    if (body->kind != TASK_SCENE) continue;
     if (rock && center[1] * sin(list->view->azimuth) > 0) continue;
     int wood = strstr(body->name, "beam") || strstr(body->name, "frame") || strstr(body->name, "prop");
     int dark = rock || strstr(body->name, "coal") || strstr(body->name, "heap");
-    const draw_colour *colour = body->kind == TASK_FLOOR      ? &draw_cream
-                                : wood                        ? &draw_wood
-                                : dark                        ? &draw_rock
-                                : strstr(body->name, "wagon") ? &draw_steel
-                                : strcmp(body->name, "rack")  ? &draw_orange
-                                                              : &draw_steel;
+    int steel = strstr(body->name, "wagon") || !strcmp(body->name, "rack");
+    const draw_colour *colour = wood ? &draw_wood : dark ? &draw_rock : steel ? &draw_steel : &draw_china;
     draw_body(list, body, &body->offset, colour, 1);
   }
 }
@@ -164,23 +167,28 @@ DRAW_DEF int draw_compare(const void *a, const void *b) {
   double x = ((const draw_triangle *)a)->depth, y = ((const draw_triangle *)b)->depth;
   return (x > y) - (x < y);
 }
-// Draws the list and empties it. A floor goes first if it has a list of its own.
+// Draws the list, the farthest first, and empties it.
 DRAW_DEF void draw_flush(FILE *svg, draw_list *list) {
-  qsort(list->triangles, list->count, sizeof *list->triangles, draw_compare);
+  unsigned before = 0;  // a fill that triangles before this one have
+  if (list->count) qsort(list->triangles, list->count, sizeof *list->triangles, draw_compare);
   for (size_t i = 0; i < list->count; i++) {
     const draw_triangle *t = &list->triangles[i];
-    int rgb[3];
+    unsigned fill = (unsigned)(100 * t->opacity) << 24;
+    double light = floor(32 * t->light) / 32;  // steps that the eye does not see: neighbours become one path
     for (int k = 0; k < 3; k++)
-      rgb[k] = (int)(t->colour->dark[k] + t->light * (t->colour->bright[k] - t->colour->dark[k]));
-    fprintf(svg, "<path d=\"M%.1f %.1fL%.1f %.1fL%.1f %.1fZ\" fill=\"#%02x%02x%02x\"", t->corners[0][0],
-            t->corners[0][1], t->corners[1][0], t->corners[1][1], t->corners[2][0], t->corners[2][1], (unsigned)rgb[0],
-            (unsigned)rgb[1], (unsigned)rgb[2]);
-    if (t->opacity < 1)
-      fprintf(svg, " fill-opacity=\"%.2f\" shape-rendering=\"crispEdges\"/>\n", t->opacity);
-    else  // the thin edge of the same colour hides the seams
-      fprintf(svg, " stroke-width=\".6\" stroke=\"#%02x%02x%02x\"/>\n", (unsigned)rgb[0], (unsigned)rgb[1],
-              (unsigned)rgb[2]);
+      fill |= (unsigned)(t->colour->dark[k] + light * (t->colour->bright[k] - t->colour->dark[k])) << (16 - 8 * k);
+    if (fill != before) {
+      fprintf(svg, "%s<path fill=\"#%06x\"", i ? "\"/>\n" : "", fill & 0xffffffu);
+      if (t->opacity < 1)
+        fprintf(svg, " fill-opacity=\"%.2f\" shape-rendering=\"crispEdges\" d=\"", t->opacity);
+      else  // the thin edge of the same colour hides the seams
+        fprintf(svg, " stroke-width=\".6\" stroke=\"#%06x\" d=\"", fill & 0xffffffu);
+    }
+    before = fill;
+    fprintf(svg, "M%.1f %.1fL%.1f %.1fL%.1f %.1fZ", t->corners[0][0], t->corners[0][1], t->corners[1][0],
+            t->corners[1][1], t->corners[2][0], t->corners[2][1]);
   }
+  if (list->count) fprintf(svg, "\"/>\n");
   free(list->triangles);
   list->triangles = NULL, list->count = list->capacity = 0;
 }

@@ -1,10 +1,9 @@
 // tasks_preview.c - looks at the three planning tasks of tasks.h, without planning.
 //
-//   build/tasks_preview            writes build/task_dish.svg, build/task_bimanual.svg, build/task_mining.svg
+//   build/tasks_preview            writes build/task_dish.svg, build/task_bimanual.svg, build/task_mining.svg and
+//                                  a film, build/task_film.svg
 //   build/tasks_preview 7          those of seed 7
-//   build/tasks_preview measure N  N episodes of each task: bodies, pairs, time, how hard they are
-#define NSVCD_STATIC
-#define NEURALSVCD_IMPLEMENTATION
+//   build/tasks_preview measure N [SEED]  N episodes of each task: bodies, pairs, time, how hard they are
 #include "draw.h"
 
 #include <time.h>
@@ -104,18 +103,18 @@ static int preview_solve(task_scene *scene, int task, int tries, double *out, in
   }
   return 0;
 }
-static int preview_measure(int episodes, int first) {
+static int preview_measure(int episodes, int first_seed) {
   const char *const names[3] = {"dish insertion", "bimanual insertion", "mining site"};
   static double path[PREVIEW_MAX * TASK_MAX_JOINTS];
   static float line[PREVIEW_MAX * TASK_MAX_JOINTS];
   static task_scene scene;
   setvbuf(stdout, NULL, _IOLBF, 0);
-  printf("%-20s %8s %6s %6s %9s %9s %9s %8s %8s %9s %9s\n", "task", "problems", "bodies", "pairs", "make ms",
-         "worst ms", "straight", "lines", "spline", "check ms", "worst ms");
-  for (int task = first; task < 3; task++) {
-    int problems = 0, hits = 0, lines = 0, splines = 0, checks = 0, pairs = 0, bodies = 0;
+  printf("%-20s %8s %6s %6s %9s %9s %9s %8s %8s %8s %9s %9s\n", "task", "problems", "bodies", "pairs", "make ms",
+         "worst ms", "straight", "no via", "lines", "spline", "check ms", "worst ms");
+  for (int task = 0; task < 3; task++) {
+    int problems = 0, hits = 0, simple = 0, lines = 0, splines = 0, checks = 0, pairs = 0, bodies = 0;
     double made = 0, worst = 0, checked = 0, slowest = 0;
-    for (int e = 0; e < episodes; e++) {
+    for (int e = first_seed; e < first_seed + episodes; e++) {
       double begin = preview_now();
       if (!preview_episode(&scene, task, (uint64_t)e)) {
         printf("%s: seed %d fails\n", names[task], e);
@@ -123,7 +122,7 @@ static int preview_measure(int episodes, int first) {
       }
       made += preview_now() - begin, worst = fmax(worst, preview_now() - begin);
       for (int i = 0; i < scene.problem_count; i++) {
-        const int n = scene.joint_count, tries = 300;
+        const int n = scene.joint_count, tries = task == 2 ? 300 : 2000;
         task_select(&scene, i);
         problems++, pairs = pairs > scene.pair_count ? pairs : scene.pair_count;
         bodies = bodies > scene.body_count ? bodies : scene.body_count;
@@ -131,7 +130,7 @@ static int preview_measure(int episodes, int first) {
           path[j] = (double)scene.problems[i].start[j], path[n + j] = (double)scene.problems[i].goal[j];
         hits += !task_keeps(&scene, path, 2, 0, NULL);
         int found[2], samples = preview_solve(&scene, task, tries, path, found);
-        lines += found[0] >= 0, splines += found[1] >= 0;
+        simple += found[0] == 0, lines += found[0] >= 0, splines += found[1] >= 0;
         if (!samples) printf("%s seed %d problem %d: no spline found, lines %d\n", names[task], e, i, found[0]);
         if (!samples) continue;
         for (int s = 0; s < 200; s++)  // the same path at 200 samples
@@ -146,9 +145,9 @@ static int preview_measure(int episodes, int first) {
       }
       task_free(&scene);
     }
-    printf("%-20s %8d %6d %6d %9.1f %9.1f %8.1f%% %7.1f%% %7.1f%% %9.1f %9.1f\n", names[task], problems, bodies, pairs,
-           1e3 * made / episodes, 1e3 * worst, 100.0 * hits / problems, 100.0 * lines / problems,
-           100.0 * splines / problems, 1e3 * checked / checks, 1e3 * slowest);
+    printf("%-20s %8d %6d %6d %9.1f %9.1f %8.1f%% %7.1f%% %7.1f%% %7.1f%% %9.1f %9.1f\n", names[task], problems, bodies,
+           pairs, 1e3 * made / episodes, 1e3 * worst, 100.0 * hits / problems, 100.0 * simple / problems,
+           100.0 * lines / problems, 100.0 * splines / problems, 1e3 * checked / checks, 1e3 * slowest);
     fflush(stdout);
   }
   return 0;
@@ -170,6 +169,7 @@ static void preview_panel(FILE *svg, int x, task_scene *scene, const draw_view *
     straight[i] = line[j] + (end[j] - line[j]) * (float)(i / scene->joint_count) / 19;
   }
   draw_panel(svg, x, 84, view);
+  draw_floor(&list, scene), draw_flush(svg, &list);
   draw_still(&list, scene);
   for (int i = 1; i <= ghosts; i++)
     draw_robot(&list, scene, path + i * (samples - 1) / (ghosts + 1) * scene->joint_count, &draw_steel, &draw_orange,
@@ -186,7 +186,7 @@ static int preview_draw(int task, uint64_t seed, const char *path, const draw_vi
   static double found_path[PREVIEW_MAX * TASK_MAX_JOINTS];
   static float way[PREVIEW_MAX * TASK_MAX_JOINTS];
   if (!preview_episode(&scene, task, seed)) return fprintf(stderr, "no episode\n"), 0;
-  int panels = task == 0 ? 3 : task == 1 ? 2 : 1, ok = 1;
+  int panels = task == 2 ? 1 : 3, ok = 1;
   FILE *svg =
       draw_open(path, 24 + panels * (view->width + 24), view->height + 108, scene.name,
                 "blue: the start; green: the goal; red: the straight line in joint space, which collides; green "
@@ -198,24 +198,57 @@ static int preview_draw(int task, uint64_t seed, const char *path, const draw_vi
     int samples = preview_solve(&scene, task, 1000, found_path, found);
     if (!samples) ok = fprintf(stderr, "problem %d: no way found\n", i) < 0, samples = 1;
     for (int k = 0; k < samples * scene.joint_count; k++) way[k] = (float)found_path[k];
-    preview_panel(svg, x, &scene, view, way, samples,
-                  task == 1   ? 0
-                  : task == 2 ? 5
-                              : 3,
-                  task != 1 || i == 0, task != 1 || i == 1,
-                  task == 1 ? (i ? "goal" : "start") : scene.bodies[scene.held[i]].name);
+    draw_view near = *view;
+    if (task == 1 && i == 2) {  // close to the hole
+      nsvcd_pose poses[TASK_MAX_BODIES];
+      task_place(&scene, scene.problems[0].goal, poses);
+      for (int k = 0; k < 3; k++) near.look_at[k] = (double)poses[scene.held[1]].position[k];
+      near.scale *= 3.5, near.cut /= 3;
+    }
+    const char *const steps[3] = {"start", "goal", "goal, from near"};
+    const int ghosts[3] = {3, 0, 5};
+    preview_panel(svg, x, &scene, &near, way, samples, ghosts[task], task != 1 || i == 0, task != 1 || i > 0,
+                  task == 1 ? steps[i] : scene.bodies[scene.held[i]].name);
   }
   task_free(&scene);
   return draw_close(svg) && ok;
 }
 
+// The peg's way into the hole as a film.
+static int preview_film(uint64_t seed, const char *path, const draw_view *view) {
+  const int frames = 40;
+  static task_scene scene;
+  static double found_path[PREVIEW_MAX * TASK_MAX_JOINTS];
+  int found[2];
+  if (!task_bimanual_episode(&scene, seed)) return fprintf(stderr, "no episode\n"), 0;
+  int samples = preview_solve(&scene, 1, 1000, found_path, found);
+  FILE *svg =
+      draw_open(path, view->width + 48, view->height + 108, scene.name, "a free way, found by random via points");
+  if (!svg || !samples) return task_free(&scene), 0;
+  draw_panel(svg, 24, 84, view);
+  for (int i = 0; i < frames; i++) {
+    draw_list list = {view, NULL, 0, 0, 0};
+    float joints[TASK_MAX_JOINTS];
+    for (int j = 0; j < scene.joint_count; j++)
+      joints[j] = (float)found_path[i * (samples - 1) / (frames - 1) * scene.joint_count + j];
+    draw_frame(svg, i, frames, 4);
+    draw_still(&list, &scene), draw_robot(&list, &scene, joints, &draw_blue, &draw_orange, 1);
+    draw_flush(svg, &list);
+    draw_frame_end(svg);
+  }
+  draw_panel_end(svg, view, "");
+  task_free(&scene);
+  return draw_close(svg);
+}
+
 int main(int argc, char **argv) {
-  const draw_view dish = {-0.9, 0.5, {0.3, 0, 0.25}, 480, 560, 520, 0.05};
+  const draw_view dish = {-0.9, 0.5, {0.25, 0, 0.25}, 410, 560, 520, 0.1};
   const draw_view bimanual = {0.5, 0.45, {0.22, 0.03, 0.72}, 700, 700, 640, 0.03};
   const draw_view mining = {-1.45, 0.8, {4.95, 0.25, 0.4}, 130, 1480, 520, 0.2};
   uint64_t seed = argc > 1 ? (uint64_t)atoi(argv[1]) : 1;
   if (argc > 2) return preview_measure(atoi(argv[2]), argc > 3 ? atoi(argv[3]) : 0);
-  return !(preview_draw(0, seed, "build/task_dish.svg", &dish) &&
+  const draw_view film = {0.5, 0.45, {0.22, 0.03, 0.72}, 560, 560, 520, 0.08};
+  return !(preview_film(seed, "build/task_film.svg", &film) && preview_draw(0, seed, "build/task_dish.svg", &dish) &&
            preview_draw(1, seed, "build/task_bimanual.svg", &bimanual) &&
            preview_draw(2, seed, "build/task_mining.svg", &mining));
 }

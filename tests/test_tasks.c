@@ -1,7 +1,5 @@
 // The planning tasks of examples/tasks.h: robots against closed formulas, episodes against what they promise, the judge
 // against trajectories that are wrong in one way each.
-#define NSVCD_STATIC
-#define NEURALSVCD_IMPLEMENTATION
 #include "../examples/tasks.h"
 
 #include "check.h"
