@@ -373,7 +373,7 @@ typedef struct nsvcd_plan_options {
   nsvcd_plan_stage refine;             // L-BFGS: 10, 22, 10, 10
   float velocity, acceleration, jerk;  // weights of the means of squares over the motion: 10, 2, 10
   float collision;                     // weight of the logits' sum over pairs and segments: 1
-  float duration;                      // seconds from start to goal, which only weights the terms above: 4
+  float duration;                      // seconds from start to goal, which only weights the terms above: 20
   float margin;                        // logits above minus this cost: 2
   float spread;                        // of MPPI's first samples, radians or metres, at mid-motion: 0.5
   float bundle;                        // of L-BFGS's gradients: 0.01
@@ -4370,6 +4370,9 @@ static void nsvcd__solve_upper(const double *l, size_t n, double *x) {  // x = L
 #define NSVCD__HISTORY 8           // L-BFGS: steps remembered
 #define NSVCD__STEPS 5             // step lengths tried
 
+// What culling knows of a body at each sample: TRACK arrays of (samples).
+enum { NSVCD__CENTRE = 0, NSVCD__ORIGIN = 3, NSVCD__AXES = 6, NSVCD__BEND = 15, NSVCD__TRACK = 16 };
+
 typedef struct nsvcd__stage {
   size_t via, samples;  // M; poses along the trajectory: segments + 1
   size_t iterations, count;
@@ -4387,14 +4390,16 @@ typedef struct nsvcd__planner {
   uint64_t random;
   nsvcd_result error;  // the first that a query or a pose gave
   size_t trajectories, sweeps;
-  float *path;           // (samples, F)
-  nsvcd_pose *poses;     // (samples, B)
-  nsvcd_pose *moved;     // (B)
-  float *centres;        // (4, B, samples): x, y, z of bounding spheres, and how far they stray until the next sample
-  unsigned char *meets;  // (samples)
-  float *wrenches;       // (samples, B, 6)
-  float *jacobian;       // (B, 6, F)
-  float *by_path;        // (F)
+  float *path;                                              // (samples, F)
+  nsvcd_pose *poses;                                        // (samples, B)
+  nsvcd_pose *moved;                                        // (B)
+  float *tracks;                                            // (B, TRACK, samples)
+  float *boxes;                                             // (B, 6): of a body, in its own axes, low and high
+  float *seen;                                              // (4, samples)
+  unsigned char *meets;                                     // (samples)
+  float *wrenches;                                          // (samples, B, 6)
+  float *jacobian;                                          // (B, 6, F)
+  float *by_path;                                           // (F)
   float *control, *best, *trial, *gradient, *sum, *offset;  // (MAX + 2, F) each
   float *tries;                                             // (count, M, F)
   float *costs;                                             // (count)
@@ -4457,7 +4462,7 @@ static int nsvcd__planner_settings(const nsvcd_plan_problem *problem, const nsvc
   o->seeds = o->seeds ? o->seeds : 2;
   o->velocity = nsvcd__default(o->velocity, 10), o->acceleration = nsvcd__default(o->acceleration, 2);
   o->jerk = nsvcd__default(o->jerk, 10), o->collision = nsvcd__default(o->collision, 1);
-  o->duration = o->duration > 0 ? o->duration : 4;
+  o->duration = o->duration > 0 ? o->duration : 20;
   o->margin = nsvcd__default(o->margin, 2), o->spread = nsvcd__default(o->spread, 0.5f);
   o->bundle = nsvcd__default(o->bundle, 0.01f);
   p->check = p->refine;
@@ -4490,7 +4495,9 @@ static size_t nsvcd__planner_memory(nsvcd__planner *p, char *base) {
   p->path = (float *)nsvcd__take(base, &used, samples * f * sizeof(float));
   p->poses = (nsvcd_pose *)nsvcd__take(base, &used, samples * b * sizeof(nsvcd_pose));
   p->moved = (nsvcd_pose *)nsvcd__take(base, &used, b * sizeof(nsvcd_pose));
-  p->centres = (float *)nsvcd__take(base, &used, 4 * samples * b * sizeof(float));
+  p->tracks = (float *)nsvcd__take(base, &used, NSVCD__TRACK * samples * b * sizeof(float));
+  p->boxes = (float *)nsvcd__take(base, &used, 6 * b * sizeof(float));
+  p->seen = (float *)nsvcd__take(base, &used, 4 * samples * sizeof(float));
   p->meets = (unsigned char *)nsvcd__take(base, &used, samples);
   p->wrenches = (float *)nsvcd__take(base, &used, samples * b * 6 * sizeof(float));
   p->jacobian = (float *)nsvcd__take(base, &used, b * 6 * f * sizeof(float));
@@ -4504,6 +4511,22 @@ static size_t nsvcd__planner_memory(nsvcd__planner *p, char *base) {
   p->changes = (float *)nsvcd__take(base, &used, NSVCD__HISTORY * point);
   p->vector = (double *)nsvcd__take(base, &used, (via + 2) * sizeof(double));
   return used;
+}
+
+// The boxes of all bodies' patches.
+static void nsvcd__find_boxes(nsvcd__planner *p) {
+  for (size_t b = 0; !p->problem->collision && b < p->problem->body_count; b++) {
+    const nsvcd_body *body = p->problem->bodies[b];
+    float *box = p->boxes + 6 * b;
+    for (size_t k = 0; body && k < 3; k++) {
+      const float *x = nsvcd__body_floats(body, k * body->padded), *r = nsvcd__body_r(body);
+      box[k] = INFINITY, box[3 + k] = -INFINITY;
+      for (size_t i = 0; i < body->points; i++) {
+        box[k] = x[i] - r[i] < box[k] ? x[i] - r[i] : box[k];
+        box[3 + k] = x[i] + r[i] > box[3 + k] ? x[i] + r[i] : box[3 + k];
+      }
+    }
+  }
 }
 
 static void nsvcd__stage_init(const nsvcd_plan_options *o, nsvcd__stage *stage) {
@@ -4549,41 +4572,67 @@ static void nsvcd__relative_pose(const nsvcd_pose *a, const nsvcd_pose *b, nsvcd
   out->rotation[3] = q[3] * p[3] + q[0] * p[0] + q[1] * p[1] + q[2] * p[2];
 }
 
-// The bounding spheres' centres at each sample. Between two samples a centre leaves the chord by no more than its
-// distance from the body's origin times 1 - cos of half the angle of the turn.
-static void nsvcd__find_centres(nsvcd__planner *p, size_t samples) {
-  const size_t bodies = p->problem->body_count, all = bodies * samples;
+// Tracks of all bodies: the bounding sphere's centre, the pose as origin and matrix, and how much the way to the next
+// sample bends: a point that turns leaves its chord by no more than its arm times 1 - cos of half the angle.
+static void nsvcd__track_bodies(nsvcd__planner *p, size_t samples) {
+  const size_t bodies = p->problem->body_count;
   for (size_t b = 0; b < bodies; b++) {
     const nsvcd_body *body = p->problem->bodies[b];
+    float *track = p->tracks + NSVCD__TRACK * samples * b;
     if (!body) continue;
-    float *x = p->centres + b * samples;
-    const float arm = nsvcd__length3(body->centre);
     for (size_t s = 0; s < samples; s++) {
       const nsvcd_pose *pose = &p->poses[s * bodies + b], *next = s + 1 < samples ? pose + bodies : pose;
       const float *q = pose->rotation, *r = next->rotation;
       float m[9], turned[3];
       nsvcd__quat_to_matrix(q, m), nsvcd__mul33_vec(m, body->centre, turned);
-      for (size_t k = 0; k < 3; k++) x[k * all + s] = pose->position[k] + turned[k];
-      const float stray = 1.00001f - fabsf(q[0] * r[0] + q[1] * r[1] + q[2] * r[2] + q[3] * r[3]);
-      x[3 * all + s] = stray > 0 ? arm * stray : 0;
+      for (size_t k = 0; k < 3; k++) {
+        track[(NSVCD__CENTRE + k) * samples + s] = pose->position[k] + turned[k];
+        track[(NSVCD__ORIGIN + k) * samples + s] = pose->position[k];
+      }
+      for (size_t k = 0; k < 9; k++) track[(NSVCD__AXES + k) * samples + s] = m[k];
+      const float bend = 1.000001f - fabsf(q[0] * r[0] + q[1] * r[1] + q[2] * r[2] + q[3] * r[3]);
+      track[NSVCD__BEND * samples + s] = bend > 0 ? bend : 0;
     }
   }
 }
 
-// Marks the segments, or with `discrete` the samples, in which the pair's spheres come near each other.
-static void nsvcd__find_near(nsvcd__planner *p, const nsvcd_body_pair *pair, size_t samples, size_t stride) {
-  const size_t all = p->problem->body_count * samples;
-  const float *a = p->centres + pair->a * samples, *b = p->centres + pair->b * samples;
-  const float reach = p->problem->bodies[pair->a]->radius + p->problem->bodies[pair->b]->radius;
-  for (size_t s = 0; s + stride < samples; s++) {
-    float middle = 0, move = 0;
+// Clears p->meets for the segments (stride 1) or samples (0) in which a's bounding sphere stays away from b's box.
+static void nsvcd__meet_box(nsvcd__planner *p, size_t a, size_t b, size_t samples, size_t stride) {
+  const nsvcd_body *body = p->problem->bodies[a];
+  const float *from = p->tracks + NSVCD__TRACK * samples * a, *to = p->tracks + NSVCD__TRACK * samples * b;
+  const float *box = p->boxes + 6 * b, *axes = to + NSVCD__AXES * samples;
+  const float arm = nsvcd__length3(body->centre), radius = 1.00001f * body->radius;
+  float *x = p->seen;  // (4, samples): a's centre as b sees it, and its distance from b's origin
+  for (size_t s = 0; s < samples; s++) {
+    float d[3], square = 0;
     for (size_t k = 0; k < 3; k++) {
-      const float d0 = a[k * all + s] - b[k * all + s], d1 = a[k * all + s + stride] - b[k * all + s + stride];
-      middle += 0.25f * (d0 + d1) * (d0 + d1), move += 0.25f * (d1 - d0) * (d1 - d0);
+      d[k] = from[(NSVCD__CENTRE + k) * samples + s] - to[(NSVCD__ORIGIN + k) * samples + s];
+      square += d[k] * d[k];
     }
-    const float limit = 1.00001f * (reach + a[3 * all + s] + b[3 * all + s] + sqrtf(move));
-    p->meets[s] = middle <= limit * limit;
+    for (size_t k = 0; k < 3; k++) {
+      x[k * samples + s] =
+          axes[k * samples + s] * d[0] + axes[(3 + k) * samples + s] * d[1] + axes[(6 + k) * samples + s] * d[2];
+    }
+    x[3 * samples + s] = sqrtf(square);
   }
+  for (size_t s = 0; s + stride < samples; s++) {
+    const float bend_a = from[NSVCD__BEND * samples + s], bend_b = to[NSVCD__BEND * samples + s];
+    const float reach =
+        radius + (float)stride * (arm * bend_a + (x[3 * samples + s] + x[3 * samples + s + stride]) * bend_b);
+    int apart = 0;
+    for (size_t k = 0; k < 3; k++) {
+      const float u = x[k * samples + s], v = x[k * samples + s + stride];
+      apart |= ((u < v ? u : v) > box[3 + k] + reach) | ((u < v ? v : u) < box[k] - reach);
+    }
+    p->meets[s] &= (unsigned char)!apart;
+  }
+}
+
+// Marks the segments, or with stride 0 the samples, in which a pair may meet.
+static void nsvcd__find_meetings(nsvcd__planner *p, const nsvcd_body_pair *pair, size_t samples, size_t stride) {
+  memset(p->meets, 1, samples);
+  nsvcd__meet_box(p, pair->a, pair->b, samples, stride);
+  nsvcd__meet_box(p, pair->b, pair->a, samples, stride);
 }
 
 // What a logit costs: nothing far below zero, its excess over -margin above; and the derivative by the logit.
@@ -4622,11 +4671,11 @@ static float nsvcd__network_cost(nsvcd__planner *p, size_t samples, float limit,
   const size_t bodies = problem->body_count, stride = !p->options.discrete && samples > 1;
   const nsvcd_pose origin = {{0, 0, 0}, {0, 0, 0, 1}};
   float sum = 0;
-  nsvcd__find_centres(p, samples);
+  nsvcd__track_bodies(p, samples);
   for (size_t k = 0; k < problem->pair_count; k++) {
     const nsvcd_body_pair *pair = &problem->pairs[k];
     const nsvcd_body *a = problem->bodies[pair->a], *b = problem->bodies[pair->b];
-    nsvcd__find_near(p, pair, samples, stride);
+    nsvcd__find_meetings(p, pair, samples, stride);
     for (size_t s = 0; s + stride < samples && sum <= limit; s++) {
       nsvcd_pose motion[2];
       nsvcd_answer answer;
@@ -5071,6 +5120,7 @@ NSVCDDEF nsvcd_result nsvcd_plan(const nsvcd_plan_problem *problem, const nsvcd_
   }
   nsvcd__stage_init(&p->options, &p->explore), nsvcd__stage_init(&p->options, &p->refine);
   nsvcd__stage_init(&p->options, &p->check);
+  nsvcd__find_boxes(p);
   p->random = p->options.seed;
   if (!nsvcd__is_good(p, problem->start))
     found.status = NSVCD_PLAN_START;
