@@ -238,9 +238,9 @@ static int far_from_zero(scene *s, shapes_rng *rng, size_t n) {
   return 1;
 }
 static int tiny_or_huge(scene *s, shapes_rng *rng, size_t n) {
-  const double scale = n % 2 ? 1e-3 : 1e3;
+  const double scale = pow(10, shapes_uniform(rng, -10, 5));
   s->moving = pool_scaled(0, s->moving, scale), s->fixed = pool_scaled(1, s->fixed, scale);
-  return moderate(s, rng, n);
+  return n % 2 ? moderate(s, rng, n) : slow(s, rng, n);
 }
 static int of_unlike_size(scene *s, shapes_rng *rng, size_t n) {
   s->moving = pool_scaled(0, s->moving, n % 2 ? 0.1 : 10);
@@ -352,7 +352,7 @@ static const family families[] = {
     {"deep", deep, 0.001, 0, 3e-06, 0.0001},
     {"shallow", shallow, 0.001, 0, 3e-06, 0.0002},
     {"far from zero", far_from_zero, 0.001, 0, 2e-06, 0.0001},
-    {"tiny or huge", tiny_or_huge, 0.001, 0, 2e-06, 0.0001},
+    {"tiny or huge", tiny_or_huge, 0.004, 0.001, 5e-06, 0.002},
     {"of unlike size", of_unlike_size, 0.001, 0, 2e-06, 0.0001},
     {"one patch each", one_patch_each, 0.001, 0, 2e-06, 0.0002},
     {"grazing spheres", grazing_spheres, 0.17, 0.006, 0.0004, 1},
