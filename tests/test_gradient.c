@@ -432,6 +432,7 @@ static void gradient_matches_the_reference(void) {
         found[i] = (double)gradient[i], broken += !nsvcd__is_finite(gradient[i]);
       }
       const double logit = reference_logit(&pair, poses, times, &graze);
+      (void)logit;
       reference_gradient(&pair, poses, metres, radians, expected);
       const double error = relative_error(found, expected, s.count, length);
 #ifndef NSVCD_NO_FLOAT
