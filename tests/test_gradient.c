@@ -14,9 +14,11 @@ void test_gradient(void);
 #define POOL 8  // solids
 // Where tiny decides alone, other pairs do than those for which the limits were measured.
 #if defined(NSVCD_NO_SMALL) && defined(NSVCD_NO_BASE)
-#define SLACK 1.5
+#define SLACK 1.5         // of the shares
+#define MEDIAN_SLACK 4.0  // that of centres that meet is 2.6 times what it is with base
 #else
 #define SLACK 1
+#define MEDIAN_SLACK 1
 #endif
 
 typedef struct scene {
@@ -461,8 +463,8 @@ static void gradient_matches_the_reference(void) {
     CHECK_EQ(broken, 0);
     const double allowed = SLACK * families[f].beyond;
     CHECK_LE((double)beyond / (double)count, allowed);
-    CHECK_LE((double)unexplained / (double)count, families[f].unexplained);
-    CHECK_LE(errors[count / 2], SLACK * families[f].median);
+    CHECK_LE((double)unexplained / (double)count, SLACK * families[f].unexplained);
+    CHECK_LE(errors[count / 2], MEDIAN_SLACK * families[f].median);
     if (allowed < 0.01) CHECK_LE(errors[count * 99 / 100], families[f].most);
   }
 }
