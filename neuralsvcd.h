@@ -3944,7 +3944,7 @@ static void nsvcd__add_turned3(const float *a, const float *n, float along, floa
 // ---- head
 
 // The weights of a layer from input i to outputs o .. o + 15. weights, output: where the layer's begin.
-static inline nsvcd__v nsvcd__weights_at(size_t weights, size_t output, size_t outputs, size_t i, size_t o) {
+NSVCD__INLINE nsvcd__v nsvcd__weights_at(size_t weights, size_t output, size_t outputs, size_t i, size_t o) {
 #ifndef NSVCD_NO_FLOAT
   (void)output;
   return nsvcd__v_load(nsvcd_w_decoder + weights + outputs * i + o);
@@ -4087,8 +4087,8 @@ static void nsvcd__by_invariants(const nsvcd__pairs *pairs, const float *x, cons
   nsvcd__first_lanes(views.w, 3, view.w), nsvcd__first_lanes(views.lean, 3, view.lean);
   nsvcd__first_lanes(views.frame, 9, view.frame), nsvcd__first_lanes(pairs->rotation, 9, rotation);
   nsvcd__first_lanes(pairs->v, 3, v), nsvcd__first_lanes(pairs->w, 3, w);
-  // Of time. 0 at rest, to rounding: the logit is an even function of the motion, and its derivative there has no
-  // limit, because the time of nearest approach has none.
+  // Which way time runs. 0 at rest, to rounding: the logit is even in the motion, with a kink there, and the mean of
+  // its two sides is 0.
   const float same = nsvcd__dot3(view.v, v) * view.inverse + nsvcd__dot3(view.w, w);
   const float sign = fabsf(same) < 1e-12f ? 0.0f : same < 0 ? -1.0f : 1.0f;
 

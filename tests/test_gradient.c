@@ -14,9 +14,11 @@ void test_gradient(void);
 #define POOL 8  // solids
 // Where tiny decides alone, other pairs do than those for which the limits were measured.
 #if defined(NSVCD_NO_SMALL) && defined(NSVCD_NO_BASE)
-#define SLACK 1.5
+#define SLACK 1.5         // of the shares
+#define MEDIAN_SLACK 4.0  // that of centres that meet is 2.6 times what it is with base
 #else
 #define SLACK 1
+#define MEDIAN_SLACK 1
 #endif
 
 typedef struct scene {
@@ -238,9 +240,9 @@ static int far_from_zero(scene *s, shapes_rng *rng, size_t n) {
   return 1;
 }
 static int tiny_or_huge(scene *s, shapes_rng *rng, size_t n) {
-  const double scale = n % 2 ? 1e-3 : 1e3;
+  const double scale = pow(10, shapes_uniform(rng, -10, 5));
   s->moving = pool_scaled(0, s->moving, scale), s->fixed = pool_scaled(1, s->fixed, scale);
-  return moderate(s, rng, n);
+  return n % 2 ? moderate(s, rng, n) : slow(s, rng, n);
 }
 static int of_unlike_size(scene *s, shapes_rng *rng, size_t n) {
   s->moving = pool_scaled(0, s->moving, n % 2 ? 0.1 : 10);
@@ -327,10 +329,11 @@ static int other_options(scene *s, shapes_rng *rng, size_t n) {
   return moderate(s, rng, n);
 }
 
-// Limits, little above what was measured: the share of gradients that are off by more than 1 %, and of those of them
-// that are at no kink; the median of the error, and its 99th percentile where less than 1 % may be beyond 1 %. Of
-// motions exactly along the line between the centres every tenth is at a jump, for then rounding says which way time
-// runs; and where centres meet, or spheres graze, single precision has few digits left: little is asked of those.
+// Limits, little above what was measured with and without SIMD: the share of gradients that are off by more than 1 %,
+// and of those of them that are at no kink; the median of the error, and its 99th percentile where less than 1 % may be
+// beyond 1 %. Of motions exactly along the line between the centres every tenth is at a jump, for then rounding says
+// which way time runs; and where centres meet, or spheres graze, single precision has few digits left: little is asked
+// of those.
 typedef struct family {
   const char *name;
   int (*make)(scene *, shapes_rng *, size_t);
@@ -342,7 +345,7 @@ static const family families[] = {
     {"straight, no turn", straight, 0.001, 0, 2e-06, 0.0001},
     {"half turns", half_turns, 0.001, 0, 2e-06, 0.0001},
     {"wild samples", wild_samples, 0.001, 0, 2e-06, 0.0001},
-    {"many samples", many_samples, 0.001, 0, 2e-06, 0.0001},
+    {"many samples", many_samples, 0.001, 0, 3e-06, 0.0001},
     {"at rest", at_rest, 0.004, 0.001, 0.0001, 0.004},
     {"slow", slow, 0.0085, 0.0015, 4e-05, 0.006},
     {"nearly along the line", nearly_along_the_line, 0.001, 0, 3e-06, 0.002},
@@ -352,11 +355,11 @@ static const family families[] = {
     {"deep", deep, 0.001, 0, 3e-06, 0.0001},
     {"shallow", shallow, 0.001, 0, 3e-06, 0.0002},
     {"far from zero", far_from_zero, 0.001, 0, 2e-06, 0.0001},
-    {"tiny or huge", tiny_or_huge, 0.001, 0, 2e-06, 0.0001},
+    {"tiny or huge", tiny_or_huge, 0.004, 0.001, 5e-06, 0.002},
     {"of unlike size", of_unlike_size, 0.001, 0, 2e-06, 0.0001},
     {"one patch each", one_patch_each, 0.001, 0, 2e-06, 0.0002},
     {"grazing spheres", grazing_spheres, 0.17, 0.006, 0.0004, 1},
-    {"centres meet", centres_meet, 0.32, 0.002, 0.0005, 1},
+    {"centres meet", centres_meet, 0.32, 0.002, 0.0008, 1},
     {"without lean", without_lean, 0.001, 0, 2e-06, 0.0005},
     {"other options", other_options, 0.001, 0, 2e-06, 0.0001},
 };
@@ -390,15 +393,15 @@ static double relative_error(const double *a, const double *b, size_t count, dou
 
 // Does the reference's own gradient change by more than 1 % where the poses move by what rounding to float does: 3e-7
 // of a turn or the bodies' size? Then it has a kink or a jump there (ReLU, the frame, a clamp, contact).
-static int is_at_a_kink(const reference_pair *pair, const reference_pose *poses, double length, double metres,
-                        double radians, const double *expected, shapes_rng *rng) {
+static int is_at_a_kink(const reference_pair *pair, const reference_pose *poses, double length, double size,
+                        double metres, double radians, const double *expected, shapes_rng *rng) {
   for (int trial = 0; trial < 12; trial++) {
     reference_pose moved[REFERENCE_POSES];
     double other[6 * REFERENCE_POSES];
     memcpy(moved, poses, pair->count * sizeof *poses);
     for (size_t i = 0; i < 6 * pair->count; i++) {
       const double by = 3e-7 * shapes_uniform(rng, -1, 1);
-      reference_displace(&moved[i / 6], i % 6, i % 6 < 3 ? length * by : by);
+      reference_displace(&moved[i / 6], i % 6, i % 6 < 3 ? size * by : by);
     }
     reference_gradient(pair, moved, metres, radians, other);
     if (!(relative_error(other, expected, pair->count, length) <= 0.01)) return 1;
@@ -432,6 +435,7 @@ static void gradient_matches_the_reference(void) {
         found[i] = (double)gradient[i], broken += !nsvcd__is_finite(gradient[i]);
       }
       const double logit = reference_logit(&pair, poses, times, &graze);
+      (void)logit;
       reference_gradient(&pair, poses, metres, radians, expected);
       const double error = relative_error(found, expected, s.count, length);
 #ifndef NSVCD_NO_FLOAT
@@ -442,7 +446,8 @@ static void gradient_matches_the_reference(void) {
       errors[count++] = error;
       if (error <= 0.01) continue;
       shapes_rng rng = {n};
-      const int kink = is_at_a_kink(&pair, poses, length, metres, radians, expected, &rng);
+      const double size = 0.5 * (length + (double)s.fixed->extent);
+      const int kink = is_at_a_kink(&pair, poses, length, size, metres, radians, expected, &rng);
       beyond++;
       if (graze < 0.01)
         grazing++;
@@ -458,8 +463,8 @@ static void gradient_matches_the_reference(void) {
     CHECK_EQ(broken, 0);
     const double allowed = SLACK * families[f].beyond;
     CHECK_LE((double)beyond / (double)count, allowed);
-    CHECK_LE((double)unexplained / (double)count, families[f].unexplained);
-    CHECK_LE(errors[count / 2], SLACK * families[f].median);
+    CHECK_LE((double)unexplained / (double)count, SLACK * families[f].unexplained);
+    CHECK_LE(errors[count / 2], MEDIAN_SLACK * families[f].median);
     if (allowed < 0.01) CHECK_LE(errors[count * 99 / 100], families[f].most);
   }
 }
