@@ -4396,6 +4396,7 @@ typedef struct nsvcd__planner {
   float *tracks;                                            // (B, TRACK, samples)
   float *boxes;                                             // (B, 6): of a body, in its own axes, low and high
   float *seen;                                              // (4, samples)
+  uint32_t *order;                                          // (P): of the pairs
   unsigned char *meets;                                     // (samples)
   float *wrenches;                                          // (samples, B, 6)
   float *jacobian;                                          // (B, 6, F)
@@ -4498,6 +4499,7 @@ static size_t nsvcd__planner_memory(nsvcd__planner *p, char *base) {
   p->tracks = (float *)nsvcd__take(base, &used, NSVCD__TRACK * samples * b * sizeof(float));
   p->boxes = (float *)nsvcd__take(base, &used, 6 * b * sizeof(float));
   p->seen = (float *)nsvcd__take(base, &used, 4 * samples * sizeof(float));
+  p->order = (uint32_t *)nsvcd__take(base, &used, p->problem->pair_count * sizeof(uint32_t));
   p->meets = (unsigned char *)nsvcd__take(base, &used, samples);
   p->wrenches = (float *)nsvcd__take(base, &used, samples * b * 6 * sizeof(float));
   p->jacobian = (float *)nsvcd__take(base, &used, b * 6 * f * sizeof(float));
@@ -4672,9 +4674,11 @@ static float nsvcd__network_cost(nsvcd__planner *p, size_t samples, float limit,
   const nsvcd_pose origin = {{0, 0, 0}, {0, 0, 0, 1}};
   float sum = 0;
   nsvcd__track_bodies(p, samples);
-  for (size_t k = 0; k < problem->pair_count; k++) {
+  for (size_t n = 0; n < problem->pair_count && sum <= limit; n++) {
+    const uint32_t k = p->order[n];
     const nsvcd_body_pair *pair = &problem->pairs[k];
     const nsvcd_body *a = problem->bodies[pair->a], *b = problem->bodies[pair->b];
+    const float before = sum;
     nsvcd__find_meetings(p, pair, samples, stride);
     for (size_t s = 0; s + stride < samples && sum <= limit; s++) {
       nsvcd_pose motion[2];
@@ -4697,13 +4701,17 @@ static float nsvcd__network_cost(nsvcd__planner *p, size_t samples, float limit,
       *collides |= answer.collides;
       sum += nsvcd__cost_of_logit(answer.logit, p->options.margin, &slope);
       if (worst && answer.logit > worst->logit) {
-        worst->logit = answer.logit, worst->pair = (uint32_t)k;
+        worst->logit = answer.logit, worst->pair = k;
         worst->time = samples > 1 ? ((float)s + (float)stride * answer.time) / (float)(samples - 1) : 0;
       }
       for (size_t n = 0; wrenches && slope > 0 && n <= stride; n++) {
         const size_t row = (s + n) * bodies;
         nsvcd__add_wrench(pair, p->poses + row, slope, gradient + 6 * n, wrenches + 6 * row);
       }
+    }
+    if (n > 0 && sum > before) {  // what costs comes earlier next time, so that bad trajectories end early
+      p->order[n] = p->order[n - 1];
+      p->order[n - 1] = k;
     }
   }
   return sum;
@@ -4865,7 +4873,7 @@ static float nsvcd__kth_cost(const float *costs, size_t count, size_t k) {
   return least;
 }
 
-#define NSVCD__PATIENCE 5  // iterations without a gain of 1 %, once the best is free, before MPPI ends
+#define NSVCD__PATIENCE 3  // iterations without a gain of 1 %, once the best is free, before MPPI ends
 
 // MPPI from p->control, the mean, on; leaves the best trajectory in p->best. Returns its cost; *cancelled if so.
 static nsvcd__cost nsvcd__explore(nsvcd__planner *p, size_t seed, nsvcd_plan_answer *answer, int *cancelled) {
@@ -4891,8 +4899,8 @@ static nsvcd__cost nsvcd__explore(nsvcd__planner *p, size_t seed, nsvcd_plan_ans
       }
       nsvcd__change(p, via, p->control, offset, 1, p->trial);
       for (size_t k = 0; k < numbers; k++) offset[k] = p->trial[f + k] - p->control[f + k];
-      // What is 20 temperatures worse than another weighs nothing: its cost need not be known exactly.
-      const float limit = i > 0 ? least + 20 * temperature : INFINITY;
+      // What is 10 temperatures worse than another weighs nothing: its cost need not be known exactly.
+      const float limit = i > 0 ? least + 10 * temperature : INFINITY;
       const nsvcd__cost cost = nsvcd__cost_of(p, stage, p->trial, limit, NULL, NULL);
       p->costs[n] = cost.total;
       if (cost.total < least) least = cost.total;
@@ -5121,6 +5129,7 @@ NSVCDDEF nsvcd_result nsvcd_plan(const nsvcd_plan_problem *problem, const nsvcd_
   nsvcd__stage_init(&p->options, &p->explore), nsvcd__stage_init(&p->options, &p->refine);
   nsvcd__stage_init(&p->options, &p->check);
   nsvcd__find_boxes(p);
+  for (size_t k = 0; k < problem->pair_count; k++) p->order[k] = (uint32_t)k;
   p->random = p->options.seed;
   if (!nsvcd__is_good(p, problem->start))
     found.status = NSVCD_PLAN_START;
