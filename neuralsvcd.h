@@ -4800,6 +4800,7 @@ static nsvcd__cost nsvcd__cost_of(nsvcd__planner *p, const nsvcd__stage *stage, 
     return cost;
   }
   const float weight = p->options.collision;
+  NSVCD__TALLY(collision, 0);  // begins
   if (problem->collision) {
     cost.collision = problem->collision(problem->user, p->poses, samples, &cost.collides, wrenches);
     if (worst) worst->logit = cost.collision;
@@ -4807,6 +4808,7 @@ static nsvcd__cost nsvcd__cost_of(nsvcd__planner *p, const nsvcd__stage *stage, 
     cost.collision = nsvcd__network_cost(p, samples, weight > 0 ? (limit - cost.total) / weight : limit, &cost.collides,
                                          wrenches, worst);
   }
+  NSVCD__TALLY(collision, 1);  // ends
   cost.total += weight * cost.collision;
   for (size_t s = 0; gradient && s < samples; s++) {
     const size_t row = s * bodies;
