@@ -4366,9 +4366,11 @@ static void nsvcd__solve_upper(const double *l, size_t n, double *x) {  // x = L
 //   refine      L-BFGS with bundled gradients, in the metric of the smoothness
 //   check       the result, finely
 
-#define NSVCD__LIMIT_COST 1000.0f  // per radian^2 or metre^2, mean over the samples: joints out of their limits
-#define NSVCD__HISTORY 8           // L-BFGS: steps remembered
-#define NSVCD__STEPS 5             // step lengths tried
+#define NSVCD__LIMIT_COST 1e5f      // per radian^2 or metre^2, mean over the samples: joints out of their limits,
+#define NSVCD__LIMIT_MARGIN 0.005f  // of which this share of the range is kept free where start and goal allow it
+#define NSVCD__RUN 8                // segments asked about at once, at first
+#define NSVCD__HISTORY 8            // L-BFGS: steps remembered
+#define NSVCD__STEPS 5              // step lengths tried
 
 // What culling knows of a body at each sample: TRACK arrays of (samples).
 enum { NSVCD__CENTRE = 0, NSVCD__ORIGIN = 3, NSVCD__AXES = 6, NSVCD__BEND = 15, NSVCD__TRACK = 16 };
@@ -4665,48 +4667,68 @@ typedef struct nsvcd__worst {
   uint32_t pair;
 } nsvcd__worst;
 
+// What the network says of pair k from sample `first` on, over `segments` of them. gradient: (segments + 1, 6), or
+// NULL.
+static nsvcd_answer nsvcd__ask(nsvcd__planner *p, uint32_t k, size_t first, size_t segments, float *gradient) {
+  const nsvcd_body_pair *pair = &p->problem->pairs[k];
+  const nsvcd_body *a = p->problem->bodies[pair->a], *b = p->problem->bodies[pair->b];
+  const nsvcd_pose origin = {{0, 0, 0}, {0, 0, 0, 1}};
+  nsvcd_pose motion[NSVCD__RUN + 1];
+  nsvcd_answer answer = {-NSVCD_LOGIT_CERTAIN, 0, 0, 0, 0, NSVCD_STATUS_CERTIFIED_FREE, 0};
+  for (size_t n = 0; n <= segments; n++) {
+    const nsvcd_pose *row = p->poses + (first + n) * p->problem->body_count;
+    nsvcd__relative_pose(&row[pair->a], &row[pair->b], &motion[n]);
+  }
+  const nsvcd_result error = gradient ? nsvcd_sweep_gradient(a, motion, segments + 1, b, &origin, &p->options.sweep,
+                                                             p->query, sizeof *p->query, &answer, gradient)
+                                      : nsvcd_sweep(a, motion, segments + 1, b, &origin, &p->options.sweep, p->query,
+                                                    sizeof *p->query, &answer);
+  if (error) p->error = error;
+  p->sweeps++;
+  return answer;
+}
+
+static void nsvcd__keep_worst(const nsvcd_answer *answer, uint32_t k, size_t first, size_t segments, size_t samples,
+                              nsvcd__worst *worst) {
+  if (!worst || !(answer->logit > worst->logit)) return;
+  worst->logit = answer->logit, worst->pair = k;
+  worst->time = samples > 1 ? ((float)first + (float)segments * answer->time) / (float)(samples - 1) : 0;
+}
+
 // The network's cost of the poses (samples, B), up to the first sum above `limit`; adds to wrenches (samples, B, 6)
 // unless that is NULL. worst may be NULL.
 static float nsvcd__network_cost(nsvcd__planner *p, size_t samples, float limit, int *collides, float *wrenches,
                                  nsvcd__worst *worst) {
-  const nsvcd_plan_problem *problem = p->problem;
-  const size_t bodies = problem->body_count, stride = !p->options.discrete && samples > 1;
-  const nsvcd_pose origin = {{0, 0, 0}, {0, 0, 0, 1}};
+  const size_t bodies = p->problem->body_count, stride = !p->options.discrete && samples > 1;
   float sum = 0;
   nsvcd__track_bodies(p, samples);
-  for (size_t n = 0; n < problem->pair_count && sum <= limit; n++) {
+  for (size_t n = 0; n < p->problem->pair_count && sum <= limit; n++) {
     const uint32_t k = p->order[n];
-    const nsvcd_body_pair *pair = &problem->pairs[k];
-    const nsvcd_body *a = problem->bodies[pair->a], *b = problem->bodies[pair->b];
     const float before = sum;
-    nsvcd__find_meetings(p, pair, samples, stride);
-    for (size_t s = 0; s + stride < samples && sum <= limit; s++) {
-      nsvcd_pose motion[2];
-      nsvcd_answer answer;
+    nsvcd__find_meetings(p, &p->problem->pairs[k], samples, stride);
+    for (size_t s = 0, checked = 0; s + stride < samples && sum <= limit && !p->error; s++) {
       float gradient[12], slope;
       if (!p->meets[s]) continue;
-      for (size_t n = 0; n <= stride; n++) {
-        const nsvcd_pose *row = p->poses + (s + n) * bodies;
-        nsvcd__relative_pose(&row[pair->a], &row[pair->b], &motion[n]);
+      if (stride && s >= checked) {  // several segments at once: if they are far from a collision, that is all
+        size_t run = 1;
+        while (run < NSVCD__RUN && s + run + 1 < samples && p->meets[s + run]) run++;
+        checked = s + run;
+        const nsvcd_answer all = nsvcd__ask(p, k, s, run, NULL);
+        if (all.logit <= -p->options.margin || (run == 1 && !wrenches)) {
+          nsvcd__keep_worst(&all, k, s, run, samples, worst);
+          *collides |= all.collides;
+          sum += nsvcd__cost_of_logit(all.logit, p->options.margin, &slope);
+          s += run - 1;
+          continue;
+        }
       }
-      nsvcd_result error = wrenches ? nsvcd_sweep_gradient(a, motion, 1 + stride, b, &origin, &p->options.sweep,
-                                                           p->query, sizeof *p->query, &answer, gradient)
-                                    : nsvcd_sweep(a, motion, 1 + stride, b, &origin, &p->options.sweep, p->query,
-                                                  sizeof *p->query, &answer);
-      p->sweeps++;
-      if (error) {
-        p->error = error;
-        return 0;
-      }
+      const nsvcd_answer answer = nsvcd__ask(p, k, s, stride, wrenches ? gradient : NULL);
+      nsvcd__keep_worst(&answer, k, s, stride, samples, worst);
       *collides |= answer.collides;
       sum += nsvcd__cost_of_logit(answer.logit, p->options.margin, &slope);
-      if (worst && answer.logit > worst->logit) {
-        worst->logit = answer.logit, worst->pair = k;
-        worst->time = samples > 1 ? ((float)s + (float)stride * answer.time) / (float)(samples - 1) : 0;
-      }
-      for (size_t n = 0; wrenches && slope > 0 && n <= stride; n++) {
-        const size_t row = (s + n) * bodies;
-        nsvcd__add_wrench(pair, p->poses + row, slope, gradient + 6 * n, wrenches + 6 * row);
+      for (size_t i = 0; wrenches && slope > 0 && i <= stride; i++) {
+        const size_t row = (s + i) * bodies;
+        nsvcd__add_wrench(&p->problem->pairs[k], p->poses + row, slope, gradient + 6 * i, wrenches + 6 * row);
       }
     }
     if (n > 0 && sum > before) {  // what costs comes earlier next time, so that bad trajectories end early
@@ -4782,12 +4804,11 @@ static nsvcd__cost nsvcd__cost_of(nsvcd__planner *p, const nsvcd__stage *stage, 
     for (size_t j = 0; j < f; j++) {
       float sum = 0;
       for (size_t k = 0; k < all; k++) sum += w[k] * control[k * f + j];
-      const float out = sum < problem->low[j]    ? sum - problem->low[j]
-                        : sum > problem->high[j] ? sum - problem->high[j]
-                                                 : 0;
+      const float low = problem->low[j], high = problem->high[j], inner = NSVCD__LIMIT_MARGIN * (high - low);
+      const float out = sum < low + inner ? sum - low - inner : sum > high - inner ? sum - high + inner : 0;
       joints[j] = sum;
       cost.total += share * out * out;
-      if (fabsf(out) > 1e-5f) cost.collides = 1;
+      if (sum < low - 1e-5f || sum > high + 1e-5f) cost.collides = 1;
       for (size_t k = 0; gradient && k < all; k++) gradient[k * f + j] += 2 * share * out * w[k];
     }
   }
