@@ -61,6 +61,9 @@ int main(int argc, char **argv) {
   if (!planner_arguments(argc, argv, &seed, &picture, NULL)) return 2;
   if (!task_dish_episode(&scene, seed)) return fprintf(stderr, "no scene comes of this seed: try another\n"), 1;
 
+  FILE *svg = draw_open(picture, 3 * 516 + 32, 470 + 108, "A UR5 puts three dishes into a rack",
+                        PLANNER_LEGEND " &#160;&#183;&#160; grey and white: not to be touched");
+  if (!svg) return 1;
   // Once: every body is encoded as it is, the dishes by themselves. A dish that is grasped, carried and let go is the
   // same body all along: planner_place moves it with the hand, or not, and nothing is encoded again.
   double begin = planner_seconds();
@@ -74,9 +77,6 @@ int main(int argc, char **argv) {
   options.collision = 20;               // against smoothness; the paper's 1 lets thin wires pass
   options.refine.via_points = 10;       // the default, spelled out because it gives the size of `control`
 
-  FILE *svg = draw_open(picture, 3 * 516 + 32, 470 + 108, "A UR5 puts three dishes into a rack",
-                        PLANNER_LEGEND " &#160;&#183;&#160; grey and white: not to be touched");
-  if (!svg) return 1;
   int good = 0;
   for (int i = 0; i < scene.problem_count; i++) {
     task_select(&scene, i);  // the dish of problem i is in the hand; those before stand in the rack

@@ -245,7 +245,9 @@ DRAW_DEF void draw_panel(FILE *svg, int x, int y, const draw_view *view) {
 DRAW_DEF void draw_panel_end(FILE *svg, const draw_view *view, const char *caption) {
   fprintf(svg, "</g><rect width=\"%d\" height=\"%d\" rx=\"10\" fill=\"none\" stroke=\"#d5dae1\"/>\n", view->width,
           view->height);
-  fprintf(svg, "<text x=\"16\" y=\"28\" font-size=\"16\" font-weight=\"600\" fill=\"" DRAW_INK "\">%s</text></g>\n",
+  fprintf(svg,
+          "<text x=\"16\" y=\"28\" font-size=\"16\" font-weight=\"600\" fill=\"" DRAW_INK
+          "\" stroke=\"#fff\" stroke-width=\"4\" stroke-linejoin=\"round\" paint-order=\"stroke\">%s</text></g>\n",
           caption);
 }
 // Frame `index` of `count` of a film that repeats every `seconds`; ends with draw_frame_end. Viewers that do not

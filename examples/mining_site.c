@@ -21,17 +21,19 @@ static int watch(void *data, const nsvcd_plan_progress *progress) {
 static void draw_motion(FILE *svg, const task_scene *scene, const planner_motion *motion) {
   const int axe = scene->held[0], base = 0, ghosts = 8;
   const float *start = scene->problems[0].start, *goal = scene->problems[0].goal;
-  const draw_view view = {-1.45, 0.8, {4.95, 0.25, 0.4}, 1500, 540, 132, 0.2};
+  const draw_view view = {-1.45, 0.8, {4.95, 0.25, 0.4}, 132, 1500, 540, 0.2};
   draw_list list = {&view, NULL, 0, 0, 0};
   draw_panel(svg, 24, 84, &view);
   draw_floor(&list, scene), draw_flush(svg, &list);
   draw_still(&list, scene);
   for (int i = 1; i < ghosts; i++)
-    draw_robot(&list, scene, planner_joints_at(scene, motion, (double)i / ghosts), &draw_blue, &draw_orange, 0.4);
+    draw_robot(&list, scene, planner_joints_at(scene, motion, (double)i / ghosts), &draw_blue, &draw_orange, 0.45);
   draw_robot(&list, scene, start, &draw_blue, &draw_orange, 1);
   draw_robot(&list, scene, goal, &draw_blue, &draw_orange, 1);
   draw_flush(svg, &list);
-  planner_ways(svg, &view, scene, motion, axe, -1);
+  planner_ways(svg, &view, scene, motion, base, -1);
+  planner_line(svg, &view, scene, motion->joints, PLANNER_SAMPLES, axe, -1,
+               "stroke=\"" PLANNER_WAY "\" opacity=\".5\"");
   planner_label(svg, &view, scene, start, base, -1, 0, 50, "start");
   planner_label(svg, &view, scene, goal, base, -1, 0, 50, "goal");
   draw_panel_end(svg, &view, motion->good ? "" : "NOT FREE");
@@ -47,6 +49,9 @@ int main(int argc, char **argv) {
   if (!planner_arguments(argc, argv, &seed, &picture, &seconds)) return 2;
   if (!task_mining_episode(&scene, seed)) return fprintf(stderr, "no scene comes of this seed: try another\n"), 1;
 
+  FILE *svg = draw_open(picture, 1548, 540 + 108, "A mobile arm carries a pickaxe through a mine",
+                        PLANNER_LEGEND ". Strong: the base; pale: the pickaxe");
+  if (!svg) return 1;
   double begin = planner_seconds();
   void *memory = planner_encode(&scene, bodies);
   if (!memory) return 1;
@@ -63,8 +68,6 @@ int main(int argc, char **argv) {
   planner_judge(&scene, &motion);
   planner_report(&scene, &motion);
 
-  FILE *svg = draw_open(picture, 1548, 540 + 108, "A mobile arm carries a pickaxe through a mine", PLANNER_LEGEND);
-  if (!svg) return 1;
   draw_motion(svg, &scene, &motion);
   if (!draw_close(svg)) return 1;
   printf("see %s\n", picture);

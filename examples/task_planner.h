@@ -121,22 +121,28 @@ PLANNER_DEF void planner_judge(const task_scene *scene, planner_motion *motion) 
   for (int j = 0; motion->naive_hits && j < n; j++)
     motion->naive_hit[j] = (float)(line[j] + naive.time * (line[n + j] - line[j]));
 }
-// One line: what it took, what it is worth, and by whose word.
+// What it took, what it is worth, and by whose word.
 PLANNER_DEF void planner_report(const task_scene *scene, const planner_motion *motion) {
   const nsvcd_plan_answer *answer = &motion->answer;
   const task_verdict *v = &motion->verdict;
-  int claims = answer->status == NSVCD_PLAN_CONVERGED;
-  printf("%-14s %s in %.2f s (%zu trajectories, %zu sweeps), moved %.2f m; the network: %s (logit %.1f); the oracle: ",
-         scene->bodies[scene->held[scene->selected]].name, nsvcd_plan_status_string(answer->status), motion->seconds,
-         answer->trajectories, answer->sweeps, motion->metres[PLANNER_SAMPLES - 1], claims ? "free" : "not free",
-         (double)answer->logit);
+  const task_body *bodies = scene->bodies;
+  const int *pair = scene->pairs[answer->pair];  // the problem's pairs are in the same order
+  // What was cancelled may be free all the same; what ran into its limit of iterations is not.
+  int claims = answer->status == NSVCD_PLAN_CONVERGED || (answer->status == NSVCD_PLAN_CANCELLED && answer->logit < 0);
+  printf("%s: %s in %.2f s (%zu trajectories, %zu sweeps), moves %.2f m\n  the network: %s",
+         bodies[scene->held[scene->selected]].name, nsvcd_plan_status_string(answer->status), motion->seconds,
+         answer->trajectories, answer->sweeps, motion->metres[PLANNER_SAMPLES - 1], claims ? "free" : "not free");
+  if (answer->seeds)  // else start or goal were refused, and nothing was planned
+    printf(", logit at most %.1f (%s and %s at t = %.2f)", (double)answer->logit, bodies[pair[1]].name,
+           bodies[pair[0]].name, (double)answer->time);
+  printf("\n  the oracle:  ");
   if (motion->good)
-    printf("free, goal reached");
+    printf("free, within the limits, at the goal");
   else if (!v->free)
-    printf("%s meets %s at t = %.2f", scene->bodies[v->pair[1]].name, scene->bodies[v->pair[0]].name, v->time);
+    printf("%s meets %s at t = %.2f", bodies[v->pair[1]].name, bodies[v->pair[0]].name, v->time);
   else
     printf("%s", v->in_limits ? "does not reach the goal" : "a joint leaves its limits");
-  printf("%s\n", claims == motion->good ? "" : " - THEY DISAGREE");
+  printf("%s\n", claims == motion->good ? "" : "  <- THEY DISAGREE");
 }
 
 // ------------------------------------------------------------------------------------------------------ command line
@@ -159,9 +165,11 @@ PLANNER_DEF int planner_arguments(int argc, char **argv, uint64_t *seed, const c
 
 #define PLANNER_WAY "#c75c12"
 #define PLANNER_HIT "#c22f3a"
-#define PLANNER_LEGEND                                                                                           \
-  "orange: the way planned, from &#x201c;start&#x201d; to &#x201c;goal&#x201d; &#160;&#183;&#160; red, dashed: " \
-  "the straight line in joint space, up to where it hits"
+#define PLANNER_INK(ink, text) "<tspan font-weight=\"700\" fill=\"" ink "\">" text "</tspan>"
+#define PLANNER_LEGEND                                    \
+  PLANNER_INK(PLANNER_WAY, "orange: the way planned")     \
+  ", from &#x201c;start&#x201d; to &#x201c;goal&#x201d; " \
+  "&#160;&#183;&#160; " PLANNER_INK(PLANNER_HIT, "red: the straight line in joint space") ", up to where it hits"
 
 static const draw_colour planner_pale = {{110, 130, 160}, {214, 226, 242}};
 
