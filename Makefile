@@ -28,7 +28,9 @@ endif
 .PHONY: preview profile instructions sizes bench check-extremes all demo test assets problems accuracy weights format clean help check-header check-examples check-problems check-gradient
 .DELETE_ON_ERROR:
 
-all: build/svcd build/quickstart  ## the examples: build/svcd and build/quickstart
+PLANNERS = build/dish_insertion build/bimanual_insertion build/mining_site
+
+all: build/svcd build/quickstart $(PLANNERS)  ## the examples: build/svcd, build/quickstart and three that plan motions
 
 help:  ## this list
 	@sed -n 's/^\([a-z][a-z-]*\):.*##/\1:/p' $(MAKEFILE_LIST) | sort
@@ -42,13 +44,18 @@ build/svcd: examples/svcd.c examples/problem_file.h $(LIBRARY) | build
 	$(CC) $(ALL_CFLAGS) -o $@ examples/svcd.c -lm
 build/quickstart: examples/quickstart.c examples/picture.h $(LIBRARY) | build
 	$(CC) $(ALL_CFLAGS) -o $@ examples/quickstart.c -lm
+$(PLANNERS): build/%: examples/%.c examples/task_planner.h examples/draw.h examples/tasks.h examples/shapes.h tests/oracle.h $(LIBRARY) | build
+	$(CC) $(ALL_CFLAGS) -o $@ $< -lm
 build/tasks_preview: examples/tasks_preview.c examples/draw.h examples/tasks.h examples/shapes.h tests/oracle.h $(LIBRARY) | build
 	$(CC) $(ALL_CFLAGS) -o $@ examples/tasks_preview.c -lm
 build/make_assets: examples/make_assets.c examples/shapes.h | build
 	$(CC) $(ALL_CFLAGS) -o $@ examples/make_assets.c -lm
 
-demo: build/quickstart  ## a mug carried past a dish rack: two verdicts and build/demo.svg
+demo: build/quickstart $(PLANNERS)  ## the examples, seconds each: what they find, and a picture each in build/
 	build/quickstart
+	build/dish_insertion
+	build/bimanual_insertion
+	build/mining_site
 
 preview: build/tasks_preview  ## the planning tasks as pictures: build/task_*.svg
 	build/tasks_preview

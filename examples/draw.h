@@ -35,6 +35,7 @@ typedef struct draw_colour {
 } draw_colour;
 
 static const draw_colour draw_steel = {{92, 104, 120}, {222, 228, 236}};
+static const draw_colour draw_iron = {{30, 36, 46}, {128, 138, 152}};
 static const draw_colour draw_china = {{138, 150, 170}, {250, 252, 255}};
 static const draw_colour draw_cream = {{168, 150, 120}, {252, 244, 226}};
 static const draw_colour draw_rock = {{120, 112, 104}, {206, 198, 188}};
@@ -143,8 +144,11 @@ DRAW_DEF void draw_still(draw_list *list, const task_scene *scene) {
     if (rock && center[1] * sin(list->view->azimuth) > 0) continue;
     int wood = strstr(body->name, "beam") || strstr(body->name, "frame") || strstr(body->name, "prop");
     int dark = rock || strstr(body->name, "coal") || strstr(body->name, "heap");
-    int steel = strstr(body->name, "wagon") || !strcmp(body->name, "rack");
-    const draw_colour *colour = wood ? &draw_wood : dark ? &draw_rock : steel ? &draw_steel : &draw_china;
+    const draw_colour *colour = wood                          ? &draw_wood
+                                : dark                        ? &draw_rock
+                                : strstr(body->name, "wagon") ? &draw_steel
+                                : !strcmp(body->name, "rack") ? &draw_iron
+                                                              : &draw_china;
     draw_body(list, body, &body->offset, colour, 1);
   }
 }
@@ -241,7 +245,9 @@ DRAW_DEF void draw_panel(FILE *svg, int x, int y, const draw_view *view) {
 DRAW_DEF void draw_panel_end(FILE *svg, const draw_view *view, const char *caption) {
   fprintf(svg, "</g><rect width=\"%d\" height=\"%d\" rx=\"10\" fill=\"none\" stroke=\"#d5dae1\"/>\n", view->width,
           view->height);
-  fprintf(svg, "<text x=\"16\" y=\"28\" font-size=\"16\" font-weight=\"600\" fill=\"" DRAW_INK "\">%s</text></g>\n",
+  fprintf(svg,
+          "<text x=\"16\" y=\"28\" font-size=\"16\" font-weight=\"600\" fill=\"" DRAW_INK
+          "\" stroke=\"#fff\" stroke-width=\"4\" stroke-linejoin=\"round\" paint-order=\"stroke\">%s</text></g>\n",
           caption);
 }
 // Frame `index` of `count` of a film that repeats every `seconds`; ends with draw_frame_end. Viewers that do not

@@ -1,6 +1,6 @@
 #!/bin/sh
-# The examples as their users run them: the quickstart, `svcd` on good files and on bad ones. Needs build/svcd,
-# build/quickstart and build/make_assets; run from the repository root. Ends with 1 if anything is not as it should be.
+# The examples as their users run them: the quickstart, the planners, `svcd` on good files and on bad ones. Needs
+# `make all build/make_assets`; run from the repository root. Ends with 1 if anything is not as it should be.
 set -u
 dir=$(mktemp -d)
 trap 'rm -rf "$dir"' EXIT
@@ -31,6 +31,24 @@ grep -q 'carried low  -> HITS' "$dir/out" || fail "the mug carried low hits the 
 grep -q 'carried high -> clears' "$dir/out" || fail "the mug carried high clears the rack: $(grep high "$dir/out")"
 tail -1 build/demo.svg | grep -q '^</svg>$' || fail "build/demo.svg is not whole"
 if command -v xmllint >/dev/null; then xmllint --noout build/demo.svg || fail "build/demo.svg is not XML"; fi
+
+# The planners: free motions by the oracle's word (the exit status), and a whole picture.
+for planner in dish_insertion bimanual_insertion mining_site; do
+  rm -f build/$planner.svg
+  expect 0 '' build/$planner
+  grep -q 'the oracle:  free, within the limits, at the goal' "$dir/out" || fail "$planner says: $(tail -2 "$dir/out")"
+  ! grep -q DISAGREE "$dir/out" || fail "$planner: the network and the oracle disagree: $(cat "$dir/out")"
+  tail -1 build/$planner.svg | grep -q '^</svg>$' || fail "build/$planner.svg is not whole"
+  if command -v xmllint >/dev/null; then xmllint --noout build/$planner.svg || fail "build/$planner.svg is not XML"; fi
+  for seed in x -1 1x '' 99999999999999999999; do expect 2 'usage: ' build/$planner "$seed"; done
+  expect 2 'usage: ' build/$planner 1 --help
+  expect 2 'usage: ' build/$planner 1 "$dir/x.svg" 1 2
+  expect 1 'cannot be written' build/$planner 1 "$dir/no folder/x.svg"
+done
+expect 2 'usage: ' build/dish_insertion 1 "$dir/x.svg" 1
+expect 2 'usage: ' build/mining_site 1 "$dir/x.svg" soon
+expect 1 '' build/mining_site 1 "$dir/x.svg" 0  # cancelled by the progress callback
+grep -q 'cancelled' "$dir/out" || fail "mining_site is not cancelled: $(cat "$dir/out")"
 
 # The program in README, as it stands there, as C and C++.
 sed -n '/^```c$/,/^```$/p' README.md | sed '/^```/d' >"$dir/readme.c"
@@ -154,4 +172,4 @@ for option in '--points 0' '--points 513' '--pairs 257' '--pairs x' '--model hug
 done
 
 test "$failures" = 0 || exit 1
-echo "examples: the quickstart and svcd do as they should"
+echo "examples: the quickstart, the planners and svcd do as they should"
