@@ -309,7 +309,8 @@ NSVCDDEF nsvcd_result nsvcd_sweep_gradient(const nsvcd_body *moving, const nsvcd
 NSVCDDEF void nsvcd_spline(const float *control, size_t via_points, size_t joints, float t, size_t derivative,
                            float *out);
 
-// Two bodies that can meet, by their indices. b is the one held fixed in a query: the larger or the resting one.
+// Two bodies that can meet, by their indices. Queries are asked in b's frame, with a moving: take the body that rests,
+// or else the larger one, as b. The other way round costs a little accuracy, as nsvcd_sweep does.
 typedef struct nsvcd_body_pair {
   uint32_t a, b;
 } nsvcd_body_pair;
@@ -318,7 +319,7 @@ typedef enum nsvcd_plan_status {
   NSVCD_PLAN_CONVERGED = 0,  // the trajectory is within the limits and free of collision, as far as the network knows
   NSVCD_PLAN_LIMIT,          // the iterations ended before one was found; this is the best
   NSVCD_PLAN_CANCELLED,      // by the progress callback; this is the best so far
-  NSVCD_PLAN_START,          // the start is out of the limits or in collision: control is a straight line
+  NSVCD_PLAN_START,          // the start is out of the limits or in collision: control is the smoothest way to the goal
   NSVCD_PLAN_GOAL            // the goal is
 } nsvcd_plan_status;
 NSVCDDEF const char *nsvcd_plan_status_string(nsvcd_plan_status status);
@@ -326,25 +327,25 @@ NSVCDDEF const char *nsvcd_plan_status_string(nsvcd_plan_status status);
 typedef struct nsvcd_plan_progress {
   size_t seed, iteration;  // of `iterations` in this stage
   size_t iterations;
-  int refining;  // 0: MPPI, 1: L-BFGS
-  float cost;    // of the best trajectory of this seed; `collision` of it: 0 means free, by the coarse check
-  float collision;
+  int refining;     // 0: MPPI, 1: L-BFGS
+  float cost;       // of the best trajectory of this stage; stages sample differently, and do not compare
+  float collision;  // the part of it that is due to collision: at 0 it is free, as far as the stage's segments show
   const float *control;  // (via_points + 2, F), valid during the call
   size_t via_points;
 } nsvcd_plan_progress;
 
-// A scene: who moves how, and who can meet whom. Nothing else is looked at. All callbacks get `user`; they must be
-// deterministic, and may be called in any order.
+// A scene: who moves how, and who can meet whom. Nothing else is looked at. One `user` serves all callbacks; these must
+// depend on nothing but their arguments and it.
 typedef struct nsvcd_plan_problem {
-  size_t joints;              // F, 1..NSVCD_MAX_JOINTS
-  const float *low, *high;    // (F), limits
-  const float *start, *goal;  // (F)
-  const nsvcd_body *const
-      *bodies;                   // (B). What is grasped moves with the hand because `place` says so: nothing is encoded
-  size_t body_count;             // anew. Ones in no pair may be NULL
+  size_t joints;                    // F, 1..NSVCD_MAX_JOINTS
+  const float *low, *high;          // (F), limits
+  const float *start, *goal;        // (F)
+  const nsvcd_body *const *bodies;  // (B); ones in no pair may be NULL
+  size_t body_count;
   const nsvcd_body_pair *pairs;  // (P)
   size_t pair_count;
-  void (*place)(void *user, const float *joints, nsvcd_pose *poses);  // (F) -> (B), in the world
+  // (F) -> (B), in the world. What is grasped moves with the hand because this says so: nothing is encoded anew.
+  void (*place)(void *user, const float *joints, nsvcd_pose *poses);
   // (F) -> (B, 6, F): per body, by a joint, the displacement of its origin and its rotation vector, in the world's
   // axes. NULL: by differences of `place`.
   void (*jacobian)(void *user, const float *joints, float *jacobian);
@@ -359,47 +360,51 @@ typedef struct nsvcd_plan_problem {
 #define NSVCD_NONE ((size_t)-1)
 typedef struct nsvcd_plan_stage {
   size_t via_points;  // M
-  size_t
-      segments;  // of the trajectory, each swept as one motion; with options.discrete, of which the ends are looked at
+  size_t segments;    // of the trajectory, each swept as one motion; with `discrete`, the ends of these are looked at
   size_t iterations;  // at most; NSVCD_NONE: leave the stage out
   size_t samples;     // trajectories per iteration of MPPI; gradients in a bundle of L-BFGS
 } nsvcd_plan_stage;
 
-// Zero is the default everywhere: that of the paper's dish insertion. Weights that are negative count as zero.
+// Zero is the default everywhere; weights that are negative count as zero. Numbers of the stages are the paper's for
+// dish insertion. If an exact check finds contacts, raise sweep.recall, `collision` or the bodies' number of patches;
+// if the status is LIMIT, `seeds` or explore.samples.
 typedef struct nsvcd_plan_options {
   uint64_t seed;                       // of all random numbers
   size_t seeds;                        // starts, tried until one ends free; 2
   nsvcd_plan_stage explore;            // MPPI: 5, 24, 40, 200
   nsvcd_plan_stage refine;             // L-BFGS: 10, 22, 10, 10
   float velocity, acceleration, jerk;  // weights of the means of squares over the motion: 10, 2, 10
-  float collision;                     // weight of the logits' sum over pairs and segments: 1
+  float collision;                     // weight of the logits' sum over pairs and segments: 20 (the paper's: 1)
   float duration;                      // seconds from start to goal, which only weights the terms above: 20
   float margin;                        // logits above minus this cost: 2
   float spread;                        // of MPPI's first samples, radians or metres, at mid-motion: 0.5
   float bundle;                        // of L-BFGS's gradients: 0.01
   int discrete;                        // poses instead of sweeps
   size_t check;                        // segments of the last check; 4 times the finest stage
-  nsvcd_sweep_options sweep;
+  nsvcd_sweep_options sweep;           // of all queries; recall = 0.999f keeps more distance
 } nsvcd_plan_options;
 
 typedef struct nsvcd_plan_answer {
   nsvcd_plan_status status;
+  int collides;              // by the last check, of the start or the goal where the status says so
+  size_t joint;              // that leaves its limits, or NSVCD_NONE
+  size_t pair;               // of the greatest logit, or NSVCD_NONE
+  float logit;               // greatest of the last check; with a custom cost of collision that cost
+  float time;                // of it, in [0,1]
   float cost, smoothness;    // of the trajectory, the latter without collision and limits
-  float logit;               // greatest of the last check; with a custom collision cost that cost
-  float time;                // where, in [0,1]
-  uint32_t pair;             // and between whom
-  size_t seeds, iterations;  // used, of both stages
+  size_t via_points;         // M of `control`
+  size_t seeds, iterations;  // used; the latter of both stages
   size_t trajectories;       // that were costed
   size_t sweeps;             // queries asked of the network
 } nsvcd_plan_answer;
 
 // Finds a smooth trajectory from start to goal on which no pair meets. control: (M + 2, F) with the M of options.refine
-// (of explore, if that is left out), always written. options: NULL for the defaults. workspace:
-// nsvcd_plan_workspace_size(problem, options) bytes, aligned to NSVCD_ALIGNMENT; 0 if problem or options are refused.
-// Allocates nothing; deterministic; ends within seeds * (iterations of both stages) iterations, of `samples`
-// trajectories, and for L-BFGS 5 more, each. Errors: ARGUMENT (sizes, options, NULL), NUMBER (limits, start or goal
-// not finite), POSE (from `place`), WORKSPACE; then control and answer are not written.
-// Source: MPPI (Williams et al. 2017), then L-BFGS with bundled gradients (Suh et al. 2022); NeuralSVCD, appendix D.
+// (of explore, if that is left out), always written; NSVCD_MAX_VIA_POINTS + 2 rows are always enough. options: NULL for
+// the defaults. workspace: nsvcd_plan_workspace_size(problem, options) bytes, aligned to NSVCD_ALIGNMENT; 0 if problem
+// or options are refused. Allocates nothing; deterministic; ends within seeds * (iterations of both stages) iterations,
+// of `samples` trajectories each, and for L-BFGS 5 more. Errors: ARGUMENT (sizes, options, NULL), NUMBER (limits, start
+// or goal not finite), POSE (from `place`), WORKSPACE; then control and answer are not written. Source: MPPI (Williams
+// et al. 2017), then L-BFGS with bundled gradients (Suh et al. 2022); NeuralSVCD, appendix D.
 NSVCDDEF size_t nsvcd_plan_workspace_size(const nsvcd_plan_problem *problem, const nsvcd_plan_options *options);
 NSVCDDEF nsvcd_result nsvcd_plan(const nsvcd_plan_problem *problem, const nsvcd_plan_options *options, void *workspace,
                                  size_t workspace_size, float *control, nsvcd_plan_answer *answer);
@@ -4392,29 +4397,31 @@ typedef struct nsvcd__planner {
   uint64_t random;
   nsvcd_result error;  // the first that a query or a pose gave
   size_t trajectories, sweeps;
-  float *path;                                              // (samples, F)
-  nsvcd_pose *poses;                                        // (samples, B)
-  nsvcd_pose *moved;                                        // (B)
-  float *tracks;                                            // (B, TRACK, samples)
-  float *boxes;                                             // (B, 6): of a body, in its own axes, low and high
-  float *seen;                                              // (4, samples)
-  uint32_t *order;                                          // (P): of the pairs
-  unsigned char *meets;                                     // (samples)
-  float *wrenches;                                          // (samples, B, 6)
-  float *jacobian;                                          // (B, 6, F)
-  float *by_path;                                           // (F)
-  float *control, *best, *trial, *gradient, *sum, *offset;  // (MAX + 2, F) each
-  float *tries;                                             // (count, M, F)
-  float *costs;                                             // (count)
-  float *steps, *changes;                                   // (HISTORY, M, F) each
-  double *vector;                                           // (M, F)
+  float *path;                                                       // (samples, F)
+  nsvcd_pose *poses;                                                 // (samples, B)
+  nsvcd_pose *moved;                                                 // (B)
+  float *tracks;                                                     // (B, TRACK, samples)
+  float *boxes;                                                      // (B, 6): of a body, in its own axes, low and high
+  float *seen;                                                       // (4, samples)
+  uint32_t *order;                                                   // (P): of the pairs
+  unsigned char *meets;                                              // (samples)
+  float *wrenches;                                                   // (samples, B, 6)
+  float *jacobian;                                                   // (B, 6, F)
+  float *by_path;                                                    // (F)
+  float *result, *control, *best, *trial, *gradient, *sum, *offset;  // (MAX + 2, F) each
+  float *tries;                                                      // (count, M, F)
+  float *costs;                                                      // (count)
+  float *steps, *changes;                                            // (HISTORY, M, F) each
+  double *vector;                                                    // (M, F)
 } nsvcd__planner;
 
 // What a trajectory costs.
 typedef struct nsvcd__cost {
   float total, smoothness, collision;
-  int collides;
+  int collides;  // in segments looked at
+  size_t joint;  // that leaves its limits, or NSVCD_NONE
 } nsvcd__cost;
+static int nsvcd__is_free(const nsvcd__cost *cost) { return !cost->collides && cost->joint == NSVCD_NONE; }
 
 // ---- memory
 
@@ -4431,7 +4438,7 @@ static int nsvcd__stage_of(const nsvcd_plan_stage *given, size_t via, size_t seg
   stage->samples = (given->segments ? given->segments : segments) + 1;
   stage->iterations = given->iterations == NSVCD_NONE ? 0 : given->iterations ? given->iterations : iterations;
   stage->count = given->samples ? given->samples : count;
-  return stage->via <= NSVCD_MAX_VIA_POINTS && stage->samples <= NSVCD_MAX_SEGMENTS + 1 && stage->count <= 100000 &&
+  return stage->via <= NSVCD_MAX_VIA_POINTS && stage->samples <= NSVCD_MAX_SEGMENTS + 1 && stage->count <= 10000 &&
          stage->iterations <= 100000;
 }
 
@@ -4464,7 +4471,8 @@ static int nsvcd__planner_settings(const nsvcd_plan_problem *problem, const nsvc
   if (o->refine.iterations == NSVCD_NONE) p->refine.via = p->explore.via;
   o->seeds = o->seeds ? o->seeds : 2;
   o->velocity = nsvcd__default(o->velocity, 10), o->acceleration = nsvcd__default(o->acceleration, 2);
-  o->jerk = nsvcd__default(o->jerk, 10), o->collision = nsvcd__default(o->collision, 1);
+  o->jerk = nsvcd__default(o->jerk, 10), o->collision = nsvcd__default(o->collision, 20);
+  if (!(o->velocity > 0 || o->acceleration > 0 || o->jerk > 0)) o->velocity = 1e-3f;  // something must be least
   o->duration = o->duration > 0 ? o->duration : 20;
   o->margin = nsvcd__default(o->margin, 2), o->spread = nsvcd__default(o->spread, 0.5f);
   o->bundle = nsvcd__default(o->bundle, 0.01f);
@@ -4506,6 +4514,7 @@ static size_t nsvcd__planner_memory(nsvcd__planner *p, char *base) {
   p->wrenches = (float *)nsvcd__take(base, &used, samples * b * 6 * sizeof(float));
   p->jacobian = (float *)nsvcd__take(base, &used, b * 6 * f * sizeof(float));
   p->by_path = (float *)nsvcd__take(base, &used, f * sizeof(float));
+  p->result = (float *)nsvcd__take(base, &used, point);
   p->control = (float *)nsvcd__take(base, &used, point), p->best = (float *)nsvcd__take(base, &used, point);
   p->trial = (float *)nsvcd__take(base, &used, point), p->gradient = (float *)nsvcd__take(base, &used, point);
   p->sum = (float *)nsvcd__take(base, &used, point), p->offset = (float *)nsvcd__take(base, &used, point);
@@ -4536,16 +4545,15 @@ static void nsvcd__find_boxes(nsvcd__planner *p) {
 static void nsvcd__stage_init(const nsvcd_plan_options *o, nsvcd__stage *stage) {
   const size_t via = stage->via, all = via + 2;
   const double weights[3] = {(double)o->velocity, (double)o->acceleration, (double)o->jerk};
-  double rate = 1, w[NSVCD_MAX_VIA_POINTS + 2], trace = 0;
+  double rate = 1, w[NSVCD_MAX_VIA_POINTS + 2];
   for (size_t k = 0; k < all * all; k++) stage->form[k] = 0;
   for (size_t d = 1; d <= 3; d++) {
     rate /= (double)o->duration * (double)o->duration;
     nsvcd__add_mean_square(via, d, rate * weights[d - 1], stage->form);
   }
-  for (size_t k = 0; k < all; k++) trace += stage->form[k * all + k];
   double *inner = stage->factor;  // in place: row i is read before it is written
   for (size_t i = 0; i < via; i++) {
-    for (size_t j = 0; j < via; j++) inner[i * via + j] = stage->form[(i + 1) * all + j + 1] + (i == j && trace <= 0);
+    for (size_t j = 0; j < via; j++) inner[i * via + j] = stage->form[(i + 1) * all + j + 1];
   }
   nsvcd__cholesky(inner, via, stage->factor);
   stage->deviation = 0;
@@ -4664,7 +4672,7 @@ static void nsvcd__add_wrench(const nsvcd_body_pair *pair, const nsvcd_pose *pos
 // The most suspicious moment of a trajectory.
 typedef struct nsvcd__worst {
   float logit, time;
-  uint32_t pair;
+  size_t pair;
 } nsvcd__worst;
 
 // What the network says of pair k from sample `first` on, over `segments` of them. gradient: (segments + 1, 6), or
@@ -4785,7 +4793,7 @@ static nsvcd__cost nsvcd__cost_of(nsvcd__planner *p, const nsvcd__stage *stage, 
                                   float *gradient, nsvcd__worst *worst) {
   const nsvcd_plan_problem *problem = p->problem;
   const size_t f = problem->joints, all = stage->via + 2, samples = stage->samples, bodies = problem->body_count;
-  nsvcd__cost cost = {0, 0, 0, 0};
+  nsvcd__cost cost = {0, 0, 0, 0, NSVCD_NONE};
   double smoothness = 0;
   p->trajectories++;
   for (size_t j = 0; j < f; j++) {
@@ -4808,7 +4816,7 @@ static nsvcd__cost nsvcd__cost_of(nsvcd__planner *p, const nsvcd__stage *stage, 
       const float out = sum < low + inner ? sum - low - inner : sum > high - inner ? sum - high + inner : 0;
       joints[j] = sum;
       cost.total += share * out * out;
-      if (sum < low - 1e-5f || sum > high + 1e-5f) cost.collides = 1;
+      if (sum < low - 1e-5f || sum > high + 1e-5f) cost.joint = j;
       for (size_t k = 0; gradient && k < all; k++) gradient[k * f + j] += 2 * share * out * w[k];
     }
   }
@@ -4898,17 +4906,22 @@ static float nsvcd__kth_cost(const float *costs, size_t count, size_t k) {
 
 #define NSVCD__PATIENCE 3  // iterations without a gain of 1 %, once the best is free, before MPPI ends
 
-// MPPI from p->control, the mean, on; leaves the best trajectory in p->best. Returns its cost; *cancelled if so.
-static nsvcd__cost nsvcd__explore(nsvcd__planner *p, size_t seed, nsvcd_plan_answer *answer, int *cancelled) {
+// The deviations (F) of a wide change: no more than a quarter of a joint's range.
+static void nsvcd__spread(const nsvcd__planner *p, float *deviations) {
+  for (size_t j = 0; j < p->problem->joints; j++) {
+    const float quarter = 0.25f * (p->problem->high[j] - p->problem->low[j]);
+    deviations[j] = p->options.spread < quarter ? p->options.spread : quarter;
+  }
+}
+
+// MPPI from p->control, the mean, on; leaves the best trajectory in p->best. *cancelled: by the progress callback.
+static void nsvcd__explore(nsvcd__planner *p, size_t seed, nsvcd_plan_answer *answer, int *cancelled) {
   const nsvcd__stage *stage = &p->explore;
   const size_t f = p->problem->joints, via = stage->via, numbers = via * f, elite = stage->count / 10;
   float deviations[NSVCD_MAX_JOINTS], first[NSVCD_MAX_JOINTS], temperature = 0;
   nsvcd__cost best = nsvcd__cost_of(p, stage, p->control, INFINITY, NULL, NULL);
   memcpy(p->best, p->control, (via + 2) * f * sizeof *p->best);
-  for (size_t j = 0; j < f; j++) {  // no more than a quarter of the joint's range
-    const float quarter = 0.25f * (p->problem->high[j] - p->problem->low[j]);
-    first[j] = deviations[j] = p->options.spread < quarter ? p->options.spread : quarter;
-  }
+  nsvcd__spread(p, first), nsvcd__spread(p, deviations);
   float before = best.total;
   size_t waited = 0;
   for (size_t i = 0; i < stage->iterations && !*cancelled && !p->error && waited < NSVCD__PATIENCE; i++) {
@@ -4957,11 +4970,10 @@ static nsvcd__cost nsvcd__explore(nsvcd__planner *p, size_t seed, nsvcd_plan_ans
     nsvcd__change(p, via, p->control, p->sum, 0.9f, p->trial);
     memcpy(p->control, p->trial, (via + 2) * f * sizeof *p->control);
     answer->iterations++;
-    waited = best.collides || best.total < 0.99f * before ? 0 : waited + 1;
+    waited = !nsvcd__is_free(&best) || best.total < 0.99f * before ? 0 : waited + 1;
     before = best.total < 0.99f * before ? best.total : before;
     *cancelled = nsvcd__report(p, seed, i, stage, 0, &best);
   }
-  return best;
 }
 
 // ---- refine
@@ -4994,74 +5006,73 @@ static void nsvcd__bundled_gradient(nsvcd__planner *p, const nsvcd__stage *stage
   }
 }
 
-// L-BFGS's direction for the gradient in p->sum -> p->offset, (M, F). `kept` of `stored` steps are the last ones.
-static void nsvcd__direction(nsvcd__planner *p, const nsvcd__stage *stage, size_t kept, size_t stored) {
+// The n-th step, or change of the gradient along it, of which the last HISTORY are kept.
+static float *nsvcd__remembered(float *history, size_t n, size_t numbers) {
+  return history + n % NSVCD__HISTORY * numbers;
+}
+
+// L-BFGS's direction for the gradient in p->sum -> p->offset, (M, F), from the `kept` steps before step `next`. It
+// starts from half the inverse of the smoothness' form, which is exact where nothing collides.
+static void nsvcd__direction(nsvcd__planner *p, const nsvcd__stage *stage, size_t kept, size_t next) {
   const size_t numbers = stage->via * p->problem->joints;
-  double alpha[NSVCD__HISTORY], scale = 0.5;
+  double alpha[NSVCD__HISTORY];
   float *d = p->offset;
   for (size_t k = 0; k < numbers; k++) d[k] = -p->sum[k];
-  for (size_t n = 0; n < kept; n++) {
-    const float *s = p->steps + (stored - 1 - n) % NSVCD__HISTORY * numbers;
-    const float *y = p->changes + (stored - 1 - n) % NSVCD__HISTORY * numbers;
-    alpha[n] = nsvcd__dot(s, d, numbers) / nsvcd__dot(s, y, numbers);
-    for (size_t k = 0; k < numbers; k++) d[k] -= (float)alpha[n] * y[k];
+  for (size_t n = 1; n <= kept; n++) {
+    const float *s = nsvcd__remembered(p->steps, next - n, numbers);
+    const float *y = nsvcd__remembered(p->changes, next - n, numbers);
+    alpha[n - 1] = nsvcd__dot(s, d, numbers) / nsvcd__dot(s, y, numbers);
+    for (size_t k = 0; k < numbers; k++) d[k] -= (float)alpha[n - 1] * y[k];
   }
   nsvcd__by_metric(p, stage, d);
-  for (size_t k = 0; k < numbers; k++) d[k] *= (float)scale;
-  for (size_t n = kept; n-- > 0;) {
-    const float *s = p->steps + (stored - 1 - n) % NSVCD__HISTORY * numbers;
-    const float *y = p->changes + (stored - 1 - n) % NSVCD__HISTORY * numbers;
+  for (size_t k = 0; k < numbers; k++) d[k] *= 0.5f;
+  for (size_t n = kept; n > 0; n--) {
+    const float *s = nsvcd__remembered(p->steps, next - n, numbers);
+    const float *y = nsvcd__remembered(p->changes, next - n, numbers);
     const double beta = nsvcd__dot(y, d, numbers) / nsvcd__dot(s, y, numbers);
-    for (size_t k = 0; k < numbers; k++) d[k] += (float)(alpha[n] - beta) * s[k];
+    for (size_t k = 0; k < numbers; k++) d[k] += (float)(alpha[n - 1] - beta) * s[k];
   }
 }
 
-// L-BFGS from p->best on, which it improves; `cost` is what that costs.
-static nsvcd__cost nsvcd__refine(nsvcd__planner *p, size_t seed, nsvcd_plan_answer *answer, int *cancelled) {
+// L-BFGS from p->best on, which it improves. Ends early where not even the first direction leads down.
+static void nsvcd__refine(nsvcd__planner *p, size_t seed, nsvcd_plan_answer *answer, int *cancelled) {
   static const float lengths[NSVCD__STEPS] = {1, 0.5f, 0.2f, 0.05f, 0.01f};
   const nsvcd__stage *stage = &p->refine;
-  const size_t f = p->problem->joints, via = stage->via, numbers = via * f, point = (via + 2) * f * sizeof(float);
+  const size_t f = p->problem->joints, numbers = stage->via * f, point = (stage->via + 2) * f * sizeof(float);
   float deviations[NSVCD_MAX_JOINTS];
-  size_t kept = 0, stored = 0, failed = 0;
+  size_t kept = 0, next = 0;
+  int stuck = 0;
   nsvcd__cost best = nsvcd__cost_of(p, stage, p->best, INFINITY, NULL, NULL);
   for (size_t j = 0; j < f; j++) deviations[j] = p->options.bundle;
   // The same offsets at each iteration: the mean is then a function, and its gradients differ by where they are taken.
   for (size_t n = 0; n < stage->count; n++) nsvcd__smooth_noise(p, stage, deviations, p->tries + n * numbers);
-  for (size_t i = 0; i < stage->iterations && failed < 2 && !*cancelled && !p->error; i++) {
-    float *step = p->steps + stored % NSVCD__HISTORY * numbers,
-          *change = p->changes + stored % NSVCD__HISTORY * numbers;
+  for (size_t i = 0; i < stage->iterations && !stuck && !*cancelled && !p->error; i++) {
+    const float before = best.total;
     memcpy(p->control, p->best, point);
     nsvcd__bundled_gradient(p, stage, p->control);
-    if (stored > 0 && i > 0) {
-      // `change` of the last step was left as minus the gradient before it.
-      float *last = p->changes + (stored - 1) % NSVCD__HISTORY * numbers;
-      const float *moved = p->steps + (stored - 1) % NSVCD__HISTORY * numbers;
-      for (size_t k = 0; failed == 0 && k < numbers; k++) last[k] += p->sum[k];
-      if (!(nsvcd__dot(moved, last, numbers) > 1e-12)) stored--, kept = kept ? kept - 1 : 0;
+    if (kept > 0) {  // the last change is known as minus the gradient before it
+      float *change = nsvcd__remembered(p->changes, next - 1, numbers);
+      for (size_t k = 0; k < numbers; k++) change[k] += p->sum[k];
+      if (!(nsvcd__dot(nsvcd__remembered(p->steps, next - 1, numbers), change, numbers) > 1e-12)) next--, kept--;
     }
-    nsvcd__direction(p, stage, kept, stored);
-    (void)step, (void)change;
-    nsvcd__cost found = best;
+    nsvcd__direction(p, stage, kept, next);
     for (size_t n = 0; n < NSVCD__STEPS && !p->error; n++) {
-      nsvcd__change(p, via, p->control, p->offset, lengths[n], p->trial);
-      const nsvcd__cost cost = nsvcd__cost_of(p, stage, p->trial, found.total, NULL, NULL);
-      if (!(cost.total < found.total)) continue;
-      found = cost;
+      nsvcd__change(p, stage->via, p->control, p->offset, lengths[n], p->trial);
+      const nsvcd__cost cost = nsvcd__cost_of(p, stage, p->trial, best.total, NULL, NULL);
+      if (!(cost.total < best.total)) continue;
+      best = cost;
       memcpy(p->best, p->trial, point);
     }
-    if (found.total < best.total) {
-      step = p->steps + stored % NSVCD__HISTORY * numbers, change = p->changes + stored % NSVCD__HISTORY * numbers;
+    if (best.total < before) {
+      float *step = nsvcd__remembered(p->steps, next, numbers), *change = nsvcd__remembered(p->changes, next, numbers);
       for (size_t k = 0; k < numbers; k++) step[k] = p->best[f + k] - p->control[f + k], change[k] = -p->sum[k];
-      stored++, kept = kept < NSVCD__HISTORY ? kept + 1 : kept;
-      failed = 0;
+      next++, kept = kept < NSVCD__HISTORY ? kept + 1 : kept;
     } else {
-      failed++, kept = 0, stored = 0;
+      stuck = kept == 0, kept = 0;
     }
-    best = found;
     answer->iterations++;
     *cancelled = nsvcd__report(p, seed, i, stage, 1, &best);
   }
-  return best;
 }
 
 // ---- plan
@@ -5093,22 +5104,24 @@ static void nsvcd__resample(nsvcd__planner *p, size_t from, size_t to) {
   memcpy(p->best, p->trial, (to + 2) * f * sizeof *p->best);
 }
 
-// Are the joints within the limits, and free of collision?
-static int nsvcd__is_good(nsvcd__planner *p, const float *joints) {
+// Are the joints within the limits, and free of collision? Fills in the answer's facts if not.
+static int nsvcd__is_good(nsvcd__planner *p, const float *joints, nsvcd_plan_answer *answer) {
   const nsvcd_plan_problem *problem = p->problem;
-  int collides = 0;
+  nsvcd__worst worst = {-NSVCD_LOGIT_CERTAIN, 0, NSVCD_NONE};
   for (size_t j = 0; j < problem->joints; j++) {
-    if (joints[j] < problem->low[j] || joints[j] > problem->high[j]) return 0;
+    if (joints[j] < problem->low[j] || joints[j] > problem->high[j]) answer->joint = j;
   }
+  if (answer->joint != NSVCD_NONE) return 0;
   problem->place(problem->user, joints, p->poses);
   if (!nsvcd__poses_are_valid(p->poses, problem->body_count)) p->error = NSVCD_ERROR_POSE;
   if (p->error) return 0;
   if (problem->collision) {
-    problem->collision(problem->user, p->poses, 1, &collides, NULL);
+    worst.logit = problem->collision(problem->user, p->poses, 1, &answer->collides, NULL);
   } else {
-    nsvcd__network_cost(p, 1, INFINITY, &collides, NULL, NULL);
+    nsvcd__network_cost(p, 1, INFINITY, &answer->collides, NULL, &worst);
   }
-  return !collides;
+  answer->logit = worst.logit, answer->pair = worst.pair;
+  return !answer->collides;
 }
 
 NSVCDDEF const char *nsvcd_plan_status_string(nsvcd_plan_status status) {
@@ -5136,7 +5149,7 @@ NSVCDDEF size_t nsvcd_plan_workspace_size(const nsvcd_plan_problem *problem, con
 NSVCDDEF nsvcd_result nsvcd_plan(const nsvcd_plan_problem *problem, const nsvcd_plan_options *options, void *workspace,
                                  size_t workspace_size, float *control, nsvcd_plan_answer *answer) {
   nsvcd__planner planner, *p = &planner;
-  nsvcd_plan_answer found = {NSVCD_PLAN_CONVERGED, 0, 0, 0, 0, 0, 0, 0, 0, 0};
+  nsvcd_plan_answer found = {NSVCD_PLAN_CONVERGED, 0, NSVCD_NONE, NSVCD_NONE, 0, 0, 0, 0, 0, 0, 0, 0, 0};
   int cancelled = 0;
   if (!nsvcd__planner_settings(problem, options, p) || !control || !answer) return NSVCD_ERROR_ARGUMENT;
   if (!workspace || !nsvcd__is_aligned(workspace) || workspace_size < nsvcd__planner_memory(p, (char *)workspace))
@@ -5154,17 +5167,19 @@ NSVCDDEF nsvcd_result nsvcd_plan(const nsvcd_plan_problem *problem, const nsvcd_
   nsvcd__find_boxes(p);
   for (size_t k = 0; k < problem->pair_count; k++) p->order[k] = (uint32_t)k;
   p->random = p->options.seed;
-  if (!nsvcd__is_good(p, problem->start))
+  found.via_points = p->refine.via;
+  if (!nsvcd__is_good(p, problem->start, &found)) {
     found.status = NSVCD_PLAN_START;
-  else if (!nsvcd__is_good(p, problem->goal))
-    found.status = NSVCD_PLAN_GOAL;
+  } else if (!nsvcd__is_good(p, problem->goal, &found)) {
+    found.status = NSVCD_PLAN_GOAL, found.time = 1;
+  }
   nsvcd__smoothest(p, &p->refine, p->best);
-  for (; found.status == NSVCD_PLAN_CONVERGED && found.seeds < p->options.seeds && !p->error; found.seeds++) {
-    nsvcd__worst worst = {-NSVCD_LOGIT_CERTAIN, 0, 0};
+  for (int more = found.status == NSVCD_PLAN_CONVERGED; more && !p->error;) {
+    nsvcd__worst worst = {-NSVCD_LOGIT_CERTAIN, 0, NSVCD_NONE};
     nsvcd__smoothest(p, &p->explore, p->control);
     if (found.seeds > 0) {  // another start
       float deviations[NSVCD_MAX_JOINTS];
-      for (size_t j = 0; j < f; j++) deviations[j] = p->options.spread;
+      nsvcd__spread(p, deviations);
       nsvcd__smooth_noise(p, &p->explore, deviations, p->offset);
       nsvcd__change(p, p->explore.via, p->control, p->offset, 1, p->trial);
       memcpy(p->control, p->trial, (p->explore.via + 2) * f * sizeof(float));
@@ -5173,21 +5188,19 @@ NSVCDDEF nsvcd_result nsvcd_plan(const nsvcd_plan_problem *problem, const nsvcd_
     nsvcd__resample(p, p->explore.via, p->refine.via);
     nsvcd__refine(p, found.seeds, &found, &cancelled);
     const nsvcd__cost cost = nsvcd__cost_of(p, &p->check, p->best, INFINITY, NULL, &worst);
-    if (p->error) break;
-    if (found.seeds == 0 || !cost.collides || cost.total < found.cost) {
-      memcpy(control, p->best, point);
+    const int good = nsvcd__is_free(&cost);
+    if (found.seeds == 0 || good || cost.total < found.cost) {
+      memcpy(p->result, p->best, point);
       found.cost = cost.total, found.smoothness = cost.smoothness;
+      found.collides = cost.collides, found.joint = cost.joint;
       found.logit = worst.logit, found.time = worst.time, found.pair = worst.pair;
     }
-    if (cancelled || !cost.collides) {
-      found.status = cancelled ? NSVCD_PLAN_CANCELLED : NSVCD_PLAN_CONVERGED;
-      found.seeds++;
-      break;
-    }
-    if (found.seeds + 1 == p->options.seeds) found.status = NSVCD_PLAN_LIMIT;
+    found.seeds++;
+    more = !good && !cancelled && found.seeds < p->options.seeds;
+    found.status = cancelled ? NSVCD_PLAN_CANCELLED : good ? NSVCD_PLAN_CONVERGED : NSVCD_PLAN_LIMIT;
   }
   if (p->error) return p->error;
-  if (found.seeds == 0) memcpy(control, p->best, point);
+  memcpy(control, found.seeds ? p->result : p->best, point);
   found.trajectories = p->trajectories, found.sweeps = p->sweeps;
   *answer = found;
   return NSVCD_OK;
