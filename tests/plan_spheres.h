@@ -37,7 +37,12 @@
 
 #define PLAN_SPHERES_DEF static __attribute__((unused))
 #define PLAN_SPHERES_ERROR 2.5e-4f  // metres: a cell is interpolated in if its centre is this near the truth
+// gcc unrolls such short loops before it makes vectors of them, and then finds fewer.
+#if defined(__GNUC__) && !defined(__clang__) && __GNUC__ >= 8
+#define PLAN_SPHERES_EACH(k) _Pragma("GCC unroll 1") for (int k = 0; k < 8; k++)
+#else
 #define PLAN_SPHERES_EACH(k) for (int k = 0; k < 8; k++)
+#endif
 enum { PLAN_SPHERES_CHUNK = 64, PLAN_SPHERES_NODES = 600000 };
 
 typedef struct plan_spheres_eight {
@@ -424,7 +429,8 @@ PLAN_SPHERES_DEF int plan_spheres_init(plan_spheres *s, const task_scene *scene,
   if (!ok) plan_spheres_free(s);
   return ok;
 }
-// The pairs of the selected problem, and the grids that they need. 0 without memory.
+// The pairs of the selected problem, and the grids that they need. 0 without memory, or if a body that was in no pair
+// when the spheres were made now needs some.
 PLAN_SPHERES_DEF int plan_spheres_select(plan_spheres *s, const task_scene *scene) {
   s->pair_count = scene->pair_count;
   for (int i = 0; i < scene->body_count; i++) s->bodies[i].moves = task_moves(&scene->bodies[i]);
@@ -433,6 +439,7 @@ PLAN_SPHERES_DEF int plan_spheres_select(plan_spheres *s, const task_scene *scen
     const plan_spheres_body *of_a = &s->bodies[a], *of_b = &s->bodies[b];
     int swap = of_b->moves && (float)of_b->fit->ball_count / of_b->area > (float)of_a->fit->ball_count / of_a->area;
     s->pairs[k][0] = swap ? b : a, s->pairs[k][1] = swap ? a : b;
+    if (!s->bodies[s->pairs[k][0]].eight_count) return 0;  // a robot's body that was in no pair at first
     plan_spheres_body *fixed = &s->bodies[s->pairs[k][1]];
     if (!fixed->grid.value && !plan_spheres_make_grid(fixed, s->activation + s->most_radius)) return 0;
   }
