@@ -311,12 +311,12 @@ static float plan_spheres_spread(spheres_body *b, const spheres_ball *candidates
 // The n spheres of a body.
 static int plan_spheres_fit(spheres_body *b, const nsvcd_mesh *mesh, size_t n) {
   spheres_body points, best;
-  size_t count = 4 * n > 1000 ? 4 * n : 1000;
+  size_t count = 2 * n > 1000 ? 2 * n : 1000;
   float *gaps = (float *)malloc(count * sizeof *gaps), least = FLT_MAX, extent = 0, volume = 1;
   memset(&points, 0, sizeof points), memset(&best, 0, sizeof best);
   int ok = gaps && spheres_sample(&points, mesh, count);
   for (int i = 0; i < 3; i++) extent = fmaxf(extent, 2 * b->tree->box.half[i]), volume *= 2 * b->tree->box.half[i];
-  for (float voxel = extent; ok && voxel > 0.001f && volume / (voxel * voxel * voxel) < 1e5f; voxel *= 0.8f) {
+  for (float voxel = extent; ok && voxel > 0.001f && volume / (voxel * voxel * voxel) < 5e4f; voxel *= 0.7f) {
     size_t kept = 0;
     b->ball_count = 0;
     ok = spheres_fill(b, voxel);
@@ -324,6 +324,7 @@ static int plan_spheres_fit(spheres_body *b, const nsvcd_mesh *mesh, size_t n) {
     for (size_t i = 0; i < b->ball_count; i++)  // smaller than half a surface point: that does more
       if (b->balls[i].radius >= SPHERES_SURFACE_RADIUS / 2) b->balls[kept++] = b->balls[i];
     b->ball_count = kept;
+    if (kept > 2 * n) break;
     if (4 * kept > 3 * n) continue;
     float gap = plan_spheres_spread(b, points.balls, count, n, gaps);
     if (gap >= least) continue;
@@ -619,7 +620,7 @@ PLAN_SPHERES_DEF float plan_spheres_cost(plan_spheres *s, const nsvcd_pose *pose
                                          float *gradient) {
   double begin = plan_spheres_now(), cost = 0;
   for (size_t first = 0; first < samples; first += PLAN_SPHERES_CHUNK) {
-    size_t count = samples - first < PLAN_SPHERES_CHUNK ? samples - first : PLAN_SPHERES_CHUNK;
+    size_t left = samples - first, count = left < PLAN_SPHERES_CHUNK ? left : (size_t)PLAN_SPHERES_CHUNK;
     size_t row = first * (size_t)s->body_count;
     plan_spheres_place(s, poses + row, count);
     for (int k = 0; k < s->pair_count; k++)
