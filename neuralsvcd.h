@@ -349,10 +349,10 @@ typedef struct nsvcd_plan_problem {
   // (F) -> (B, 6, F): per body, by a joint, the displacement of its origin and its rotation vector, in the world's
   // axes. NULL: by differences of `place`.
   void (*jacobian)(void *user, const float *joints, float *jacobian);
-  // Instead of the network: the cost of collision of poses (samples, B), along the trajectory, whether it collides,
-  // and, unless `gradient` is NULL, its derivative (samples, B, 6), as nsvcd_sweep_gradient's, to be added. NULL: the
-  // network.
-  float (*collision)(void *user, const nsvcd_pose *poses, size_t samples, int *collides, float *gradient);
+  // Instead of the network: the cost of collision of poses (samples, B) along the trajectory, which may end at the
+  // first sum above `limit`; sets *collides if there is a collision, and, unless `gradient` is NULL, adds the cost's
+  // derivative to it, (samples, B, 6), as nsvcd_sweep_gradient has it. NULL: the network.
+  float (*collision)(void *user, const nsvcd_pose *poses, size_t samples, float limit, int *collides, float *gradient);
   int (*progress)(void *user, const nsvcd_plan_progress *progress);  // once per iteration; not 0 cancels. May be NULL
   void *user;
 } nsvcd_plan_problem;
@@ -4829,13 +4829,13 @@ static nsvcd__cost nsvcd__cost_of(nsvcd__planner *p, const nsvcd__stage *stage, 
     return cost;
   }
   const float weight = p->options.collision;
+  const float left = weight > 0 ? (limit - cost.total) / weight : INFINITY;
   NSVCD__TALLY(collision, 0);  // begins
   if (problem->collision) {
-    cost.collision = problem->collision(problem->user, p->poses, samples, &cost.collides, wrenches);
+    cost.collision = problem->collision(problem->user, p->poses, samples, left, &cost.collides, wrenches);
     if (worst) worst->logit = cost.collision;
   } else {
-    cost.collision = nsvcd__network_cost(p, samples, weight > 0 ? (limit - cost.total) / weight : limit, &cost.collides,
-                                         wrenches, worst);
+    cost.collision = nsvcd__network_cost(p, samples, left, &cost.collides, wrenches, worst);
   }
   NSVCD__TALLY(collision, 1);  // ends
   cost.total += weight * cost.collision;
@@ -5116,7 +5116,7 @@ static int nsvcd__is_good(nsvcd__planner *p, const float *joints, nsvcd_plan_ans
   if (!nsvcd__poses_are_valid(p->poses, problem->body_count)) p->error = NSVCD_ERROR_POSE;
   if (p->error) return 0;
   if (problem->collision) {
-    worst.logit = problem->collision(problem->user, p->poses, 1, &answer->collides, NULL);
+    worst.logit = problem->collision(problem->user, p->poses, 1, INFINITY, &answer->collides, NULL);
   } else {
     nsvcd__network_cost(p, 1, INFINITY, &answer->collides, NULL, &worst);
   }

@@ -7,8 +7,8 @@
 //   plan_spheres s;
 //   if (!plan_spheres_init(&s, &scene, 397, 400, 0.04f, 1, 0)) ...     // once per scene
 //   if (!plan_spheres_select(&s, &scene)) ...                         // after each task_select
-//   cost = plan_spheres_cost(&s, poses, samples, &collides, gradient);  // allocates nothing; one thread per struct
-//   plan_spheres_free(&s);
+//   cost = plan_spheres_cost(&s, poses, samples, limit, &collides, gradient);  // allocates nothing; one thread per
+//   struct plan_spheres_free(&s);
 //
 // Cost. Per pair, sample and sphere, with d = the signed distance of its centre from the other body's mesh, less its
 // radius: 0 from the activation distance e on, (e - d)^2 / 2e nearer than that, e/2 - d in contact: cuRobo's. The
@@ -616,14 +616,14 @@ static float plan_spheres_pair(plan_spheres *s, int ia, int ib, size_t samples, 
   return cost;
 }
 // nsvcd_plan_problem.collision, but for `user`. collides: set to 1 if so, else left alone.
-PLAN_SPHERES_DEF float plan_spheres_cost(plan_spheres *s, const nsvcd_pose *poses, size_t samples, int *collides,
-                                         float *gradient) {
+PLAN_SPHERES_DEF float plan_spheres_cost(plan_spheres *s, const nsvcd_pose *poses, size_t samples, float limit,
+                                         int *collides, float *gradient) {
   double begin = plan_spheres_now(), cost = 0;
   for (size_t first = 0; first < samples; first += PLAN_SPHERES_CHUNK) {
     size_t left = samples - first, count = left < PLAN_SPHERES_CHUNK ? left : (size_t)PLAN_SPHERES_CHUNK;
     size_t row = first * (size_t)s->body_count;
     plan_spheres_place(s, poses + row, count);
-    for (int k = 0; k < s->pair_count; k++)
+    for (int k = 0; k < s->pair_count && s->weight * (float)cost <= limit; k++)
       cost += (double)plan_spheres_pair(s, s->pairs[k][0], s->pairs[k][1], count, collides,
                                         gradient ? gradient + 6 * row : NULL);
   }

@@ -149,7 +149,7 @@ static void plan_spheres_cost_is_the_formulas(void) {
       int collides = 0;
       plan_spheres_random(&plan_spheres_scene, n / 2 ? 0.02 : 0.3, joints);
       task_place(&plan_spheres_scene, joints, poses);
-      double cost = (double)plan_spheres_cost(&plan_spheres_tested, poses, 1, &collides, NULL) / 2;
+      double cost = (double)plan_spheres_cost(&plan_spheres_tested, poses, 1, HUGE_VALF, &collides, NULL) / 2;
       double expected = plan_spheres_formula(&plan_spheres_tested, &plan_spheres_scene, poses, slack, &change, &least);
       CHECK_NEAR(cost, expected, change + 1e-5 * expected + 1e-6);
       CHECK(collides ? least < slack : least > -slack);
@@ -172,7 +172,7 @@ static float plan_spheres_shifted(const nsvcd_pose *poses, int body, int k, doub
     oracle_quat_mul(turn, old, out);
     for (int j = 0; j < 4; j++) moved[body].rotation[j] = (float)out[j];
   }
-  return plan_spheres_cost(&plan_spheres_tested, moved, 1, &collides, NULL);
+  return plan_spheres_cost(&plan_spheres_tested, moved, 1, HUGE_VALF, &collides, NULL);
 }
 static void plan_spheres_gradient_is_the_costs(void) {
   static nsvcd_pose poses[TASK_MAX_BODIES];
@@ -187,7 +187,7 @@ static void plan_spheres_gradient_is_the_costs(void) {
       plan_spheres_random(&plan_spheres_scene, n / 2 ? 0.02 : 0.2, joints);
       task_place(&plan_spheres_scene, joints, poses);
       memset(gradient, 0, sizeof gradient);
-      plan_spheres_cost(&plan_spheres_tested, poses, 1, &collides, gradient);
+      plan_spheres_cost(&plan_spheres_tested, poses, 1, HUGE_VALF, &collides, gradient);
       for (int i = 0; i < count; i++)
         for (int j = 0; j < 6; j++) {
           double step = n % 2 ? 2e-4 : 1e-3, by_steps = (double)(plan_spheres_shifted(poses, i, j, step, count) -
@@ -210,7 +210,7 @@ static void plan_spheres_far_is_free(void) {
   for (int i = 0; i < 3 * count; i++) {  // 3 m from each other
     poses[i].position[0] = 3 * (float)(i % count), poses[i].rotation[3] = 1;
   }
-  CHECK_EQ(plan_spheres_cost(&plan_spheres_tested, poses, 3, &collides, gradient), 0);
+  CHECK_EQ(plan_spheres_cost(&plan_spheres_tested, poses, 3, HUGE_VALF, &collides, gradient), 0);
   CHECK_EQ(collides, 0);
   for (int i = 0; i < 18 * count; i++) CHECK_EQ(gradient[i], 0);
   // Starts and goals keep 3 mm from everything: no sphere stands out by more than 2.
@@ -219,7 +219,7 @@ static void plan_spheres_far_is_free(void) {
     CHECK(plan_spheres_select(&plan_spheres_tested, &plan_spheres_scene));
     task_place(&plan_spheres_scene, plan_spheres_scene.problems[k].start, poses);
     task_place(&plan_spheres_scene, plan_spheres_scene.problems[k].goal, poses + count);
-    CHECK_GE(plan_spheres_cost(&plan_spheres_tested, poses, 2, &collides, NULL), 1e-6);
+    CHECK_GE(plan_spheres_cost(&plan_spheres_tested, poses, 2, HUGE_VALF, &collides, NULL), 1e-6);
     CHECK_EQ(collides, 0);
   }
 }
