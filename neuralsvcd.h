@@ -365,19 +365,19 @@ typedef struct nsvcd_plan_stage {
   size_t samples;     // trajectories per iteration of MPPI; gradients in a bundle of L-BFGS
 } nsvcd_plan_stage;
 
-// Zero is the default everywhere; weights that are negative count as zero. Numbers of the stages are the paper's for
-// dish insertion. If an exact check finds contacts, raise sweep.recall, `collision` or the bodies' number of patches;
+// Zero is the default everywhere, as tests/plan_bench.c found it good; weights that are negative count as zero. If an
+// exact check finds contacts, raise sweep.recall, `collision` or the bodies' number of patches;
 // if the status is LIMIT, `seeds` or explore.samples.
 typedef struct nsvcd_plan_options {
   uint64_t seed;                       // of all random numbers
-  size_t seeds;                        // starts, tried until one ends free; 2
-  nsvcd_plan_stage explore;            // MPPI: 5, 24, 40, 200
+  size_t seeds;                        // starts, tried until one ends free; 6
+  nsvcd_plan_stage explore;            // MPPI: 5, 24, 40, 100
   nsvcd_plan_stage refine;             // L-BFGS: 10, 22, 10, 10
   float velocity, acceleration, jerk;  // weights of the means of squares over the motion: 10, 2, 10
   float collision;                     // weight of the logits' sum over pairs and segments: 20 (the paper's: 1)
   float duration;                      // seconds from start to goal, which only weights the terms above: 20
   float margin;                        // logits above minus this cost: 2
-  float spread;                        // of MPPI's first samples, radians or metres, at mid-motion: 0.5
+  float spread;                        // of MPPI's first samples, radians or metres, at mid-motion: 0.3
   float bundle;                        // of L-BFGS's gradients: 0.01
   int discrete;                        // poses instead of sweeps
   size_t check;                        // segments of the last check; 4 times the finest stage
@@ -4466,15 +4466,15 @@ static int nsvcd__planner_settings(const nsvcd_plan_problem *problem, const nsvc
   for (size_t k = 0; k < 9; k++) {
     if (!nsvcd__is_finite(floats[k])) return 0;
   }
-  if (!nsvcd__stage_of(&o->explore, 5, 24, 40, 200, &p->explore)) return 0;
+  if (!nsvcd__stage_of(&o->explore, 5, 24, 40, 100, &p->explore)) return 0;
   if (!nsvcd__stage_of(&o->refine, 10, 22, 10, 10, &p->refine)) return 0;
   if (o->refine.iterations == NSVCD_NONE) p->refine.via = p->explore.via;
-  o->seeds = o->seeds ? o->seeds : 2;
+  o->seeds = o->seeds ? o->seeds : 6;
   o->velocity = nsvcd__default(o->velocity, 10), o->acceleration = nsvcd__default(o->acceleration, 2);
   o->jerk = nsvcd__default(o->jerk, 10), o->collision = nsvcd__default(o->collision, 20);
   if (!(o->velocity > 0 || o->acceleration > 0 || o->jerk > 0)) o->velocity = 1e-3f;  // something must be least
   o->duration = o->duration > 0 ? o->duration : 20;
-  o->margin = nsvcd__default(o->margin, 2), o->spread = nsvcd__default(o->spread, 0.5f);
+  o->margin = nsvcd__default(o->margin, 2), o->spread = nsvcd__default(o->spread, 0.3f);
   o->bundle = nsvcd__default(o->bundle, 0.01f);
   p->check = p->refine;
   const size_t finest = p->explore.samples > p->refine.samples ? p->explore.samples : p->refine.samples;
