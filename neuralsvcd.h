@@ -4584,8 +4584,8 @@ static void nsvcd__relative_pose(const nsvcd_pose *a, const nsvcd_pose *b, nsvcd
   out->rotation[3] = q[3] * p[3] + q[0] * p[0] + q[1] * p[1] + q[2] * p[2];
 }
 
-// Tracks of all bodies: the bounding sphere's centre, the pose as origin and matrix, and how much the way to the next
-// sample bends: a point that turns leaves its chord by no more than its arm times 1 - cos of half the angle.
+// Tracks of all bodies: from the origin to the bounding sphere's centre, the pose as origin and matrix, and how much
+// the way to the next sample bends: the root of 1 - cos of half the angle.
 static void nsvcd__track_bodies(nsvcd__planner *p, size_t samples) {
   const size_t bodies = p->problem->body_count;
   for (size_t b = 0; b < bodies; b++) {
@@ -4598,18 +4598,22 @@ static void nsvcd__track_bodies(nsvcd__planner *p, size_t samples) {
       float m[9], turned[3];
       nsvcd__quat_to_matrix(q, m), nsvcd__mul33_vec(m, body->centre, turned);
       for (size_t k = 0; k < 3; k++) {
-        track[(NSVCD__CENTRE + k) * samples + s] = pose->position[k] + turned[k];
+        track[(NSVCD__CENTRE + k) * samples + s] = turned[k];
         track[(NSVCD__ORIGIN + k) * samples + s] = pose->position[k];
       }
       for (size_t k = 0; k < 9; k++) track[(NSVCD__AXES + k) * samples + s] = m[k];
       const float bend = 1.000001f - fabsf(q[0] * r[0] + q[1] * r[1] + q[2] * r[2] + q[3] * r[3]);
-      track[NSVCD__BEND * samples + s] = bend > 0 ? bend : 0;
+      track[NSVCD__BEND * samples + s] = sqrtf(bend > 0 ? bend : 0);
     }
   }
 }
 
-// Clears p->meets for the segments (stride 1) or samples (0) in which a's bounding sphere stays away from b's box.
-static void nsvcd__meet_box(nsvcd__planner *p, size_t a, size_t b, size_t samples, size_t stride) {
+// Clears p->meets for the segments (stride 1) or samples (0) in which a's bounding sphere stays away from b's box. The
+// motion is the query's, in which one of them rests: a's origin goes straight as seen from it, and a turns by an angle
+// c relative to it. If that is b, a's centre leaves its chord by no more than its arm * (1 - cos(c / 2)). If it is a
+// itself (`resting`), a's centre v as b sees it turns while it goes: by no more than c^2 |v| / 8 + c |dv| / 4, where dv
+// is what it goes in its own axes, itself no more than in b's axes + c |v|.
+static void nsvcd__meet_box(nsvcd__planner *p, size_t a, size_t b, int resting, size_t samples, size_t stride) {
   const nsvcd_body *body = p->problem->bodies[a];
   const float *from = p->tracks + NSVCD__TRACK * samples * a, *to = p->tracks + NSVCD__TRACK * samples * b;
   const float *box = p->boxes + 6 * b, *axes = to + NSVCD__AXES * samples;
@@ -4618,7 +4622,8 @@ static void nsvcd__meet_box(nsvcd__planner *p, size_t a, size_t b, size_t sample
   for (size_t s = 0; s < samples; s++) {
     float d[3], square = 0;
     for (size_t k = 0; k < 3; k++) {
-      d[k] = from[(NSVCD__CENTRE + k) * samples + s] - to[(NSVCD__ORIGIN + k) * samples + s];
+      d[k] = from[(NSVCD__ORIGIN + k) * samples + s] - to[(NSVCD__ORIGIN + k) * samples + s] +
+             from[(NSVCD__CENTRE + k) * samples + s];
       square += d[k] * d[k];
     }
     for (size_t k = 0; k < 3; k++) {
@@ -4628,9 +4633,14 @@ static void nsvcd__meet_box(nsvcd__planner *p, size_t a, size_t b, size_t sample
     x[3 * samples + s] = sqrtf(square);
   }
   for (size_t s = 0; s + stride < samples; s++) {
-    const float bend_a = from[NSVCD__BEND * samples + s], bend_b = to[NSVCD__BEND * samples + s];
-    const float reach =
-        radius + (float)stride * (arm * bend_a + (x[3 * samples + s] + x[3 * samples + s + stride]) * bend_b);
+    // The roots of 1 - cos of half an angle: that of the sum of two angles is no more than their sum, and c < 3.15
+    // bend.
+    const float bend = from[NSVCD__BEND * samples + s] + to[NSVCD__BEND * samples + s];
+    float way = 0;
+    for (size_t k = 0; k < 3; k++) way += fabsf(x[k * samples + s + stride] - x[k * samples + s]);
+    const float far = x[3 * samples + s] + x[3 * samples + s + stride];
+    const float leaves = resting ? (3.75f * bend * far + 0.8f * way) * bend : arm * bend * bend;
+    const float reach = radius + (float)stride * leaves;
     int apart = 0;
     for (size_t k = 0; k < 3; k++) {
       const float u = x[k * samples + s], v = x[k * samples + s + stride];
@@ -4643,8 +4653,8 @@ static void nsvcd__meet_box(nsvcd__planner *p, size_t a, size_t b, size_t sample
 // Marks the segments, or with stride 0 the samples, in which a pair may meet.
 static void nsvcd__find_meetings(nsvcd__planner *p, const nsvcd_body_pair *pair, size_t samples, size_t stride) {
   memset(p->meets, 1, samples);
-  nsvcd__meet_box(p, pair->a, pair->b, samples, stride);
-  nsvcd__meet_box(p, pair->b, pair->a, samples, stride);
+  nsvcd__meet_box(p, pair->a, pair->b, 0, samples, stride);
+  nsvcd__meet_box(p, pair->b, pair->a, 1, samples, stride);
 }
 
 // What a logit costs: nothing far below zero, its excess over -margin above; and the derivative by the logit.
