@@ -4435,10 +4435,11 @@ static void *nsvcd__take(char *base, size_t *used, size_t bytes) {
 static int nsvcd__stage_of(const nsvcd_plan_stage *given, size_t via, size_t segments, size_t iterations, size_t count,
                            nsvcd__stage *stage) {
   stage->via = given->via_points ? given->via_points : via;
-  stage->samples = (given->segments ? given->segments : segments) + 1;
+  const size_t pieces = given->segments ? given->segments : segments;
+  stage->samples = pieces + 1;
   stage->iterations = given->iterations == NSVCD_NONE ? 0 : given->iterations ? given->iterations : iterations;
   stage->count = given->samples ? given->samples : count;
-  return stage->via <= NSVCD_MAX_VIA_POINTS && stage->samples <= NSVCD_MAX_SEGMENTS + 1 && stage->count <= 10000 &&
+  return stage->via <= NSVCD_MAX_VIA_POINTS && pieces <= NSVCD_MAX_SEGMENTS && stage->count <= 10000 &&
          stage->iterations <= 100000;
 }
 
@@ -4478,8 +4479,9 @@ static int nsvcd__planner_settings(const nsvcd_plan_problem *problem, const nsvc
   o->bundle = nsvcd__default(o->bundle, 0.01f);
   p->check = p->refine;
   const size_t finest = p->explore.samples > p->refine.samples ? p->explore.samples : p->refine.samples;
-  p->check.samples = (o->check ? o->check : 4 * (finest - 1)) + 1;
-  return p->check.samples <= 4 * NSVCD_MAX_SEGMENTS + 1 && o->seeds <= 1000;
+  o->check = o->check ? o->check : 4 * (finest - 1);
+  p->check.samples = o->check + 1;
+  return o->check <= 4 * NSVCD_MAX_SEGMENTS && o->seeds <= 1000;
 }
 
 static void nsvcd__stage_memory(nsvcd__stage *stage, char *base, size_t *used) {
