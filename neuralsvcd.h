@@ -4467,6 +4467,8 @@ static int nsvcd__planner_settings(const nsvcd_plan_problem *problem, const nsvc
   for (size_t k = 0; k < 9; k++) {
     if (!nsvcd__is_finite(floats[k])) return 0;
   }
+  nsvcd__settings unused;
+  if (nsvcd__settings_of(&o->sweep, 1, 1, &unused)) return 0;
   if (!nsvcd__stage_of(&o->explore, 5, 24, 40, 200, &p->explore)) return 0;
   if (!nsvcd__stage_of(&o->refine, 10, 22, 10, 10, &p->refine)) return 0;
   if (o->refine.iterations == NSVCD_NONE) p->refine.via = p->explore.via;
