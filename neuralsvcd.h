@@ -4532,7 +4532,7 @@ static size_t nsvcd__planner_memory(nsvcd__planner *p, char *base) {
 
 // The boxes of all bodies' patches.
 static void nsvcd__find_boxes(nsvcd__planner *p) {
-  for (size_t b = 0; !p->problem->collision && b < p->problem->body_count; b++) {
+  for (size_t b = 0; !p->problem->collision && p->problem->bodies && b < p->problem->body_count; b++) {
     const nsvcd_body *body = p->problem->bodies[b];
     float *box = p->boxes + 6 * b;
     for (size_t k = 0; body && k < 3; k++) {
@@ -4592,7 +4592,7 @@ static void nsvcd__relative_pose(const nsvcd_pose *a, const nsvcd_pose *b, nsvcd
 // the way to the next sample bends: the root of 1 - cos of half the angle.
 static void nsvcd__track_bodies(nsvcd__planner *p, size_t samples) {
   const size_t bodies = p->problem->body_count;
-  for (size_t b = 0; b < bodies; b++) {
+  for (size_t b = 0; p->problem->bodies && b < bodies; b++) {
     const nsvcd_body *body = p->problem->bodies[b];
     float *track = p->tracks + NSVCD__TRACK * samples * b;
     if (!body) continue;
