@@ -4802,6 +4802,20 @@ static int nsvcd__by_joints(nsvcd__planner *p, const float *joints, const nsvcd_
   return 1;
 }
 
+// The poses of all bodies (samples, B), their quaternions made of unit length, from the joints (samples, F).
+static void nsvcd__place(nsvcd__planner *p, const float *joints, size_t samples) {
+  const nsvcd_plan_problem *problem = p->problem;
+  const size_t bodies = problem->body_count;
+  for (size_t s = 0; s < samples; s++) {
+    problem->place(problem->user, joints + s * problem->joints, p->poses + s * bodies);
+  }
+  if (bodies > 0 && !nsvcd__poses_are_valid(p->poses, samples * bodies)) {
+    p->error = NSVCD_ERROR_POSE;
+    return;
+  }
+  for (size_t k = 0; k < samples * bodies; k++) nsvcd__quat_normalize(p->poses[k].rotation, p->poses[k].rotation);
+}
+
 // What the trajectory costs, up to `limit`: a sum beyond it is not finished. gradient: (M + 2, F), written, or NULL.
 static nsvcd__cost nsvcd__cost_of(nsvcd__planner *p, const nsvcd__stage *stage, const float *control, float limit,
                                   float *gradient, nsvcd__worst *worst) {
@@ -4835,13 +4849,10 @@ static nsvcd__cost nsvcd__cost_of(nsvcd__planner *p, const nsvcd__stage *stage, 
     }
   }
   if (cost.total > limit || p->error) return cost;
-  for (size_t s = 0; s < samples; s++) problem->place(problem->user, p->path + s * f, p->poses + s * bodies);
+  nsvcd__place(p, p->path, samples);
+  if (p->error) return cost;
   float *wrenches = gradient ? p->wrenches : NULL;
   if (gradient) memset(wrenches, 0, samples * bodies * 6 * sizeof *wrenches);
-  if (!nsvcd__poses_are_valid(p->poses, samples * bodies)) {
-    p->error = NSVCD_ERROR_POSE;
-    return cost;
-  }
   const float weight = p->options.collision;
   NSVCD__TALLY(collision, 0);  // begins
   if (problem->collision) {
@@ -5126,8 +5137,7 @@ static int nsvcd__is_good(nsvcd__planner *p, const float *joints, nsvcd_plan_ans
     if (joints[j] < problem->low[j] || joints[j] > problem->high[j]) answer->joint = j;
   }
   if (answer->joint != NSVCD_NONE) return 0;
-  problem->place(problem->user, joints, p->poses);
-  if (!nsvcd__poses_are_valid(p->poses, problem->body_count)) p->error = NSVCD_ERROR_POSE;
+  nsvcd__place(p, joints, 1);
   if (p->error) return 0;
   if (problem->collision) {
     worst.logit = problem->collision(problem->user, p->poses, 1, &answer->collides, NULL);
