@@ -4907,7 +4907,7 @@ static void nsvcd__change(const nsvcd__planner *p, size_t via, const float *cont
   memcpy(out, control, (via + 2) * f * sizeof *out);
   for (size_t k = 0; k < via * f; k++) {
     const float x = control[f + k] + scale * offset[k], low = p->problem->low[k % f], high = p->problem->high[k % f];
-    out[f + k] = x < low ? low : x > high ? high : x;
+    out[f + k] = x < low ? low : x < high ? x : high;  // high where x is not a number
   }
 }
 
