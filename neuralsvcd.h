@@ -4280,7 +4280,7 @@ static void nsvcd__spline_weights(size_t via, double t, size_t derivative, doubl
   static const double basis[6][6] = {{1, 0, 0, -10, 15, -6}, {0, 1, 0, -6, 8, -3}, {0, 0, 0.5, -1.5, 1.5, -0.5},
                                      {0, 0, 0, 10, -15, 6},  {0, 0, 0, -4, 7, -3}, {0, 0, 0, 0.5, -1, 0.5}};
   const size_t last = via + 1;
-  const double at = (t < 0 ? 0 : t > 1 ? 1 : t) * (double)last;
+  const double at = (t > 0 ? (t < 1 ? t : 1) : 0) * (double)last;
   const size_t left = (size_t)at < last ? (size_t)at : last - 1;
   const double u = at - (double)left;
   double scale = 1;
