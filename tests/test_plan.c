@@ -622,6 +622,7 @@ static void plan_culling_misses_nothing(void) {
   for (int n = 0; n < 600; n++) {
     const size_t samples = 9;
     plan_random_poses(&rng, p, samples, shapes_uniform(&rng, 0.1, 1), n % 3 == 0 ? 0.1 : n % 3 == 1 ? 0.6 : 2);
+    for (size_t i = 0; n % 5 == 0 && i < samples * 6; i++) p->poses[i].position[1] += 1e5f;  // far off, and rounded
     nsvcd__track_bodies(p, samples);
     for (uint32_t k = 0; k < s.problem.pair_count; k++) {
       for (size_t stride = 0; stride < 2; stride++) {
@@ -642,4 +643,486 @@ static void plan_culling_misses_nothing(void) {
   CHECK_GE(culled, 0.2 * (segments - uncertain));  // else it culls nothing
   CHECK_GE(uncertain, 1000);
   plan_close(&in);
+}
+
+// The collision cost of a trajectory is the sum over pairs and segments, as if nothing were culled; but for the segments
+// of a run that as one motion is answered at most -margin: these count as free. So it is never more than the sum.
+static void plan_cost_is_the_sum_over_segments(void) {
+  static plan_scene s;
+  shapes_rng rng = {31};
+  plan_inside in;
+  int equal = 0, total = 0, dropped = 0, dropped_hits = 0, costly = 0;
+  plan_begin(&s, PLAN_ARMS, 4);
+  s.bodies[0] = s.bodies[1] = s.bodies[2] = plan_body(PLAN_LINK), s.bodies[3] = plan_body(PLAN_BOX);
+  s.rest[3] = query_pose(0.3, 0.25, 0);
+  plan_pair(&s, 1, 2), plan_pair(&s, 1, 3), plan_pair(&s, 0, 3), plan_pair(&s, 2, 0);
+  if (!plan_open(&s, &in)) return;
+  nsvcd__planner *p = &in.planner;
+  const nsvcd__stage *stage = &p->refine;
+  for (int n = 0; n < 400; n++) {
+    float control[PLAN_VIA * PLAN_JOINTS], gradient[PLAN_VIA * PLAN_JOINTS], slope;
+    double sum = 0, without = 0;
+    int collides = 0, collides_at_all = 0, dropped_here = 0;
+    plan_random_numbers(&rng, (stage->via + 2) * s.problem.joints, 0.6, control);
+    const nsvcd__cost cost = nsvcd__cost_of(p, stage, control, INFINITY, NULL, NULL);
+    const nsvcd__cost again = nsvcd__cost_of(p, stage, control, INFINITY, gradient, NULL);
+    CHECK_NEAR(cost.collision, again.collision, 1e-5 * (double)cost.collision);
+    CHECK_EQ(cost.collides, again.collides);
+    for (uint32_t k = 0; k < s.problem.pair_count; k++) {
+      unsigned char meets[64] = {0}, runs[64];
+      nsvcd__find_meetings(p, &s.pairs[k], stage->samples, 1);
+      memcpy(meets, p->meets, stage->samples - 1), memset(runs, 0, sizeof runs);
+      for (size_t i = 0; i + 1 < stage->samples;) {  // which runs are clear
+        size_t length = 0;
+        while (length < 8 && i + length + 1 < stage->samples && meets[i + length]) length++;
+        if (length > 1 && nsvcd__ask(p, k, i, length, NULL).logit <= -p->options.margin) memset(runs + i, 1, length);
+        i += length ? length : 1;
+      }
+      for (size_t i = 0; i + 1 < stage->samples; i++) {
+        const nsvcd_answer answer = nsvcd__ask(p, k, i, 1, NULL);
+        const double share = (double)nsvcd__cost_of_logit(answer.logit, p->options.margin, &slope);
+        sum += share, collides_at_all |= answer.collides, costly += share > 0;
+        if (!meets[i]) CHECK_EQ(share, 0);
+        if (runs[i]) {
+          without += share, dropped += share > 0, dropped_hits += answer.collides, dropped_here += share > 0;
+        } else {
+          collides |= answer.collides;
+        }
+      }
+    }
+    CHECK_NEAR(cost.collision, sum - without, 1e-5 * sum + 1e-6);
+    CHECK_EQ(cost.collides, collides);
+    CHECK(cost.collides <= collides_at_all);
+    total++, equal += !dropped_here;
+  }
+  printf("  %d of %d trajectories cost the sum; of %d segments that cost, %d (%d collide) lie in runs that do not\n", equal,
+         total, costly, dropped, dropped_hits);
+  CHECK_EQ(p->error, NSVCD_OK);
+  CHECK_GE(equal, 0.8 * total);
+  CHECK_GE(costly, 500);
+  plan_close(&in);
+}
+
+// A sum that exceeds the limit is cut short, never one below it.
+static void plan_cost_stops_at_its_limit(void) {
+  static plan_scene s;
+  shapes_rng rng = {32};
+  plan_inside in;
+  int cut = 0;
+  plan_begin(&s, PLAN_ARMS, 4);
+  s.bodies[0] = s.bodies[1] = s.bodies[2] = plan_body(PLAN_LINK), s.bodies[3] = plan_body(PLAN_BOX);
+  s.rest[3] = query_pose(0.3, 0.25, 0);
+  plan_pair(&s, 1, 2), plan_pair(&s, 1, 3);
+  if (!plan_open(&s, &in)) return;
+  nsvcd__planner *p = &in.planner;
+  for (int n = 0; n < 200; n++) {
+    float control[PLAN_VIA * PLAN_JOINTS];
+    plan_random_numbers(&rng, (p->refine.via + 2) * s.problem.joints, 0.5, control);
+    const nsvcd__cost whole = nsvcd__cost_of(p, &p->refine, control, INFINITY, NULL, NULL);
+    const float limit = whole.total * (float)shapes_uniform(&rng, 0.1, 2);
+    const nsvcd__cost cost = nsvcd__cost_of(p, &p->refine, control, limit, NULL, NULL);
+    if (whole.total < 0.9999f * limit) CHECK_NEAR(cost.total, whole.total, 1e-5 * (double)whole.total);
+    if (whole.total > 1.0001f * limit) CHECK_GE(cost.total, limit);
+    cut += cost.total < 0.999f * whole.total;
+  }
+  CHECK_GE(cut, 20);
+  plan_close(&in);
+}
+
+// --------------------------------------------------------------------------------------------------------- behaviour
+
+#define PLAN_GUARD 64
+
+typedef struct plan_outcome {
+  nsvcd_result result;
+  nsvcd_plan_answer answer;
+  float control[PLAN_VIA * PLAN_JOINTS];
+  size_t via;
+} plan_outcome;
+
+// nsvcd_plan with a workspace of just the size asked for and guards behind it and behind control; and what holds of every
+// answer: bounds, counts, finite numbers, start and goal in place; and of every error: nothing written.
+static plan_outcome plan_run(plan_scene *s) {
+  static const unsigned char untouched = 0x5a;
+  plan_outcome out;
+  const nsvcd_plan_options *o = &s->options;
+  const size_t size = nsvcd_plan_workspace_size(&s->problem, o), f = s->problem.joints;
+  const size_t refine = o->refine.iterations == NSVCD_NONE ? 0 : o->refine.iterations ? o->refine.iterations : 10;
+  const size_t explore = o->explore.iterations == NSVCD_NONE ? 0 : o->explore.iterations ? o->explore.iterations : 40;
+  const size_t tries = o->explore.samples ? o->explore.samples : 200, bundle = o->refine.samples ? o->refine.samples : 10;
+  query_memory memory = query_reserve(size + PLAN_GUARD);
+  size_t written = 0;
+  s->reports = s->disorders = s->out_of_place = s->placed = 0;
+  memset(&out, untouched, sizeof out);
+  out.via = o->refine.iterations == NSVCD_NONE ? (o->explore.via_points ? o->explore.via_points : 5)
+                                               : (o->refine.via_points ? o->refine.via_points : 10);
+  out.result = nsvcd_plan(&s->problem, o, memory.at, size, out.control, &out.answer);
+  for (size_t k = size; k < size + PLAN_GUARD; k++) CHECK_EQ(((unsigned char *)memory.at)[k], untouched);
+  query_release(&memory);
+  const size_t numbers = out.result || out.via > NSVCD_MAX_VIA_POINTS ? 0 : (out.via + 2) * f;
+  for (size_t k = numbers * sizeof(float); k < sizeof out.control; k++)
+    written += ((unsigned char *)out.control)[k] != untouched;
+  if (out.result) {
+    for (size_t k = 0; k < sizeof out.answer; k++) written += ((unsigned char *)&out.answer)[k] != untouched;
+  }
+  CHECK_EQ(written, 0);
+  if (out.result) return out;
+  const nsvcd_plan_answer *a = &out.answer;
+  const size_t seeds = o->seeds ? o->seeds : 2;
+  for (size_t k = 0; k < numbers; k++) CHECK(isfinite(out.control[k]));
+  for (size_t j = 0; j < f; j++) {
+    CHECK_EQ(out.control[j], s->start[j]);
+    CHECK_EQ(out.control[(out.via + 1) * f + j], s->goal[j]);
+  }
+  CHECK_EQ(a->via_points, out.via);
+  CHECK(a->seeds <= seeds && a->iterations <= a->seeds * (explore + refine));
+  CHECK_LE(a->trajectories, a->seeds * (explore * tries + refine * (bundle + 5) + 3));
+  CHECK(isfinite(a->cost) && isfinite(a->smoothness) && isfinite(a->logit) && a->time >= 0 && a->time <= 1);
+  CHECK(a->pair == NSVCD_NONE || a->pair < s->problem.pair_count);
+  CHECK(a->joint == NSVCD_NONE || a->joint < f);
+  if (a->status == NSVCD_PLAN_CONVERGED) CHECK(!a->collides && a->joint == NSVCD_NONE);
+  if (s->problem.progress) {
+    CHECK_EQ(s->reports, a->iterations);
+    CHECK_EQ(s->disorders, 0);
+    CHECK_EQ(s->out_of_place, 0);
+  }
+  return out;
+}
+
+// A ball that must go round a wall.
+static void plan_wall_scene(plan_scene *s) {
+  plan_begin(s, PLAN_XYZ, 2);
+  s->bodies[0] = plan_body(PLAN_BALL), s->bodies[1] = plan_body(PLAN_WALL);
+  plan_pair(s, 0, 1);
+  for (size_t j = 0; j < 3; j++) s->low[j] = -0.5f, s->high[j] = 0.5f;
+  s->start[0] = -0.3f, s->goal[0] = 0.3f, s->start[1] = 0.02f, s->start[2] = -0.03f;
+}
+// The least distance of the two surfaces along the trajectory, exactly, on fine samples.
+static double plan_exact_distance(const plan_scene *s, const plan_outcome *out, int shape_a, int shape_b) {
+  enum { COUNT = 401 };
+  static oracle_pose poses[COUNT];
+  oracle_mesh a, b;
+  const oracle_pose wall = plan_exact_pose(&s->rest[1]);
+  const shapes_mesh *x = &plan_shapes[shape_a], *y = &plan_shapes[shape_b];
+  CHECK(oracle_mesh_init(&a, x->positions, x->vertices, x->indices, x->triangles, 1));
+  CHECK(oracle_mesh_init(&b, y->positions, y->vertices, y->indices, y->triangles, 1));
+  for (int n = 0; n < COUNT; n++) {
+    float joints[PLAN_JOINTS];
+    nsvcd_pose placed[PLAN_BODIES];
+    nsvcd_spline(out->control, out->via, s->problem.joints, (float)n / (COUNT - 1), 0, joints);
+    plan_place((void *)(uintptr_t)s, joints, placed);
+    poses[n] = plan_exact_pose(&placed[0]);
+  }
+  const oracle_result found = oracle_sweep(&a, poses, COUNT, &b, &wall, NULL);
+  oracle_mesh_free(&a), oracle_mesh_free(&b);
+  return found.status == ORACLE_FREE ? found.distance : 0;
+}
+
+static void plan_goes_round_a_wall(void) {
+  static plan_scene s;
+  double least = 1;
+  plan_wall_scene(&s);
+  nsvcd_plan_answer unused;
+  memset(&unused, 0, sizeof unused);
+  for (uint64_t seed = 1; seed <= 8; seed++) {
+    s.options.seed = seed;
+    plan_outcome out = plan_run(&s);
+    CHECK_EQ(out.result, NSVCD_OK);
+    CHECK_EQ(out.answer.status, NSVCD_PLAN_CONVERGED);
+    CHECK_GE(s.reports, 3);
+    const double distance = plan_exact_distance(&s, &out, PLAN_BALL, PLAN_WALL);
+    CHECK_GE(distance, 1e-3);
+    least = fmin(least, distance);
+    for (int n = 0; n <= 400; n++) {
+      float x[3];
+      nsvcd_spline(out.control, out.via, 3, (float)n / 400, 0, x);
+      for (size_t j = 0; j < 3; j++) CHECK(x[j] >= s.low[j] - 1e-4f && x[j] <= s.high[j] + 1e-4f);
+    }
+  }
+  printf("  of 8 seeds the least exact distance is %.1f mm\n", 1000 * least);
+}
+
+static int plan_same(const plan_outcome *a, const plan_outcome *b, size_t joints) {  // to the bit
+  return a->result == b->result && a->answer.status == b->answer.status && a->answer.cost == b->answer.cost &&
+         a->answer.logit == b->answer.logit && a->answer.sweeps == b->answer.sweeps &&
+         a->answer.iterations == b->answer.iterations && a->answer.trajectories == b->answer.trajectories &&
+         memcmp(a->control, b->control, (a->via + 2) * joints * sizeof(float)) == 0;
+}
+static void plan_is_deterministic(void) {
+  static plan_scene s;
+  plan_wall_scene(&s);
+  s.options.explore.iterations = 10, s.options.explore.samples = 50;
+  const plan_outcome first = plan_run(&s), second = plan_run(&s);
+  CHECK_EQ(first.result, NSVCD_OK);
+  CHECK(plan_same(&first, &second, 3));
+  s.options.seed = 2;
+  const plan_outcome other = plan_run(&s);
+  CHECK(memcmp(first.control, other.control, 36 * sizeof(float)) != 0);
+}
+
+static void plan_can_be_cancelled(void) {
+  static plan_scene s;
+  plan_wall_scene(&s);
+  s.options.explore.samples = 40, s.options.explore.iterations = 5;  // so that refining is cancelled too
+  const plan_outcome whole = plan_run(&s);
+  CHECK_GE(whole.answer.iterations, 7);
+  for (size_t at = 1; at <= 7; at++) {
+    s.cancel_at = at;
+    const plan_outcome out = plan_run(&s);
+    CHECK_EQ(out.result, NSVCD_OK);
+    CHECK_EQ(out.answer.status, NSVCD_PLAN_CANCELLED);
+    CHECK_EQ(s.reports, at);
+    CHECK_EQ(out.answer.iterations, at);
+  }
+}
+
+static void plan_grasped_bodies_move_along(void) {
+  static plan_scene s;
+  plan_wall_scene(&s);
+  s.bodies[2] = s.bodies[0], s.problem.body_count = 3;  // between: the wall. The second ball is body 1 now
+  s.bodies[1] = s.bodies[0], s.bodies[2] = plan_body(PLAN_WALL);
+  s.pairs[0].b = 2;
+  plan_pair(&s, 1, 2);
+  s.attached = 1;
+  s.options.explore.samples = 100;
+  const plan_outcome out = plan_run(&s);
+  CHECK_EQ(out.result, NSVCD_OK);
+  CHECK_EQ(out.answer.status, NSVCD_PLAN_CONVERGED);
+  plan_scene carried = s;  // the second ball alone, above the first
+  for (size_t j = 0; j < 3; j++) CHECK_EQ(carried.start[j], s.start[j]);
+  oracle_mesh ball, wall;
+  CHECK(oracle_mesh_init(&ball, plan_shapes[PLAN_BALL].positions, plan_shapes[PLAN_BALL].vertices,
+                         plan_shapes[PLAN_BALL].indices, plan_shapes[PLAN_BALL].triangles, 1));
+  CHECK(oracle_mesh_init(&wall, plan_shapes[PLAN_WALL].positions, plan_shapes[PLAN_WALL].vertices,
+                         plan_shapes[PLAN_WALL].indices, plan_shapes[PLAN_WALL].triangles, 1));
+  static oracle_pose poses[2][201];
+  const oracle_pose at = plan_exact_pose(&s.rest[2]);
+  for (int n = 0; n <= 200; n++) {
+    float joints[3];
+    nsvcd_pose placed[3];
+    nsvcd_spline(out.control, out.via, 3, (float)n / 200, 0, joints);
+    plan_place(&s, joints, placed);
+    for (int b = 0; b < 2; b++) poses[b][n] = plan_exact_pose(&placed[b]);
+  }
+  for (int b = 0; b < 2; b++) CHECK_EQ(oracle_sweep(&ball, poses[b], 201, &wall, &at, NULL).status, ORACLE_FREE);
+  oracle_mesh_free(&ball), oracle_mesh_free(&wall);
+  // Let go: the second ball rests where the path is blocked no more, and the pair of both balls is looked at.
+  s.attached = 0, s.rest[1] = query_pose(0, 0.4, 0.45);
+  plan_pair(&s, 0, 1);
+  const plan_outcome alone = plan_run(&s);
+  CHECK_EQ(alone.answer.status, NSVCD_PLAN_CONVERGED);
+}
+
+static void plan_stages_can_be_left_out(void) {
+  static plan_scene s;
+  plan_wall_scene(&s);
+  s.options.refine.iterations = NSVCD_NONE, s.options.refine.via_points = 9, s.options.explore.via_points = 4;
+  plan_outcome out = plan_run(&s);  // checks the number of via points
+  CHECK_EQ(out.answer.status, NSVCD_PLAN_CONVERGED);
+  CHECK_GE(plan_exact_distance(&s, &out, PLAN_BALL, PLAN_WALL), 1e-4);
+  memset(&s.options, 0, sizeof s.options);
+  s.options.explore.iterations = NSVCD_NONE, s.options.refine.iterations = 40;
+  out = plan_run(&s);
+  CHECK_EQ(out.result, NSVCD_OK);
+  CHECK_GE(s.reports, 1);
+  s.options.refine.iterations = NSVCD_NONE, s.options.seeds = 1;  // nothing but the check of a line that hits
+  out = plan_run(&s);
+  CHECK_EQ(out.answer.status, NSVCD_PLAN_LIMIT);
+  CHECK_EQ(out.answer.iterations, 0);
+  CHECK(out.answer.collides && out.answer.pair == 0 && out.answer.logit > 0);
+  CHECK_NEAR(out.answer.time, 0.5, 0.2);
+  s.problem.pair_count = 0;  // nothing can meet: the smoothest, at once
+  out = plan_run(&s);
+  CHECK_EQ(out.answer.status, NSVCD_PLAN_CONVERGED);
+  for (size_t k = 0; k < out.via + 2; k++) {
+    for (size_t j = 0; j < 3; j++) {  // monotone, and symmetric in time
+      const double x = (double)out.control[3 * k + j], y = (double)out.control[3 * (out.via + 1 - k) + j];
+      CHECK_NEAR(x + y, (double)s.start[j] + (double)s.goal[j], 1e-5);
+      if (k) CHECK(out.control[3 * k] >= out.control[3 * k - 3] - 1e-6f);
+    }
+  }
+}
+
+static void plan_discrete_looks_at_poses(void) {
+  static plan_scene s;
+  plan_wall_scene(&s);
+  s.options.discrete = 1;
+  plan_outcome out = plan_run(&s);
+  CHECK_EQ(out.answer.status, NSVCD_PLAN_CONVERGED);
+  // Two segments: start, middle and goal. A wall between them is not seen, by design; swept it is.
+  s.rest[1] = query_pose(-0.15, 0, 0);
+  s.options.explore.iterations = s.options.refine.iterations = NSVCD_NONE;
+  s.options.check = 2, s.options.seeds = 1;
+  out = plan_run(&s);
+  CHECK_EQ(out.answer.status, NSVCD_PLAN_CONVERGED);
+  s.options.discrete = 0;
+  out = plan_run(&s);
+  CHECK_EQ(out.answer.status, NSVCD_PLAN_LIMIT);
+  CHECK(out.answer.collides);
+}
+
+static void plan_takes_a_custom_cost(void) {
+  static plan_scene s;
+  for (int jacobian = 0; jacobian < 2; jacobian++) {
+    plan_wall_scene(&s);
+    s.problem.collision = plan_bump_collision, s.problem.bodies = NULL;
+    s.problem.jacobian = jacobian ? plan_jacobian : NULL;
+    const plan_outcome out = plan_run(&s);
+    CHECK_EQ(out.result, NSVCD_OK);
+    CHECK_EQ(out.answer.status, NSVCD_PLAN_CONVERGED);
+    CHECK_EQ(out.answer.sweeps, 0);
+    CHECK(out.answer.pair == NSVCD_NONE);
+    for (int n = 0; n <= 200; n++) {
+      float joints[3];
+      nsvcd_pose placed[2];
+      int collides = 0;
+      nsvcd_spline(out.control, out.via, 3, (float)n / 200, 0, joints);
+      plan_place(&s, joints, placed);
+      plan_bump_collision(&s, placed, 1, &collides, NULL);
+      CHECK(!collides);
+    }
+  }
+}
+
+// ------------------------------------------------------------------------------------------------------------ errors
+
+static void plan_refuses(plan_scene *s, nsvcd_result expected, int measured) {
+  if (!measured) CHECK_EQ(nsvcd_plan_workspace_size(&s->problem, &s->options), 0);
+  if (measured) CHECK(nsvcd_plan_workspace_size(&s->problem, &s->options) > 0);
+  const plan_outcome out = plan_run(s);  // checks that nothing is written
+  CHECK_EQ(out.result, expected);
+}
+static void plan_refuses_options_out_of_range(void) {
+  static plan_scene s;
+  plan_wall_scene(&s);
+  nsvcd_plan_options *o = &s.options;
+  const nsvcd_plan_options none = *o;
+  size_t *const sizes[] = {&o->explore.via_points, &o->explore.segments, &o->explore.iterations, &o->explore.samples,
+                           &o->refine.via_points,  &o->refine.segments,  &o->refine.iterations,  &o->refine.samples,
+                           &o->seeds,              &o->check,            &o->sweep.pairs};
+  const size_t most[] = {32, 4096, 100000, 10000, 32, 4096, 100000, 10000, 1000, 16384, NSVCD_MAX_PAIRS};
+  for (size_t k = 0; k < sizeof sizes / sizeof *sizes; k++) {
+    *sizes[k] = most[k];
+    o->check = o->check ? o->check : 10;
+    CHECK(nsvcd_plan_workspace_size(&s.problem, o) > 0);
+    for (int n = 0; n < 3; n++) {
+      if (n == 2 && (k == 2 || k == 6)) continue;  // NSVCD_NONE
+      *sizes[k] = n == 0 ? most[k] + 1 : n == 1 ? SIZE_MAX / 2 : SIZE_MAX;
+      plan_refuses(&s, NSVCD_ERROR_ARGUMENT, 0);
+    }
+    *o = none;
+  }
+  float *const floats[] = {&o->velocity, &o->acceleration, &o->jerk,   &o->collision,   &o->duration,
+                           &o->margin,   &o->spread,       &o->bundle, &o->sweep.recall};
+  for (size_t k = 0; k < sizeof floats / sizeof *floats; k++) {
+    *floats[k] = NAN;
+    plan_refuses(&s, NSVCD_ERROR_ARGUMENT, 0);
+    *floats[k] = -INFINITY;
+    plan_refuses(&s, NSVCD_ERROR_ARGUMENT, 0);
+    *o = none;
+  }
+  o->sweep.recall = 0.5f;
+  plan_refuses(&s, NSVCD_ERROR_ARGUMENT, 0);
+  *o = none, o->sweep.model = (nsvcd_model)17;
+  plan_refuses(&s, NSVCD_ERROR_ARGUMENT, 0);
+  *o = none, o->sweep.precision = (nsvcd_precision)5;
+  plan_refuses(&s, NSVCD_ERROR_ARGUMENT, 0);
+}
+static void plan_works_at_the_ends_of_its_options(void) {
+  static plan_scene s;
+  plan_wall_scene(&s);
+  nsvcd_plan_options *o = &s.options;
+  o->explore.via_points = o->explore.segments = o->explore.iterations = o->explore.samples = 1;
+  o->refine = o->explore;
+  o->seeds = o->check = 1;
+  plan_outcome out = plan_run(&s);
+  CHECK_EQ(out.result, NSVCD_OK);
+  o->explore.via_points = o->refine.via_points = 32;
+  o->explore.segments = o->refine.segments = 300, o->check = 16384;
+  out = plan_run(&s);
+  CHECK_EQ(out.result, NSVCD_OK);
+  memset(o, 0, sizeof *o);
+  o->explore.via_points = 32, o->refine.via_points = 1;  // from more to fewer
+  o->explore.samples = 30;
+  out = plan_run(&s);
+  CHECK_EQ(out.result, NSVCD_OK);
+}
+
+static void plan_refuses_problems(void) {
+  static plan_scene s;
+  plan_wall_scene(&s);
+  const nsvcd_plan_problem good = s.problem;
+  nsvcd_plan_problem *p = &s.problem;
+  CHECK_EQ(nsvcd_plan_workspace_size(NULL, NULL), 0);
+  for (int k = 0; k < 14; k++) {
+    *p = good;
+    if (k == 0) p->joints = 0;
+    if (k == 1) p->joints = NSVCD_MAX_JOINTS + 1;
+    if (k == 2) p->low = NULL;
+    if (k == 3) p->high = NULL;
+    if (k == 4) p->start = NULL;
+    if (k == 5) p->goal = NULL;
+    if (k == 6) p->bodies = NULL;
+    if (k == 7) p->pairs = NULL;
+    if (k == 8) p->place = NULL;
+    if (k == 9) p->body_count = 1;  // of which the pair's b is none
+    if (k == 10) p->body_count = 65537;
+    if (k == 11) s.pairs[0].b = 0;  // itself
+    if (k == 12) s.pairs[0].b = 0xffffffffu;
+    if (k == 13) s.bodies[1] = NULL;
+    plan_refuses(&s, NSVCD_ERROR_ARGUMENT, 0);
+    s.pairs[0].b = 1;
+  }
+  plan_wall_scene(&s);
+  s.low[1] = 0.6f;  // above high
+  plan_refuses(&s, NSVCD_ERROR_ARGUMENT, 1);
+  const float wrong[4] = {NAN, INFINITY, -INFINITY, 2e6f};
+  for (size_t k = 0; k < 16; k++) {
+    plan_wall_scene(&s);
+    float *const number = k < 4 ? &s.low[2] : k < 8 ? &s.high[2] : k < 12 ? &s.start[2] : &s.goal[2];
+    *number = wrong[k % 4];
+    plan_refuses(&s, NSVCD_ERROR_NUMBER, 1);
+  }
+  for (int fault = PLAN_NAN; fault <= PLAN_NAN_LATER; fault++) {
+    plan_wall_scene(&s);
+    s.fault = (plan_fault)fault;
+    plan_refuses(&s, NSVCD_ERROR_POSE, 1);
+    s.problem.collision = plan_bump_collision;
+    plan_refuses(&s, NSVCD_ERROR_POSE, 1);
+  }
+  // Quaternions as long as nsvcd_sweep lets them be are not too long in pairs either.
+  for (int n = 0; n < 2; n++) {
+    plan_wall_scene(&s);
+    s.length = n ? 1.00009 : 0.99991;
+    const plan_outcome out = plan_run(&s);
+    CHECK_EQ(out.result, NSVCD_OK);
+    CHECK_EQ(out.answer.status, NSVCD_PLAN_CONVERGED);
+  }
+  plan_wall_scene(&s);  // no pairs, no bodies
+  s.problem.pair_count = 0, s.problem.pairs = NULL, s.problem.bodies = NULL;
+  const plan_outcome out = plan_run(&s);
+  CHECK_EQ(out.answer.status, NSVCD_PLAN_CONVERGED);
+}
+
+static void plan_workspace_is_checked(void) {
+  static plan_scene s;
+  plan_wall_scene(&s);
+  s.options.explore.samples = 20, s.options.explore.iterations = 2;
+  const size_t size = nsvcd_plan_workspace_size(&s.problem, &s.options);
+  query_memory memory = query_reserve(size + 16);
+  nsvcd_plan_answer answer, before;
+  float control[12 * 3], same[12 * 3];
+  memset(&answer, 7, sizeof answer), memset(&before, 7, sizeof before);
+  memset(control, 7, sizeof control), memset(same, 7, sizeof same);
+  char *at = (char *)memory.at;
+  CHECK_EQ(nsvcd_plan(&s.problem, &s.options, at, size - 1, control, &answer), NSVCD_ERROR_WORKSPACE);
+  CHECK_EQ(nsvcd_plan(&s.problem, &s.options, at + 4, size, control, &answer), NSVCD_ERROR_WORKSPACE);
+  CHECK_EQ(nsvcd_plan(&s.problem, &s.options, NULL, size, control, &answer), NSVCD_ERROR_WORKSPACE);
+  CHECK_EQ(nsvcd_plan(NULL, &s.options, at, size, control, &answer), NSVCD_ERROR_ARGUMENT);
+  CHECK_EQ(nsvcd_plan(&s.problem, &s.options, at, size, NULL, &answer), NSVCD_ERROR_ARGUMENT);
+  CHECK_EQ(nsvcd_plan(&s.problem, &s.options, at, size, control, NULL), NSVCD_ERROR_ARGUMENT);
+  CHECK(memcmp(control, same, sizeof same) == 0 && memcmp(&answer, &before, sizeof before) == 0);
+  CHECK_EQ(s.placed, 0);
+  CHECK_EQ(nsvcd_plan(&s.problem, &s.options, at, size, control, &answer), NSVCD_OK);
+  query_release(&memory);
 }
