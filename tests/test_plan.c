@@ -1126,3 +1126,179 @@ static void plan_workspace_is_checked(void) {
   CHECK_EQ(nsvcd_plan(&s.problem, &s.options, at, size, control, &answer), NSVCD_OK);
   query_release(&memory);
 }
+
+// --------------------------------------------------------------------------------------------- a thousand bad scenes
+
+typedef enum plan_trouble {
+  PLAN_START_HITS,
+  PLAN_START_OUT,
+  PLAN_GOAL_HITS,
+  PLAN_GOAL_OUT,
+  PLAN_EXCLUDED,  // limits without width, away from the start
+  PLAN_ENCLOSED,
+  PLAN_SAME_BODY,
+  PLAN_ZERO_LENGTH,
+  PLAN_NO_WIDTH,  // limits of a joint that cannot move
+  PLAN_NO_PAIRS,
+  PLAN_CROWD,
+  PLAN_ONE_VIA,
+  PLAN_HUGE,
+  PLAN_FAR,
+  PLAN_TINY,
+  PLAN_NEGATIVE,
+  PLAN_EXTREME,
+  PLAN_TROUBLES
+} plan_trouble;
+static const char *const plan_troubles[PLAN_TROUBLES] = {
+    "start hits", "start out of limits", "goal hits",  "goal out of limits",   "limits exclude the start",
+    "enclosed",   "pair of one body",    "no length",  "limits without width", "no pairs",
+    "32 bodies",  "one via point",       "huge",       "far",                  "tiny",
+    "no weights", "extreme weights"};
+
+// Everything times `scale`: bodies, limits, start, goal.
+static void plan_scale(plan_scene *s, float scale, query_memory *memory) {
+  for (size_t b = 0; b < s->problem.body_count; b++) {
+    const size_t size = nsvcd_body_describe(s->bodies[b]).size;
+    memory[b] = query_reserve(size);
+    CHECK_EQ(nsvcd_body_scale(s->bodies[b], scale, memory[b].at, size, &s->bodies[b]), NSVCD_OK);
+    for (int k = 0; k < 3; k++) s->rest[b].position[k] *= scale;
+  }
+  for (size_t j = 0; j < 3; j++) s->low[j] *= scale, s->high[j] *= scale, s->start[j] *= scale, s->goal[j] *= scale;
+}
+
+// Makes a scene of this trouble, plans, and checks what must come of it. Returns the status, or -1 for an error.
+static int plan_trouble_case(plan_trouble trouble, uint64_t seed) {
+  static plan_scene s;
+  shapes_rng rng = {1000 * seed + (uint64_t)trouble};
+  query_memory scaled[2] = {{NULL, NULL}, {NULL, NULL}};
+  const size_t joint = (size_t)shapes_pick(&rng, 3);
+  plan_wall_scene(&s);
+  s.rest[1] = query_pose(0, shapes_uniform(&rng, -0.2, 0.2), shapes_uniform(&rng, -0.2, 0.2));
+  for (size_t j = 1; j < 3; j++) {
+    s.start[j] = (float)shapes_uniform(&rng, -0.3, 0.3), s.goal[j] = (float)shapes_uniform(&rng, -0.3, 0.3);
+  }
+  nsvcd_plan_options *o = &s.options;
+  o->seed = seed, o->seeds = 1 + (size_t)shapes_pick(&rng, 2);
+  o->explore.iterations = 4, o->explore.samples = 12, o->explore.segments = 8, o->explore.via_points = 3;
+  o->refine.iterations = 3, o->refine.samples = 2, o->refine.segments = 10, o->refine.via_points = 4;
+  if (trouble == PLAN_START_HITS || trouble == PLAN_GOAL_HITS) {
+    s.problem.body_count = 3, s.bodies[2] = plan_body(PLAN_BOX);
+    const float *at = trouble == PLAN_START_HITS ? s.start : s.goal;
+    s.rest[2] = query_pose((double)at[0] + shapes_uniform(&rng, -0.08, 0.08), (double)at[1], (double)at[2]);
+    plan_pair(&s, 0, 2);
+  }
+  if (trouble == PLAN_START_OUT) s.start[joint] = (float)shapes_uniform(&rng, 0.51, 3);
+  if (trouble == PLAN_GOAL_OUT) s.goal[joint] = (float)shapes_uniform(&rng, -3, -0.51);
+  if (trouble == PLAN_EXCLUDED) s.low[joint] = s.high[joint] = s.start[joint] + 1e-3f;
+  if (trouble == PLAN_ENCLOSED) {
+    s.bodies[1] = plan_body(PLAN_SHELL);
+    for (size_t j = 0; j < 3; j++) {
+      s.low[j] = -2, s.high[j] = 2, s.goal[j] = s.rest[1].position[j], s.start[j] = s.goal[j] + (j == joint ? 0.6f : 0);
+    }
+    o->sweep.recall = 0.999f;
+  }
+  if (trouble == PLAN_SAME_BODY) s.pairs[0].a = s.pairs[0].b = (uint32_t)shapes_pick(&rng, 2);
+  if (trouble == PLAN_ZERO_LENGTH) memcpy(s.goal, s.start, sizeof s.goal);
+  if (trouble == PLAN_NO_WIDTH) {  // y, at a distance; what cannot move stays where it is
+    const float at = (float)(shapes_uniform(&rng, 1, 9) * pow(10, shapes_pick(&rng, 5)));
+    s.low[1] = s.high[1] = s.start[1] = s.goal[1] = at;
+  }
+  if (trouble == PLAN_NO_PAIRS) s.problem.pair_count = 0;
+  if (trouble == PLAN_CROWD) {
+    s.problem.body_count = PLAN_BODIES;
+    for (uint32_t b = 2; b < PLAN_BODIES; b++) {
+      s.bodies[b] = plan_body(shapes_pick(&rng, PLAN_SHAPES));
+      query_random_pose(&rng, 1.5, &s.rest[b]);
+      plan_pair(&s, 0, b), plan_pair(&s, b, (uint32_t)shapes_pick(&rng, 2));
+    }
+  }
+  if (trouble == PLAN_ONE_VIA) o->explore.via_points = o->refine.via_points = 1;
+  if (trouble == PLAN_HUGE) plan_scale(&s, 1e5f, scaled), o->spread = 5e4f, o->bundle = 1e3f;
+  if (trouble == PLAN_TINY) plan_scale(&s, 1e-6f, scaled), o->spread = 5e-7f, o->bundle = 1e-8f;
+  if (trouble == PLAN_FAR) {
+    for (size_t j = 0; j < 3; j++) {
+      s.low[j] += 1e5f, s.high[j] += 1e5f, s.start[j] += 1e5f, s.goal[j] += 1e5f, s.rest[1].position[j] += 1e5f;
+    }
+  }
+  float *const weights[] = {&o->velocity, &o->acceleration, &o->jerk,  &o->collision,
+                            &o->margin,   &o->spread,       &o->bundle, &o->duration};
+  const float extremes[] = {1e20f, 1e-20f, -1, 1e30f, 3e38f, 1e-38f, 0, 1e5f};
+  for (size_t k = 0; k < 8; k++) {
+    if (trouble == PLAN_NEGATIVE) *weights[k] = (float)shapes_uniform(&rng, -10, -1e-3);
+    if (trouble == PLAN_EXTREME && (seed % 8 == k || shapes_pick(&rng, 3) == 0)) *weights[k] = extremes[shapes_pick(&rng, 8)];
+  }
+  const plan_outcome out = plan_run(&s);  // bounds, numbers, guards
+  const plan_outcome again = plan_run(&s);
+  const nsvcd_plan_answer *a = &out.answer;
+  CHECK_EQ(out.result, again.result);
+  if (!out.result) CHECK(plan_same(&out, &again, 3));
+  for (int b = 0; b < 2; b++) query_release(&scaled[b]);
+  if (trouble == PLAN_SAME_BODY) {
+    CHECK_EQ(out.result, NSVCD_ERROR_ARGUMENT);
+    return -1;
+  }
+  if (trouble == PLAN_EXTREME && out.result == NSVCD_ERROR_NUMBER) return -1;  // the cost is beyond float's range
+  CHECK_EQ(out.result, NSVCD_OK);
+  if (out.result) return -1;
+  if (trouble == PLAN_START_HITS || trouble == PLAN_GOAL_HITS) {
+    CHECK_EQ(a->status, trouble == PLAN_START_HITS ? NSVCD_PLAN_START : NSVCD_PLAN_GOAL);
+    CHECK(a->pair == 1 && a->collides && a->logit > 0 && a->joint == NSVCD_NONE);
+    CHECK_EQ(a->time, trouble == PLAN_GOAL_HITS);
+  }
+  if (trouble == PLAN_START_OUT || trouble == PLAN_GOAL_OUT || trouble == PLAN_EXCLUDED) {
+    CHECK_EQ(a->status, trouble == PLAN_GOAL_OUT ? NSVCD_PLAN_GOAL : NSVCD_PLAN_START);
+    CHECK(a->joint == joint && a->pair == NSVCD_NONE && !a->collides);
+  }
+  if (trouble <= PLAN_EXCLUDED && trouble != PLAN_ENCLOSED) CHECK(a->iterations == 0 && s.reports == 0 && a->seeds == 0);
+  if (trouble == PLAN_ENCLOSED) CHECK(a->status == NSVCD_PLAN_LIMIT && a->collides && a->pair == 0);
+  if (trouble == PLAN_ZERO_LENGTH || trouble == PLAN_NO_WIDTH || trouble == PLAN_NO_PAIRS) {
+    CHECK_EQ(a->status, NSVCD_PLAN_CONVERGED);
+  }
+  if (trouble == PLAN_ZERO_LENGTH) CHECK_LE(a->smoothness, 1e-6);
+  for (size_t k = 0; trouble == PLAN_NO_WIDTH && k < out.via + 2; k++) CHECK_NEAR(out.control[3 * k + 1], s.low[1], 1e-6 * (double)s.low[1]);
+  return (int)a->status;
+}
+static void plan_troubles_end_well(void) {
+  enum { EACH = 60 };
+  int total = 0;
+  for (int trouble = 0; trouble < PLAN_TROUBLES; trouble++) {
+    int count[6] = {0};
+    for (uint64_t seed = 1; seed <= EACH; seed++) count[1 + plan_trouble_case((plan_trouble)trouble, seed)]++, total++;
+    printf("  %-26s", plan_troubles[trouble]);
+    for (int k = 0; k < 6; k++) {
+      if (count[k]) printf("%4d %s", count[k], k ? nsvcd_plan_status_string((nsvcd_plan_status)(k - 1)) : "error");
+    }
+    printf("\n");
+    CHECK_EQ(count[1 + NSVCD_PLAN_CANCELLED], 0);
+  }
+  CHECK_GE(total, 1000);
+}
+
+// Steps of differences are no smaller than floats: far from zero the gradient is still that of the jacobian.
+static void plan_differences_work_far_from_zero(void) {
+  static plan_scene s;
+  shapes_rng rng = {40};
+  for (int n = 0; n < 20; n++) {
+    const float far = (float)pow(10, n % 6);
+    float control[12 * 3], gradient[2][12 * 3];
+    double norm = 0, difference = 0;
+    plan_random_numbers(&rng, 36, 0.3, control);
+    for (size_t k = 0; k < 36; k++) control[k] += far;
+    for (int jacobian = 0; jacobian < 2; jacobian++) {
+      plan_inside in;
+      plan_begin(&s, PLAN_XYZ, 2);
+      for (size_t j = 0; j < 3; j++) s.low[j] = -1e6f, s.high[j] = 1e6f;
+      s.rest[1] = query_pose((double)far, (double)far, (double)far);
+      s.problem.collision = plan_bump_collision, s.problem.jacobian = jacobian ? plan_jacobian : NULL;
+      plan_pair(&s, 0, 1);
+      if (!plan_open(&s, &in)) return;
+      nsvcd__cost_of(&in.planner, &in.planner.refine, control, INFINITY, gradient[jacobian], NULL);
+      CHECK_EQ(in.planner.error, NSVCD_OK);
+      plan_close(&in);
+    }
+    for (size_t k = 0; k < 36; k++) {
+      norm += pow((double)gradient[1][k], 2), difference += pow((double)gradient[1][k] - (double)gradient[0][k], 2);
+    }
+    CHECK_LE(sqrt(difference), 0.01 * sqrt(norm));
+  }
+}
