@@ -4844,7 +4844,8 @@ static nsvcd__cost nsvcd__cost_of(nsvcd__planner *p, const nsvcd__stage *stage, 
       const float out = sum < low + inner ? sum - low - inner : sum > high - inner ? sum - high + inner : 0;
       joints[j] = sum;
       cost.total += share * out * out;
-      if (sum < low - 1e-5f || sum > high + 1e-5f) cost.joint = j;
+      const float rounding = 1e-5f + 1e-6f * fabsf(sum);
+      if (sum < low - rounding || sum > high + rounding) cost.joint = j;
       for (size_t k = 0; gradient && k < all; k++) gradient[k * f + j] += 2 * share * out * w[k];
     }
   }
