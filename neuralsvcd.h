@@ -4768,7 +4768,6 @@ static int nsvcd__by_joints(nsvcd__planner *p, const float *joints, const nsvcd_
                             float *by_joints) {
   const nsvcd_plan_problem *problem = p->problem;
   const size_t f = problem->joints, bodies = problem->body_count;
-  const float step = 1e-3f;
   float moved[NSVCD_MAX_JOINTS];
   size_t k = 0;
   while (k < 6 * bodies && !(wrenches[k] < 0 || wrenches[k] > 0)) k++;
@@ -4776,9 +4775,11 @@ static int nsvcd__by_joints(nsvcd__planner *p, const float *joints, const nsvcd_
   if (problem->jacobian) problem->jacobian(problem->user, joints, p->jacobian);
   memcpy(moved, joints, f * sizeof *moved);
   for (size_t j = 0; j < f; j++) {
+    float step = 1;
     by_joints[j] = 0;
     if (!problem->jacobian) {
-      moved[j] = joints[j] + step;
+      moved[j] = joints[j] + (1e-3f + 1e-5f * fabsf(joints[j]));
+      step = moved[j] - joints[j];  // as rounded
       problem->place(problem->user, moved, p->moved);
       moved[j] = joints[j];
     }
