@@ -5138,6 +5138,7 @@ static int nsvcd__is_good(nsvcd__planner *p, const float *joints, nsvcd_plan_ans
   for (size_t j = 0; j < problem->joints; j++) {
     if (joints[j] < problem->low[j] || joints[j] > problem->high[j]) answer->joint = j;
   }
+  answer->logit = 0, answer->pair = NSVCD_NONE;
   if (answer->joint != NSVCD_NONE) return 0;
   nsvcd__place(p, joints, 1);
   if (p->error) return 0;
