@@ -4778,7 +4778,7 @@ static int nsvcd__by_joints(nsvcd__planner *p, const float *joints, const nsvcd_
     float step = 1;
     by_joints[j] = 0;
     if (!problem->jacobian) {
-      moved[j] = joints[j] + (1e-3f + 1e-5f * fabsf(joints[j]));
+      moved[j] = joints[j] + (1e-3f + 1e-6f * fabsf(joints[j]));
       step = moved[j] - joints[j];  // as rounded
       problem->place(problem->user, moved, p->moved);
       moved[j] = joints[j];

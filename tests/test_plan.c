@@ -781,6 +781,9 @@ static plan_outcome plan_run(plan_scene *s) {
   CHECK(a->pair == NSVCD_NONE || a->pair < s->problem.pair_count);
   CHECK(a->joint == NSVCD_NONE || a->joint < f);
   if (a->status == NSVCD_PLAN_CONVERGED) CHECK(!a->collides && a->joint == NSVCD_NONE);
+  if (a->status == NSVCD_PLAN_START || a->status == NSVCD_PLAN_GOAL) {  // there is a reason, and only one
+    CHECK((a->joint != NSVCD_NONE) != (a->collides && (a->pair != NSVCD_NONE || s->problem.collision)));
+  }
   if (s->problem.progress) {
     CHECK_EQ(s->reports, a->iterations);
     CHECK_EQ(s->disorders, 0);
@@ -1188,7 +1191,12 @@ static int plan_trouble_case(plan_trouble trouble, uint64_t seed) {
     plan_pair(&s, 0, 2);
   }
   if (trouble == PLAN_START_OUT) s.start[joint] = (float)shapes_uniform(&rng, 0.51, 3);
-  if (trouble == PLAN_GOAL_OUT) s.goal[joint] = (float)shapes_uniform(&rng, -3, -0.51);
+  if (trouble == PLAN_GOAL_OUT) {  // and something near the start, which is not the reason
+    s.goal[joint] = (float)shapes_uniform(&rng, -3, -0.51);
+    s.problem.body_count = 3, s.bodies[2] = plan_body(PLAN_BOX);
+    s.rest[2] = query_pose((double)s.start[0] - 0.18, (double)s.start[1], (double)s.start[2]);
+    plan_pair(&s, 0, 2);
+  }
   if (trouble == PLAN_EXCLUDED) s.low[joint] = s.high[joint] = s.start[joint] + 1e-3f;
   if (trouble == PLAN_ENCLOSED) {
     s.bodies[1] = plan_body(PLAN_SHELL);
