@@ -11,6 +11,7 @@ void test_query(void);
 void test_gradient(void);
 void test_cost(void);
 void test_tasks(void);
+void test_plan(void);
 
 int main(int argc, char **argv) {
   check.filter = argc > 1 ? argv[1] : NULL;
@@ -22,6 +23,7 @@ int main(int argc, char **argv) {
   test_query();
   test_gradient();
   test_tasks();
+  test_plan();
   printf("%d passed, %d failed\n", check.passed, check.failed);
   return check.failed > 0;
 }

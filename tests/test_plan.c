@@ -1,5 +1,6 @@
 // The trajectory optimizer: spline, cost and its gradient against references in double, culling against queries, then
-// nsvcd_plan through the public API: what it finds, what it refuses, and a thousand scenes in which nothing can be done.
+// nsvcd_plan through the public API: what it finds, what it refuses, and a thousand scenes in which nothing can be
+// done.
 #define NSVCD_STATIC
 #define NEURALSVCD_IMPLEMENTATION
 #include "../neuralsvcd.h"
@@ -268,7 +269,8 @@ static void plan_jacobian(void *user, const float *joints, float *jacobian) {
   jacobian[(6 * 2 + 2) * f + 4] = 1;
 }
 
-// A smooth cost of collision: a bump per pair and sample, of the distance of two points that are off the bodies' origins.
+// A smooth cost of collision: a bump per pair and sample, of the distance of two points that are off the bodies'
+// origins.
 static void plan_bump_point(const oracle_pose *pose, size_t body, double *arm, double *point) {
   const double offset[3] = {0.05, 0.02 * (double)(body + 1), -0.04};
   double m[9];
@@ -326,7 +328,8 @@ static int plan_progress(void *user, const nsvcd_plan_progress *progress) {
     if (same_seed && same_stage) {
       s->disorders += progress->iteration != s->last_iteration + 1 || progress->cost > s->last_cost;
     } else {
-      s->disorders += progress->iteration != 0 || (same_seed ? !progress->refining : progress->seed != s->last_seed + 1);
+      s->disorders +=
+          progress->iteration != 0 || (same_seed ? !progress->refining : progress->seed != s->last_seed + 1);
     }
   } else {
     s->disorders += progress->iteration != 0 || progress->seed != 0;
@@ -427,8 +430,7 @@ static double plan_exact_cost(const plan_scene *s, const nsvcd_plan_options *o, 
       joints[j] = 0;
       for (size_t k = 0; k < via + 2; k++) joints[j] += w[k] * control[k * f + j];
       const double inner = 0.005 * (double)(s->high[j] - s->low[j]);
-      const double out =
-          fmax(0, fmax((double)s->low[j] + inner - joints[j], joints[j] - (double)s->high[j] + inner));
+      const double out = fmax(0, fmax((double)s->low[j] + inner - joints[j], joints[j] - (double)s->high[j] + inner));
       cost += 1e5 * out * out / (double)(segments + 1);
     }
     plan_place_exactly(s, joints, poses);
@@ -459,7 +461,8 @@ static void plan_gradient_case(plan_kind kind, int jacobian, int limits, double 
     plan_inside in;
     s.options.refine.via_points = via, s.options.refine.segments = 5 + (size_t)shapes_pick(&rng, 20);
     s.options.collision = (float)shapes_uniform(&rng, 0.5, 20);
-    s.options.velocity = (float)shapes_uniform(&rng, 1, 20), s.options.duration = n % 2 ? 2.0f : 40.0f;  // smoothness outweighs the bumps, or they it
+    s.options.velocity = (float)shapes_uniform(&rng, 1, 20),
+    s.options.duration = n % 2 ? 2.0f : 40.0f;  // smoothness outweighs the bumps, or they it
     plan_random_numbers(&rng, numbers, 0.3, control);
     for (size_t k = 0; k < numbers; k++) exact[k] = (double)control[k];
     if (!plan_open(&s, &in)) continue;
@@ -573,8 +576,8 @@ static void plan_gradient_of_the_network(void) {
     int tried = 0, smooth = 0, right = 0;
     double worst = 0;
     plan_network_gradient_case(kind ? PLAN_ARMS : PLAN_XYZ, &tried, &smooth, &right, &worst);
-    printf("  %s: %d trajectories that cost, %d smooth there, of these %d right to 3 %%, worst %.2g\n", names[kind], tried,
-           smooth, right, worst);
+    printf("  %s: %d trajectories that cost, %d smooth there, of these %d right to 3 %%, worst %.2g\n", names[kind],
+           tried, smooth, right, worst);
     CHECK_GE(smooth, 30);
     CHECK_GE(right, 0.9 * smooth);
   }
@@ -636,8 +639,8 @@ static void plan_culling_misses_nothing(void) {
       }
     }
   }
-  printf("  of %d segments %d are not certified free, %d culled, of which %d not certified free, %d suspicious\n", segments,
-         uncertain, culled, missed, missed_by_network);
+  printf("  of %d segments %d are not certified free, %d culled, of which %d not certified free, %d suspicious\n",
+         segments, uncertain, culled, missed, missed_by_network);
   CHECK_EQ(p->error, NSVCD_OK);
   CHECK_EQ(missed, 0);
   CHECK_GE(culled, 0.2 * (segments - uncertain));  // else it culls nothing
@@ -645,8 +648,9 @@ static void plan_culling_misses_nothing(void) {
   plan_close(&in);
 }
 
-// The collision cost of a trajectory is the sum over pairs and segments, as if nothing were culled; but for the segments
-// of a run that as one motion is answered at most -margin: these count as free. So it is never more than the sum.
+// The collision cost of a trajectory is the sum over pairs and segments, as if nothing were culled; but for the
+// segments of a run that as one motion is answered at most -margin: these count as free. So it is never more than the
+// sum.
 static void plan_cost_is_the_sum_over_segments(void) {
   static plan_scene s;
   shapes_rng rng = {31};
@@ -695,8 +699,8 @@ static void plan_cost_is_the_sum_over_segments(void) {
     CHECK(cost.collides <= collides_at_all);
     total++, equal += !dropped_here;
   }
-  printf("  %d of %d trajectories cost the sum; of %d segments that cost, %d (%d collide) lie in runs that do not\n", equal,
-         total, costly, dropped, dropped_hits);
+  printf("  %d of %d trajectories cost the sum; of %d segments that cost, %d (%d collide) lie in runs that do not\n",
+         equal, total, costly, dropped, dropped_hits);
   CHECK_EQ(p->error, NSVCD_OK);
   CHECK_GE(equal, 0.8 * total);
   CHECK_GE(costly, 500);
@@ -740,8 +744,8 @@ typedef struct plan_outcome {
   size_t via;
 } plan_outcome;
 
-// nsvcd_plan with a workspace of just the size asked for and guards behind it and behind control; and what holds of every
-// answer: bounds, counts, finite numbers, start and goal in place; and of every error: nothing written.
+// nsvcd_plan with a workspace of just the size asked for and guards behind it and behind control; and what holds of
+// every answer: bounds, counts, finite numbers, start and goal in place; and of every error: nothing written.
 static plan_outcome plan_run(plan_scene *s) {
   static const unsigned char untouched = 0x5a;
   plan_outcome out;
@@ -749,7 +753,8 @@ static plan_outcome plan_run(plan_scene *s) {
   const size_t size = nsvcd_plan_workspace_size(&s->problem, o), f = s->problem.joints;
   const size_t refine = o->refine.iterations == NSVCD_NONE ? 0 : o->refine.iterations ? o->refine.iterations : 10;
   const size_t explore = o->explore.iterations == NSVCD_NONE ? 0 : o->explore.iterations ? o->explore.iterations : 40;
-  const size_t tries = o->explore.samples ? o->explore.samples : 200, bundle = o->refine.samples ? o->refine.samples : 10;
+  const size_t tries = o->explore.samples ? o->explore.samples : 200,
+               bundle = o->refine.samples ? o->refine.samples : 10;
   query_memory memory = query_reserve(size + PLAN_GUARD);
   size_t written = 0;
   s->reports = s->disorders = s->out_of_place = s->placed = 0;
@@ -1000,9 +1005,10 @@ static void plan_refuses_options_out_of_range(void) {
   plan_wall_scene(&s);
   nsvcd_plan_options *o = &s.options;
   const nsvcd_plan_options none = *o;
-  size_t *const sizes[] = {&o->explore.via_points, &o->explore.segments, &o->explore.iterations, &o->explore.samples,
-                           &o->refine.via_points,  &o->refine.segments,  &o->refine.iterations,  &o->refine.samples,
-                           &o->seeds,              &o->check,            &o->sweep.pairs};
+  size_t *const sizes[] = {
+      &o->explore.via_points, &o->explore.segments,  &o->explore.iterations, &o->explore.samples, &o->refine.via_points,
+      &o->refine.segments,    &o->refine.iterations, &o->refine.samples,     &o->seeds,           &o->check,
+      &o->sweep.pairs};
   const size_t most[] = {32, 4096, 100000, 10000, 32, 4096, 100000, 10000, 1000, 16384, NSVCD_MAX_PAIRS};
   for (size_t k = 0; k < sizeof sizes / sizeof *sizes; k++) {
     *sizes[k] = most[k];
@@ -1152,11 +1158,23 @@ typedef enum plan_trouble {
   PLAN_EXTREME,
   PLAN_TROUBLES
 } plan_trouble;
-static const char *const plan_troubles[PLAN_TROUBLES] = {
-    "start hits", "start out of limits", "goal hits",  "goal out of limits",   "limits exclude the start",
-    "enclosed",   "pair of one body",    "no length",  "limits without width", "no pairs",
-    "32 bodies",  "one via point",       "huge",       "far",                  "tiny",
-    "no weights", "extreme weights"};
+static const char *const plan_troubles[PLAN_TROUBLES] = {"start hits",
+                                                         "start out of limits",
+                                                         "goal hits",
+                                                         "goal out of limits",
+                                                         "limits exclude the start",
+                                                         "enclosed",
+                                                         "pair of one body",
+                                                         "no length",
+                                                         "limits without width",
+                                                         "no pairs",
+                                                         "32 bodies",
+                                                         "one via point",
+                                                         "huge",
+                                                         "far",
+                                                         "tiny",
+                                                         "no weights",
+                                                         "extreme weights"};
 
 // Everything times `scale`: bodies, limits, start, goal.
 static void plan_scale(plan_scene *s, float scale, query_memory *memory) {
@@ -1228,12 +1246,13 @@ static int plan_trouble_case(plan_trouble trouble, uint64_t seed) {
       s.low[j] += 1e5f, s.high[j] += 1e5f, s.start[j] += 1e5f, s.goal[j] += 1e5f, s.rest[1].position[j] += 1e5f;
     }
   }
-  float *const weights[] = {&o->velocity, &o->acceleration, &o->jerk,  &o->collision,
+  float *const weights[] = {&o->velocity, &o->acceleration, &o->jerk,   &o->collision,
                             &o->margin,   &o->spread,       &o->bundle, &o->duration};
   const float extremes[] = {1e20f, 1e-20f, -1, 1e30f, 3e38f, 1e-38f, 0, 1e5f};
   for (size_t k = 0; k < 8; k++) {
     if (trouble == PLAN_NEGATIVE) *weights[k] = (float)shapes_uniform(&rng, -10, -1e-3);
-    if (trouble == PLAN_EXTREME && (seed % 8 == k || shapes_pick(&rng, 3) == 0)) *weights[k] = extremes[shapes_pick(&rng, 8)];
+    if (trouble == PLAN_EXTREME && (seed % 8 == k || shapes_pick(&rng, 3) == 0))
+      *weights[k] = extremes[shapes_pick(&rng, 8)];
   }
   const plan_outcome out = plan_run(&s);  // bounds, numbers, guards
   const plan_outcome again = plan_run(&s);
@@ -1257,13 +1276,15 @@ static int plan_trouble_case(plan_trouble trouble, uint64_t seed) {
     CHECK_EQ(a->status, trouble == PLAN_GOAL_OUT ? NSVCD_PLAN_GOAL : NSVCD_PLAN_START);
     CHECK(a->joint == joint && a->pair == NSVCD_NONE && !a->collides);
   }
-  if (trouble <= PLAN_EXCLUDED && trouble != PLAN_ENCLOSED) CHECK(a->iterations == 0 && s.reports == 0 && a->seeds == 0);
+  if (trouble <= PLAN_EXCLUDED && trouble != PLAN_ENCLOSED)
+    CHECK(a->iterations == 0 && s.reports == 0 && a->seeds == 0);
   if (trouble == PLAN_ENCLOSED) CHECK(a->status == NSVCD_PLAN_LIMIT && a->collides && a->pair == 0);
   if (trouble == PLAN_ZERO_LENGTH || trouble == PLAN_NO_WIDTH || trouble == PLAN_NO_PAIRS) {
     CHECK_EQ(a->status, NSVCD_PLAN_CONVERGED);
   }
   if (trouble == PLAN_ZERO_LENGTH) CHECK_LE(a->smoothness, 1e-6);
-  for (size_t k = 0; trouble == PLAN_NO_WIDTH && k < out.via + 2; k++) CHECK_NEAR(out.control[3 * k + 1], s.low[1], 1e-6 * (double)s.low[1]);
+  for (size_t k = 0; trouble == PLAN_NO_WIDTH && k < out.via + 2; k++)
+    CHECK_NEAR(out.control[3 * k + 1], s.low[1], 1e-6 * (double)s.low[1]);
   return (int)a->status;
 }
 static void plan_troubles_end_well(void) {
@@ -1309,4 +1330,31 @@ static void plan_differences_work_far_from_zero(void) {
     }
     CHECK_LE(sqrt(difference), 0.01 * sqrt(norm));
   }
+}
+
+void test_plan(void) {
+  RUN(plan_spline_passes_through_its_points_and_rests_at_both_ends);
+  RUN(plan_spline_derivatives);
+  RUN(plan_spline_weights_are_a_partition_of_unity);
+  RUN(plan_mean_squares_are_integrals);
+  RUN(plan_cholesky_solves);
+  RUN(plan_gradient_of_the_cost);
+  RUN(plan_gradient_of_the_network);
+  RUN(plan_culling_misses_nothing);
+
+  RUN(plan_cost_is_the_sum_over_segments);
+  RUN(plan_cost_stops_at_its_limit);
+  RUN(plan_goes_round_a_wall);
+  RUN(plan_is_deterministic);
+  RUN(plan_can_be_cancelled);
+  RUN(plan_grasped_bodies_move_along);
+  RUN(plan_stages_can_be_left_out);
+  RUN(plan_discrete_looks_at_poses);
+  RUN(plan_takes_a_custom_cost);
+  RUN(plan_refuses_options_out_of_range);
+  RUN(plan_works_at_the_ends_of_its_options);
+  RUN(plan_refuses_problems);
+  RUN(plan_workspace_is_checked);
+  RUN(plan_troubles_end_well);
+  RUN(plan_differences_work_far_from_zero);
 }
