@@ -403,8 +403,9 @@ typedef struct nsvcd_plan_answer {
 // the defaults. workspace: nsvcd_plan_workspace_size(problem, options) bytes, aligned to NSVCD_ALIGNMENT; 0 if problem
 // or options are refused. Allocates nothing; deterministic; ends within seeds * (iterations of both stages) iterations,
 // of `samples` trajectories each, and for L-BFGS 5 more. Errors: ARGUMENT (sizes, options, NULL), NUMBER (limits, start
-// or goal not finite), POSE (from `place`), WORKSPACE; then control and answer are not written. Source: MPPI (Williams
-// et al. 2017), then L-BFGS with bundled gradients (Suh et al. 2022); NeuralSVCD, appendix D.
+// or goal not finite or beyond NSVCD_MAX_COORDINATE; a cost beyond the range of float), POSE (from `place`), WORKSPACE;
+// then control and answer are not written. Source: MPPI (Williams et al. 2017), then L-BFGS with bundled gradients (Suh
+// et al. 2022); NeuralSVCD, appendix D.
 NSVCDDEF size_t nsvcd_plan_workspace_size(const nsvcd_plan_problem *problem, const nsvcd_plan_options *options);
 NSVCDDEF nsvcd_result nsvcd_plan(const nsvcd_plan_problem *problem, const nsvcd_plan_options *options, void *workspace,
                                  size_t workspace_size, float *control, nsvcd_plan_answer *answer);
