@@ -583,6 +583,117 @@ static void plan_gradient_of_the_network(void) {
   }
 }
 
+// What turns a logit's derivative by a's pose as b sees it into wrenches on both, against the change of that pose when
+// both move a little in the world.
+static void plan_wrenches_are_derivatives(void) {
+  shapes_rng rng = {21};
+  double worst = 0;
+  for (int n = 0; n < 200; n++) {
+    nsvcd_pose poses[2];
+    float wrench[6], wrenches[12] = {0};
+    double moved[2][6], before[3], after[3], q[2][4], inverse[4], turned[4], change = 0, expected = 0;
+    const nsvcd_body_pair pair = {(uint32_t)(n % 2), (uint32_t)(1 - n % 2)};
+    for (int b = 0; b < 2; b++) query_random_pose(&rng, 1, &poses[b]);
+    plan_random_numbers(&rng, 6, 1, wrench);
+    nsvcd__add_wrench(&pair, poses, 0.5f, wrench, wrenches);
+    oracle_pose exact[2];
+    for (int b = 0; b < 2; b++) {
+      exact[b] = plan_exact_pose(&poses[b]), oracle_quat_normalize(exact[b].rotation);
+      for (int k = 0; k < 6; k++) {
+        moved[b][k] = shapes_uniform(&rng, -1e-5, 1e-5);
+        expected += moved[b][k] * (double)wrenches[6 * b + k];
+      }
+    }
+    for (int step = 0; step < 2; step++) {  // a as b sees it, before and after
+      double m[9], d[3];
+      for (int b = 0; b < 2 && step; b++) {
+        const double angle = oracle_length(moved[b] + 3);
+        double by[4], product[4];
+        plan_turn(moved[b][3] / angle, moved[b][4] / angle, moved[b][5] / angle, angle, by);
+        oracle_quat_mul(by, exact[b].rotation, product), memcpy(exact[b].rotation, product, sizeof product);
+        for (int k = 0; k < 3; k++) exact[b].position[k] += moved[b][k];
+      }
+      oracle_matrix(exact[pair.b].rotation, m);
+      oracle_sub(exact[pair.a].position, exact[pair.b].position, d);
+      oracle_rotate_back(m, d, step ? after : before);
+      for (int k = 0; k < 4; k++) inverse[k] = (k < 3 ? -1 : 1) * exact[pair.b].rotation[k];
+      oracle_quat_mul(inverse, exact[pair.a].rotation, q[step]);
+    }
+    for (int k = 0; k < 4; k++) inverse[k] = (k < 3 ? -1 : 1) * q[0][k];
+    oracle_quat_mul(q[1], inverse, turned);
+    for (int k = 0; k < 3; k++) {
+      change += 0.5 * ((double)wrench[k] * (after[k] - before[k]) + (double)wrench[3 + k] * 2 * turned[k]);
+    }
+    CHECK_NEAR(change, expected, 1e-9);  // of about 1e-5: what is left is of second order
+    worst = fmax(worst, fabs(change - expected));
+  }
+  printf("  changes of about 1e-5 are right to %.1e\n", worst);
+}
+
+// The bundle's gradient is the mean over its offsets.
+static void plan_bundled_gradient_is_a_mean(void) {
+  static plan_scene s;
+  plan_inside in;
+  shapes_rng rng = {22};
+  plan_begin(&s, PLAN_ARMS, 4);
+  s.problem.collision = plan_bump_collision;
+  s.rest[3] = query_pose(0.2, 0.1, 0.05);
+  plan_pair(&s, 0, 2), plan_pair(&s, 1, 3);
+  if (!plan_open(&s, &in)) return;
+  nsvcd__planner *p = &in.planner;
+  const nsvcd__stage *stage = &p->refine;
+  const size_t f = 5, numbers = stage->via * f;
+  float control[PLAN_VIA * PLAN_JOINTS], moved[PLAN_VIA * PLAN_JOINTS], gradient[PLAN_VIA * PLAN_JOINTS];
+  double sum[PLAN_VIA * PLAN_JOINTS] = {0}, norm = 0, difference = 0, spread = 0;
+  plan_random_numbers(&rng, numbers + 2 * f, 0.3, control);
+  plan_random_numbers(&rng, stage->count * numbers, 0.2, p->tries);
+  for (size_t n = 0; n < stage->count; n++) {
+    memcpy(moved, control, sizeof moved);
+    for (size_t k = 0; k < numbers; k++) moved[f + k] += p->tries[n * numbers + k];
+    nsvcd__cost_of(p, stage, moved, INFINITY, gradient, NULL);
+    for (size_t k = 0; k < numbers; k++) sum[k] += (double)gradient[f + k] / (double)stage->count;
+  }
+  nsvcd__cost_of(p, stage, control, INFINITY, gradient, NULL);
+  nsvcd__bundled_gradient(p, stage, control);
+  for (size_t k = 0; k < numbers; k++) {
+    norm += sum[k] * sum[k], difference += pow(sum[k] - (double)p->sum[k], 2);
+    spread += pow(sum[k] - (double)gradient[f + k], 2);
+  }
+  CHECK_LE(sqrt(difference), 1e-5 * sqrt(norm));
+  CHECK_GE(sqrt(spread), 0.01 * sqrt(norm));  // else the offsets would not matter
+  plan_close(&in);
+}
+
+// L-BFGS alone on a smooth cost comes close to the minimum in a few iterations.
+static void plan_refining_converges(void) {
+  static plan_scene s;
+  double worst = 0;
+  for (int n = 0; n < 10; n++) {
+    float cost[2] = {0, 0};
+    for (int longer = 0; longer < 2; longer++) {
+      plan_begin(&s, PLAN_XYZ, 2);
+      plan_inside in;
+      nsvcd_plan_answer unused;
+      int cancelled = 0;
+      memset(&unused, 0, sizeof unused);
+      s.problem.collision = plan_bump_collision, s.problem.jacobian = plan_jacobian, s.problem.progress = NULL;
+      s.start[0] = -0.5f, s.goal[0] = 0.5f, s.rest[1] = query_pose(0.05 * n - 0.2, 0.03 + 0.01 * n, 0.05);
+      plan_pair(&s, 0, 1);
+      s.options.explore.iterations = NSVCD_NONE, s.options.refine.iterations = longer ? 300 : 12;
+      s.options.refine.samples = 1, s.options.bundle = -1, s.options.collision = 1;
+      if (!plan_open(&s, &in)) return;
+      nsvcd__smoothest(&in.planner, &in.planner.refine, in.planner.best);
+      nsvcd__refine(&in.planner, 0, &unused, &cancelled);
+      cost[longer] = nsvcd__cost_of(&in.planner, &in.planner.refine, in.planner.best, INFINITY, NULL, NULL).total;
+      CHECK_EQ(in.planner.error, NSVCD_OK);
+      plan_close(&in);
+    }
+    worst = fmax(worst, (double)(cost[0] / cost[1] - 1));
+  }
+  printf("  after 12 iterations at most %.1e of the cost above that after 300\n", worst);
+  CHECK_LE(worst, 0.01);
+}
+
 // ----------------------------------------------------------------------------------------------------------- culling
 
 // Random scenes: everything moves and turns at random, by up to two radians from one sample to the next; one in two
@@ -592,6 +703,7 @@ static void plan_random_poses(shapes_rng *rng, nsvcd__planner *p, size_t samples
   for (size_t b = 0; b < bodies; b++) {
     nsvcd_pose at;
     double axis[3], way[3], angle = shapes_uniform(rng, -turn, turn), q[4];
+    const double speed = shapes_pick(rng, 2) ? 0.3 * reach : 1.5 * reach;
     query_random_pose(rng, reach, &at);
     shapes_direction(rng, axis), shapes_direction(rng, way);
     if (b > 0 && shapes_pick(rng, 3) == 0) {  // its origin in the first body
@@ -603,7 +715,7 @@ static void plan_random_poses(shapes_rng *rng, nsvcd__planner *p, size_t samples
       plan_turn(axis[0], axis[1], axis[2], angle * (double)s, q);
       for (int k = 0; k < 4; k++) by[k] = (float)q[k];
       query_multiply(by, at.rotation, pose->rotation);
-      for (int k = 0; k < 3; k++) pose->position[k] = at.position[k] + (float)(0.3 * reach * way[k] * (double)s);
+      for (int k = 0; k < 3; k++) pose->position[k] = at.position[k] + (float)(speed * way[k] * ((double)s - 4));
     }
   }
 }
@@ -866,6 +978,28 @@ static void plan_is_deterministic(void) {
   s.options.seed = 2;
   const plan_outcome other = plan_run(&s);
   CHECK(memcmp(first.control, other.control, 36 * sizeof(float)) != 0);
+}
+
+// Of several starts, none of which ends free, the best is kept: with one more the answer costs no more.
+static void plan_keeps_the_best_of_its_seeds(void) {
+  static plan_scene s;
+  int better = 0;
+  float before = INFINITY;
+  plan_wall_scene(&s);
+  s.bodies[1] = plan_body(PLAN_SHELL);  // around the goal
+  s.rest[1] = query_pose((double)s.goal[0] + 0.1, 0, 0);
+  s.start[0] = -0.45f;
+  s.options.explore.iterations = s.options.refine.iterations = NSVCD_NONE;
+  for (size_t seeds = 1; seeds <= 12; seeds++) {
+    s.options.seeds = seeds;
+    const plan_outcome out = plan_run(&s);
+    CHECK_EQ(out.answer.status, NSVCD_PLAN_LIMIT);
+    CHECK_EQ(out.answer.seeds, seeds);
+    CHECK_LE(out.answer.cost, before);
+    better += seeds > 1 && out.answer.cost < before;
+    before = out.answer.cost;
+  }
+  CHECK(better >= 1 && better < 11);
 }
 
 static void plan_can_be_cancelled(void) {
@@ -1340,12 +1474,16 @@ void test_plan(void) {
   RUN(plan_cholesky_solves);
   RUN(plan_gradient_of_the_cost);
   RUN(plan_gradient_of_the_network);
+  RUN(plan_wrenches_are_derivatives);
+  RUN(plan_bundled_gradient_is_a_mean);
+  RUN(plan_refining_converges);
   RUN(plan_culling_misses_nothing);
 
   RUN(plan_cost_is_the_sum_over_segments);
   RUN(plan_cost_stops_at_its_limit);
   RUN(plan_goes_round_a_wall);
   RUN(plan_is_deterministic);
+  RUN(plan_keeps_the_best_of_its_seeds);
   RUN(plan_can_be_cancelled);
   RUN(plan_grasped_bodies_move_along);
   RUN(plan_stages_can_be_left_out);
