@@ -403,8 +403,9 @@ typedef struct nsvcd_plan_answer {
 // the defaults. workspace: nsvcd_plan_workspace_size(problem, options) bytes, aligned to NSVCD_ALIGNMENT; 0 if problem
 // or options are refused. Allocates nothing; deterministic; ends within seeds * (iterations of both stages) iterations,
 // of `samples` trajectories each, and for L-BFGS 5 more. Errors: ARGUMENT (sizes, options, NULL), NUMBER (limits, start
-// or goal not finite), POSE (from `place`), WORKSPACE; then control and answer are not written. Source: MPPI (Williams
-// et al. 2017), then L-BFGS with bundled gradients (Suh et al. 2022); NeuralSVCD, appendix D.
+// or goal not finite or beyond NSVCD_MAX_COORDINATE; a cost beyond the range of float), POSE (from `place`), WORKSPACE;
+// then control and answer are not written. Source: MPPI (Williams et al. 2017), then L-BFGS with bundled gradients (Suh
+// et al. 2022); NeuralSVCD, appendix D.
 NSVCDDEF size_t nsvcd_plan_workspace_size(const nsvcd_plan_problem *problem, const nsvcd_plan_options *options);
 NSVCDDEF nsvcd_result nsvcd_plan(const nsvcd_plan_problem *problem, const nsvcd_plan_options *options, void *workspace,
                                  size_t workspace_size, float *control, nsvcd_plan_answer *answer);
@@ -4280,7 +4281,7 @@ static void nsvcd__spline_weights(size_t via, double t, size_t derivative, doubl
   static const double basis[6][6] = {{1, 0, 0, -10, 15, -6}, {0, 1, 0, -6, 8, -3}, {0, 0, 0.5, -1.5, 1.5, -0.5},
                                      {0, 0, 0, 10, -15, 6},  {0, 0, 0, -4, 7, -3}, {0, 0, 0, 0.5, -1, 0.5}};
   const size_t last = via + 1;
-  const double at = (t < 0 ? 0 : t > 1 ? 1 : t) * (double)last;
+  const double at = (t > 0 ? (t < 1 ? t : 1) : 0) * (double)last;
   const size_t left = (size_t)at < last ? (size_t)at : last - 1;
   const double u = at - (double)left;
   double scale = 1;
@@ -4435,10 +4436,11 @@ static void *nsvcd__take(char *base, size_t *used, size_t bytes) {
 static int nsvcd__stage_of(const nsvcd_plan_stage *given, size_t via, size_t segments, size_t iterations, size_t count,
                            nsvcd__stage *stage) {
   stage->via = given->via_points ? given->via_points : via;
-  stage->samples = (given->segments ? given->segments : segments) + 1;
+  const size_t pieces = given->segments ? given->segments : segments;
+  stage->samples = pieces + 1;
   stage->iterations = given->iterations == NSVCD_NONE ? 0 : given->iterations ? given->iterations : iterations;
   stage->count = given->samples ? given->samples : count;
-  return stage->via <= NSVCD_MAX_VIA_POINTS && stage->samples <= NSVCD_MAX_SEGMENTS + 1 && stage->count <= 10000 &&
+  return stage->via <= NSVCD_MAX_VIA_POINTS && pieces <= NSVCD_MAX_SEGMENTS && stage->count <= 10000 &&
          stage->iterations <= 100000;
 }
 
@@ -4466,6 +4468,8 @@ static int nsvcd__planner_settings(const nsvcd_plan_problem *problem, const nsvc
   for (size_t k = 0; k < 9; k++) {
     if (!nsvcd__is_finite(floats[k])) return 0;
   }
+  nsvcd__settings unused;
+  if (nsvcd__settings_of(&o->sweep, 1, 1, &unused)) return 0;
   if (!nsvcd__stage_of(&o->explore, 5, 24, 40, 100, &p->explore)) return 0;
   if (!nsvcd__stage_of(&o->refine, 10, 22, 10, 10, &p->refine)) return 0;
   if (o->refine.iterations == NSVCD_NONE) p->refine.via = p->explore.via;
@@ -4478,8 +4482,9 @@ static int nsvcd__planner_settings(const nsvcd_plan_problem *problem, const nsvc
   o->bundle = nsvcd__default(o->bundle, 0.01f);
   p->check = p->refine;
   const size_t finest = p->explore.samples > p->refine.samples ? p->explore.samples : p->refine.samples;
-  p->check.samples = (o->check ? o->check : 4 * (finest - 1)) + 1;
-  return p->check.samples <= 4 * NSVCD_MAX_SEGMENTS + 1 && o->seeds <= 1000;
+  o->check = o->check ? o->check : 4 * (finest - 1);
+  p->check.samples = o->check + 1;
+  return o->check <= 4 * NSVCD_MAX_SEGMENTS && o->seeds <= 1000;
 }
 
 static void nsvcd__stage_memory(nsvcd__stage *stage, char *base, size_t *used) {
@@ -4528,7 +4533,7 @@ static size_t nsvcd__planner_memory(nsvcd__planner *p, char *base) {
 
 // The boxes of all bodies' patches.
 static void nsvcd__find_boxes(nsvcd__planner *p) {
-  for (size_t b = 0; !p->problem->collision && b < p->problem->body_count; b++) {
+  for (size_t b = 0; !p->problem->collision && p->problem->bodies && b < p->problem->body_count; b++) {
     const nsvcd_body *body = p->problem->bodies[b];
     float *box = p->boxes + 6 * b;
     for (size_t k = 0; body && k < 3; k++) {
@@ -4584,11 +4589,11 @@ static void nsvcd__relative_pose(const nsvcd_pose *a, const nsvcd_pose *b, nsvcd
   out->rotation[3] = q[3] * p[3] + q[0] * p[0] + q[1] * p[1] + q[2] * p[2];
 }
 
-// Tracks of all bodies: the bounding sphere's centre, the pose as origin and matrix, and how much the way to the next
-// sample bends: a point that turns leaves its chord by no more than its arm times 1 - cos of half the angle.
+// Tracks of all bodies: from the origin to the bounding sphere's centre, the pose as origin and matrix, and how much
+// the way to the next sample bends: the root of 1 - cos of half the angle.
 static void nsvcd__track_bodies(nsvcd__planner *p, size_t samples) {
   const size_t bodies = p->problem->body_count;
-  for (size_t b = 0; b < bodies; b++) {
+  for (size_t b = 0; p->problem->bodies && b < bodies; b++) {
     const nsvcd_body *body = p->problem->bodies[b];
     float *track = p->tracks + NSVCD__TRACK * samples * b;
     if (!body) continue;
@@ -4598,18 +4603,22 @@ static void nsvcd__track_bodies(nsvcd__planner *p, size_t samples) {
       float m[9], turned[3];
       nsvcd__quat_to_matrix(q, m), nsvcd__mul33_vec(m, body->centre, turned);
       for (size_t k = 0; k < 3; k++) {
-        track[(NSVCD__CENTRE + k) * samples + s] = pose->position[k] + turned[k];
+        track[(NSVCD__CENTRE + k) * samples + s] = turned[k];
         track[(NSVCD__ORIGIN + k) * samples + s] = pose->position[k];
       }
       for (size_t k = 0; k < 9; k++) track[(NSVCD__AXES + k) * samples + s] = m[k];
       const float bend = 1.000001f - fabsf(q[0] * r[0] + q[1] * r[1] + q[2] * r[2] + q[3] * r[3]);
-      track[NSVCD__BEND * samples + s] = bend > 0 ? bend : 0;
+      track[NSVCD__BEND * samples + s] = sqrtf(bend > 0 ? bend : 0);
     }
   }
 }
 
-// Clears p->meets for the segments (stride 1) or samples (0) in which a's bounding sphere stays away from b's box.
-static void nsvcd__meet_box(nsvcd__planner *p, size_t a, size_t b, size_t samples, size_t stride) {
+// Clears p->meets for the segments (stride 1) or samples (0) in which a's bounding sphere stays away from b's box. The
+// motion is the query's, in which one of them rests: a's origin goes straight as seen from it, and a turns by an angle
+// c relative to it. If that is b, a's centre leaves its chord by no more than its arm * (1 - cos(c / 2)). If it is a
+// itself (`resting`), a's centre v as b sees it turns while it goes: by no more than c^2 |v| / 8 + c |dv| / 4, where dv
+// is what it goes in its own axes, itself no more than in b's axes + c |v|.
+static void nsvcd__meet_box(nsvcd__planner *p, size_t a, size_t b, int resting, size_t samples, size_t stride) {
   const nsvcd_body *body = p->problem->bodies[a];
   const float *from = p->tracks + NSVCD__TRACK * samples * a, *to = p->tracks + NSVCD__TRACK * samples * b;
   const float *box = p->boxes + 6 * b, *axes = to + NSVCD__AXES * samples;
@@ -4618,7 +4627,8 @@ static void nsvcd__meet_box(nsvcd__planner *p, size_t a, size_t b, size_t sample
   for (size_t s = 0; s < samples; s++) {
     float d[3], square = 0;
     for (size_t k = 0; k < 3; k++) {
-      d[k] = from[(NSVCD__CENTRE + k) * samples + s] - to[(NSVCD__ORIGIN + k) * samples + s];
+      d[k] = from[(NSVCD__ORIGIN + k) * samples + s] - to[(NSVCD__ORIGIN + k) * samples + s] +
+             from[(NSVCD__CENTRE + k) * samples + s];
       square += d[k] * d[k];
     }
     for (size_t k = 0; k < 3; k++) {
@@ -4628,9 +4638,14 @@ static void nsvcd__meet_box(nsvcd__planner *p, size_t a, size_t b, size_t sample
     x[3 * samples + s] = sqrtf(square);
   }
   for (size_t s = 0; s + stride < samples; s++) {
-    const float bend_a = from[NSVCD__BEND * samples + s], bend_b = to[NSVCD__BEND * samples + s];
-    const float reach =
-        radius + (float)stride * (arm * bend_a + (x[3 * samples + s] + x[3 * samples + s + stride]) * bend_b);
+    // The roots of 1 - cos of half an angle: that of the sum of two angles is no more than their sum, and c < 3.15
+    // bend.
+    const float bend = from[NSVCD__BEND * samples + s] + to[NSVCD__BEND * samples + s];
+    float way = 0;
+    for (size_t k = 0; k < 3; k++) way += fabsf(x[k * samples + s + stride] - x[k * samples + s]);
+    const float far = x[3 * samples + s] + x[3 * samples + s + stride];
+    const float leaves = resting ? (3.75f * bend * far + 0.8f * way) * bend : arm * bend * bend;
+    const float reach = radius + (float)stride * leaves;
     int apart = 0;
     for (size_t k = 0; k < 3; k++) {
       const float u = x[k * samples + s], v = x[k * samples + s + stride];
@@ -4643,8 +4658,8 @@ static void nsvcd__meet_box(nsvcd__planner *p, size_t a, size_t b, size_t sample
 // Marks the segments, or with stride 0 the samples, in which a pair may meet.
 static void nsvcd__find_meetings(nsvcd__planner *p, const nsvcd_body_pair *pair, size_t samples, size_t stride) {
   memset(p->meets, 1, samples);
-  nsvcd__meet_box(p, pair->a, pair->b, samples, stride);
-  nsvcd__meet_box(p, pair->b, pair->a, samples, stride);
+  nsvcd__meet_box(p, pair->a, pair->b, 0, samples, stride);
+  nsvcd__meet_box(p, pair->b, pair->a, 1, samples, stride);
 }
 
 // What a logit costs: nothing far below zero, its excess over -margin above; and the derivative by the logit.
@@ -4696,15 +4711,8 @@ static nsvcd_answer nsvcd__ask(nsvcd__planner *p, uint32_t k, size_t first, size
   return answer;
 }
 
-static void nsvcd__keep_worst(const nsvcd_answer *answer, uint32_t k, size_t first, size_t segments, size_t samples,
-                              nsvcd__worst *worst) {
-  if (!worst || !(answer->logit > worst->logit)) return;
-  worst->logit = answer->logit, worst->pair = k;
-  worst->time = samples > 1 ? ((float)first + (float)segments * answer->time) / (float)(samples - 1) : 0;
-}
-
 // The network's cost of the poses (samples, B), up to the first sum above `limit`; adds to wrenches (samples, B, 6)
-// unless that is NULL. worst may be NULL.
+// unless that is NULL. worst: NULL but for the last check, which wants to know it.
 static float nsvcd__network_cost(nsvcd__planner *p, size_t samples, float limit, int *collides, float *wrenches,
                                  nsvcd__worst *worst) {
   const size_t bodies = p->problem->body_count, stride = !p->options.discrete && samples > 1;
@@ -4717,21 +4725,21 @@ static float nsvcd__network_cost(nsvcd__planner *p, size_t samples, float limit,
     for (size_t s = 0, checked = 0; s + stride < samples && sum <= limit && !p->error; s++) {
       float gradient[12], slope;
       if (!p->meets[s]) continue;
-      if (stride && s >= checked) {  // several segments at once: if they are far from a collision, that is all
+      // Several segments at once: if they are far from a collision, that is all. The last check looks closer.
+      if (stride && !worst && s >= checked) {
         size_t run = 1;
         while (run < NSVCD__RUN && s + run + 1 < samples && p->meets[s + run]) run++;
         checked = s + run;
-        const nsvcd_answer all = nsvcd__ask(p, k, s, run, NULL);
-        if (all.logit <= -p->options.margin || (run == 1 && !wrenches)) {
-          nsvcd__keep_worst(&all, k, s, run, samples, worst);
-          *collides |= all.collides;
-          sum += nsvcd__cost_of_logit(all.logit, p->options.margin, &slope);
+        if (run > 1 && nsvcd__ask(p, k, s, run, NULL).logit <= -p->options.margin) {
           s += run - 1;
           continue;
         }
       }
       const nsvcd_answer answer = nsvcd__ask(p, k, s, stride, wrenches ? gradient : NULL);
-      nsvcd__keep_worst(&answer, k, s, stride, samples, worst);
+      if (worst && answer.logit > worst->logit) {
+        worst->logit = answer.logit, worst->pair = k;
+        worst->time = samples > 1 ? ((float)s + (float)stride * answer.time) / (float)(samples - 1) : 0;
+      }
       *collides |= answer.collides;
       sum += nsvcd__cost_of_logit(answer.logit, p->options.margin, &slope);
       for (size_t i = 0; wrenches && slope > 0 && i <= stride; i++) {
@@ -4754,7 +4762,6 @@ static int nsvcd__by_joints(nsvcd__planner *p, const float *joints, const nsvcd_
                             float *by_joints) {
   const nsvcd_plan_problem *problem = p->problem;
   const size_t f = problem->joints, bodies = problem->body_count;
-  const float step = 1e-3f;
   float moved[NSVCD_MAX_JOINTS];
   size_t k = 0;
   while (k < 6 * bodies && !(wrenches[k] < 0 || wrenches[k] > 0)) k++;
@@ -4762,9 +4769,11 @@ static int nsvcd__by_joints(nsvcd__planner *p, const float *joints, const nsvcd_
   if (problem->jacobian) problem->jacobian(problem->user, joints, p->jacobian);
   memcpy(moved, joints, f * sizeof *moved);
   for (size_t j = 0; j < f; j++) {
+    float step = 1;
     by_joints[j] = 0;
     if (!problem->jacobian) {
-      moved[j] = joints[j] + step;
+      moved[j] = joints[j] + (1e-3f + 1e-6f * fabsf(joints[j]));
+      step = moved[j] - joints[j];  // as rounded
       problem->place(problem->user, moved, p->moved);
       moved[j] = joints[j];
     }
@@ -4786,6 +4795,20 @@ static int nsvcd__by_joints(nsvcd__planner *p, const float *joints, const nsvcd_
     }
   }
   return 1;
+}
+
+// The poses of all bodies (samples, B), their quaternions made of unit length, from the joints (samples, F).
+static void nsvcd__place(nsvcd__planner *p, const float *joints, size_t samples) {
+  const nsvcd_plan_problem *problem = p->problem;
+  const size_t bodies = problem->body_count;
+  for (size_t s = 0; s < samples; s++) {
+    problem->place(problem->user, joints + s * problem->joints, p->poses + s * bodies);
+  }
+  if (bodies > 0 && !nsvcd__poses_are_valid(p->poses, samples * bodies)) {
+    p->error = NSVCD_ERROR_POSE;
+    return;
+  }
+  for (size_t k = 0; k < samples * bodies; k++) nsvcd__quat_normalize(p->poses[k].rotation, p->poses[k].rotation);
 }
 
 // What the trajectory costs, up to `limit`: a sum beyond it is not finished. gradient: (M + 2, F), written, or NULL.
@@ -4816,18 +4839,16 @@ static nsvcd__cost nsvcd__cost_of(nsvcd__planner *p, const nsvcd__stage *stage, 
       const float out = sum < low + inner ? sum - low - inner : sum > high - inner ? sum - high + inner : 0;
       joints[j] = sum;
       cost.total += share * out * out;
-      if (sum < low - 1e-5f || sum > high + 1e-5f) cost.joint = j;
+      const float rounding = 1e-5f + 1e-6f * fabsf(sum);
+      if (sum < low - rounding || sum > high + rounding) cost.joint = j;
       for (size_t k = 0; gradient && k < all; k++) gradient[k * f + j] += 2 * share * out * w[k];
     }
   }
   if (cost.total > limit || p->error) return cost;
-  for (size_t s = 0; s < samples; s++) problem->place(problem->user, p->path + s * f, p->poses + s * bodies);
+  nsvcd__place(p, p->path, samples);
+  if (p->error) return cost;
   float *wrenches = gradient ? p->wrenches : NULL;
   if (gradient) memset(wrenches, 0, samples * bodies * 6 * sizeof *wrenches);
-  if (!nsvcd__poses_are_valid(p->poses, samples * bodies)) {
-    p->error = NSVCD_ERROR_POSE;
-    return cost;
-  }
   const float weight = p->options.collision;
   const float left = weight > 0 ? (limit - cost.total) / weight : INFINITY;
   NSVCD__TALLY(collision, 0);  // begins
@@ -4882,7 +4903,7 @@ static void nsvcd__change(const nsvcd__planner *p, size_t via, const float *cont
   memcpy(out, control, (via + 2) * f * sizeof *out);
   for (size_t k = 0; k < via * f; k++) {
     const float x = control[f + k] + scale * offset[k], low = p->problem->low[k % f], high = p->problem->high[k % f];
-    out[f + k] = x < low ? low : x > high ? high : x;
+    out[f + k] = x < low ? low : x < high ? x : high;  // high where x is not a number
   }
 }
 
@@ -5111,9 +5132,9 @@ static int nsvcd__is_good(nsvcd__planner *p, const float *joints, nsvcd_plan_ans
   for (size_t j = 0; j < problem->joints; j++) {
     if (joints[j] < problem->low[j] || joints[j] > problem->high[j]) answer->joint = j;
   }
+  answer->logit = 0, answer->pair = NSVCD_NONE;
   if (answer->joint != NSVCD_NONE) return 0;
-  problem->place(problem->user, joints, p->poses);
-  if (!nsvcd__poses_are_valid(p->poses, problem->body_count)) p->error = NSVCD_ERROR_POSE;
+  nsvcd__place(p, joints, 1);
   if (p->error) return 0;
   if (problem->collision) {
     worst.logit = problem->collision(problem->user, p->poses, 1, INFINITY, &answer->collides, NULL);

@@ -61,7 +61,7 @@ if test "$(uname -m)" = x86_64; then
   compile "${CXX:-c++}" cc c++11 "-mavx512f -O0"
 fi
 compile "${CC:-cc}" c c99 "-DNSVCD_STATIC -Wno-unused-function -O0"
-for without in ENCODER OBJ SMALL BASE INT8 FLOAT GRADIENT "SMALL BASE" "ENCODER SMALL BASE FLOAT STDIO"; do
+for without in ENCODER OBJ SMALL BASE INT8 FLOAT GRADIENT OPTIMIZER "GRADIENT OPTIMIZER" "SMALL BASE" "ENCODER SMALL BASE FLOAT STDIO"; do
   compile "${CC:-cc}" c c99 "$(printf ' -DNSVCD_NO_%s' $without) -O0"
 done
 

@@ -12,6 +12,7 @@ void test_gradient(void);
 void test_cost(void);
 void test_tasks(void);
 void test_plan_spheres(void);
+void test_plan(void);
 
 int main(int argc, char **argv) {
   check.filter = argc > 1 ? argv[1] : NULL;
@@ -24,6 +25,7 @@ int main(int argc, char **argv) {
   test_gradient();
   test_tasks();
   test_plan_spheres();
+  test_plan();
   printf("%d passed, %d failed\n", check.passed, check.failed);
   return check.failed > 0;
 }

@@ -36,4 +36,5 @@ row '... and the base decoder (`NSVCD_NO_BASE`)' -DNSVCD_NO_ENCODER -DNSVCD_NO_F
 row '... and the small one (`NSVCD_NO_SMALL`)' -DNSVCD_NO_ENCODER -DNSVCD_NO_FLOAT -DNSVCD_NO_BASE -DNSVCD_NO_SMALL
 row 'int8 arithmetic (`NSVCD_NO_INT8`)' -DNSVCD_NO_INT8
 row 'the base decoder (`NSVCD_NO_BASE`)' -DNSVCD_NO_BASE
-row 'the gradient (`NSVCD_NO_GRADIENT`)' -DNSVCD_NO_GRADIENT
+row 'the trajectory optimizer (`NSVCD_NO_OPTIMIZER`)' -DNSVCD_NO_OPTIMIZER
+row 'the gradient, and with it the optimizer (`NSVCD_NO_GRADIENT`)' -DNSVCD_NO_GRADIENT

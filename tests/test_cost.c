@@ -2,7 +2,7 @@
 #define NSVCD_STATIC
 #define NEURALSVCD_IMPLEMENTATION
 #include <stddef.h>
-static struct { size_t tests, ranked, judged; } tally;
+static struct { size_t tests, ranked, judged, collision; } tally;  // the last one is of no interest here
 #define NSVCD__TALLY(what, amount) (tally.what += (amount))
 #include "../neuralsvcd.h"
 
