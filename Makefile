@@ -25,7 +25,7 @@ ifeq ($(BENCH),quick)
 COUNT ?= 200
 endif
 
-.PHONY: preview profile instructions sizes bench check-extremes all demo test assets problems accuracy weights format clean help check-header check-examples check-problems check-gradient
+.PHONY: bench-plan preview profile instructions sizes bench check-extremes all demo test assets problems accuracy weights format clean help check-header check-examples check-problems check-gradient
 .DELETE_ON_ERROR:
 
 PLANNERS = build/dish_insertion build/bimanual_insertion build/mining_site
@@ -179,6 +179,14 @@ sizes:  ## code and data that each compile-time switch leaves out, host and Cort
 
 bench: build/bench $(BENCH_FILES)  ## every method on the same problems: table, build/tradeoff.tsv, build/tradeoff.svg
 	build/bench $(if $(BENCH),--quick --limit 150,--limit 600) $(BENCH_SETS)
+
+build/plan_bench: tests/plan_bench.c tests/plan_spheres.h tests/bench_spheres.h tests/bench_mesh.h tests/method.h tests/oracle.h \
+  examples/tasks.h examples/shapes.h $(LIBRARY) | build
+	$(CC) $(ALL_CFLAGS) -o $@ tests/plan_bench.c -lm
+# EPISODES=10 for a quick look; 100, the default, take half an hour.
+bench-plan: build/plan_bench  ## four planners on three tasks: table, build/plan.tsv, build/plan.svg
+	build/plan_bench --episodes $(or $(EPISODES),100) --tsv build/plan.tsv
+	build/plan_bench chart build/plan.tsv build/plan.svg
 
 # ---------------------------------------------------------------------------------------------------------- training
 

@@ -69,12 +69,7 @@ int main(int argc, char **argv) {
   printf("%s, seed %llu: %d bodies encoded in %.2f s, %d pairs that can meet\n", scene.name, (unsigned long long)seed,
          scene.body_count, planner_seconds() - begin, scene.pair_count);
 
-  nsvcd_plan_options options;
-  memset(&options, 0, sizeof options);  // the defaults, but:
-  options.collision = 20;               // against smoothness
-  options.seeds = 6;  // a hole is a narrow way: where two starts do not find it (seeds 12 and 14), further ones do
-  options.refine.via_points = 10;  // the default, spelled out because it gives the size of `control`
-  if (!planner_plan(&user, bodies, &options, NULL, &motion)) return 1;
+  if (!planner_plan(&user, bodies, NULL, NULL, &motion)) return 1;  // NULL: the defaults will do
   planner_judge(&scene, &motion);
   planner_report(&scene, &motion);
 

@@ -74,9 +74,7 @@ int main(int argc, char **argv) {
 
   nsvcd_plan_options options;
   memset(&options, 0, sizeof options);  // the defaults, but:
-  options.collision = 20;               // against smoothness; the paper's 1 lets thin wires pass
   options.sweep.recall = 0.999f;        // rather a wider way than a wire missed: the decision shifts towards "hits"
-  options.refine.via_points = 10;       // the default, spelled out because it gives the size of `control`
 
   int good = 0;
   for (int i = 0; i < scene.problem_count; i++) {

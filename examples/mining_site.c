@@ -61,8 +61,7 @@ int main(int argc, char **argv) {
   nsvcd_plan_options options;
   memset(&options, 0, sizeof options);
   options.velocity = 1, options.acceleration = 10, options.jerk = 50;  // a long way: speed costs less, jerks more
-  options.collision = 20;
-  options.refine.via_points = 10;  // the default, spelled out because it gives the size of `control`
+  options.sweep.recall = 0.999f;                                       // rather a wider way than a beam touched
   planner_user user = {&scene, planner_seconds() + seconds};
   if (!planner_plan(&user, bodies, &options, watch, &motion)) return 1;
   planner_judge(&scene, &motion);

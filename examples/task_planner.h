@@ -12,7 +12,7 @@
 #include <time.h>
 
 #define PLANNER_DEF SHAPES_DEF
-#define PLANNER_POINTS 256   // patches per body: half the default, as a plan asks about a hundred thousand sweeps
+#define PLANNER_POINTS 512   // patches per body; 256 are faster, but wires and holes are better seen with more
 #define PLANNER_SAMPLES 201  // of a motion, for the oracle and the pictures
 
 // What nsvcd_plan's callbacks get: one pointer serves them all.
@@ -64,11 +64,11 @@ PLANNER_DEF void planner_place(void *user, const float *joints, nsvcd_pose *pose
 }
 
 // Plans the selected problem of the scene. Returns 1 if there is a motion to look at, of whatever worth: see
-// motion->answer.status; 0 after a message. options->refine.via_points must be set.
+// motion->answer.status; 0 after a message.
 PLANNER_DEF int planner_plan(planner_user *user, const nsvcd_body *const *bodies, const nsvcd_plan_options *options,
                              int (*progress)(void *user, const nsvcd_plan_progress *progress), planner_motion *motion) {
   const task_scene *scene = user->scene;
-  const size_t joints = (size_t)scene->joint_count, via_points = options->refine.via_points;
+  const size_t joints = (size_t)scene->joint_count;
   float low[TASK_MAX_JOINTS], high[TASK_MAX_JOINTS];
   float control[(NSVCD_MAX_VIA_POINTS + 2) * TASK_MAX_JOINTS];
   nsvcd_body_pair pairs[TASK_MAX_PAIRS];
@@ -95,7 +95,8 @@ PLANNER_DEF int planner_plan(planner_user *user, const nsvcd_body *const *bodies
   if (result) return fprintf(stderr, "plan: %s\n", nsvcd_result_string(result)), 0;
 
   for (int s = 0; s < PLANNER_SAMPLES; s++)  // a controller would ask for as many as it needs, and for derivatives
-    nsvcd_spline(control, via_points, joints, (float)s / (PLANNER_SAMPLES - 1), 0, motion->joints + (size_t)s * joints);
+    nsvcd_spline(control, motion->answer.via_points, joints, (float)s / (PLANNER_SAMPLES - 1), 0,
+                 motion->joints + (size_t)s * joints);
   return 1;
 }
 

@@ -1,6 +1,7 @@
 // plan_bench.c - the paper's motion planning study: three tasks, four planners, the same random episodes.
 //
-//   plan_bench [--episodes N] [--first SEED] [--task dish|bimanual|mining] [--planner NAME] [--tsv FILE] [--svg FILE]
+//   plan_bench [--episodes N] [--first SEED] [--task dish|bimanual|mining] [--planner NAME] [--tsv FILE]
+//   plan_bench chart FILE.tsv FILE.svg      a picture of such a table
 //
 // All planners are nsvcd_plan; they differ in the cost of collision: spheres against meshes (plan_spheres.h; few and
 // many on the grasped object), the network on swept segments, the network on poses. First with the settings of the
@@ -185,11 +186,6 @@ static void wilson(int hits, int count, double *low, double *high) {
   *low = middle - half, *high = middle + half;
 }
 
-typedef struct table {
-  outcome *outcomes;  // (PLANNERS, episodes)
-  int episodes;
-} table;
-
 static void print_row(FILE *tsv, int task, const planner *planner, const outcome *outcomes, int count) {
   outcome sum;
   int solved = 0;
@@ -252,10 +248,81 @@ static void run_episode(int task, uint64_t seed, int only, outcome *outcomes, in
   task_free(&scene);
 }
 
+// ------------------------------------------------------------------------------------------------------- picture
+// A panel per task: episodes solved, with intervals, against the time of an episode on a logarithmic axis.
+
+#define PANEL 400.0   // from panel to panel, pixels
+#define PANEL_X 60.0  // the axes' left end in a panel, and their size
+#define PANEL_Y 60.0
+#define PANEL_WIDTH 320.0
+#define PANEL_HEIGHT 260.0
+static double x_of(double time) { return PANEL_X + PANEL_WIDTH * (log10(time) + 1.3) / 2.6; }  // 0.05 to 20 s
+static double y_of(double success) { return PANEL_Y + PANEL_HEIGHT * (1 - success / 100); }
+
+static int draw_chart(const char *from, const char *to) {
+  static const char *const colors[PLANNERS] = {"#56b4e9", "#0072b2", "#e69f00", "#009e73", "#cc79a7", "#d55e00"};
+  FILE *tsv = fopen(from, "r"), *svg = tsv ? fopen(to, "w") : NULL;
+  char line[512], task[32], name[64];
+  int rows = 0;
+  if (!svg) return fprintf(stderr, "plan_bench: %s cannot be %s\n", tsv ? to : from, tsv ? "written" : "read"), 2;
+  fprintf(svg,
+          "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"%.0f\" height=\"430\" font-family=\"sans-serif\" "
+          "font-size=\"12\"><rect width=\"100%%\" height=\"100%%\" fill=\"white\"/>\n",
+          TASKS * PANEL);
+  for (int t = 0; t < TASKS; t++) {
+    fprintf(svg, "<text x=\"%.0f\" y=\"36\" font-size=\"15\" font-weight=\"bold\">%s</text>\n", t * PANEL + PANEL_X,
+            task_names[t]);
+    for (int k = 0; k <= 5; k++) {
+      fprintf(
+          svg,
+          "<path d=\"M%.1f %.1f h%.0f\" stroke=\"#ddd\"/><text x=\"%.1f\" y=\"%.1f\" text-anchor=\"end\">%d</text>\n",
+          t * PANEL + PANEL_X, y_of(20 * k), PANEL_WIDTH, t * PANEL + PANEL_X - 6, y_of(20 * k) + 4, 20 * k);
+    }
+    for (int k = -1; k <= 1; k++) {
+      const double x = t * PANEL + x_of(pow(10, k));
+      fprintf(svg,
+              "<path d=\"M%.1f %.1f v%.0f\" stroke=\"#ddd\"/><text x=\"%.1f\" y=\"%.1f\" "
+              "text-anchor=\"middle\">%g</text>\n",
+              x, PANEL_Y, PANEL_HEIGHT, x, PANEL_Y + PANEL_HEIGHT + 16, pow(10, k));
+    }
+    fprintf(svg, "<text x=\"%.1f\" y=\"%.1f\" text-anchor=\"middle\">seconds per episode, median</text>\n",
+            t * PANEL + PANEL_X + PANEL_WIDTH / 2, PANEL_Y + PANEL_HEIGHT + 34);
+  }
+  fprintf(svg, "<text transform=\"translate(16 %.0f) rotate(-90)\" text-anchor=\"middle\">episodes solved, %%</text>\n",
+          PANEL_Y + PANEL_HEIGHT / 2);
+  for (int p = 0; p < PLANNERS; p++) {
+    const double x = PANEL_X + p % 6 * 195;
+    fprintf(svg, "<circle cx=\"%.0f\" cy=\"396\" r=\"6\" fill=\"%s\"/><text x=\"%.0f\" y=\"400\">%s</text>\n", x,
+            colors[p], x + 12, planners[p].name);
+  }
+  while (fgets(line, sizeof line, tsv)) {
+    double success, low, high, median;
+    if (sscanf(line, "%31[^\t]\t%63[^\t]\t%lf\t%lf\t%lf\t%*d\t%*d\t%*d\t%*d\t%*d\t%*d\t%lf", task, name, &success, &low,
+               &high, &median) != 6)
+      continue;
+    for (int t = 0; t < TASKS; t++) {
+      for (int p = 0; p < PLANNERS; p++) {
+        if (strcmp(task, task_names[t]) != 0 || strcmp(name, planners[p].name) != 0) continue;
+        const double x = t * PANEL + x_of(median);
+        fprintf(
+            svg,
+            "<path d=\"M%.1f %.1f V%.1f\" stroke=\"%s\" stroke-width=\"2\"/><circle cx=\"%.1f\" cy=\"%.1f\" r=\"6\" "
+            "fill=\"%s\"/>\n",
+            x, y_of(low), y_of(high), colors[p], x, y_of(success), colors[p]);
+        rows++;
+      }
+    }
+  }
+  fprintf(svg, "</svg>\n");
+  fclose(tsv);
+  if (fclose(svg) || !rows) return fprintf(stderr, "plan_bench: %s has no rows, or %s is not whole\n", from, to), 2;
+  return 0;
+}
+
 static int usage(const char *what) {
   fprintf(stderr,
           "plan_bench: %s\nusage: plan_bench [--episodes N] [--first SEED] [--task dish|bimanual|mining] "
-          "[--planner NAME] [--tsv FILE]\n",
+          "[--planner NAME] [--tsv FILE]\n       plan_bench chart FILE.tsv FILE.svg\n",
           what);
   return 2;
 }
@@ -264,6 +331,7 @@ int main(int argc, char **argv) {
   int count = 100, only_task = -1, only_planner = -1;
   unsigned long first = 5000;  // fresh: tasks and planners were made and tuned on seeds below 1100
   FILE *tsv = NULL;
+  if (argc == 4 && strcmp(argv[1], "chart") == 0) return draw_chart(argv[2], argv[3]);
   for (int i = 1; i + 1 < argc; i += 2) {
     const char *key = argv[i], *value = argv[i + 1];
     if (strcmp(key, "--episodes") == 0) {
