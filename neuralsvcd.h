@@ -4370,7 +4370,7 @@ static void nsvcd__solve_upper(const double *l, size_t n, double *x) {  // x = L
 //   cost        control points -> smoothness + limits + collision, and the derivative by the control points
 //   explore     MPPI: smooth random changes of a mean, weighted by exp(-cost / temperature)
 //   refine      L-BFGS with bundled gradients, in the metric of the smoothness
-//   check       the result, finely
+//   plan        start and goal, several seeds, and the last check
 
 #define NSVCD__LIMIT_COST 1e5f      // per radian^2 or metre^2, mean over the samples: joints out of their limits,
 #define NSVCD__LIMIT_MARGIN 0.005f  // of which this share of the range is kept free where start and goal allow it
@@ -4499,9 +4499,9 @@ static size_t nsvcd__planner_memory(nsvcd__planner *p, char *base) {
   const size_t f = p->problem->joints, b = p->problem->body_count;
   const size_t via = p->explore.via > p->refine.via ? p->explore.via : p->refine.via;
   const size_t count = p->explore.count > p->refine.count ? p->explore.count : p->refine.count;
-  const size_t samples = p->check.samples > p->explore.samples
-                             ? (p->check.samples > p->refine.samples ? p->check.samples : p->refine.samples)
-                             : (p->explore.samples > p->refine.samples ? p->explore.samples : p->refine.samples);
+  size_t samples = p->check.samples;
+  samples = samples > p->explore.samples ? samples : p->explore.samples;
+  samples = samples > p->refine.samples ? samples : p->refine.samples;
   const size_t point = (via + 2) * f * sizeof(float);
   size_t used = 0;
   p->query = (nsvcd__query *)nsvcd__take(base, &used, sizeof(nsvcd__query));
@@ -4643,8 +4643,8 @@ static void nsvcd__meet_box(nsvcd__planner *p, size_t a, size_t b, int resting, 
     const float bend = from[NSVCD__BEND * samples + s] + to[NSVCD__BEND * samples + s];
     float way = 0;
     for (size_t k = 0; k < 3; k++) way += fabsf(x[k * samples + s + stride] - x[k * samples + s]);
-    const float far = x[3 * samples + s] + x[3 * samples + s + stride];
-    const float leaves = resting ? (3.75f * bend * far + 0.8f * way) * bend : arm * bend * bend;
+    const float reaches = x[3 * samples + s] + x[3 * samples + s + stride];
+    const float leaves = resting ? (3.75f * bend * reaches + 0.8f * way) * bend : arm * bend * bend;
     const float reach = radius + (float)stride * leaves;
     int apart = 0;
     for (size_t k = 0; k < 3; k++) {

@@ -50,11 +50,16 @@ expect 2 'usage: ' build/mining_site 1 "$dir/x.svg" soon
 expect 1 '' build/mining_site 1 "$dir/x.svg" 0  # cancelled by the progress callback
 grep -q 'cancelled' "$dir/out" || fail "mining_site is not cancelled: $(cat "$dir/out")"
 
-# The program in README, as it stands there, as C and C++.
-sed -n '/^```c$/,/^```$/p' README.md | sed '/^```/d' >"$dir/readme.c"
-test -s "$dir/readme.c" || fail "README has no program"
-"${CC:-cc}" -std=c99 -I. "$dir/readme.c" -o "$dir/readme" -lm && "$dir/readme" >"$dir/out" || fail "the program in README"
-grep -q '^hit, ' "$dir/out" || fail "the program in README says: $(cat "$dir/out")"
+# The programs in README, as they stand there.
+program() {  # NUMBER TEXT: the n-th one, and what its output begins with
+  awk -v n="$1" '/^```c$/ { k++; on = k == n; next } /^```/ { on = 0 } on' README.md >"$dir/readme.c"
+  test -s "$dir/readme.c" || fail "README has no program $1"
+  "${CC:-cc}" -O2 -std=c99 -Wall -Wextra -I. "$dir/readme.c" -o "$dir/readme" -lm && "$dir/readme" >"$dir/out" ||
+    fail "program $1 in README"
+  head -1 "$dir/out" | grep -q "^$2" || fail "program $1 in README says: $(cat "$dir/out")"
+}
+program 1 'hit, '
+program 2 'converged, '
 
 # svcd encode, info.
 expect 0 '' build/svcd encode examples/assets/mug.obj "$dir/mug.body"
