@@ -2392,18 +2392,18 @@ typedef struct nsvcd__boxes {
 } nsvcd__boxes;
 
 typedef struct nsvcd__workspace {
-  size_t segments;                                      // S
-  float time[NSVCD__MAX_SEGMENTS + 1];                  // of the ends of the segments
-  float turn[NSVCD__MAX_SEGMENTS + 1];                  // rotation arc from t = 0 to there, radians
-  nsvcd__segments blocks[NSVCD__BLOCKS];                // (S / 16 rounded up)
-  nsvcd__chords group[NSVCD__BLOCKS];                   // a moving group's
-  nsvcd__chords members[NSVCD__MAX_SEGMENTS];           // its 16 members', per segment
-  uint64_t near[NSVCD__MAX_GROUPS][NSVCD__MAX_GROUPS];  // moving groups, fixed groups
-  uint16_t order[NSVCD__MAX_GROUPS];                    // moving groups that are near any, in the order of the search
-  size_t steps, step;                                   // how many they are, and which of them is being searched
-  uint32_t waiting;                                     // fixed groups that it has yet to be searched against
-  uint64_t posed;                                       // segments for which members[] is filled
-  nsvcd_pose between[NSVCD__MAX_SEGMENTS + 1];          // samples where the caller's are too few
+  size_t segments;                                        // S
+  float time[NSVCD__MAX_SEGMENTS + 1];                    // of the ends of the segments
+  float turn[NSVCD__MAX_SEGMENTS + 1];                    // rotation arc from t = 0 to there, radians
+  nsvcd__segments blocks[NSVCD__BLOCKS];                  // (S / 16 rounded up)
+  nsvcd__chords group[NSVCD__BLOCKS];                     // a moving group's
+  nsvcd__chords members[NSVCD__MAX_SEGMENTS];             // its 16 members', per segment
+  uint64_t nearby[NSVCD__MAX_GROUPS][NSVCD__MAX_GROUPS];  // moving groups, fixed groups
+  uint16_t order[NSVCD__MAX_GROUPS];                      // moving groups that are near any, in the order of the search
+  size_t steps, step;                                     // how many they are, and which of them is being searched
+  uint32_t waiting;                                       // fixed groups that it has yet to be searched against
+  uint64_t posed;                                         // segments for which members[] is filled
+  nsvcd_pose between[NSVCD__MAX_SEGMENTS + 1];            // samples where the caller's are too few
 } nsvcd__workspace;
 
 // Not less than the angle between two rotations, unit to 1e-4, and hardly more where it is small: 4 asin(chord / 2) of
@@ -2557,9 +2557,9 @@ static void nsvcd__cut_block(const nsvcd__motion *motion, const nsvcd__samples *
   bulge = nsvcd__v_fma(nsvcd__v_mul(widest, widest), nsvcd__v_set(0.125f), nsvcd__v_sqrt(bulge));
   spread = nsvcd__v_sqrt(spread);
   for (size_t i = 0; i < 3; i++) p1[i] = nsvcd__v_add(p1[i], p0[i]);
-  nsvcd__v far = nsvcd__v_add(nsvcd__v_sqrt(nsvcd__v_dot3(p0, p0)), nsvcd__v_sqrt(nsvcd__v_dot3(p1, p1)));
-  far = nsvcd__v_add(far, nsvcd__v_add(spread, nsvcd__v_set(lengths)));
-  nsvcd__v_store(out->spread, nsvcd__v_fma(far, nsvcd__v_set(NSVCD__ROUNDING), spread));
+  nsvcd__v remote = nsvcd__v_add(nsvcd__v_sqrt(nsvcd__v_dot3(p0, p0)), nsvcd__v_sqrt(nsvcd__v_dot3(p1, p1)));
+  remote = nsvcd__v_add(remote, nsvcd__v_add(spread, nsvcd__v_set(lengths)));
+  nsvcd__v_store(out->spread, nsvcd__v_fma(remote, nsvcd__v_set(NSVCD__ROUNDING), spread));
   nsvcd__v_store(out->bulge, bulge);
   nsvcd__v_store(turn, sum);
   for (size_t l = count; l < NSVCD__LANES; l++) out->spread[l] = NSVCD__NOWHERE;  // these meet nothing
@@ -2612,7 +2612,7 @@ static void nsvcd__chords_of_sphere(const nsvcd__segments *b, float x, float y, 
 
 // Chords of 16 spheres in one segment: lane s of a block. No centre is farther from the body's origin than `far`.
 static void nsvcd__chords_of_members(const nsvcd__segments *b, size_t s, const float *x, const float *y, const float *z,
-                                     const float *r, float far, nsvcd__chords *out) {
+                                     const float *r, float remote, nsvcd__chords *out) {
   const nsvcd__v centre[3] = {nsvcd__v_load(x), nsvcd__v_load(y), nsvcd__v_load(z)};
   nsvcd__v x0[3], v[3];
   for (size_t i = 0; i < 3; i++) {
@@ -2622,7 +2622,7 @@ static void nsvcd__chords_of_members(const nsvcd__segments *b, size_t s, const f
       v[i] = nsvcd__v_fma(nsvcd__v_set(b->turned[3 * i + k][s]), centre[k], v[i]);
     }
   }
-  const nsvcd__v deviation = nsvcd__v_set(b->spread[s] + b->bulge[s] * far);
+  const nsvcd__v deviation = nsvcd__v_set(b->spread[s] + b->bulge[s] * remote);
   nsvcd__chords_store(out, x0, v, nsvcd__v_add(deviation, nsvcd__v_load(r)));
 }
 
@@ -2865,11 +2865,11 @@ static void nsvcd__boxes_of_groups(const nsvcd__workspace *work, const nsvcd_bod
                            nsvcd__v_sub(x[2], nsvcd__v_set(fixed->centre[2]))};
     const nsvcd__v reach = nsvcd__v_load(c.reach), sum = nsvcd__v_add(reach, nsvcd__v_set(fixed->radius));
     const nsvcd__v square = nsvcd__nearest2(d, v, nsvcd__v_load(c.inverse));
-    const nsvcd__v near = nsvcd__v_pick(square, nsvcd__v_signed_square(sum), reach, nowhere);
+    const nsvcd__v nearby = nsvcd__v_pick(square, nsvcd__v_signed_square(sum), reach, nowhere);
     for (size_t k = 0; k < 3; k++) {
       const nsvcd__v end = nsvcd__v_add(x[k], v[k]);
-      low[k] = nsvcd__v_min(low[k], nsvcd__v_sub(nsvcd__v_min(x[k], end), near));
-      high[k] = nsvcd__v_max(high[k], nsvcd__v_add(nsvcd__v_max(x[k], end), near));
+      low[k] = nsvcd__v_min(low[k], nsvcd__v_sub(nsvcd__v_min(x[k], end), nearby));
+      high[k] = nsvcd__v_max(high[k], nsvcd__v_add(nsvcd__v_max(x[k], end), nearby));
     }
   }
   for (size_t k = 0; k < 3; k++) nsvcd__v_store(out->low[k], low[k]), nsvcd__v_store(out->high[k], high[k]);
@@ -2903,11 +2903,11 @@ static size_t nsvcd__group_against_body(nsvcd__workspace *work, const nsvcd_body
   const uint64_t all = ~(uint64_t)0 >> (NSVCD__MAX_SEGMENTS - work->segments);
   size_t meetings = 0;
   nsvcd__chords_of_group(work, moving, g);
-  memset(work->near[g], 0, nsvcd__body_groups(fixed) * sizeof *work->near[g]);
+  memset(work->nearby[g], 0, nsvcd__body_groups(fixed) * sizeof *work->nearby[g]);
   for (; groups; groups &= groups - 1) {
     const size_t h = nsvcd__lowest_bit(groups);
-    work->near[g][h] = nsvcd__meet_in(work->group, all, x[h], y[h], z[h], r[h]);
-    meetings += nsvcd__bit_count(work->near[g][h]);
+    work->nearby[g][h] = nsvcd__meet_in(work->group, all, x[h], y[h], z[h], r[h]);
+    meetings += nsvcd__bit_count(work->nearby[g][h]);
   }
   return meetings;
 }
@@ -2943,11 +2943,11 @@ static void nsvcd__pose_members(nsvcd__workspace *work, const nsvcd_body *moving
   if (!(wanted & ~work->posed)) return;
   const float centre[3] = {nsvcd__body_group(moving, 0)[g], nsvcd__body_group(moving, 1)[g],
                            nsvcd__body_group(moving, 2)[g]};
-  const float far = 1.000002f * (nsvcd__length3(centre) + nsvcd__body_group(moving, 3)[g]);
+  const float remote = 1.000002f * (nsvcd__length3(centre) + nsvcd__body_group(moving, 3)[g]);
   for (uint64_t missing = wanted & ~work->posed; missing; missing &= missing - 1) {
     const size_t s = nsvcd__lowest_bit(missing);
     nsvcd__chords_of_members(&work->blocks[s / NSVCD__LANES], s % NSVCD__LANES, nsvcd__body_x(moving) + i,
-                             nsvcd__body_y(moving) + i, nsvcd__body_z(moving) + i, nsvcd__body_r(moving) + i, far,
+                             nsvcd__body_y(moving) + i, nsvcd__body_z(moving) + i, nsvcd__body_r(moving) + i, remote,
                              &work->members[s]);
   }
   work->posed |= wanted;
@@ -2974,11 +2974,11 @@ static uint32_t nsvcd__group_against_members(const nsvcd__workspace *work, const
 
 // Turns to the moving group that is next in order. Returns the fixed group that it meets for the longest time.
 static size_t nsvcd__search_group(nsvcd__workspace *work, const nsvcd_body *moving, const nsvcd_body *fixed) {
-  const uint64_t *near = work->near[work->order[work->step]];
+  const uint64_t *nearby = work->nearby[work->order[work->step]];
   size_t longest = 0, most = 0;
   nsvcd__chords_of_group(work, moving, work->order[work->step]);
   for (size_t h = 0; h < nsvcd__body_groups(fixed); h++) {
-    const size_t count = nsvcd__bit_count(near[h]);
+    const size_t count = nsvcd__bit_count(nearby[h]);
     if (count > 0) work->waiting |= (uint32_t)1 << h;
     if (count > most) most = count, longest = h;
   }
@@ -2992,7 +2992,7 @@ static int nsvcd__search_step(nsvcd__workspace *work, const nsvcd_body *moving, 
   const size_t h = work->waiting ? nsvcd__lowest_bit(work->waiting) : nsvcd__search_group(work, moving, fixed);
   const size_t g = work->order[work->step];
   uint64_t segments[NSVCD__GROUP];
-  uint32_t met = nsvcd__group_against_members(work, fixed, h, work->near[g][h], segments);
+  uint32_t met = nsvcd__group_against_members(work, fixed, h, work->nearby[g][h], segments);
   for (; met; met &= met - 1) {
     const size_t l = nsvcd__lowest_bit(met);
     nsvcd__pose_members(work, moving, g, segments[l]);
