@@ -55,6 +55,7 @@ test "$objects" -gt 0 || fail "no compiler"
 compile "${CC:-cc}" c c99 "-DNSVCD_NO_STDIO -O0"
 compile "${CC:-cc}" c c99 "-DNSVCD_NO_ENCODER -DNSVCD_NO_OBJ -O2"
 ! nm "$dir/twice.o" | grep -E ' U .*(alloc|free|brk|mmap)' >&2 || fail "a query can allocate"
+compile "${CC:-cc}" c c99 "-Dnear= -Dfar= -O0"  # as windows.h does
 compile "${CC:-cc}" c c99 "-DNSVCD_NO_SIMD -O0"
 if test "$(uname -m)" = x86_64; then
   compile "${CC:-cc}" c c99 "-mavx2 -mfma -O0"
