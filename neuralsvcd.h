@@ -366,8 +366,9 @@ typedef struct nsvcd_plan_stage {
 } nsvcd_plan_stage;
 
 // Zero is the default everywhere, as tests/plan_bench.c found it good; weights that are negative count as zero. If an
-// exact check finds contacts, raise sweep.recall, `collision` or the bodies' number of patches;
-// if the status is LIMIT, `seeds` or explore.samples.
+// exact check finds contacts, raise sweep.recall, `collision` or the bodies' number of patches; if the status is LIMIT,
+// `seeds` or explore.samples. The smoothness counts radians and metres alike: for ways of hundreds of metres, raise
+// `duration` or `collision`.
 typedef struct nsvcd_plan_options {
   uint64_t seed;                       // of all random numbers
   size_t seeds;                        // starts, tried until one ends free; 6
@@ -391,7 +392,7 @@ typedef struct nsvcd_plan_answer {
   size_t pair;               // of the greatest logit, or NSVCD_NONE
   float logit;               // greatest of the last check; with a custom cost of collision that cost
   float time;                // of it, in [0,1]
-  float cost, smoothness;    // of the trajectory, the latter without collision and limits
+  float cost, smoothness;    // of the trajectory, the latter without collision and limits; 0 where none was sought
   size_t via_points;         // M of `control`
   size_t seeds, iterations;  // used; the latter of both stages
   size_t trajectories;       // that were costed
