@@ -1,6 +1,7 @@
 // plan_bench.c - the paper's motion planning study: three tasks, four planners, the same random episodes.
 //
-//   plan_bench [--episodes N] [--first SEED] [--task dish|bimanual|mining] [--planner NAME] [--tsv FILE]
+//   plan_bench [--episodes N] [--first SEED] [--task dish|bimanual|mining] [--planner NAME] [--weight W]
+//              [--tsv FILE]
 //   plan_bench chart FILE.tsv FILE.svg      a picture of such a table
 //
 // All planners are nsvcd_plan; they differ in the cost of collision: spheres against meshes (plan_spheres.h; few and
@@ -216,7 +217,8 @@ static void print_row(FILE *tsv, int task, const planner *planner, const outcome
   free(times);
 }
 
-static void run_episode(int task, uint64_t seed, int only, outcome *outcomes, int stride) {
+// weight: of the spheres, or 0 for the table's.
+static void run_episode(int task, uint64_t seed, int only, float weight, outcome *outcomes, int stride) {
   task_scene scene;
   plan_spheres spheres;
   const nsvcd_body *bodies[TASK_MAX_BODIES];
@@ -236,7 +238,7 @@ static void run_episode(int task, uint64_t seed, int only, outcome *outcomes, in
     if (only >= 0 && p != only) continue;
     task_select(&scene, 0);
     if ((few || many) && !plan_spheres_init(&spheres, &scene, s->robot_spheres, few ? s->held_few : s->held_many,
-                                            s->activation, planners[p].weight[task], 0))
+                                            s->activation, weight > 0 ? weight : planners[p].weight[task], 0))
       fprintf(stderr, "plan_bench: no spheres\n"), exit(2);
     for (int m = 0; m < scene.problem_count; m++) {
       task_select(&scene, m);
@@ -323,7 +325,7 @@ static int draw_chart(const char *from, const char *to) {
 static int usage(const char *what) {
   fprintf(stderr,
           "plan_bench: %s\nusage: plan_bench [--episodes N] [--first SEED] [--task dish|bimanual|mining] "
-          "[--planner NAME] [--tsv FILE]\n       plan_bench chart FILE.tsv FILE.svg\n",
+          "[--planner NAME] [--weight W] [--tsv FILE]\n       plan_bench chart FILE.tsv FILE.svg\n",
           what);
   return 2;
 }
@@ -331,6 +333,7 @@ static int usage(const char *what) {
 int main(int argc, char **argv) {
   int count = 100, only_task = -1, only_planner = -1;
   unsigned long first = 5000;  // fresh: tasks and planners were made and tuned on seeds below 1100
+  float weight = 0;
   FILE *tsv = NULL;
   if (argc == 4 && strcmp(argv[1], "chart") == 0) return draw_chart(argv[2], argv[3]);
   for (int i = 1; i + 1 < argc; i += 2) {
@@ -346,6 +349,9 @@ int main(int argc, char **argv) {
     } else if (strcmp(key, "--planner") == 0) {
       for (int p = 0; p < PLANNERS; p++) only_planner = strcmp(value, planners[p].name) == 0 ? p : only_planner;
       if (only_planner < 0) return usage("--planner: no such planner");
+    } else if (strcmp(key, "--weight") == 0) {
+      weight = (float)atof(value);
+      if (!(weight > 0 && weight < 1e6f)) return usage("--weight: out of range");
     } else if (strcmp(key, "--tsv") == 0) {
       tsv = fopen(value, "w");
       if (!tsv) return usage("--tsv: cannot be written");
@@ -370,7 +376,7 @@ int main(int argc, char **argv) {
     outcomes = (outcome *)allocate((size_t)(PLANNERS * count) * sizeof *outcomes);
     memset(outcomes, 0, (size_t)(PLANNERS * count) * sizeof *outcomes);
     for (int e = 0; e < count; e++) {
-      run_episode(t, first + (unsigned long)e, only_planner, outcomes + e, count);
+      run_episode(t, first + (unsigned long)e, only_planner, weight, outcomes + e, count);
       fprintf(stderr, "\r%s %d of %d  ", task_names[t], e + 1, count);
     }
     fprintf(stderr, "\r");
