@@ -329,11 +329,11 @@ static int other_options(scene *s, shapes_rng *rng, size_t n) {
   return moderate(s, rng, n);
 }
 
-// Limits, little above what was measured with and without SIMD: the share of gradients that are off by more than 1 %,
-// and of those of them that are at no kink; the median of the error, and its 99th percentile where less than 1 % may be
-// beyond 1 %. Of motions exactly along the line between the centres every tenth is at a jump, for then rounding says
-// which way time runs; and where centres meet, or spheres graze, single precision has few digits left: little is asked
-// of those.
+// Limits, little above the worst that was measured with and without SIMD and FMA (PORTABLE=1): the share of gradients
+// that are off by more than 1 %, and of those of them that are at no kink; the median of the error, and its 99th
+// percentile where less than 1 % may be beyond 1 %. Of motions exactly along the line between the centres every tenth
+// is at a jump, for then rounding says which way time runs; and where centres meet, or spheres graze, single precision
+// has few digits left: little is asked of those.
 typedef struct family {
   const char *name;
   int (*make)(scene *, shapes_rng *, size_t);
@@ -347,10 +347,10 @@ static const family families[] = {
     {"wild samples", wild_samples, 0.001, 0, 2e-06, 0.0001},
     {"many samples", many_samples, 0.001, 0, 3e-06, 0.0001},
     {"at rest", at_rest, 0.004, 0.001, 0.0001, 0.004},
-    {"slow", slow, 0.0085, 0.0015, 4e-05, 0.006},
+    {"slow", slow, 0.0085, 0.0015, 4e-05, 0.01},
     {"nearly along the line", nearly_along_the_line, 0.001, 0, 3e-06, 0.002},
     {"along the line", along_the_line, 0.12, 0.001, 4e-06, 1},
-    {"turn about the pair", turn_about_the_pair, 0.0095, 0.001, 4e-06, 0.002},
+    {"turn about the pair", turn_about_the_pair, 0.0115, 0.001, 4e-06, 0.01},
     {"turn about the origin", turn_about_the_origin, 0.0015, 0, 2e-06, 0.0001},
     {"deep", deep, 0.001, 0, 3e-06, 0.0001},
     {"shallow", shallow, 0.001, 0, 3e-06, 0.0002},
@@ -358,8 +358,8 @@ static const family families[] = {
     {"tiny or huge", tiny_or_huge, 0.004, 0.001, 5e-06, 0.002},
     {"of unlike size", of_unlike_size, 0.001, 0, 2e-06, 0.0001},
     {"one patch each", one_patch_each, 0.001, 0, 2e-06, 0.0002},
-    {"grazing spheres", grazing_spheres, 0.17, 0.006, 0.0004, 1},
-    {"centres meet", centres_meet, 0.32, 0.002, 0.0008, 1},
+    {"grazing spheres", grazing_spheres, 0.17, 0.0085, 0.0004, 1},
+    {"centres meet", centres_meet, 0.32, 0.002, 0.001, 1},
     {"without lean", without_lean, 0.001, 0, 2e-06, 0.0005},
     {"other options", other_options, 0.001, 0, 2e-06, 0.0001},
 };
