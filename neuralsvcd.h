@@ -21,6 +21,8 @@
 //   nsvcd_sweep(mug, path, 3, rack, &rack_pose, NULL, workspace, workspace_size, &answer);
 //   if (answer.collides) printf("hits at t = %g\n", answer.time);
 //
+// Or plan a motion that hits nothing: nsvcd_plan, below.
+//
 // Every function that can fail returns a nsvcd_result, 0 being success, and then leaves its outputs as they were.
 // examples/quickstart.c is the whole program.
 //

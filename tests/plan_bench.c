@@ -53,7 +53,7 @@ static const planner planners[] = {{"spheres, few", SPHERES_FEW, 0, {3, 3, 30}},
                                    {"NeuralSVCD, tuned", SWEPT, 1, {0, 0, 0}}};
 enum { PLANNERS = sizeof planners / sizeof *planners };
 
-// Tables 3 to 5, but for L-BFGS in the mine: as printed, with 3 points and 8 segments between two, NeuralSVCD solves 10
+// Tables 3 to 5, but for L-BFGS in the mine: as printed, with 3 points and 8 segments between two, NeuralSVCD solves 9
 // of 30 episodes (seeds 3000 on), with 8 and 3 it solves 28: swapped in the source. An interpolation of n is n segments
 // between two control points for sweeps and spheres; that of the discrete planner is its number of poses in all
 // (chosen: n per interval would make it ten times slower).
