@@ -2897,7 +2897,7 @@ static uint32_t nsvcd__groups_at_box(const nsvcd__boxes *boxes, size_t l, const 
   return groups;
 }
 
-// Fills near[g] with the segments in which moving group g meets each group of the fixed body, of those `groups`.
+// Fills nearby[g] with the segments in which moving group g meets each group of the fixed body, of those `groups`.
 // Returns how many they are over all groups.
 static size_t nsvcd__group_against_body(nsvcd__workspace *work, const nsvcd_body *moving, size_t g,
                                         const nsvcd_body *fixed, uint32_t groups) {
@@ -4559,11 +4559,10 @@ static void nsvcd__stage_init(const nsvcd_plan_options *o, nsvcd__stage *stage) 
     rate /= (double)o->duration * (double)o->duration;
     nsvcd__add_mean_square(via, d, rate * weights[d - 1], stage->form);
   }
-  double *inner = stage->factor;  // in place: row i is read before it is written
   for (size_t i = 0; i < via; i++) {
-    for (size_t j = 0; j < via; j++) inner[i * via + j] = stage->form[(i + 1) * all + j + 1];
+    for (size_t j = 0; j < via; j++) stage->factor[i * via + j] = stage->form[(i + 1) * all + j + 1];
   }
-  nsvcd__cholesky(inner, via, stage->factor);
+  nsvcd__cholesky(stage->factor, via, stage->factor);  // in place: row i is read before it is written
   stage->deviation = 0;
   for (size_t k = 0; k < via; k++) {  // the variance of via point k is |L^-1 e_k|^2
     double square = 0;

@@ -733,39 +733,34 @@ TASK_DEF void task_outline(const task_section *section, double grow, double (*ou
     out[i][0] = (section->half[0] + grow) * r * cos(angle), out[i][1] = (section->half[1] + grow) * r * sin(angle);
   }
 }
-// The tip at the origin, pointing along z, chamfered.
-TASK_DEF void task_peg(shapes_mesh *mesh, const task_section *section, double length) {
-  const double chamfer = 0.004, z[3] = {-length, -chamfer, 0}, grow[3] = {0, 0, -chamfer};
-  const uint32_t n = (uint32_t)section->corners;
+// A closed body of `rings` outlines, one above the other or one in the other, grown by grow (rings) at heights z
+// (rings).
+TASK_DEF void task_rings(shapes_mesh *mesh, const task_section *section, int rings, const double *grow,
+                         const double *z) {
+  const uint32_t n = (uint32_t)section->corners, last = (uint32_t)(rings - 1) * n;
   double p[TASK_MAX_CORNERS][2];
-  for (int ring = 0; ring < 3; ring++) {
+  for (int ring = 0; ring < rings; ring++) {
     task_outline(section, grow[ring], p);
     for (uint32_t i = 0; i < n; i++) shapes_vertex(mesh, p[i][0], p[i][1], z[ring]);
   }
-  for (uint32_t i = 0; i < 2 * n; i++) {
+  for (uint32_t i = 0; i < last; i++) {
     uint32_t next = i / n * n + (i + 1) % n;
     shapes_quad(mesh, i, next, next + n, i + n);
   }
   for (uint32_t i = 1; i + 1 < n; i++)
-    shapes_triangle(mesh, 0, i + 1, i), shapes_triangle(mesh, 2 * n, 2 * n + i, 2 * n + i + 1);
+    shapes_triangle(mesh, 0, i + 1, i), shapes_triangle(mesh, last, last + i, last + i + 1);
 }
-// A block with a blind hole: the mouth at the origin, opening along z.
+// The tip at the origin, pointing along z, chamfered.
+TASK_DEF void task_peg(shapes_mesh *mesh, const task_section *section, double length) {
+  const double chamfer = 0.004, z[3] = {-length, -chamfer, 0}, grow[3] = {0, 0, -chamfer};
+  task_rings(mesh, section, 3, grow, z);
+}
+// A block with a blind hole: the mouth at the origin, opening along z. Up the outside, over the rim, down the hole.
 TASK_DEF void task_block(shapes_mesh *mesh, const task_section *section, double clearance, double wall, double depth,
                          double floor) {
   const double z[4] = {-depth - floor, 0, 0, -depth};
   const double grow[4] = {clearance + wall, clearance + wall, clearance, clearance};
-  const uint32_t n = (uint32_t)section->corners;
-  double p[TASK_MAX_CORNERS][2];
-  for (int ring = 0; ring < 4; ring++) {  // up the outside, over the rim, down the hole
-    task_outline(section, grow[ring], p);
-    for (uint32_t i = 0; i < n; i++) shapes_vertex(mesh, p[i][0], p[i][1], z[ring]);
-  }
-  for (uint32_t i = 0; i < 3 * n; i++) {
-    uint32_t next = i / n * n + (i + 1) % n;
-    shapes_quad(mesh, i, next, next + n, i + n);
-  }
-  for (uint32_t i = 1; i + 1 < n; i++)
-    shapes_triangle(mesh, 0, i + 1, i), shapes_triangle(mesh, 3 * n, 3 * n + i, 3 * n + i + 1);
+  task_rings(mesh, section, 4, grow, z);
 }
 // Draws the right arm's joints until the block is in front of the chest, its hole towards the left hand; then solves
 // for the left arm with the peg at `peg`, as seen from the block, from the best of some draws.

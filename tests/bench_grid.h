@@ -159,7 +159,7 @@ static void grid_fill_row(grid_builder *b, int y, int z, int step) {
     }
     for (int i = 0; i < 3; i++) p[i] = g->low[i] + (float)at[i] * g->cell;
     float limit = last < 0 ? FLT_MAX : 1.001f * (d + (float)(x - last) + 0.01f) * g->cell;
-    d = sqrtf(spheres_nearest(b->tree, p, last < 0 ? FLT_MAX : limit * limit, 0)) / g->cell;
+    d = sqrtf(spheres_nearest(b->tree, p, last < 0 ? FLT_MAX : limit * limit, 0, NULL)) / g->cell;
     *out = d, last = x;
   }
 }

@@ -88,8 +88,15 @@ static inline void spheres_to_triangles(const mesh_bvh_leaf *leaf, const float *
     out[k] = mesh_bvh_min(out[k], inside[k] >= 0 ? h * h : FLT_MAX);
   }
 }
+// A triangle: one lane of a leaf.
+typedef struct spheres_triangle {
+  const mesh_bvh_leaf *leaf;
+  size_t lane;
+} spheres_triangle;
+
 // Squared distance to the surface if below `limit`, else `limit`; the first one found to be at most `enough` will do.
-static float spheres_nearest(const mesh_bvh *tree, const float *x, float limit, float enough) {
+// found: the nearest triangle, written only if below; or NULL.
+static float spheres_nearest(const mesh_bvh *tree, const float *x, float limit, float enough, spheres_triangle *found) {
   spheres_entry stack[MESH_BVH_STACK];
   size_t count = 1;
   float value[MESH_BVH_WIDTH], best = limit;
@@ -98,8 +105,13 @@ static float spheres_nearest(const mesh_bvh *tree, const float *x, float limit, 
     spheres_entry top = stack[--count];
     if (top.distance >= best) continue;
     if (top.at & MESH_BVH_LEAF) {
-      spheres_to_triangles(&tree->leaves[top.at & ~MESH_BVH_LEAF], x, value);
-      MESH_BVH_EACH(k) best = mesh_bvh_min(best, value[k]);
+      const mesh_bvh_leaf *leaf = &tree->leaves[top.at & ~MESH_BVH_LEAF];
+      spheres_to_triangles(leaf, x, value);
+      if (found) {
+        MESH_BVH_EACH(k) if (value[k] < best) best = value[k], found->leaf = leaf, found->lane = k;
+      } else {
+        MESH_BVH_EACH(k) best = mesh_bvh_min(best, value[k]);
+      }
       continue;
     }
     const mesh_bvh_node *node = &tree->nodes[top.at];
@@ -120,7 +132,7 @@ static float spheres_nearest(const mesh_bvh *tree, const float *x, float limit, 
 // Is a triangle within `reach` > 0?
 static int spheres_near(const mesh_bvh *tree, const float *x, float reach) {
   float r2 = reach * reach;
-  return spheres_nearest(tree, x, r2, r2 * (1 - 1e-6f)) < r2;
+  return spheres_nearest(tree, x, r2, r2 * (1 - 1e-6f), NULL) < r2;
 }
 // Winding number of triangle k, seen along z, about the point: 1, -1, or 0 where it passes by. In double the products
 // are exact, and an edge counts for the triangle on one side of it just as it does not for the other.
@@ -207,7 +219,7 @@ static int spheres_make_grid(spheres_body *b) {
     int follows = at[0] > 0;
     for (int k = 0; k < 3; k++) x[k] = g->low[k] + ((float)at[k] + 0.5f) * g->cell;
     float limit = follows ? 1.01f * (fabsf(last) + g->cell) : FLT_MAX;
-    float d = sqrtf(spheres_nearest(b->tree, x, follows ? limit * limit : FLT_MAX, 0));
+    float d = sqrtf(spheres_nearest(b->tree, x, follows ? limit * limit : FLT_MAX, 0, NULL));
     int inside = follows ? spheres_sign_at(b, x, last, 1.001f * g->cell) : spheres_inside(b->tree, x);
     g->distance[i] = last = inside ? -d : d;
   }
@@ -246,7 +258,7 @@ static int spheres_fill(spheres_body *b, float voxel) {
     for (int k = 0; k < 3; k++) x[k] = box->centre[k] + ((float)at[k] - 0.5f * (float)(size[k] - 1)) * voxel;
     float known = spheres_look(&b->grid, x, &away), most = 1.01f * (fabsf(known) + away);
     if (!spheres_sign_at(b, x, known, away)) continue;
-    float clearance = sqrtf(spheres_nearest(b->tree, x, most * most, 0));
+    float clearance = sqrtf(spheres_nearest(b->tree, x, most * most, 0, NULL));
     if (clearance > 1e-3f * voxel && !spheres_add(b, x, clearance)) return 0;
   }
   return 1;

@@ -118,36 +118,11 @@ static void plan_spheres_on_triangle(const mesh_bvh_leaf *leaf, size_t k, const 
 // As spheres_nearest, and where that is: the squared distance if below `limit`, else `limit`; `point` and `normal` of
 // the nearest triangle are written only if below.
 static float plan_spheres_nearest(const mesh_bvh *tree, const float *x, float limit, float *point, float *normal) {
-  spheres_entry stack[MESH_BVH_STACK];
-  const mesh_bvh_leaf *found = NULL;
-  size_t count = 1, lane = 0;
-  float value[MESH_BVH_WIDTH], best = limit;
-  stack[0].at = mesh_bvh_root(tree), stack[0].distance = 0;
-  while (count) {
-    spheres_entry top = stack[--count];
-    if (top.distance >= best) continue;
-    if (top.at & MESH_BVH_LEAF) {
-      const mesh_bvh_leaf *leaf = &tree->leaves[top.at & ~MESH_BVH_LEAF];
-      spheres_to_triangles(leaf, x, value);
-      MESH_BVH_EACH(k) if (value[k] < best) best = value[k], found = leaf, lane = k;
-      continue;
-    }
-    const mesh_bvh_node *node = &tree->nodes[top.at];
-    spheres_to_boxes(node, x, value);
-    unsigned mask = mesh_bvh_mask(value, best);
-    size_t first = count;
-    for (size_t k = 0; mask; k++, mask >>= 1) {  // the nearest on top
-      spheres_entry next = {node->child[k], value[k]};
-      if (!(mask & 1)) continue;
-      stack[count] = next;
-      if (count > first && next.distance > stack[count - 1].distance)
-        stack[count] = stack[count - 1], stack[count - 1] = next;
-      count++;
-    }
-  }
-  if (!found) return limit;
-  plan_spheres_on_triangle(found, lane, x, point);
-  for (int i = 0; i < 3; i++) normal[i] = found->normal[i][lane];
+  spheres_triangle found;
+  const float best = spheres_nearest(tree, x, limit, 0, &found);
+  if (!(best < limit)) return limit;
+  plan_spheres_on_triangle(found.leaf, found.lane, x, point);
+  for (int i = 0; i < 3; i++) normal[i] = found.leaf->normal[i][found.lane];
   return best;
 }
 // The exact signed distance if below `reach`, else `reach`, and its gradient. `sign`: 1, -1, or 0: not known.
@@ -247,7 +222,7 @@ static int plan_spheres_make_grid(plan_spheres_body *b, float reach) {
     }
     plan_spheres_node(g, i, 0, x);
     float limit = follows ? 1.01f * (fabsf(known) + step) : FLT_MAX;
-    float d = sqrtf(spheres_nearest(tree, x, follows ? limit * limit : FLT_MAX, 0));
+    float d = sqrtf(spheres_nearest(tree, x, follows ? limit * limit : FLT_MAX, 0, NULL));
     int inside = follows && fabsf(known) > step ? known < 0 : spheres_inside(tree, x);
     g->value[i] = known = inside ? -d : d;
   }
