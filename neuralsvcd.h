@@ -456,6 +456,44 @@ static void nsvcd__mul33_vec(const float *m, const float *v, float *out) {  // o
   out[0] = nsvcd__dot3(m, v), out[1] = nsvcd__dot3(m + 3, v), out[2] = nsvcd__dot3(m + 6, v);
 }
 
+// Vectors as values: f3 of floats, d3 of doubles. A difference of floats, and all that is built of a few of them, is as
+// good as exact in double.
+typedef struct nsvcd__f3 {
+  float x, y, z;
+} nsvcd__f3;
+typedef struct nsvcd__d3 {
+  double x, y, z;
+} nsvcd__d3;
+
+static nsvcd__f3 nsvcd__f3_of(float x, float y, float z) {
+  const nsvcd__f3 out = {x, y, z};
+  return out;
+}
+static nsvcd__f3 nsvcd__f3_load(const float *p) { return nsvcd__f3_of(p[0], p[1], p[2]); }
+static nsvcd__f3 nsvcd__f3_add(nsvcd__f3 a, nsvcd__f3 b) { return nsvcd__f3_of(a.x + b.x, a.y + b.y, a.z + b.z); }
+static nsvcd__f3 nsvcd__f3_sub(nsvcd__f3 a, nsvcd__f3 b) { return nsvcd__f3_of(a.x - b.x, a.y - b.y, a.z - b.z); }
+static nsvcd__f3 nsvcd__f3_scale(nsvcd__f3 a, float s) { return nsvcd__f3_of(s * a.x, s * a.y, s * a.z); }
+static float nsvcd__f3_dot(nsvcd__f3 a, nsvcd__f3 b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
+static float nsvcd__f3_length(nsvcd__f3 a) { return sqrtf(nsvcd__f3_dot(a, a)); }
+
+static nsvcd__d3 nsvcd__d3_of(double x, double y, double z) {
+  const nsvcd__d3 out = {x, y, z};
+  return out;
+}
+static nsvcd__d3 nsvcd__d3_load(const float *p) { return nsvcd__d3_of((double)p[0], (double)p[1], (double)p[2]); }
+static nsvcd__d3 nsvcd__d3_add(nsvcd__d3 a, nsvcd__d3 b) { return nsvcd__d3_of(a.x + b.x, a.y + b.y, a.z + b.z); }
+static nsvcd__d3 nsvcd__d3_sub(nsvcd__d3 a, nsvcd__d3 b) { return nsvcd__d3_of(a.x - b.x, a.y - b.y, a.z - b.z); }
+static nsvcd__d3 nsvcd__d3_scale(nsvcd__d3 a, double s) { return nsvcd__d3_of(s * a.x, s * a.y, s * a.z); }
+// a + t (b - a).
+static nsvcd__d3 nsvcd__d3_mix(nsvcd__d3 a, nsvcd__d3 b, double t) {
+  return nsvcd__d3_add(a, nsvcd__d3_scale(nsvcd__d3_sub(b, a), t));
+}
+static double nsvcd__d3_dot(nsvcd__d3 a, nsvcd__d3 b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
+static nsvcd__d3 nsvcd__d3_cross(nsvcd__d3 a, nsvcd__d3 b) {
+  return nsvcd__d3_of(a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x);
+}
+static double nsvcd__d3_length(nsvcd__d3 a) { return sqrt(nsvcd__d3_dot(a, a)); }
+
 // ----------------------------------------------------------------------------------------------------- vectors
 // 16 floats side by side, lane by lane, for the sweep and the decoder. One set of operations over what the compiler was
 // told the processor has; the plain path says what they mean. They differ in rounding only: fma rounds once or twice.
