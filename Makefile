@@ -15,7 +15,8 @@ ALL_CFLAGS = $(CFLAGS) -std=c99 $(WARNINGS)
 LIBRARY = neuralsvcd.h weights.h
 
 # libccd checks the oracle on convex pairs. Found by pkg-config, or by its header where that is not installed.
-HAVE_CCD := $(shell (pkg-config --exists ccd || echo '\#include <ccd/ccd.h>' | $(CC) -E -x c - >/dev/null) 2>/dev/null && echo 1)
+HASH := \#
+HAVE_CCD := $(shell (pkg-config --exists ccd || echo '$(HASH)include <ccd/ccd.h>' | $(CC) -E -x c - >/dev/null) 2>/dev/null && echo 1)
 ifeq ($(HAVE_CCD),1)
 CCD_CFLAGS := -DHAVE_LIBCCD $(shell pkg-config --cflags ccd 2>/dev/null)
 CCD_LIBS := $(shell pkg-config --libs ccd 2>/dev/null || echo -lccd)
