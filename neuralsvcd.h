@@ -493,6 +493,21 @@ static nsvcd__d3 nsvcd__d3_cross(nsvcd__d3 a, nsvcd__d3 b) {
   return nsvcd__d3_of(a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x);
 }
 static double nsvcd__d3_length(nsvcd__d3 a) { return sqrt(nsvcd__d3_dot(a, a)); }
+static double nsvcd__d3_gap(nsvcd__d3 a, nsvcd__d3 b) {  // squared distance
+  const nsvcd__d3 offset = nsvcd__d3_sub(a, b);
+  return nsvcd__d3_dot(offset, offset);
+}
+// Of length 1; `otherwise` if a has none.
+static nsvcd__d3 nsvcd__d3_unit(nsvcd__d3 a, nsvcd__d3 otherwise) {
+  const double length = nsvcd__d3_length(a);
+  return length > 0 ? nsvcd__d3_scale(a, 1 / length) : otherwise;
+}
+static nsvcd__f3 nsvcd__f3_round(nsvcd__d3 a) {
+  return nsvcd__f3_of((float)a.x, (float)a.y, (float)a.z);
+}
+static nsvcd__d3 nsvcd__d3_widen(nsvcd__f3 a) {
+  return nsvcd__d3_of((double)a.x, (double)a.y, (double)a.z);
+}
 
 // ----------------------------------------------------------------------------------------------------- vectors
 // 16 floats side by side, lane by lane, for the sweep and the decoder. One set of operations over what the compiler was
@@ -500,6 +515,7 @@ static double nsvcd__d3_length(nsvcd__d3 a) { return sqrt(nsvcd__d3_dot(a, a)); 
 // NSVCD_NO_SIMD takes the plain path.
 
 #define NSVCD__LANES 16
+#define NSVCD__NOWHERE (-1e15f)  // radius of padding: meets nothing, and its square is still finite
 
 // The tests hold what a query does against the bound that nsvcd_sweep states.
 #ifndef NSVCD__TALLY
@@ -1649,6 +1665,1297 @@ static nsvcd_result nsvcd__patches_build(const nsvcd_mesh *mesh, size_t points, 
 }
 #endif  // NSVCD_NO_ENCODER
 
+#if !defined(NSVCD_NO_ENCODER) && !defined(NSVCD_NO_PROOF)
+// ---------------------------------------------------------------------------------------------------- surface
+// In: a checked mesh and the centres of its N patches. Out: nsvcd__surface: of every patch an outer description of the
+// surface that belongs to it, and the triangles of that surface. A proof of freedom of collision is built on it.
+//
+// What holds. Every point of the mesh lies in a piece. Every piece is a convex part of one triangle, and belongs to one
+// patch. That patch lists the piece's triangle, or the piece itself where the triangle is large beside the patches. Its
+// ball, its disc and its hull swollen by the slack contain the piece. Triangles without area are surface like others.
+//
+// Why it holds. A piece is only ever divided in two parts that share the corners between them, and both parts are kept.
+// So the pieces cover the mesh whatever the cuts are, and poor cuts can make a description only larger. Each number is
+// taken from the corners of the pieces, about what is stored in float, and then rounded outwards. A piece is the convex
+// hull of its corners, and so are ball, disc and swollen hull convex: what contains the corners contains the piece. The
+// corners themselves are off by roundings of double: all bounds are wider by NSVCD__SURFACE_MARGIN.
+
+#define NSVCD__HULL NSVCD__LANES      // vertices of a patch's hull, at most
+#define NSVCD__ENCLOSES (1u << 31)    // of an id
+#define NSVCD__SURFACE_OVERLAP 0.5    // a piece may reach this far into the next patch, in mean sample radii
+#define NSVCD__SURFACE_WHOLE 8.0      // a triangle with a longer edge is listed in parts; in mean sample radii
+#define NSVCD__SURFACE_MARGIN 1e-13   // of the mesh's greatest coordinate
+#define NSVCD__SURFACE_TINY 1e-30     // metres, added to the margin: keeps off what float cannot hold
+#define NSVCD__HULL_SHARE 1e-4        // of the radius: a hull that is as near as this to all corners is good enough
+#define NSVCD__FACET_CORNERS 16       // corners of a piece, at most
+#define NSVCD__FACET_STACK 256        // parts that wait for their turn; if there are more, they stay uncut
+#define NSVCD__CUTS_PER_TRIANGLE 8    // bound the number of cuts: natural is a fraction of one in a fine mesh,
+#define NSVCD__CUTS_PER_PATCH 64      // and three or so for every patch that lies in one large face
+#define NSVCD__MAX_CUTS (1u << 29)    // vertices and new corners together have numbers of 32 bits
+#define NSVCD__PATCH_VERTICES 65536u  // as many as corners of 16 bits can name
+
+typedef struct nsvcd__surface {
+  size_t count;             // N
+  size_t listed;            // L, triangles listed, over all patches
+  size_t vertex_count;      // V, vertices stored, over all patches
+  size_t component_count;   // C, connected components (vertices at the same place are one vertex)
+  float *balls;             // (N, 4) centre c and radius. An empty patch has radius NSVCD__NOWHERE
+  float *discs;             // (N, 6) normal n (|n| <= 1), low, high, across: every point x of a piece has
+                            // low <= n.(x - c) <= high, and is within `across` of the line through c along n
+  float *steps;             // (N) metres per integer: a stored vertex is c + step * (x, y, z)
+  float *slacks;            // (N) metres: every point of a piece is within this of the convex hull of the
+                            // first hull_counts[i] stored vertices
+  float *quanta;            // (N) metres: every corner of what is listed is within this of its stored vertex
+  uint8_t *hull_counts;     // (N) 1..NSVCD__HULL; 0 where empty
+  uint32_t *first_vertex;   // (N + 1)
+  uint32_t *first_triangle; // (N + 1)
+  int16_t *vertices;        // patch i: x of all its vertices, then y, then z, from 3 * first_vertex[i] on
+  uint16_t *corners;        // (L, 3) numbers of vertices within the patch
+  uint32_t *ids;            // (L) triangle of the mesh. With NSVCD__ENCLOSES they are every closed component once,
+                            // without overlap: whole triangles have it in one of the patches that list them
+  float *seeds;             // (C, 3) a vertex of each component
+} nsvcd__surface;
+
+// ---- lists that grow
+
+typedef struct nsvcd__list {
+  void *items;
+  size_t count, capacity;
+} nsvcd__list;
+
+// Room for `more` items of `size` bytes; 0 without memory, and the list is as it was.
+static int nsvcd__list_reserve(nsvcd__list *list, size_t more, size_t size,
+                               const nsvcd_allocator *allocator) {
+  if (list->capacity - list->count >= more) return 1;
+  if (list->count > SIZE_MAX / 2 - more) return 0;
+  const size_t capacity = 2 * (list->count + more);
+  void *items = nsvcd__alloc_array(allocator, capacity, size);
+  if (!items) return 0;
+
+  if (list->count > 0) memcpy(items, list->items, list->count * size);
+  nsvcd__free(allocator, list->items);
+  list->items = items;
+  list->capacity = capacity;
+  return 1;
+}
+
+// ---- topology: welded vertices, components, which of them are closed
+
+// Working memory and what is learned of the mesh. Vertices at the same place are one: the first of them.
+typedef struct nsvcd__topology {
+  size_t component_count;
+  uint32_t *welded;   // (vertices) the first vertex at the same place
+  uint32_t *parents;  // (vertices) of the union-find forest; in the end the root, which is the least vertex
+  uint8_t *open;      // (vertices) of a root: its component is not closed
+  uint8_t *seen;      // (vertices) of a root: a triangle belongs to it
+} nsvcd__topology;
+
+static void nsvcd__topology_free(nsvcd__topology *topology, const nsvcd_allocator *allocator) {
+  nsvcd__free(allocator, topology->welded);
+  nsvcd__free(allocator, topology->parents);
+  nsvcd__free(allocator, topology->open);
+  nsvcd__free(allocator, topology->seen);
+  memset(topology, 0, sizeof *topology);
+}
+
+static uint32_t nsvcd__place_hash(const float *position) {
+  uint32_t hash = 0;
+  for (size_t k = 0; k < 3; k++) {
+    uint32_t bits;
+    memcpy(&bits, position + k, sizeof bits);
+    if (bits == 0x80000000u) bits = 0;  // -0 is at the same place as 0
+    hash = (hash ^ bits) * 0x9e3779b1u;
+    hash ^= hash >> 15;
+  }
+  return hash * 0x85ebca6bu ^ hash >> 13;
+}
+
+static int nsvcd__equal_positions(const float *a, const float *b) {
+  return a[0] == b[0] && a[1] == b[1] && a[2] == b[2];
+}
+
+// Finds the first vertex at each place, in a table of open addresses. 0 without memory.
+static int nsvcd__weld(const nsvcd_mesh *mesh, uint32_t *welded, const nsvcd_allocator *allocator) {
+  const uint32_t empty = 0xffffffffu;
+  size_t slots = 16;
+  while (slots / 2 < mesh->vertex_count) slots *= 2;
+  uint32_t *table = (uint32_t *)nsvcd__alloc_array(allocator, slots, sizeof(uint32_t));
+  if (!table) return 0;
+
+  memset(table, 0xff, slots * sizeof *table);
+  for (uint32_t v = 0; v < mesh->vertex_count; v++) {
+    const float *position = mesh->positions + 3 * (size_t)v;
+    size_t slot = nsvcd__place_hash(position) & (slots - 1);
+    while (table[slot] != empty) {
+      if (nsvcd__equal_positions(mesh->positions + 3 * (size_t)table[slot], position)) break;
+      slot = (slot + 1) & (slots - 1);
+    }
+    if (table[slot] == empty) table[slot] = v;
+    welded[v] = table[slot];
+  }
+  nsvcd__free(allocator, table);
+  return 1;
+}
+
+static uint32_t nsvcd__root(uint32_t *parents, uint32_t v) {
+  while (parents[v] != v) {
+    parents[v] = parents[parents[v]];
+    v = parents[v];
+  }
+  return v;
+}
+
+static void nsvcd__join(uint32_t *parents, uint32_t a, uint32_t b) {
+  a = nsvcd__root(parents, a);
+  b = nsvcd__root(parents, b);
+  if (a < b) parents[b] = a;
+  if (b < a) parents[a] = b;
+}
+
+static void nsvcd__find_components(const nsvcd_mesh *mesh, nsvcd__topology *topology) {
+  for (uint32_t v = 0; v < mesh->vertex_count; v++) topology->parents[v] = v;
+  for (size_t t = 0; t < mesh->triangle_count; t++) {
+    const uint32_t *corners = mesh->indices + 3 * t;
+    const uint32_t a = topology->welded[corners[0]];
+    nsvcd__join(topology->parents, a, topology->welded[corners[1]]);
+    nsvcd__join(topology->parents, a, topology->welded[corners[2]]);
+  }
+  for (uint32_t v = 0; v < mesh->vertex_count; v++) {
+    topology->parents[v] = nsvcd__root(topology->parents, v);
+  }
+
+  memset(topology->seen, 0, mesh->vertex_count);
+  topology->component_count = 0;
+  for (size_t t = 0; t < mesh->triangle_count; t++) {
+    const uint32_t root = topology->parents[topology->welded[mesh->indices[3 * t]]];
+    topology->component_count += !topology->seen[root];
+    topology->seen[root] = 1;
+  }
+}
+
+// The directed edges at each vertex, listed at the lesser end: +1 where they lead away from it, -1 where towards it. A
+// component is closed if they cancel.
+typedef struct nsvcd__edges {
+  size_t *first;      // (vertices + 1) edges of a vertex
+  uint32_t *ends;     // (3 triangles) the greater end
+  int8_t *signs;      // (3 triangles)
+  int32_t *balances;  // (vertices) sums over the edges of one vertex, by their other end; else zero
+} nsvcd__edges;
+
+static void nsvcd__edges_free(nsvcd__edges *edges, const nsvcd_allocator *allocator) {
+  nsvcd__free(allocator, edges->first);
+  nsvcd__free(allocator, edges->ends);
+  nsvcd__free(allocator, edges->signs);
+  nsvcd__free(allocator, edges->balances);
+}
+
+static int nsvcd__edges_alloc(nsvcd__edges *edges, const nsvcd_mesh *mesh,
+                              const nsvcd_allocator *allocator) {
+  const size_t vertices = mesh->vertex_count;
+  const size_t count = 3 * mesh->triangle_count;
+  edges->first = (size_t *)nsvcd__alloc_array(allocator, vertices + 2, sizeof(size_t));
+  edges->ends = (uint32_t *)nsvcd__alloc_array(allocator, count, sizeof(uint32_t));
+  edges->signs = (int8_t *)nsvcd__alloc_array(allocator, count, sizeof(int8_t));
+  edges->balances = (int32_t *)nsvcd__alloc_array(allocator, vertices, sizeof(int32_t));
+  if (edges->first && edges->ends && edges->signs && edges->balances) return 1;
+  nsvcd__edges_free(edges, allocator);
+  return 0;
+}
+
+// The welded corners of triangle t; 0 if two of them are one, for then its edges cancel among themselves.
+static int nsvcd__welded_corners(const nsvcd_mesh *mesh, const nsvcd__topology *topology, size_t t,
+                                 uint32_t *corners) {
+  for (size_t i = 0; i < 3; i++) corners[i] = topology->welded[mesh->indices[3 * t + i]];
+  return corners[0] != corners[1] && corners[1] != corners[2] && corners[2] != corners[0];
+}
+
+// Counting sort of the edges by their lesser end.
+static void nsvcd__sort_edges(const nsvcd_mesh *mesh, const nsvcd__topology *topology,
+                              nsvcd__edges *edges) {
+  uint32_t corners[3];
+  memset(edges->first, 0, (mesh->vertex_count + 2) * sizeof *edges->first);
+  for (size_t t = 0; t < mesh->triangle_count; t++) {
+    if (!nsvcd__welded_corners(mesh, topology, t, corners)) continue;
+    for (size_t i = 0; i < 3; i++) {
+      const uint32_t a = corners[i];
+      const uint32_t b = corners[(i + 1) % 3];
+      edges->first[(a < b ? a : b) + 2]++;
+    }
+  }
+  for (size_t v = 0; v < mesh->vertex_count; v++) edges->first[v + 2] += edges->first[v + 1];
+
+  for (size_t t = 0; t < mesh->triangle_count; t++) {
+    if (!nsvcd__welded_corners(mesh, topology, t, corners)) continue;
+    for (size_t i = 0; i < 3; i++) {
+      const uint32_t a = corners[i];
+      const uint32_t b = corners[(i + 1) % 3];
+      const size_t to = edges->first[(a < b ? a : b) + 1]++;  // afterwards the start of the next
+      edges->ends[to] = a < b ? b : a;
+      edges->signs[to] = a < b ? 1 : -1;
+    }
+  }
+}
+
+// 0 without memory.
+static int nsvcd__find_open(const nsvcd_mesh *mesh, nsvcd__topology *topology,
+                            const nsvcd_allocator *allocator) {
+  nsvcd__edges edges;
+  if (!nsvcd__edges_alloc(&edges, mesh, allocator)) return 0;
+  nsvcd__sort_edges(mesh, topology, &edges);
+
+  memset(topology->open, 0, mesh->vertex_count);
+  memset(edges.balances, 0, mesh->vertex_count * sizeof *edges.balances);
+  for (size_t v = 0; v < mesh->vertex_count; v++) {
+    const size_t first = edges.first[v];
+    const size_t last = edges.first[v + 1];
+    for (size_t e = first; e < last; e++) edges.balances[edges.ends[e]] += edges.signs[e];
+    for (size_t e = first; e < last; e++) {
+      if (edges.balances[edges.ends[e]] != 0) topology->open[topology->parents[v]] = 1;
+    }
+    for (size_t e = first; e < last; e++) edges.balances[edges.ends[e]] = 0;
+  }
+  nsvcd__edges_free(&edges, allocator);
+  return 1;
+}
+
+// 0 without memory.
+static int nsvcd__topology_build(const nsvcd_mesh *mesh, nsvcd__topology *topology,
+                                 const nsvcd_allocator *allocator) {
+  const size_t vertices = mesh->vertex_count;
+  memset(topology, 0, sizeof *topology);
+  topology->welded = (uint32_t *)nsvcd__alloc_array(allocator, vertices, sizeof(uint32_t));
+  topology->parents = (uint32_t *)nsvcd__alloc_array(allocator, vertices, sizeof(uint32_t));
+  topology->open = (uint8_t *)nsvcd__alloc_array(allocator, vertices, sizeof(uint8_t));
+  topology->seen = (uint8_t *)nsvcd__alloc_array(allocator, vertices, sizeof(uint8_t));
+  if (topology->welded && topology->parents && topology->open && topology->seen &&
+      nsvcd__weld(mesh, topology->welded, allocator)) {
+    nsvcd__find_components(mesh, topology);
+    if (nsvcd__find_open(mesh, topology, allocator)) return 1;
+  }
+  nsvcd__topology_free(topology, allocator);
+  return 0;
+}
+
+// ---- pieces: triangles cut by the cells of the centres
+
+// A convex part of one triangle that is being cut. Its corners are points by number: the mesh's welded vertices, then
+// those that cuts have made.
+typedef struct nsvcd__facet {
+  uint32_t points[NSVCD__FACET_CORNERS];
+  size_t count;
+} nsvcd__facet;
+
+typedef struct nsvcd__piece {
+  size_t first;  // of its corners
+  uint32_t count;
+  uint32_t triangle;
+  uint32_t patch;
+  uint8_t leads;   // 1: the first piece of its triangle
+  uint8_t parted;  // 1: its triangle is listed in parts
+} nsvcd__piece;
+
+typedef struct nsvcd__pieces {
+  const nsvcd_mesh *mesh;
+  const nsvcd__patches *patches;
+  nsvcd__topology topology;
+  nsvcd__list list;       // of nsvcd__piece, triangle by triangle
+  nsvcd__list corners;    // of uint32_t, numbers of points
+  nsvcd__list points;     // of nsvcd__d3: the points that cuts have made
+  nsvcd__facet *waiting;  // (NSVCD__FACET_STACK)
+  size_t waiting_count;
+  size_t cuts_left;
+  double overlap;  // metres
+  double whole;    // metres: a triangle with a longer edge is listed in parts
+  double margin;   // metres, added to all bounds
+} nsvcd__pieces;
+
+static void nsvcd__pieces_free(nsvcd__pieces *pieces, const nsvcd_allocator *allocator) {
+  nsvcd__topology_free(&pieces->topology, allocator);
+  nsvcd__free(allocator, pieces->list.items);
+  nsvcd__free(allocator, pieces->corners.items);
+  nsvcd__free(allocator, pieces->points.items);
+  nsvcd__free(allocator, pieces->waiting);
+}
+
+static const nsvcd__piece *nsvcd__piece_at(const nsvcd__pieces *pieces, size_t i) {
+  return (const nsvcd__piece *)pieces->list.items + i;
+}
+
+static const uint32_t *nsvcd__piece_corners(const nsvcd__pieces *pieces, const nsvcd__piece *piece) {
+  return (const uint32_t *)pieces->corners.items + piece->first;
+}
+
+static size_t nsvcd__point_count(const nsvcd__pieces *pieces) {
+  return pieces->mesh->vertex_count + pieces->points.count;
+}
+
+static nsvcd__d3 nsvcd__point_at(const nsvcd__pieces *pieces, uint32_t number) {
+  const size_t vertices = pieces->mesh->vertex_count;
+  if (number < vertices) return nsvcd__d3_load(pieces->mesh->positions + 3 * (size_t)number);
+  return ((const nsvcd__d3 *)pieces->points.items)[number - vertices];
+}
+
+static nsvcd__d3 nsvcd__centre_at(const nsvcd__patches *patches, uint32_t i) {
+  return nsvcd__d3_of((double)patches->centre_x[i], (double)patches->centre_y[i],
+                      (double)patches->centre_z[i]);
+}
+
+// Divides `from` where `beyond`, a value at each of its corners, changes its sign: `near_part` is where it is negative.
+// 0 if one of the parts has less than three corners, which roundings can do, or too many.
+static int nsvcd__divide(nsvcd__pieces *pieces, const nsvcd__facet *from, const double *beyond,
+                         nsvcd__facet *near_part, nsvcd__facet *far_part) {
+  const uint32_t vertices = (uint32_t)pieces->mesh->vertex_count;
+  const size_t made = pieces->points.count;
+  nsvcd__d3 *points = (nsvcd__d3 *)pieces->points.items;  // room for two per corner is there
+  uint32_t near_points[3 * NSVCD__FACET_CORNERS];
+  uint32_t far_points[3 * NSVCD__FACET_CORNERS];
+  size_t near_count = 0;
+  size_t far_count = 0;
+  for (size_t i = 0; i < from->count; i++) {
+    const size_t j = (i + 1) % from->count;
+    if (beyond[i] <= 0) near_points[near_count++] = from->points[i];
+    if (beyond[i] >= 0) far_points[far_count++] = from->points[i];
+    if (!((beyond[i] < 0 && beyond[j] > 0) || (beyond[i] > 0 && beyond[j] < 0))) continue;
+    const nsvcd__d3 a = nsvcd__point_at(pieces, from->points[i]);
+    const nsvcd__d3 b = nsvcd__point_at(pieces, from->points[j]);
+    const uint32_t number = vertices + (uint32_t)pieces->points.count;
+    points[pieces->points.count++] = nsvcd__d3_mix(a, b, beyond[i] / (beyond[i] - beyond[j]));
+    near_points[near_count++] = number;
+    far_points[far_count++] = number;
+  }
+
+  const size_t most = NSVCD__FACET_CORNERS;
+  if (near_count < 3 || far_count < 3 || near_count > most || far_count > most) {
+    pieces->points.count = made;
+    return 0;
+  }
+  memcpy(near_part->points, near_points, near_count * sizeof *near_points);
+  memcpy(far_part->points, far_points, far_count * sizeof *far_points);
+  near_part->count = near_count;
+  far_part->count = far_count;
+  return 1;
+}
+
+// How far each corner is beyond the plane midway between two centres, and the greatest of that.
+static double nsvcd__beyond(const nsvcd__pieces *pieces, const nsvcd__facet *facet, nsvcd__d3 own,
+                            nsvcd__d3 other, double *beyond) {
+  const nsvcd__d3 across = nsvcd__d3_sub(other, own);
+  const nsvcd__d3 middle = nsvcd__d3_mix(own, other, 0.5);
+  const double length = nsvcd__d3_length(across);
+  double most = -HUGE_VAL;
+  for (size_t i = 0; i < facet->count; i++) {
+    const nsvcd__d3 from_middle = nsvcd__d3_sub(nsvcd__point_at(pieces, facet->points[i]), middle);
+    beyond[i] = length > 0 ? nsvcd__d3_dot(from_middle, across) / length : -1;
+    most = fmax(most, beyond[i]);
+  }
+  return most;
+}
+
+// Distance of the facet's farthest corner.
+static double nsvcd__facet_reach(const nsvcd__pieces *pieces, const nsvcd__facet *facet,
+                                 nsvcd__d3 from) {
+  double reach = 0;
+  for (size_t i = 0; i < facet->count; i++) {
+    const nsvcd__d3 offset = nsvcd__d3_sub(nsvcd__point_at(pieces, facet->points[i]), from);
+    reach = fmax(reach, nsvcd__d3_dot(offset, offset));
+  }
+  return sqrt(reach);
+}
+
+// Cuts from the facet what lies too far beyond its patch's cell; that waits for its turn. 0 without memory.
+static int nsvcd__trim(nsvcd__pieces *pieces, uint32_t patch, nsvcd__facet *facet,
+                       const nsvcd_allocator *allocator) {
+  const nsvcd__patches *patches = pieces->patches;
+  const nsvcd__d3 own = nsvcd__centre_at(patches, patch);
+  const uint32_t *neighbours = patches->neighbours + (size_t)patch * NSVCD__NEIGHBOURS;
+  const float *quarter_gaps = patches->quarter_gaps + (size_t)patch * NSVCD__NEIGHBOURS;
+  double reach = nsvcd__facet_reach(pieces, facet, own);
+  for (size_t k = 0; k < NSVCD__NEIGHBOURS; k++) {
+    // The plane is half the gap away, and the planes of all that follow are farther.
+    if (reach <= sqrt((double)quarter_gaps[k]) + pieces->overlap) break;
+    if (pieces->cuts_left == 0 || pieces->waiting_count == NSVCD__FACET_STACK) break;
+    double beyond[NSVCD__FACET_CORNERS];
+    const nsvcd__d3 other = nsvcd__centre_at(patches, neighbours[k]);
+    if (nsvcd__beyond(pieces, facet, own, other, beyond) <= pieces->overlap) continue;
+    if (!nsvcd__list_reserve(&pieces->points, facet->count, sizeof(nsvcd__d3), allocator)) return 0;
+    nsvcd__facet near_part;
+    nsvcd__facet *far_part = &pieces->waiting[pieces->waiting_count];
+    if (!nsvcd__divide(pieces, facet, beyond, &near_part, far_part)) continue;
+    *facet = near_part;
+    pieces->waiting_count++;
+    pieces->cuts_left--;
+    reach = nsvcd__facet_reach(pieces, facet, own);
+  }
+  return 1;
+}
+
+// 0 without memory.
+static int nsvcd__add_piece(nsvcd__pieces *pieces, const nsvcd__facet *facet, nsvcd__piece piece,
+                            const nsvcd_allocator *allocator) {
+  if (!nsvcd__list_reserve(&pieces->list, 1, sizeof(nsvcd__piece), allocator)) return 0;
+  if (!nsvcd__list_reserve(&pieces->corners, facet->count, sizeof(uint32_t), allocator)) return 0;
+  uint32_t *corners = (uint32_t *)pieces->corners.items + pieces->corners.count;
+  memcpy(corners, facet->points, facet->count * sizeof *corners);
+  piece.first = pieces->corners.count;
+  piece.count = (uint32_t)facet->count;
+  ((nsvcd__piece *)pieces->list.items)[pieces->list.count++] = piece;
+  pieces->corners.count += facet->count;
+  return 1;
+}
+
+static uint32_t nsvcd__facet_patch(const nsvcd__pieces *pieces, const nsvcd__facet *facet,
+                                   uint32_t guess) {
+  nsvcd__d3 sum = nsvcd__d3_of(0, 0, 0);
+  for (size_t i = 0; i < facet->count; i++) {
+    sum = nsvcd__d3_add(sum, nsvcd__point_at(pieces, facet->points[i]));
+  }
+  sum = nsvcd__d3_scale(sum, 1 / (double)facet->count);
+  return nsvcd__nearest_centre(pieces->patches, guess, (float)sum.x, (float)sum.y, (float)sum.z);
+}
+
+static double nsvcd__longest_edge(const nsvcd__pieces *pieces, const nsvcd__facet *facet) {
+  double longest = 0;
+  nsvcd__d3 a = nsvcd__point_at(pieces, facet->points[facet->count - 1]);
+  for (size_t i = 0; i < facet->count; i++) {
+    const nsvcd__d3 b = nsvcd__point_at(pieces, facet->points[i]);
+    longest = fmax(longest, nsvcd__d3_gap(a, b));
+    a = b;
+  }
+  return sqrt(longest);
+}
+
+// 0 without memory. guess: the patch of the piece before.
+static int nsvcd__cut_up(nsvcd__pieces *pieces, uint32_t triangle, uint32_t *guess,
+                         const nsvcd_allocator *allocator) {
+  nsvcd__piece piece = {0, 0, triangle, 0, 1, 0};
+  nsvcd__facet *whole = &pieces->waiting[0];
+  nsvcd__welded_corners(pieces->mesh, &pieces->topology, triangle, whole->points);
+  whole->count = 3;
+  piece.parted = nsvcd__longest_edge(pieces, whole) > pieces->whole;
+  pieces->waiting_count = 1;
+  while (pieces->waiting_count > 0) {
+    nsvcd__facet facet = pieces->waiting[--pieces->waiting_count];
+    *guess = nsvcd__facet_patch(pieces, &facet, *guess);
+    piece.patch = *guess;
+    if (!nsvcd__trim(pieces, piece.patch, &facet, allocator)) return 0;
+    if (!nsvcd__add_piece(pieces, &facet, piece, allocator)) return 0;
+    piece.leads = 0;
+  }
+  return 1;
+}
+
+static void nsvcd__pieces_measure(nsvcd__pieces *pieces) {
+  const nsvcd_mesh *mesh = pieces->mesh;
+  const size_t patches = pieces->patches->count;
+  double greatest = 0;
+  for (size_t i = 0; i < 3 * mesh->vertex_count; i++) {
+    greatest = fmax(greatest, fabs((double)mesh->positions[i]));
+  }
+  double size = 0;
+  for (size_t i = 0; i < patches; i++) size += (double)pieces->patches->sample_radii[i];
+  size /= (double)patches;
+
+  pieces->margin = NSVCD__SURFACE_MARGIN * greatest + NSVCD__SURFACE_TINY;
+  pieces->overlap = NSVCD__SURFACE_OVERLAP * size + pieces->margin;
+  pieces->whole = NSVCD__SURFACE_WHOLE * size;
+  pieces->cuts_left = NSVCD__CUTS_PER_PATCH * patches;
+  const size_t room = NSVCD__MAX_CUTS - pieces->cuts_left;
+  const size_t triangles = mesh->triangle_count;
+  const int many = triangles > room / NSVCD__CUTS_PER_TRIANGLE;
+  pieces->cuts_left += many ? room : NSVCD__CUTS_PER_TRIANGLE * triangles;
+}
+
+// Cuts the whole mesh. 0 without memory.
+static int nsvcd__pieces_build(const nsvcd_mesh *mesh, const nsvcd__patches *patches,
+                               const nsvcd_allocator *allocator, nsvcd__pieces *pieces) {
+  memset(pieces, 0, sizeof *pieces);
+  pieces->mesh = mesh;
+  pieces->patches = patches;
+  nsvcd__pieces_measure(pieces);
+  const size_t facet = sizeof(nsvcd__facet);
+  pieces->waiting = (nsvcd__facet *)nsvcd__alloc_array(allocator, NSVCD__FACET_STACK, facet);
+  int ok = pieces->waiting && nsvcd__topology_build(mesh, &pieces->topology, allocator);
+  uint32_t guess = 0;
+  for (uint32_t t = 0; ok && t < mesh->triangle_count; t++) {
+    ok = nsvcd__cut_up(pieces, t, &guess, allocator);
+  }
+  if (!ok) nsvcd__pieces_free(pieces, allocator);
+  return ok;
+}
+
+// ---- rounding outwards
+
+static float nsvcd__float_above(double x) {
+  const float rounded = (float)x;
+  return (double)rounded < x ? nextafterf(rounded, HUGE_VALF) : rounded;
+}
+static float nsvcd__float_below(double x) { return -nsvcd__float_above(-x); }
+
+// ---- small linear systems, for balls and for distances
+
+// Solves a x = b for a symmetric, positive definite matrix of n <= 3 rows; the answer replaces b. 0 if it is singular.
+static int nsvcd__solve(double a[3][3], double *b, size_t n) {
+  double first[3];
+  for (size_t i = 0; i < n; i++) first[i] = a[i][i];
+  for (size_t i = 0; i < n; i++) {
+    if (!(a[i][i] > 1e-13 * first[i])) return 0;
+    for (size_t j = i + 1; j < n; j++) {
+      const double factor = a[i][j] / a[i][i];
+      for (size_t k = j; k < n; k++) a[j][k] -= factor * a[i][k];
+      b[j] -= factor * b[i];
+    }
+  }
+  for (size_t i = n; i-- > 0;) {
+    for (size_t j = i + 1; j < n; j++) b[i] -= a[i][j] * b[j];
+    b[i] /= a[i][i];
+  }
+  return 1;
+}
+
+// ---- balls: the least one that holds all points
+
+typedef struct nsvcd__ball {
+  nsvcd__d3 centre;
+  double squared;  // radius
+} nsvcd__ball;
+
+// The least ball with all these 1 to 4 points on its border. 0 if there is none.
+static int nsvcd__ball_through(const nsvcd__d3 *points, size_t count, nsvcd__ball *ball) {
+  nsvcd__d3 edges[3];
+  double matrix[3][3];
+  double shares[3];
+  for (size_t i = 0; i + 1 < count; i++) edges[i] = nsvcd__d3_sub(points[i + 1], points[0]);
+  for (size_t i = 0; i + 1 < count; i++) {
+    for (size_t j = 0; j + 1 < count; j++) matrix[i][j] = nsvcd__d3_dot(edges[i], edges[j]);
+    shares[i] = 0.5 * matrix[i][i];
+  }
+  if (!nsvcd__solve(matrix, shares, count - 1)) return 0;
+  nsvcd__d3 offset = nsvcd__d3_of(0, 0, 0);
+  for (size_t i = 0; i + 1 < count; i++) {
+    offset = nsvcd__d3_add(offset, nsvcd__d3_scale(edges[i], shares[i]));
+  }
+  ball->centre = nsvcd__d3_add(points[0], offset);
+  ball->squared = nsvcd__d3_dot(offset, offset);
+  return 1;
+}
+
+// The least ball that holds `border` (1 to 5 points) among those through the last of them and up to three others. Keeps
+// in `border` only the points that it goes through. 0 if there is none.
+static int nsvcd__ball_of_few(nsvcd__d3 *border, size_t *count, nsvcd__ball *ball) {
+  const unsigned last = 1u << (*count - 1);
+  unsigned best = 0;
+  for (unsigned set = last; set < 2 * last; set++) {
+    nsvcd__d3 chosen[5];
+    nsvcd__ball trial;
+    size_t picked = 0;
+    for (size_t i = 0; i < *count; i++) {
+      if (set >> i & 1) chosen[picked++] = border[i];
+    }
+    if (picked > 4 || !nsvcd__ball_through(chosen, picked, &trial)) continue;
+    if (best != 0 && trial.squared >= ball->squared) continue;
+    int holds = 1;
+    for (size_t i = 0; i < *count; i++) {
+      holds &= nsvcd__d3_gap(border[i], trial.centre) <= trial.squared * (1 + 1e-9);
+    }
+    if (!holds) continue;
+    best = set;
+    *ball = trial;
+  }
+
+  size_t kept = 0;
+  for (size_t i = 0; i < *count; i++) {
+    if (best >> i & 1) border[kept++] = border[i];
+  }
+  if (best != 0) *count = kept;
+  return best != 0;
+}
+
+// The least enclosing ball: the point farthest outside joins the border, until there is none (after Gaertner, "Fast and
+// robust smallest enclosing balls", 1999). It grows with every step. Roundings can end it early: then it is a little
+// too large, for the radius is taken from the points by the caller.
+static nsvcd__d3 nsvcd__ball_centre(const nsvcd__d3 *points, size_t count) {
+  nsvcd__ball ball = {points[0], 0};
+  nsvcd__d3 border[5] = {points[0]};
+  size_t border_count = 1;
+  for (size_t step = 0; step < 64; step++) {
+    double most = -1;
+    size_t farthest = 0;
+    for (size_t i = 0; i < count; i++) {
+      const double gap = nsvcd__d3_gap(points[i], ball.centre);
+      if (gap > most) farthest = i;
+      most = fmax(most, gap);
+    }
+    if (most <= ball.squared * (1 + 1e-9)) break;
+    border[border_count++] = points[farthest];
+    nsvcd__ball larger;
+    if (!nsvcd__ball_of_few(border, &border_count, &larger) || larger.squared <= ball.squared) break;
+    ball = larger;
+  }
+  return ball.centre;
+}
+
+// ---- discs: a direction in which the points are thin
+
+// What the points of one patch extend to along a direction.
+typedef struct nsvcd__range {
+  double low, high;
+} nsvcd__range;
+
+static nsvcd__range nsvcd__range_along(const nsvcd__d3 *points, size_t count, nsvcd__d3 direction) {
+  nsvcd__range range = {HUGE_VAL, -HUGE_VAL};
+  for (size_t i = 0; i < count; i++) {
+    const double at = nsvcd__d3_dot(points[i], direction);
+    range.low = at < range.low ? at : range.low;
+    range.high = at > range.high ? at : range.high;
+  }
+  return range;
+}
+
+static double nsvcd__thickness(const nsvcd__d3 *points, size_t count, nsvcd__d3 direction) {
+  const nsvcd__range range = nsvcd__range_along(points, count, direction);
+  return range.high - range.low;
+}
+
+// Some direction across a unit vector.
+static nsvcd__d3 nsvcd__any_across(nsvcd__d3 n) {
+  const int x_least = fabs(n.x) <= fabs(n.y) && fabs(n.x) <= fabs(n.z);
+  const nsvcd__d3 axis = x_least                      ? nsvcd__d3_of(1, 0, 0)
+                         : fabs(n.y) <= fabs(n.z) ? nsvcd__d3_of(0, 1, 0)
+                                                  : nsvcd__d3_of(0, 0, 1);
+  return nsvcd__d3_unit(nsvcd__d3_cross(n, axis), n);
+}
+
+// A symmetric matrix of 3 rows, by columns.
+typedef struct nsvcd__matrix {
+  nsvcd__d3 x, y, z;
+} nsvcd__matrix;
+
+static nsvcd__d3 nsvcd__longest(nsvcd__matrix m) {
+  const double x = nsvcd__d3_dot(m.x, m.x);
+  const double y = nsvcd__d3_dot(m.y, m.y);
+  const double z = nsvcd__d3_dot(m.z, m.z);
+  return x >= y && x >= z ? m.x : y >= z ? m.y : m.z;
+}
+
+static nsvcd__matrix nsvcd__square(nsvcd__matrix m) {
+  const double trace = m.x.x + m.y.y + m.z.z;
+  const double s = trace > 0 ? 1 / (trace * trace) : 0;
+  nsvcd__matrix out;
+  out.x = nsvcd__d3_of(s * nsvcd__d3_dot(m.x, m.x), s * nsvcd__d3_dot(m.x, m.y),
+                       s * nsvcd__d3_dot(m.x, m.z));
+  out.y = nsvcd__d3_of(out.x.y, s * nsvcd__d3_dot(m.y, m.y), s * nsvcd__d3_dot(m.y, m.z));
+  out.z = nsvcd__d3_of(out.x.z, out.y.z, s * nsvcd__d3_dot(m.z, m.z));
+  return out;
+}
+
+static nsvcd__matrix nsvcd__covariance(const nsvcd__d3 *points, size_t count) {
+  const nsvcd__d3 zero = nsvcd__d3_of(0, 0, 0);
+  nsvcd__matrix out = {zero, zero, zero};
+  nsvcd__d3 mean = zero;
+  for (size_t i = 0; i < count; i++) mean = nsvcd__d3_add(mean, points[i]);
+  mean = nsvcd__d3_scale(mean, 1 / (double)count);
+  for (size_t i = 0; i < count; i++) {
+    const nsvcd__d3 d = nsvcd__d3_sub(points[i], mean);
+    out.x = nsvcd__d3_add(out.x, nsvcd__d3_scale(d, d.x));
+    out.y = nsvcd__d3_add(out.y, nsvcd__d3_scale(d, d.y));
+    out.z = nsvcd__d3_add(out.z, nsvcd__d3_scale(d, d.z));
+  }
+  return out;
+}
+
+// Near the direction in which the points vary least. The adjugate of the covariance has the same axes, and the least
+// becomes the largest: squaring that a few times leaves nothing else.
+static nsvcd__d3 nsvcd__least_axis(const nsvcd__d3 *points, size_t count) {
+  const nsvcd__matrix c = nsvcd__covariance(points, count);
+  const nsvcd__d3 along = nsvcd__d3_unit(nsvcd__longest(c), nsvcd__d3_of(0, 0, 1));
+  const double trace = c.x.x + c.y.y + c.z.z;
+  nsvcd__matrix m;
+  m.x = nsvcd__d3_cross(c.y, c.z);
+  m.y = nsvcd__d3_cross(c.z, c.x);
+  m.z = nsvcd__d3_cross(c.x, c.y);
+  if (!(m.x.x + m.y.y + m.z.z > 1e-14 * trace * trace)) return nsvcd__any_across(along);  // a line
+  for (size_t step = 0; step < 6; step++) m = nsvcd__square(m);
+  return nsvcd__d3_unit(nsvcd__longest(m), nsvcd__any_across(along));
+}
+
+// Turns a direction step by step to where the points are thinner.
+static nsvcd__d3 nsvcd__thinner(const nsvcd__d3 *points, size_t count, nsvcd__d3 direction) {
+  double best = nsvcd__thickness(points, count, direction);
+  for (double turn = 0.16; turn > 0.005 && best > 0; turn *= 0.5) {
+    const nsvcd__d3 u = nsvcd__any_across(direction);
+    const nsvcd__d3 v = nsvcd__d3_cross(direction, u);
+    const nsvcd__d3 middle = direction;
+    for (size_t k = 0; k < 4; k++) {
+      const nsvcd__d3 step = nsvcd__d3_scale(k < 2 ? u : v, k % 2 ? -turn : turn);
+      const nsvcd__d3 trial = nsvcd__d3_unit(nsvcd__d3_add(middle, step), middle);
+      const double thickness = nsvcd__thickness(points, count, trial);
+      if (thickness >= best) continue;
+      best = thickness;
+      direction = trial;
+    }
+  }
+  return direction;
+}
+
+// points: about the centre of the patch's ball. normal: the mean one of its pieces, of any length.
+static void nsvcd__fit_disc(const nsvcd__d3 *points, size_t count, nsvcd__d3 normal, double margin,
+                            float *disc) {
+  nsvcd__d3 best = nsvcd__least_axis(points, count);
+  const nsvcd__d3 mean = nsvcd__d3_unit(normal, best);
+  if (nsvcd__thickness(points, count, mean) < nsvcd__thickness(points, count, best)) best = mean;
+  best = nsvcd__thinner(points, count, best);
+  if (nsvcd__d3_dot(best, normal) < 0) best = nsvcd__d3_scale(best, -1);
+
+  // Shorter than 1 by more than the roundings: |n| <= 1 holds for what is stored.
+  const nsvcd__f3 n = nsvcd__f3_round(nsvcd__d3_scale(best, 1 - 1.5e-7));
+  const nsvcd__d3 stored = nsvcd__d3_widen(n);
+  const nsvcd__range range = nsvcd__range_along(points, count, stored);
+  double across = 0;
+  for (size_t i = 0; i < count; i++) {
+    const nsvcd__d3 moment = nsvcd__d3_cross(points[i], stored);
+    across = fmax(across, nsvcd__d3_dot(moment, moment));
+  }
+  across = sqrt(across / nsvcd__d3_dot(stored, stored));
+  disc[0] = n.x;
+  disc[1] = n.y;
+  disc[2] = n.z;
+  disc[3] = nsvcd__float_below(range.low - margin);
+  disc[4] = nsvcd__float_above(range.high + margin);
+  disc[5] = nsvcd__float_above(across * (1 + 1e-6) + margin);
+}
+
+// ---- hulls
+
+// The point of a simplex nearest to the origin: weights are positive and sum to 1.
+typedef struct nsvcd__simplex {
+  nsvcd__d3 points[4];
+  double weights[4];
+  size_t count;
+} nsvcd__simplex;
+
+static nsvcd__d3 nsvcd__simplex_point(const nsvcd__simplex *s) {
+  nsvcd__d3 sum = nsvcd__d3_scale(s->points[0], s->weights[0]);
+  for (size_t i = 1; i < s->count; i++) {
+    sum = nsvcd__d3_add(sum, nsvcd__d3_scale(s->points[i], s->weights[i]));
+  }
+  return sum;
+}
+
+// Weights, of any sign, of the point nearest to the origin in the plane (line, point) through the simplex. 0 if that is
+// not known, for the points are too much in line.
+static int nsvcd__plane_weights(const nsvcd__simplex *s, double *weights) {
+  nsvcd__d3 edges[3];
+  double matrix[3][3];
+  double shares[3];
+  for (size_t i = 0; i + 1 < s->count; i++) edges[i] = nsvcd__d3_sub(s->points[i + 1], s->points[0]);
+  for (size_t i = 0; i + 1 < s->count; i++) {
+    for (size_t j = 0; j + 1 < s->count; j++) matrix[i][j] = nsvcd__d3_dot(edges[i], edges[j]);
+    shares[i] = -nsvcd__d3_dot(edges[i], s->points[0]);
+  }
+  if (!nsvcd__solve(matrix, shares, s->count - 1)) return 0;
+  weights[0] = 1;
+  for (size_t i = 0; i + 1 < s->count; i++) {
+    weights[i + 1] = shares[i];
+    weights[0] -= shares[i];
+  }
+  return 1;
+}
+
+// Moves the weights to the simplex's point nearest to the origin, and drops the corners that do not bear it (Wolfe,
+// "Finding the nearest point in a polytope", 1976). 0 if roundings are in the way: the weights still are weights.
+static int nsvcd__simplex_settle(nsvcd__simplex *s) {
+  for (;;) {
+    double target[4];
+    if (!nsvcd__plane_weights(s, target)) return 0;
+    double way = 1;
+    size_t blocks = s->count;
+    for (size_t i = 0; i < s->count; i++) {
+      if (target[i] > 0) continue;
+      const double reach = s->weights[i] > 0 ? s->weights[i] / (s->weights[i] - target[i]) : 0;
+      if (reach > way) continue;
+      way = reach;
+      blocks = i;
+    }
+    for (size_t i = 0; i < s->count; i++) s->weights[i] += way * (target[i] - s->weights[i]);
+    if (blocks == s->count) return 1;
+    s->count--;
+    s->points[blocks] = s->points[s->count];
+    s->weights[blocks] = s->weights[s->count];
+  }
+}
+
+// A bound on the distance of a point from the convex hull of some vertices: that of a point of the hull. It is within a
+// thousandth of the distance, unless it is below `enough`.
+static double nsvcd__hull_distance(const nsvcd__d3 *hull, size_t count, nsvcd__d3 point,
+                                   double enough) {
+  nsvcd__simplex s;
+  s.points[0] = nsvcd__d3_sub(hull[count - 1], point);
+  s.weights[0] = 1;
+  s.count = 1;
+  double best = nsvcd__d3_dot(s.points[0], s.points[0]);
+  nsvcd__d3 nearest = s.points[0];
+  while (best > enough * enough && s.count < 4) {
+    const double offset = nsvcd__d3_dot(point, nearest);
+    double least = HUGE_VAL;
+    size_t support = 0;
+    for (size_t i = 0; i < count; i++) {
+      const double at = nsvcd__d3_dot(hull[i], nearest) - offset;
+      if (at < least) support = i;
+      least = at < least ? at : least;
+    }
+    if (least >= 0.998 * best) break;
+    s.points[s.count] = nsvcd__d3_sub(hull[support], point);
+    s.weights[s.count++] = 0;
+    const int settled = nsvcd__simplex_settle(&s);
+    nearest = nsvcd__simplex_point(&s);
+    const double squared = nsvcd__d3_dot(nearest, nearest);
+    if (!settled || squared >= best) break;
+    best = squared;
+  }
+  return sqrt(best);
+}
+
+// Chooses up to NSVCD__HULL of the points such that all are near to the hull of those: always the one that is farthest
+// from it. Returns how far the farthest is at most; chosen: numbers within points. bounds: working memory, one a point.
+static double nsvcd__choose_hull(const nsvcd__d3 *points, size_t count, double enough,
+                                 double *bounds, size_t *chosen, size_t *chosen_count) {
+  nsvcd__d3 hull[NSVCD__HULL];
+  size_t next = 0;
+  for (size_t i = 0; i < count; i++) {
+    bounds[i] = nsvcd__d3_length(points[i]);  // from the ball's centre, to begin with
+    if (bounds[i] > bounds[next]) next = i;
+  }
+  for (size_t i = 0; i < count; i++) bounds[i] = HUGE_VAL;
+
+  double farthest = HUGE_VAL;
+  *chosen_count = 0;
+  while (*chosen_count < NSVCD__HULL && farthest > enough) {
+    hull[*chosen_count] = points[next];
+    chosen[(*chosen_count)++] = next;
+    bounds[next] = 0;
+    // A point that was near enough stays so, for the hull only grows: distances found before are bounds.
+    farthest = 0;
+    size_t first = 0;
+    for (size_t i = 1; i < count; i++) first = bounds[i] > bounds[first] ? i : first;
+    for (size_t k = 0; k < count; k++) {
+      const size_t i = (first + k) % count;
+      if (bounds[i] <= farthest) continue;
+      bounds[i] = fmin(bounds[i], nsvcd__hull_distance(hull, *chosen_count, points[i], farthest));
+      if (bounds[i] <= farthest) continue;
+      farthest = bounds[i];
+      next = i;
+    }
+  }
+  return farthest;
+}
+
+// ---- patch by patch
+
+// The pieces by patch, and working memory for one patch at a time.
+typedef struct nsvcd__sorted {
+  size_t *first;      // (N + 1) pieces of a patch
+  uint32_t *order;    // (pieces) numbers of pieces, patch by patch, within a patch as they were made
+  size_t most;        // corners of the pieces of one patch, at most
+  uint32_t *stamps;   // (points) the last pass that met a point; passes count from 1
+  uint32_t *numbers;  // (points) its number in that pass
+  uint32_t *met;      // (most) the points of the pass
+  nsvcd__d3 *places;  // (most) the points about the centre
+  double *bounds;     // (most)
+  uint32_t *hulls;    // (N, NSVCD__HULL) points that the hulls consist of
+  uint32_t pass;
+} nsvcd__sorted;
+
+static void nsvcd__sorted_free(nsvcd__sorted *sorted, const nsvcd_allocator *allocator) {
+  nsvcd__free(allocator, sorted->first);
+  nsvcd__free(allocator, sorted->order);
+  nsvcd__free(allocator, sorted->stamps);
+  nsvcd__free(allocator, sorted->numbers);
+  nsvcd__free(allocator, sorted->met);
+  nsvcd__free(allocator, sorted->places);
+  nsvcd__free(allocator, sorted->bounds);
+  nsvcd__free(allocator, sorted->hulls);
+}
+
+static int nsvcd__sorted_alloc(nsvcd__sorted *sorted, const nsvcd__pieces *pieces,
+                               const nsvcd_allocator *allocator) {
+  const size_t patches = pieces->patches->count;
+  const size_t points = nsvcd__point_count(pieces);
+  const size_t words = sizeof(uint32_t);
+  const size_t most = sorted->most;
+  sorted->order = (uint32_t *)nsvcd__alloc_array(allocator, pieces->list.count, words);
+  sorted->stamps = (uint32_t *)nsvcd__alloc_array(allocator, points, words);
+  sorted->numbers = (uint32_t *)nsvcd__alloc_array(allocator, points, words);
+  sorted->met = (uint32_t *)nsvcd__alloc_array(allocator, most, words);
+  sorted->places = (nsvcd__d3 *)nsvcd__alloc_array(allocator, most, sizeof(nsvcd__d3));
+  sorted->bounds = (double *)nsvcd__alloc_array(allocator, most, sizeof(double));
+  sorted->hulls = (uint32_t *)nsvcd__alloc_array(allocator, NSVCD__HULL * patches, words);
+  return sorted->order && sorted->stamps && sorted->numbers && sorted->met && sorted->places &&
+         sorted->bounds && sorted->hulls;
+}
+
+// Sorts the pieces by patch (counting sort). 0 without memory.
+static int nsvcd__sort_pieces(const nsvcd__pieces *pieces, const nsvcd_allocator *allocator,
+                              nsvcd__sorted *sorted) {
+  const size_t patches = pieces->patches->count;
+  memset(sorted, 0, sizeof *sorted);
+  sorted->first = (size_t *)nsvcd__alloc_array(allocator, patches + 1, sizeof(size_t));
+  if (!sorted->first) return 0;
+
+  memset(sorted->first, 0, (patches + 1) * sizeof *sorted->first);
+  for (size_t k = 0; k < pieces->list.count; k++) {
+    const nsvcd__piece *piece = nsvcd__piece_at(pieces, k);
+    sorted->first[piece->patch] += piece->count;  // corners, for now
+  }
+  for (size_t i = 0; i < patches; i++) {
+    if (sorted->first[i] > sorted->most) sorted->most = sorted->first[i];
+    sorted->first[i] = 0;
+  }
+  sorted->most += NSVCD__HULL;  // a hull's vertices need not be corners of what is listed
+  if (!nsvcd__sorted_alloc(sorted, pieces, allocator)) {
+    nsvcd__sorted_free(sorted, allocator);
+    return 0;
+  }
+
+  memset(sorted->stamps, 0, nsvcd__point_count(pieces) * sizeof *sorted->stamps);
+  for (size_t k = 0; k < pieces->list.count; k++) {
+    sorted->first[nsvcd__piece_at(pieces, k)->patch + 1]++;
+  }
+  for (size_t i = 0; i < patches; i++) sorted->first[i + 1] += sorted->first[i];
+  for (size_t k = pieces->list.count; k-- > 0;) {
+    const uint32_t patch = nsvcd__piece_at(pieces, k)->patch;
+    sorted->order[--sorted->first[patch + 1]] = (uint32_t)k;
+  }
+  // Now first[i + 1] is the start of patch i.
+  memmove(sorted->first, sorted->first + 1, patches * sizeof *sorted->first);
+  sorted->first[patches] = pieces->list.count;
+  return 1;
+}
+
+// The number of a point in this pass: a new one if it is met for the first time. Returns how many there are now.
+static size_t nsvcd__number_point(nsvcd__sorted *sorted, size_t met, uint32_t point) {
+  if (sorted->stamps[point] == sorted->pass) return met;
+  sorted->stamps[point] = sorted->pass;
+  sorted->numbers[point] = (uint32_t)met;
+  sorted->met[met] = point;
+  return met + 1;
+}
+
+static const nsvcd__piece *nsvcd__sorted_piece(const nsvcd__pieces *pieces,
+                                               const nsvcd__sorted *sorted, size_t k) {
+  return nsvcd__piece_at(pieces, sorted->order[k]);
+}
+
+// Puts the points of the pass where they are about the centre.
+static void nsvcd__place_points(const nsvcd__pieces *pieces, nsvcd__sorted *sorted, size_t met,
+                                nsvcd__d3 centre) {
+  for (size_t j = 0; j < met; j++) {
+    sorted->places[j] = nsvcd__d3_sub(nsvcd__point_at(pieces, sorted->met[j]), centre);
+  }
+}
+
+// Twice the area times the normal.
+static nsvcd__d3 nsvcd__piece_normal(const nsvcd__pieces *pieces, const nsvcd__piece *piece) {
+  const uint32_t *corners = nsvcd__piece_corners(pieces, piece);
+  const nsvcd__d3 from = nsvcd__point_at(pieces, corners[0]);
+  nsvcd__d3 sum = nsvcd__d3_of(0, 0, 0);
+  for (size_t j = 2; j < piece->count; j++) {
+    const nsvcd__d3 a = nsvcd__d3_sub(nsvcd__point_at(pieces, corners[j - 1]), from);
+    const nsvcd__d3 b = nsvcd__d3_sub(nsvcd__point_at(pieces, corners[j]), from);
+    sum = nsvcd__d3_add(sum, nsvcd__d3_cross(a, b));
+  }
+  return sum;
+}
+
+// The least ball of the points of the pass, about whose centre they are placed. ball: centre and radius.
+static void nsvcd__fit_ball(const nsvcd__pieces *pieces, nsvcd__sorted *sorted, size_t met,
+                            float *ball) {
+  // From near by the centre is found without the roundings of what is far away.
+  const nsvcd__d3 from = nsvcd__point_at(pieces, sorted->met[0]);
+  nsvcd__place_points(pieces, sorted, met, from);
+  const nsvcd__d3 best = nsvcd__d3_add(from, nsvcd__ball_centre(sorted->places, met));
+  const nsvcd__f3 centre = nsvcd__f3_round(best);
+  nsvcd__place_points(pieces, sorted, met, nsvcd__d3_widen(centre));
+  double radius = 0;
+  for (size_t j = 0; j < met; j++) radius = fmax(radius, nsvcd__d3_length(sorted->places[j]));
+  ball[0] = centre.x;
+  ball[1] = centre.y;
+  ball[2] = centre.z;
+  ball[3] = nsvcd__float_above(radius + pieces->margin);
+}
+
+// Ball, disc and hull of patch i. The slack does not know of the integers yet.
+static void nsvcd__describe_patch(const nsvcd__pieces *pieces, nsvcd__sorted *sorted, size_t i,
+                                  nsvcd__surface *surface) {
+  float *ball = surface->balls + 4 * i;
+  size_t met = 0;
+  nsvcd__d3 normal = nsvcd__d3_of(0, 0, 0);
+  sorted->pass++;
+  for (size_t k = sorted->first[i]; k < sorted->first[i + 1]; k++) {
+    const nsvcd__piece *piece = nsvcd__sorted_piece(pieces, sorted, k);
+    const uint32_t *corners = nsvcd__piece_corners(pieces, piece);
+    for (size_t j = 0; j < piece->count; j++) met = nsvcd__number_point(sorted, met, corners[j]);
+    normal = nsvcd__d3_add(normal, nsvcd__piece_normal(pieces, piece));
+  }
+  if (met == 0) {
+    for (size_t k = 0; k < 3; k++) ball[k] = pieces->patches->centres[3 * i + k];
+    ball[3] = NSVCD__NOWHERE;
+    return;
+  }
+
+  size_t chosen[NSVCD__HULL];
+  size_t chosen_count;
+  nsvcd__fit_ball(pieces, sorted, met, ball);
+  nsvcd__fit_disc(sorted->places, met, normal, pieces->margin, surface->discs + 6 * i);
+  const double enough = NSVCD__HULL_SHARE * (double)ball[3];
+  const double slack = nsvcd__choose_hull(sorted->places, met, enough, sorted->bounds, chosen,
+                                          &chosen_count);
+  surface->slacks[i] = nsvcd__float_above(slack + pieces->margin);
+  surface->hull_counts[i] = (uint8_t)chosen_count;
+  for (size_t k = 0; k < chosen_count; k++) {
+    sorted->hulls[NSVCD__HULL * i + k] = sorted->met[chosen[k]];
+  }
+}
+
+// Pieces of one triangle follow each other in a patch: a whole triangle is listed with the first of them.
+static int nsvcd__is_listed_already(const nsvcd__pieces *pieces, const nsvcd__sorted *sorted,
+                                    size_t i, size_t k) {
+  if (k == sorted->first[i]) return 0;
+  const nsvcd__piece *piece = nsvcd__sorted_piece(pieces, sorted, k);
+  return nsvcd__sorted_piece(pieces, sorted, k - 1)->triangle == piece->triangle;
+}
+
+// Numbers the vertices of patch i: the hull's, then others of what it lists. Returns how many; listed: triangles.
+static size_t nsvcd__number_vertices(const nsvcd__pieces *pieces, nsvcd__sorted *sorted, size_t i,
+                                     size_t hull_count, size_t *listed) {
+  size_t met = 0;
+  sorted->pass++;
+  for (size_t k = 0; k < hull_count; k++) {
+    met = nsvcd__number_point(sorted, met, sorted->hulls[NSVCD__HULL * i + k]);
+  }
+  *listed = 0;
+  for (size_t k = sorted->first[i]; k < sorted->first[i + 1]; k++) {
+    const nsvcd__piece *piece = nsvcd__sorted_piece(pieces, sorted, k);
+    const uint32_t *corners = nsvcd__piece_corners(pieces, piece);
+    uint32_t whole[3];
+    size_t count = piece->count;
+    if (!piece->parted) {
+      if (nsvcd__is_listed_already(pieces, sorted, i, k)) continue;
+      nsvcd__welded_corners(pieces->mesh, &pieces->topology, piece->triangle, whole);
+      corners = whole;
+      count = 3;
+    }
+    for (size_t j = 0; j < count; j++) met = nsvcd__number_point(sorted, met, corners[j]);
+    *listed += count - 2;
+  }
+  return met;
+}
+
+static int16_t nsvcd__to_integer(double x) {
+  const double nearest = floor(x + 0.5);
+  return (int16_t)fmin(fmax(nearest, -32767), 32767);
+}
+
+// Writes the vertices of patch i, which the pass has numbered, as integers.
+static void nsvcd__store_vertices(const nsvcd__pieces *pieces, nsvcd__sorted *sorted, size_t i,
+                                  size_t met, nsvcd__surface *surface) {
+  nsvcd__place_points(pieces, sorted, met, nsvcd__d3_load(surface->balls + 4 * i));
+  double reach = NSVCD__SURFACE_TINY;
+  for (size_t j = 0; j < met; j++) {
+    const nsvcd__d3 p = sorted->places[j];
+    reach = fmax(reach, fmax(fabs(p.x), fmax(fabs(p.y), fabs(p.z))));
+  }
+  const float step = nsvcd__float_above(reach / 32767);
+  const double metres = (double)step;
+
+  int16_t *x = surface->vertices + 3 * (size_t)surface->first_vertex[i];
+  int16_t *y = x + met;
+  int16_t *z = y + met;
+  double worst = 0;
+  double worst_of_hull = 0;
+  for (size_t j = 0; j < met; j++) {
+    const nsvcd__d3 p = sorted->places[j];
+    x[j] = nsvcd__to_integer(p.x / metres);
+    y[j] = nsvcd__to_integer(p.y / metres);
+    z[j] = nsvcd__to_integer(p.z / metres);
+    const nsvcd__d3 stored = nsvcd__d3_scale(nsvcd__d3_of(x[j], y[j], z[j]), metres);
+    worst = fmax(worst, nsvcd__d3_length(nsvcd__d3_sub(p, stored)));
+    if (j < surface->hull_counts[i]) worst_of_hull = worst;
+  }
+  surface->steps[i] = step;
+  surface->quanta[i] = nsvcd__float_above(worst + pieces->margin);
+  // Each point of the hull is off by no more than its vertices are.
+  surface->slacks[i] = nsvcd__float_above((double)surface->slacks[i] + worst_of_hull);
+}
+
+static int nsvcd__encloses(const nsvcd__pieces *pieces, uint32_t triangle) {
+  const nsvcd__topology *topology = &pieces->topology;
+  const uint32_t vertex = topology->welded[pieces->mesh->indices[3 * (size_t)triangle]];
+  return !topology->open[topology->parents[vertex]];
+}
+
+// Lists the triangle of three points that the pass has numbered.
+static void nsvcd__store_triangle(const nsvcd__sorted *sorted, nsvcd__surface *surface, uint32_t a,
+                                  uint32_t b, uint32_t c, uint32_t id) {
+  uint16_t *corners = surface->corners + 3 * surface->listed;
+  corners[0] = (uint16_t)sorted->numbers[a];
+  corners[1] = (uint16_t)sorted->numbers[b];
+  corners[2] = (uint16_t)sorted->numbers[c];
+  surface->ids[surface->listed++] = id;
+}
+
+static void nsvcd__store_triangles(const nsvcd__pieces *pieces, const nsvcd__sorted *sorted,
+                                   size_t i, nsvcd__surface *surface) {
+  for (size_t k = sorted->first[i]; k < sorted->first[i + 1]; k++) {
+    const nsvcd__piece *piece = nsvcd__sorted_piece(pieces, sorted, k);
+    const uint32_t *corners = nsvcd__piece_corners(pieces, piece);
+    const uint32_t flag = nsvcd__encloses(pieces, piece->triangle) ? NSVCD__ENCLOSES : 0;
+    if (piece->parted) {
+      for (size_t j = 2; j < piece->count; j++) {
+        nsvcd__store_triangle(sorted, surface, corners[0], corners[j - 1], corners[j],
+                              piece->triangle | flag);
+      }
+      continue;
+    }
+    if (!nsvcd__is_listed_already(pieces, sorted, i, k)) {
+      uint32_t whole[3];
+      nsvcd__welded_corners(pieces->mesh, &pieces->topology, piece->triangle, whole);
+      nsvcd__store_triangle(sorted, surface, whole[0], whole[1], whole[2], piece->triangle);
+    }
+    if (piece->leads) surface->ids[surface->listed - 1] |= flag;
+  }
+}
+
+// ---- all of it
+
+static void nsvcd__surface_free(nsvcd__surface *surface, const nsvcd_allocator *allocator) {
+  nsvcd__free(allocator, surface->balls);
+  nsvcd__free(allocator, surface->discs);
+  nsvcd__free(allocator, surface->steps);
+  nsvcd__free(allocator, surface->slacks);
+  nsvcd__free(allocator, surface->quanta);
+  nsvcd__free(allocator, surface->hull_counts);
+  nsvcd__free(allocator, surface->first_vertex);
+  nsvcd__free(allocator, surface->first_triangle);
+  nsvcd__free(allocator, surface->vertices);
+  nsvcd__free(allocator, surface->corners);
+  nsvcd__free(allocator, surface->ids);
+  nsvcd__free(allocator, surface->seeds);
+  memset(surface, 0, sizeof *surface);
+}
+
+// What there is one of for each patch and each component. 0 without memory; the caller frees what there is.
+static int nsvcd__surface_alloc(nsvcd__surface *s, const nsvcd_allocator *allocator) {
+  const size_t n = s->count;
+  s->balls = (float *)nsvcd__alloc_array(allocator, 4 * n, sizeof(float));
+  s->discs = (float *)nsvcd__alloc_array(allocator, 6 * n, sizeof(float));
+  s->steps = (float *)nsvcd__alloc_array(allocator, n, sizeof(float));
+  s->slacks = (float *)nsvcd__alloc_array(allocator, n, sizeof(float));
+  s->quanta = (float *)nsvcd__alloc_array(allocator, n, sizeof(float));
+  s->hull_counts = (uint8_t *)nsvcd__alloc_array(allocator, n, sizeof(uint8_t));
+  s->first_vertex = (uint32_t *)nsvcd__alloc_array(allocator, n + 1, sizeof(uint32_t));
+  s->first_triangle = (uint32_t *)nsvcd__alloc_array(allocator, n + 1, sizeof(uint32_t));
+  s->seeds = (float *)nsvcd__alloc_array(allocator, 3 * s->component_count, sizeof(float));
+  if (!s->balls || !s->discs || !s->steps || !s->slacks || !s->quanta || !s->hull_counts ||
+      !s->first_vertex || !s->first_triangle || !s->seeds) {
+    return 0;
+  }
+  memset(s->discs, 0, 6 * n * sizeof *s->discs);
+  memset(s->steps, 0, n * sizeof *s->steps);
+  memset(s->slacks, 0, n * sizeof *s->slacks);
+  memset(s->quanta, 0, n * sizeof *s->quanta);
+  memset(s->hull_counts, 0, n);
+  return 1;
+}
+
+// The least vertex of each component, in their order.
+static void nsvcd__store_seeds(const nsvcd__pieces *pieces, nsvcd__surface *surface) {
+  float *seed = surface->seeds;
+  for (size_t v = 0; v < pieces->mesh->vertex_count; v++) {
+    if (!pieces->topology.seen[v]) continue;
+    memcpy(seed, pieces->mesh->positions + 3 * v, 3 * sizeof *seed);
+    seed += 3;
+  }
+}
+
+// Counts vertices and triangles of each patch, and makes room for them.
+static nsvcd_result nsvcd__surface_count(const nsvcd__pieces *pieces, nsvcd__sorted *sorted,
+                                         const nsvcd_allocator *allocator,
+                                         nsvcd__surface *surface) {
+  size_t vertices = 0;
+  size_t triangles = 0;
+  for (size_t i = 0; i < surface->count; i++) {
+    size_t listed;
+    const size_t hull_count = surface->hull_counts[i];
+    surface->first_vertex[i] = (uint32_t)vertices;
+    surface->first_triangle[i] = (uint32_t)triangles;
+    const size_t met = nsvcd__number_vertices(pieces, sorted, i, hull_count, &listed);
+    if (met > NSVCD__PATCH_VERTICES) return NSVCD_ERROR_TOO_LARGE;
+    vertices += met;
+    triangles += listed;
+    if (vertices > NSVCD__MAX_COUNT || triangles > NSVCD__MAX_COUNT) return NSVCD_ERROR_TOO_LARGE;
+  }
+  surface->first_vertex[surface->count] = (uint32_t)vertices;
+  surface->first_triangle[surface->count] = (uint32_t)triangles;
+  surface->vertex_count = vertices;
+
+  const size_t half = sizeof(uint16_t);
+  surface->vertices = (int16_t *)nsvcd__alloc_array(allocator, vertices, 3 * half);
+  surface->corners = (uint16_t *)nsvcd__alloc_array(allocator, triangles, 3 * half);
+  surface->ids = (uint32_t *)nsvcd__alloc_array(allocator, triangles, sizeof(uint32_t));
+  if (surface->vertices && surface->corners && surface->ids) return NSVCD_OK;
+  return NSVCD_ERROR_MEMORY;
+}
+
+static nsvcd_result nsvcd__surface_fill(const nsvcd__pieces *pieces, nsvcd__sorted *sorted,
+                                        const nsvcd_allocator *allocator,
+                                        nsvcd__surface *surface) {
+  if (!nsvcd__surface_alloc(surface, allocator)) return NSVCD_ERROR_MEMORY;
+  nsvcd__store_seeds(pieces, surface);
+  for (size_t i = 0; i < surface->count; i++) {
+    nsvcd__describe_patch(pieces, sorted, i, surface);
+  }
+  const nsvcd_result result = nsvcd__surface_count(pieces, sorted, allocator, surface);
+  if (result) return result;
+  for (size_t i = 0; i < surface->count; i++) {
+    if (surface->hull_counts[i] == 0) continue;
+    size_t listed;
+    const size_t hull_count = surface->hull_counts[i];
+    const size_t met = nsvcd__number_vertices(pieces, sorted, i, hull_count, &listed);
+    nsvcd__store_vertices(pieces, sorted, i, met, surface);
+    nsvcd__store_triangles(pieces, sorted, i, surface);
+  }
+  return NSVCD_OK;
+}
+
+// mesh: checked. patches: of this mesh. On success release *surface with nsvcd__surface_free, with the same allocator;
+// on failure it is untouched. MEMORY; TOO_LARGE if a patch has more than NSVCD__PATCH_VERTICES vertices.
+static nsvcd_result nsvcd__surface_build(const nsvcd_mesh *mesh, const nsvcd__patches *patches,
+                                         const nsvcd_allocator *allocator,
+                                         nsvcd__surface *surface) {
+  nsvcd__pieces pieces;
+  nsvcd__sorted sorted;
+  if (!nsvcd__pieces_build(mesh, patches, allocator, &pieces)) return NSVCD_ERROR_MEMORY;
+  if (!nsvcd__sort_pieces(&pieces, allocator, &sorted)) {
+    nsvcd__pieces_free(&pieces, allocator);
+    return NSVCD_ERROR_MEMORY;
+  }
+
+  nsvcd__surface out;
+  memset(&out, 0, sizeof out);
+  out.count = patches->count;
+  out.component_count = pieces.topology.component_count;
+  const nsvcd_result result = nsvcd__surface_fill(&pieces, &sorted, allocator, &out);
+  nsvcd__sorted_free(&sorted, allocator);
+  nsvcd__pieces_free(&pieces, allocator);
+  if (result) {
+    nsvcd__surface_free(&out, allocator);
+    return result;
+  }
+  *surface = out;
+  return NSVCD_OK;
+}
+#endif  // NSVCD_NO_ENCODER, NSVCD_NO_PROOF
+
 // ---------------------------------------------------------------------------------------------------- weights
 // Generated by train/: matrices are (inputs, outputs).
 
@@ -1898,7 +3205,6 @@ static void nsvcd__turn_latent(const int8_t *z, float (*turn)[NSVCD__LANES], siz
 //   zeros up to a multiple of NSVCD_ALIGNMENT
 
 #define NSVCD__GROUP NSVCD__LANES      // patches per group
-#define NSVCD__NOWHERE (-1e15f)        // radius of padding: meets nothing, and its square is still finite
 #define NSVCD__MAX_LENGTH 1.6e7f       // metres, over every radius and distance that coordinates within bounds can give
 #define NSVCD__BODY_MAGIC 0x4256534eu  // "NSVB"
 #define NSVCD__BODY_VERSION 2u
