@@ -31,6 +31,8 @@
 //   NSVCD_NO_STDIO    no file access: nsvcd_obj_load goes, nsvcd_obj_parse stays
 //   NSVCD_NO_OBJ      no OBJ reader at all
 //   NSVCD_NO_ENCODER  no nsvcd_encode and no OBJ reader: bodies come from nsvcd_body_load
+//   NSVCD_NO_PROOF    no proof: the network answers, and bodies have no triangles
+//   NSVCD_NO_NETWORK  no network, and weights.h is not needed: the proof alone; no gradient, no optimizer
 //   NSVCD_NO_SMALL, NSVCD_NO_BASE   without these decoders; the default is the largest that is left
 //   NSVCD_NO_GRADIENT no nsvcd_sweep_gradient, and no optimizer
 //   NSVCD_NO_OPTIMIZER  no trajectory optimizer
@@ -66,6 +68,12 @@
 
 #if defined(NSVCD_NO_ENCODER) && !defined(NSVCD_NO_OBJ)
 #define NSVCD_NO_OBJ
+#endif
+#if defined(NSVCD_NO_PROOF) && defined(NSVCD_NO_NETWORK)
+#error "neuralsvcd.h: NSVCD_NO_PROOF and NSVCD_NO_NETWORK leave nothing that answers"
+#endif
+#if defined(NSVCD_NO_NETWORK) && !defined(NSVCD_NO_GRADIENT)
+#define NSVCD_NO_GRADIENT
 #endif
 #if defined(NSVCD_NO_GRADIENT) && !defined(NSVCD_NO_OPTIMIZER)
 #define NSVCD_NO_OPTIMIZER
@@ -103,7 +111,8 @@ typedef enum nsvcd_result {
   NSVCD_ERROR_EMPTY,      // no triangle, or no area
   NSVCD_ERROR_TOO_LARGE,  // more vertices, triangles or bytes than can be counted
   NSVCD_ERROR_POSE,       // a pose is not finite, or its quaternion is not of unit length to 1e-4
-  NSVCD_ERROR_BODY,       // a body blob is damaged, cut short, misaligned, or of another version or model
+  NSVCD_ERROR_BODY,       // a body blob is damaged, cut short, misaligned, of another version or model, or has not
+                          // what the method asked for needs
   NSVCD_ERROR_WORKSPACE   // the memory given is too small, or not aligned to NSVCD_ALIGNMENT bytes
 } nsvcd_result;
 
@@ -159,8 +168,8 @@ NSVCDDEF void nsvcd_mesh_free(nsvcd_mesh *mesh, const nsvcd_allocator *allocator
 // memcpy, write it with fwrite, map it, or bake it into flash as a const array. Little-endian, IEEE 754.
 typedef struct nsvcd_body nsvcd_body;
 
-#define NSVCD_ALIGNMENT 16
-#define NSVCD_DEFAULT_POINTS 512
+#define NSVCD_ALIGNMENT 8
+#define NSVCD_DEFAULT_POINTS 256
 #define NSVCD_MAX_POINTS 512       // representative points per body
 #define NSVCD_MAX_COORDINATE 1e6f  // metres
 #define NSVCD_MIN_RADIUS 1e-12f    // metres, of a body's bounding sphere
@@ -170,19 +179,29 @@ typedef struct nsvcd_encode_options {
   size_t points;       // N, representative points (patches), 1..NSVCD_MAX_POINTS; 0: NSVCD_DEFAULT_POINTS
   float patch_radius;  // metres; if > 0 and points is 0: as many points as make patches of about this radius
   int open;            // 1: the mesh is not closed (a sheet, or a part cut out): nothing counts as inside it
+  int no_triangles;    // 1: for the network alone, in fewer bytes; then there is no proof
 } nsvcd_encode_options;
 
-// Bytes of a body of `points` points; 0 if there can be no such body.
+#ifndef NSVCD_NO_NETWORK
+// Bytes of a body of `points` points without triangles; 0 if there can be no such body. One with triangles takes up to
+// 12 bytes more for each, and some 100 for each point: let nsvcd_encode allocate it, or ask nsvcd_body_describe.
 NSVCDDEF size_t nsvcd_body_size(size_t points);
+#endif
 
 #ifndef NSVCD_NO_ENCODER
-// Encodes a mesh into `memory` (nsvcd_body_size(N) bytes are enough, aligned to NSVCD_ALIGNMENT) and points *body
-// there. options: NULL for the defaults. The body may have fewer points than asked where the surface has too few to
-// tell apart. Working memory comes from the allocator and is given back. Deterministic: same mesh, same bytes, in one
-// build. Errors: ARGUMENT, NUMBER, INDEX, EMPTY, TOO_LARGE, MEMORY, WORKSPACE. Source: NeuralSVCD, appendix F.
+// Encodes a mesh and points *body to the result.
+//   options    NULL for the defaults: triangles for the proof, latents for the network.
+//   allocator  NULL for malloc and free. Working memory comes from it and is given back.
+//   memory     `capacity` bytes, aligned to NSVCD_ALIGNMENT, for the body. NULL: the body comes from the allocator, is as
+//              large as it has to be, and nsvcd_body_free gives it back.
+// The body may have fewer points than asked where the surface has too few to tell apart. Deterministic: same mesh, same
+// bytes, in one build. On failure *body is left as it was. Errors: ARGUMENT, NUMBER, INDEX, EMPTY, TOO_LARGE, MEMORY,
+// WORKSPACE. Source: NeuralSVCD, appendix F; the triangles: this library.
 NSVCDDEF nsvcd_result nsvcd_encode(const nsvcd_mesh *mesh, const nsvcd_encode_options *options,
                                    const nsvcd_allocator *allocator, void *memory, size_t capacity,
                                    const nsvcd_body **body);
+// Gives back a body that nsvcd_encode allocated; the same allocator. NULL is allowed.
+NSVCDDEF void nsvcd_body_free(const nsvcd_body *body, const nsvcd_allocator *allocator);
 #endif
 
 // Checks an untrusted blob in `memory` and points *body at it, without a copy. BODY if anything is wrong with it.
@@ -200,6 +219,10 @@ typedef struct nsvcd_body_facts {
   float centre[3];  // of a sphere that contains the body, metres
   float radius;
   float mean_patch_radius;  // metres
+  size_t triangles;         // of the mesh; 0: none are stored
+  size_t listed;            // triangles and parts of them that are stored, patch by patch
+  float quantum;            // metres: stored triangles are within this of the mesh's
+  int latents;              // 1: the network can answer
 } nsvcd_body_facts;
 
 // `body` must not be NULL.
@@ -218,9 +241,12 @@ typedef struct nsvcd_pose {
 
 typedef enum nsvcd_status {
   NSVCD_STATUS_OK = 0,          // the network has answered
-  NSVCD_STATUS_CERTIFIED_FREE,  // no two covering spheres ever meet: the surfaces stay apart, proven
-  NSVCD_STATUS_INSIDE,          // one body seems to lie inside the other at the start, by winding number
-  NSVCD_STATUS_LIMIT            // the network has answered, but more pairs overlapped than options.pairs let through
+  NSVCD_STATUS_CERTIFIED_FREE,  // proven: the surfaces never meet, and by the proof, nothing is inside of anything
+  NSVCD_STATUS_INSIDE,          // one body, or a part of it, lies inside the other at the start. By the network's method
+                                // an estimate, by the proof exact
+  NSVCD_STATUS_LIMIT,           // the network has answered, but more pairs overlapped than options.pairs let through
+  NSVCD_STATUS_WITNESS,         // proven: two triangles meet
+  NSVCD_STATUS_UNDECIDED        // the proof came to no end: see nsvcd_answer
 } nsvcd_status;
 
 NSVCDDEF const char *nsvcd_status_string(nsvcd_status status);  // as `svcd check` prints it
@@ -230,6 +256,15 @@ typedef enum nsvcd_model { NSVCD_MODEL_DEFAULT = 0, NSVCD_MODEL_TINY, NSVCD_MODE
 
 typedef enum nsvcd_precision { NSVCD_PRECISION_FLOAT = 0, NSVCD_PRECISION_INT8 } nsvcd_precision;  // of the decoder
 
+// How a question is answered.
+typedef enum nsvcd_method {
+  NSVCD_METHOD_DEFAULT = 0,  // by proof where both bodies have triangles, else by the network
+  NSVCD_METHOD_PROOF,        // a witness or a certificate
+  NSVCD_METHOD_NETWORK       // an opinion, in a time that is bounded strictly
+} nsvcd_method;
+
+#define NSVCD_DEFAULT_WORK 100000  // units of the proof
+#define NSVCD_NO_TRIANGLE 0xffffffffu
 #define NSVCD_DEFAULT_PAIRS 8
 #define NSVCD_MAX_PAIRS 256
 #define NSVCD_LOGIT_CERTAIN 100.0f  // the logit of INSIDE; its negative is that of CERTIFIED_FREE
@@ -239,19 +274,30 @@ typedef struct nsvcd_sweep_options {
   nsvcd_model model;          // 0: base
   nsvcd_precision precision;  // of the decoder's arithmetic; latents are int8 in any case
   float recall;  // share of collisions to be found: 0 (balanced errors), 0.99f, 0.999f or 0.9999f, as calibrated
+  nsvcd_method method;
+  size_t work;      // units that a proof may take; 0: NSVCD_DEFAULT_WORK. A unit is a plane tried on two patches, a
+                    // triangle against 16, or a pair of triangles at one time: up to 0.5 microseconds
+  float tolerance;  // metres, at least 0: surfaces that come closer than this, and do not meet, may be left undecided
 } nsvcd_sweep_options;
 
 typedef struct nsvcd_answer {
   float logit;            // of collision; positive is yes. The threshold that options.recall asks for is already in it.
                           // The greatest of the pairs looked at; the search ends at the first above 3. Where the tiny
-                          // decoder, which ranks the pairs, is clear (beyond +-3), it is the one that answers
-  int collides;           // logit > 0
-  float time;             // in [0,1], where the most suspicious pair comes closest
+                          // decoder, which ranks the pairs, is clear (beyond +-3), it is the one that answers. Of a
+                          // proof: +-NSVCD_LOGIT_CERTAIN; where it is undecided, the network's
+  int collides;           // logit > 0. UNDECIDED: the network's opinion, or, where there is no network, yes
+  float time;             // in [0,1]. WITNESS: when the triangles meet, which need not be the first time; INSIDE: 0;
+                          // by the network: where the most suspicious pair comes closest
   uint32_t moving_patch;  // the pair; 0, 0 where there is none
   uint32_t fixed_patch;
   nsvcd_status status;
-  size_t
-      overlapping;  // pairs of patches whose spheres meet, each counted once per stretch of time, until the search ends
+  size_t overlapping;        // network: pairs of patches whose spheres meet, each counted once per stretch of time, until
+                             // the search ends
+  float point[3];            // WITNESS: where the triangles meet at that time; INSIDE: what is inside; in the world
+  float normal[3];           // WITNESS: unit normal of the fixed body's triangle, out of it, in the world; else 0
+  uint32_t moving_triangle;  // WITNESS: as numbered in the caller's meshes; else NSVCD_NO_TRIANGLE
+  uint32_t fixed_triangle;
+  size_t work;  // units that the proof took
 } nsvcd_answer;
 
 // Does the moving body, along `count` poses uniform in t in [0,1] (position linear and rotation slerp in between), hit
@@ -259,9 +305,15 @@ typedef struct nsvcd_answer {
 //   options  NULL for the defaults.  workspace  nsvcd_sweep_workspace_size() bytes, aligned to NSVCD_ALIGNMENT.
 // Allocates nothing; threads may share bodies, each with its own workspace; deterministic. Bodies of Ga
 // and Gb groups of 16 patches and a motion of S segments, 16 or so up to 320 degrees of turn and 64 at most, take at
-// most 18 S Ga Gb + 3 S tests of 16 spheres against one, the tiny decoder on 12 K pairs and the chosen one on K (tiny
-// alone: on 3 K), and 32 distances per patch. On failure `answer` is left as it was: ARGUMENT, POSE, WORKSPACE. Bodies
-// must come from nsvcd_encode, nsvcd_body_load or nsvcd_body_scale. Source: NeuralSVCD, algorithm 1.
+// most 18 S Ga Gb + 3 S tests of 16 spheres against one; then a proof takes options.work units, and the network the tiny
+// decoder on 12 K pairs and the chosen one on K (tiny alone: on 3 K), and 32 distances per patch. On failure `answer` is
+// left as it was: ARGUMENT, POSE, WORKSPACE, and BODY where a body has not what the method needs. Bodies must come from
+// nsvcd_encode, nsvcd_body_load or nsvcd_body_scale. Source: the proof: this library, see *proof* below; the network:
+// NeuralSVCD, algorithm 1.
+// What a proof says is about the surfaces of the two meshes, posed exactly as above: CERTIFIED_FREE and INSIDE hold for
+// the meshes themselves; the triangles of a WITNESS meet to within the two bodies' quantum (nsvcd_body_facts), usually
+// less than a micrometre; UNDECIDED are surfaces that come as close as that without meeting, or more work than was
+// allowed.
 NSVCDDEF size_t nsvcd_sweep_workspace_size(void);
 NSVCDDEF nsvcd_result nsvcd_sweep(const nsvcd_body *moving, const nsvcd_pose *poses, size_t count,
                                   const nsvcd_body *fixed, const nsvcd_pose *fixed_pose,
@@ -279,7 +331,7 @@ NSVCDDEF nsvcd_result nsvcd_sweep_batch(const nsvcd_body *moving, const nsvcd_po
                                         nsvcd_answer *answers);
 
 #ifndef NSVCD_NO_GRADIENT
-// nsvcd_sweep, and the derivative of answer->logit by the moving body's poses: what drives them (joints, a spline)
+// nsvcd_sweep by the network, and the derivative of answer->logit by the moving body's poses: what drives them (joints, a spline)
 // takes it from there by the chain rule. gradient: (count, 6): per pose, by a displacement of the body's origin
 // (metres, world axes), then by a small rotation about that origin (rotation vector, radians, world axes, applied on
 // the left). Zero where no network answered (CERTIFIED_FREE, INSIDE) and for poses that the decisive pair does not
@@ -469,7 +521,6 @@ static nsvcd__f3 nsvcd__f3_of(float x, float y, float z) {
   const nsvcd__f3 out = {x, y, z};
   return out;
 }
-static nsvcd__f3 nsvcd__f3_load(const float *p) { return nsvcd__f3_of(p[0], p[1], p[2]); }
 static nsvcd__f3 nsvcd__f3_add(nsvcd__f3 a, nsvcd__f3 b) { return nsvcd__f3_of(a.x + b.x, a.y + b.y, a.z + b.z); }
 static nsvcd__f3 nsvcd__f3_sub(nsvcd__f3 a, nsvcd__f3 b) { return nsvcd__f3_of(a.x - b.x, a.y - b.y, a.z - b.z); }
 static nsvcd__f3 nsvcd__f3_scale(nsvcd__f3 a, float s) { return nsvcd__f3_of(s * a.x, s * a.y, s * a.z); }
@@ -516,6 +567,8 @@ static nsvcd__d3 nsvcd__d3_widen(nsvcd__f3 a) {
 
 #define NSVCD__LANES 16
 #define NSVCD__NOWHERE (-1e15f)  // radius of padding: meets nothing, and its square is still finite
+#define NSVCD__HULL NSVCD__LANES       // vertices of a patch's hull, at most
+#define NSVCD__ENCLOSES 0x80000000u    // in a listing of each part of a closed component, once
 
 // The tests hold what a query does against the bound that nsvcd_sweep states.
 #ifndef NSVCD__TALLY
@@ -555,6 +608,11 @@ static inline uint32_t nsvcd__v_le(nsvcd__v a, nsvcd__v b) { return _mm512_cmp_p
 static inline nsvcd__v nsvcd__v_pick(nsvcd__v a, nsvcd__v b, nsvcd__v x, nsvcd__v y) {
   return _mm512_mask_blend_ps(_mm512_cmp_ps_mask(a, b, _CMP_LE_OQ), y, x);
 }
+static inline float nsvcd__v_least(nsvcd__v a) { return _mm512_reduce_min_ps(a); }
+static inline nsvcd__v nsvcd__v_load_int16(const int16_t *p) {
+  const __m256i packed = _mm256_loadu_si256((const __m256i *)(const void *)p);
+  return _mm512_cvtepi32_ps(_mm512_cvtepi16_epi32(packed));
+}
 
 #elif !defined(NSVCD_NO_SIMD) && (defined(__AVX2__) && defined(__FMA__) || defined(__SSE2__) || defined(__aarch64__))
 #if defined(__AVX2__) && defined(__FMA__)
@@ -577,6 +635,15 @@ static inline uint32_t nsvcd__w_le(nsvcd__word a, nsvcd__word b) {
 }
 static inline nsvcd__word nsvcd__w_pick(nsvcd__word a, nsvcd__word b, nsvcd__word x, nsvcd__word y) {
   return _mm256_blendv_ps(y, x, _mm256_cmp_ps(a, b, _CMP_LE_OQ));
+}
+static inline float nsvcd__w_least(nsvcd__word a) {
+  const __m128 four = _mm_min_ps(_mm256_castps256_ps128(a), _mm256_extractf128_ps(a, 1));
+  const __m128 two = _mm_min_ps(four, _mm_movehl_ps(four, four));
+  return _mm_cvtss_f32(_mm_min_ss(two, _mm_shuffle_ps(two, two, 1)));
+}
+static inline nsvcd__word nsvcd__w_load_int16(const int16_t *p) {
+  const __m128i packed = _mm_loadu_si128((const __m128i *)(const void *)p);
+  return _mm256_cvtepi32_ps(_mm256_cvtepi16_epi32(packed));
 }
 #elif defined(__SSE2__)
 #include <emmintrin.h>
@@ -602,6 +669,14 @@ static inline nsvcd__word nsvcd__w_pick(nsvcd__word a, nsvcd__word b, nsvcd__wor
   const __m128 mask = _mm_cmple_ps(a, b);
   return _mm_or_ps(_mm_and_ps(mask, x), _mm_andnot_ps(mask, y));
 }
+static inline float nsvcd__w_least(nsvcd__word a) {
+  const __m128 two = _mm_min_ps(a, _mm_movehl_ps(a, a));
+  return _mm_cvtss_f32(_mm_min_ss(two, _mm_shuffle_ps(two, two, 1)));
+}
+static inline nsvcd__word nsvcd__w_load_int16(const int16_t *p) {
+  const __m128i packed = _mm_loadl_epi64((const __m128i *)(const void *)p);
+  return _mm_cvtepi32_ps(_mm_srai_epi32(_mm_unpacklo_epi16(packed, packed), 16));
+}
 #else
 #include <arm_neon.h>
 #define NSVCD__WORDS 4
@@ -624,6 +699,8 @@ static inline uint32_t nsvcd__w_le(nsvcd__word a, nsvcd__word b) {
 static inline nsvcd__word nsvcd__w_pick(nsvcd__word a, nsvcd__word b, nsvcd__word x, nsvcd__word y) {
   return vbslq_f32(vcleq_f32(a, b), x, y);
 }
+static inline float nsvcd__w_least(nsvcd__word a) { return vminvq_f32(a); }
+static inline nsvcd__word nsvcd__w_load_int16(const int16_t *p) { return vcvtq_f32_s32(vmovl_s16(vld1_s16(p))); }
 #endif
 typedef struct nsvcd__v {
   nsvcd__word w[NSVCD__WORDS];
@@ -657,6 +734,14 @@ static inline uint32_t nsvcd__v_le(nsvcd__v a, nsvcd__v b) {
 static inline nsvcd__v nsvcd__v_pick(nsvcd__v a, nsvcd__v b, nsvcd__v x, nsvcd__v y) {
   NSVCD__EACH_WORD(nsvcd__w_pick(a.w[i], b.w[i], x.w[i], y.w[i]));
 }
+static inline float nsvcd__v_least(nsvcd__v a) {
+  nsvcd__word least = a.w[0];
+  for (size_t i = 1; i < NSVCD__WORDS; i++) least = nsvcd__w_min(least, a.w[i]);
+  return nsvcd__w_least(least);
+}
+static inline nsvcd__v nsvcd__v_load_int16(const int16_t *p) {
+  NSVCD__EACH_WORD(nsvcd__w_load_int16(p + NSVCD__LANES / NSVCD__WORDS * i));
+}
 
 #else
 typedef struct nsvcd__v {
@@ -687,6 +772,13 @@ static inline uint32_t nsvcd__v_le(nsvcd__v a, nsvcd__v b) {
 static inline nsvcd__v nsvcd__v_pick(nsvcd__v a, nsvcd__v b, nsvcd__v x, nsvcd__v y) {
   NSVCD__EACH_LANE(a.f[i] <= b.f[i] ? x.f[i] : y.f[i]);
 }
+// The least of all lanes.
+static inline float nsvcd__v_least(nsvcd__v a) {
+  float least = a.f[0];
+  for (size_t i = 1; i < NSVCD__LANES; i++) least = a.f[i] < least ? a.f[i] : least;
+  return least;
+}
+static inline nsvcd__v nsvcd__v_load_int16(const int16_t *p) { NSVCD__EACH_LANE((float)p[i]); }
 #endif
 
 // x y + z w + ... as the sweep and the decoder need them. a, b: three vectors each.
@@ -702,6 +794,70 @@ static inline void nsvcd__v_cross(const nsvcd__v *a, const nsvcd__v *b, nsvcd__v
 }
 static inline nsvcd__v nsvcd__v_clamp(nsvcd__v a, float low, float high) {
   return nsvcd__v_min(nsvcd__v_max(a, nsvcd__v_set(low)), nsvcd__v_set(high));
+}
+static inline nsvcd__v nsvcd__v_negate(nsvcd__v a) { return nsvcd__v_sub(nsvcd__v_set(0), a); }
+
+// 16 vectors as a value, lane by lane.
+typedef struct nsvcd__v3 {
+  nsvcd__v x, y, z;
+} nsvcd__v3;
+
+NSVCD__INLINE nsvcd__v3 nsvcd__v3_of(nsvcd__v x, nsvcd__v y, nsvcd__v z) {
+  const nsvcd__v3 out = {x, y, z};
+  return out;
+}
+NSVCD__INLINE nsvcd__v3 nsvcd__v3_set(nsvcd__f3 a) {
+  return nsvcd__v3_of(nsvcd__v_set(a.x), nsvcd__v_set(a.y), nsvcd__v_set(a.z));
+}
+NSVCD__INLINE nsvcd__v3 nsvcd__v3_add(nsvcd__v3 a, nsvcd__v3 b) {
+  return nsvcd__v3_of(nsvcd__v_add(a.x, b.x), nsvcd__v_add(a.y, b.y), nsvcd__v_add(a.z, b.z));
+}
+NSVCD__INLINE nsvcd__v3 nsvcd__v3_sub(nsvcd__v3 a, nsvcd__v3 b) {
+  return nsvcd__v3_of(nsvcd__v_sub(a.x, b.x), nsvcd__v_sub(a.y, b.y), nsvcd__v_sub(a.z, b.z));
+}
+NSVCD__INLINE nsvcd__v3 nsvcd__v3_min(nsvcd__v3 a, nsvcd__v3 b) {
+  return nsvcd__v3_of(nsvcd__v_min(a.x, b.x), nsvcd__v_min(a.y, b.y), nsvcd__v_min(a.z, b.z));
+}
+NSVCD__INLINE nsvcd__v3 nsvcd__v3_max(nsvcd__v3 a, nsvcd__v3 b) {
+  return nsvcd__v3_of(nsvcd__v_max(a.x, b.x), nsvcd__v_max(a.y, b.y), nsvcd__v_max(a.z, b.z));
+}
+NSVCD__INLINE nsvcd__v3 nsvcd__v3_scale(nsvcd__v3 a, nsvcd__v s) {
+  return nsvcd__v3_of(nsvcd__v_mul(s, a.x), nsvcd__v_mul(s, a.y), nsvcd__v_mul(s, a.z));
+}
+// a + s b.
+NSVCD__INLINE nsvcd__v3 nsvcd__v3_fma(nsvcd__v s, nsvcd__v3 b, nsvcd__v3 a) {
+  return nsvcd__v3_of(nsvcd__v_fma(s, b.x, a.x), nsvcd__v_fma(s, b.y, a.y), nsvcd__v_fma(s, b.z, a.z));
+}
+NSVCD__INLINE nsvcd__v nsvcd__v3_dot(nsvcd__v3 a, nsvcd__v3 b) {
+  return nsvcd__v_fma(a.x, b.x, nsvcd__v_fma(a.y, b.y, nsvcd__v_mul(a.z, b.z)));
+}
+NSVCD__INLINE nsvcd__v3 nsvcd__v3_cross(nsvcd__v3 a, nsvcd__v3 b) {
+  return nsvcd__v3_of(nsvcd__v_sub(nsvcd__v_mul(a.y, b.z), nsvcd__v_mul(a.z, b.y)),
+                      nsvcd__v_sub(nsvcd__v_mul(a.z, b.x), nsvcd__v_mul(a.x, b.z)),
+                      nsvcd__v_sub(nsvcd__v_mul(a.x, b.y), nsvcd__v_mul(a.y, b.x)));
+}
+NSVCD__INLINE void nsvcd__v3_store(float (*p)[NSVCD__LANES], nsvcd__v3 a) {  // p (3, LANES)
+  nsvcd__v_store(p[0], a.x);
+  nsvcd__v_store(p[1], a.y);
+  nsvcd__v_store(p[2], a.z);
+}
+NSVCD__INLINE nsvcd__v3 nsvcd__v3_load(float (*p)[NSVCD__LANES]) {
+  return nsvcd__v3_of(nsvcd__v_load(p[0]), nsvcd__v_load(p[1]), nsvcd__v_load(p[2]));
+}
+
+// A rotation, row-major, and a position: x -> rotation x + position.
+typedef struct nsvcd__transform {
+  float rotation[9];
+  nsvcd__f3 position;
+} nsvcd__transform;
+
+NSVCD__INLINE nsvcd__v3 nsvcd__v3_transform(const nsvcd__transform *t, nsvcd__v3 a) {
+  const float *m = t->rotation;
+  const nsvcd__v3 column0 = nsvcd__v3_of(nsvcd__v_set(m[0]), nsvcd__v_set(m[3]), nsvcd__v_set(m[6]));
+  const nsvcd__v3 column1 = nsvcd__v3_of(nsvcd__v_set(m[1]), nsvcd__v_set(m[4]), nsvcd__v_set(m[7]));
+  const nsvcd__v3 column2 = nsvcd__v3_of(nsvcd__v_set(m[2]), nsvcd__v_set(m[5]), nsvcd__v_set(m[8]));
+  const nsvcd__v3 sum = nsvcd__v3_fma(a.z, column2, nsvcd__v3_set(t->position));
+  return nsvcd__v3_fma(a.x, column0, nsvcd__v3_fma(a.y, column1, sum));
 }
 
 // ------------------------------------------------------------------------------------------- results, allocation
@@ -730,7 +886,7 @@ NSVCDDEF const char *nsvcd_result_string(nsvcd_result result) {
     case NSVCD_ERROR_POSE:
       return "a pose is not finite, or its quaternion is not of unit length";
     case NSVCD_ERROR_BODY:
-      return "the body is damaged, cut short, misaligned, or of another version or model";
+      return "the body is damaged, cut short, misaligned, of another version or model, or lacks what the method needs";
     case NSVCD_ERROR_WORKSPACE:
       return "the memory given is too small or misaligned";
   }
@@ -1680,8 +1836,6 @@ static nsvcd_result nsvcd__patches_build(const nsvcd_mesh *mesh, size_t points, 
 // hull of its corners, and so are ball, disc and swollen hull convex: what contains the corners contains the piece. The
 // corners themselves are off by roundings of double: all bounds are wider by NSVCD__SURFACE_MARGIN.
 
-#define NSVCD__HULL NSVCD__LANES      // vertices of a patch's hull, at most
-#define NSVCD__ENCLOSES (1u << 31)    // of an id
 #define NSVCD__SURFACE_OVERLAP 0.5    // a piece may reach this far into the next patch, in mean sample radii
 #define NSVCD__SURFACE_WHOLE 8.0      // a triangle with a longer edge is listed in parts; in mean sample radii
 #define NSVCD__SURFACE_MARGIN 1e-13   // of the mesh's greatest coordinate
@@ -2956,6 +3110,7 @@ static nsvcd_result nsvcd__surface_build(const nsvcd_mesh *mesh, const nsvcd__pa
 }
 #endif  // NSVCD_NO_ENCODER, NSVCD_NO_PROOF
 
+#ifndef NSVCD_NO_NETWORK
 // ---------------------------------------------------------------------------------------------------- weights
 // Generated by train/: matrices are (inputs, outputs).
 
@@ -3193,33 +3348,40 @@ static void nsvcd__turn_latent(const int8_t *z, float (*turn)[NSVCD__LANES], siz
   for (size_t k = 0; k < NSVCD_W_SCALARS; k++) scalars[k] = latent[NSVCD__VECTORS + k] * (1.0f / 127);
 }
 
+#endif  // NSVCD_NO_NETWORK
+
 // ------------------------------------------------------------------------------------------------------- body
-// In: N patches (centre, covering radius, area vector, int8 latent). Out: one relocatable, checksummed blob.
-// Patches are stored in groups of 16 neighbours, each group with a sphere over its members: the broad phase's tree.
+// In: N patches. Out: one relocatable, checksummed blob. Patches are stored in groups of 16 neighbours, each group with
+// a sphere over its members: the broad phase's tree. There are two kinds of bodies, which begin alike:
 //
 //   struct nsvcd_body            64 bytes
 //   x, y, z, r     (4, P)  float body frame, metres; P = N rounded up to 16, padding has r = NSVCD__NOWHERE
 //   x, y, z, r     (4, G)  float group spheres; G = P / 16 rounded up to 16, padding as above
+//
+// A body of latents, for the network, goes on with
 //   x, y, z        (3, P)  float area vectors, square metres, along the outward normal; padding is zero
 //   latents        (N, NSVCD__LATENT) int8, free of scale
-//   zeros up to a multiple of NSVCD_ALIGNMENT
+// and a body of triangles, for the proof, with what section *facets* says. A body that has both is one of latents which
+// holds one of triangles behind them, at `inner`: each part has spheres that suit it, and the same numbers of patches.
+// Each part ends in zeros up to a multiple of NSVCD_ALIGNMENT.
 
 #define NSVCD__GROUP NSVCD__LANES      // patches per group
 #define NSVCD__MAX_LENGTH 1.6e7f       // metres, over every radius and distance that coordinates within bounds can give
 #define NSVCD__BODY_MAGIC 0x4256534eu  // "NSVB"
-#define NSVCD__BODY_VERSION 2u
+#define NSVCD__BODY_VERSION 3u
 
 struct nsvcd_body {
   uint32_t magic, version;
   uint64_t checksum;        // over everything that follows
   uint32_t size;            // bytes, the whole blob
-  uint32_t weights_id;      // of the weights that made the latents
+  uint32_t weights_id;      // of the weights that made the latents; 0: a body of triangles
   uint32_t points;          // N
   uint32_t padded;          // P
   float centre[3], radius;  // bounding sphere
   float extent;             // max |p_i| + r_i: no part is farther from the body's origin
   uint32_t open;            // 1: nothing can be inside
-  uint32_t reserved[2];     // zero; room for the triangles that exact verification will need
+  uint32_t triangles;       // of the mesh; 0: none are stored
+  uint32_t inner;           // bytes from here to the body of triangles within; 0: there is none
 };
 
 static size_t nsvcd__round_up(size_t n, size_t multiple) { return (n + multiple - 1) / multiple * multiple; }
@@ -3237,17 +3399,25 @@ static const float *nsvcd__body_r(const nsvcd_body *body) { return nsvcd__body_f
 static const float *nsvcd__body_group(const nsvcd_body *body, size_t axis) {  // axis 0..3: x y z r
   return nsvcd__body_floats(body, 4 * (size_t)body->padded + axis * nsvcd__group_slots(body->padded));
 }
+#ifndef NSVCD_NO_NETWORK
 static const float *nsvcd__body_areas(const nsvcd_body *body) { return nsvcd__body_group(body, 4); }  // (3, P)
 static const int8_t *nsvcd__body_latents(const nsvcd_body *body) {                                    // (N, LATENT)
   return (const int8_t *)(nsvcd__body_areas(body) + 3 * (size_t)body->padded);
 }
+#endif
 
+// Bytes of the header and the spheres, with which both kinds of bodies begin.
+static size_t nsvcd__spheres_size(size_t padded) {
+  return sizeof(struct nsvcd_body) + 4 * (4 * padded + 4 * nsvcd__group_slots(padded));
+}
+
+#ifndef NSVCD_NO_NETWORK
 NSVCDDEF size_t nsvcd_body_size(size_t points) {
   if (points < 1 || points > NSVCD_MAX_POINTS) return 0;
-  size_t padded = nsvcd__round_up(points, NSVCD__GROUP);
-  size_t floats = 7 * padded + 4 * nsvcd__group_slots(padded);
-  return nsvcd__round_up(sizeof(struct nsvcd_body) + 4 * floats + points * NSVCD__LATENT, NSVCD_ALIGNMENT);
+  const size_t padded = nsvcd__round_up(points, NSVCD__GROUP);
+  return nsvcd__round_up(nsvcd__spheres_size(padded) + 12 * padded + points * NSVCD__LATENT, NSVCD_ALIGNMENT);
 }
+#endif
 
 // FNV-1a, 64 bits, over 32-bit words: every step is a bijection of the state, so no single changed word is missed.
 static uint64_t nsvcd__body_checksum(const nsvcd_body *body) {
@@ -3355,8 +3525,8 @@ static int nsvcd__all_within(const float *values, size_t count, float cap) {
   return 1;
 }
 
-#ifndef NSVCD_NO_ENCODER
-// Builds a blob in `memory` from N patches: centres (N, 3), radii (N), areas (N, 3), latents (N, LATENT).
+#if !defined(NSVCD_NO_ENCODER) && !defined(NSVCD_NO_NETWORK)
+// Builds a body of latents in `memory` from N patches: centres (N, 3), radii (N), areas (N, 3), latents (N, LATENT).
 static nsvcd_result nsvcd__body_build(size_t points, const float *centres, const float *radii, const float *areas,
                                       const int8_t *latents, uint32_t weights_id, int open, void *memory,
                                       size_t capacity, const nsvcd_body **body) {
@@ -3411,9 +3581,9 @@ static int nsvcd__is_padding(const float *x, const float *y, const float *z, con
   return 1;
 }
 
-// The numbers of a blob whose layout is right: finite, bounded, radii not negative, group spheres covering. A checksum
+// The spheres of a blob whose layout is right: finite, bounded, radii not negative, group spheres covering. A checksum
 // stops accidents; this stops a blob made to harm: a lying group sphere would hide collisions.
-static int nsvcd__body_is_sound(const nsvcd_body *body) {
+static int nsvcd__spheres_are_sound(const nsvcd_body *body) {
   const float *x = nsvcd__body_x(body), *y = nsvcd__body_y(body), *z = nsvcd__body_z(body), *r = nsvcd__body_r(body);
   const float *gx = nsvcd__body_group(body, 0), *gy = nsvcd__body_group(body, 1), *gz = nsvcd__body_group(body, 2);
   const float *gr = nsvcd__body_group(body, 3);
@@ -3429,7 +3599,6 @@ static int nsvcd__body_is_sound(const nsvcd_body *body) {
   if (!nsvcd__all_within(body->centre, 3, NSVCD__MAX_LENGTH)) return 0;
   if (!nsvcd__all_within(&body->radius, 1, NSVCD__MAX_LENGTH)) return 0;
   if (!nsvcd__all_within(&body->extent, 1, NSVCD__MAX_LENGTH) || body->radius < NSVCD_MIN_RADIUS) return 0;
-  if (!nsvcd__all_within(nsvcd__body_areas(body), 3 * padded, NSVCD__MAX_LENGTH * NSVCD__MAX_LENGTH)) return 0;
   for (size_t i = 0; i < points; i++) {
     if (r[i] < 0) return 0;
   }
@@ -3444,15 +3613,377 @@ static int nsvcd__body_is_sound(const nsvcd_body *body) {
          nsvcd__covers(origin, body->extent, points, x, y, z, r);
 }
 
+// Multiplies the spheres that both kinds of bodies begin with.
+static void nsvcd__scale_spheres(nsvcd_body *body, float scale) {
+  float *floats = (float *)(body + 1);
+  for (size_t i = 0; i < 3 * (size_t)body->padded; i++) floats[i] *= scale;
+  for (size_t i = 0; i < body->points; i++) floats[3 * body->padded + i] *= scale;
+}
+
+// Would the spheres, multiplied, still be within the limits of nsvcd_body_load? In double, for the products may overflow
+// a float.
+static int nsvcd__spheres_fit(const nsvcd_body *body, float scale) {
+  const double least = (double)NSVCD_MIN_RADIUS / (double)scale;
+  const double most = (double)NSVCD_MAX_COORDINATE / (double)scale;
+  if ((double)body->radius < least) return 0;
+  for (size_t i = 0; i < 3 * (size_t)body->padded; i++) {
+    if (fabs((double)nsvcd__body_x(body)[i]) > most) return 0;
+  }
+  // Twice the extent is over every radius and centre of a group.
+  return 2 * (double)body->extent <= (double)NSVCD__MAX_LENGTH / (double)scale;
+}
+
+#ifndef NSVCD_NO_PROOF
+// ----------------------------------------------------------------------------------------------------- facets
+// The body of triangles: behind the spheres, which are the least about each patch's pieces of the surface, stand
+//
+//   counts          (8)      uint32 listed L, vertices V, components C, bytes of a corner, bytes of a number, zeros
+//   discs           (6, P)   float unit normal n, low, high, across: a piece's points x have low <= n.(x - c) <= high,
+//                            and are no farther than `across` from the line along n; c: centre of the patch's sphere
+//   steps           (P)      float metres per integer: a stored vertex is c + step (x, y, z)
+//   slacks          (P)      float pieces are within this of the hull of the patch's first vertices
+//   quanta          (P)      float corners of triangles are within this of their stored vertices
+//   first_vertex, first_triangle (2, N + 1) uint32
+//   seeds           (C, 3)   float a point of each component
+//   numbers         (L)      uint16 or uint32: of the triangle in the caller's mesh; the top bit is NSVCD__ENCLOSES
+//   vertices        (3 V)    int16 patch by patch x, y, z; the hull's first
+//   corners         (L, 3)   uint8 or uint16: vertices within the patch
+//   hull_counts     (N)      uint8 vertices of the hull, 16 at most; 0: the patch has no surface
+//
+// behind the vertices there are 16 more numbers, so that 16 can be read from any.
+
+#define NSVCD__FACET_COUNTS 8
+
+typedef struct nsvcd__facets {
+  const nsvcd_body *body;  // of triangles
+  const float *discs, *steps, *slacks, *quanta;
+  const uint32_t *first_vertex, *first_triangle;
+  const float *seeds;
+  const unsigned char *numbers, *corners;
+  const int16_t *vertices;
+  const uint8_t *hull_counts;
+  size_t listed, vertex_count, components, corner_bytes, number_bytes;
+} nsvcd__facets;
+
+// The same place of a body that is being written.
+static void *nsvcd__writable(nsvcd_body *body, const void *place) {
+  return (char *)body + ((const char *)place - (const char *)body);
+}
+
+// The body of triangles in a body, or NULL.
+static const nsvcd_body *nsvcd__triangles_of(const nsvcd_body *body) {
+  if (body->triangles == 0 || body->weights_id == 0) return body->triangles ? body : NULL;
+  return (const nsvcd_body *)(const void *)((const char *)body + body->inner);
+}
+
+// Bytes of a body of triangles; 0 if they cannot be counted in 32 bits.
+static size_t nsvcd__facets_size(size_t points, const uint32_t *counts) {
+  const size_t padded = nsvcd__round_up(points, NSVCD__GROUP);
+  uint64_t size = nsvcd__spheres_size(padded) + 4 * NSVCD__FACET_COUNTS + 36 * padded + 8 * (points + 1);
+  size += (uint64_t)12 * counts[2];
+  size += (uint64_t)counts[4] * counts[0];
+  size += 2 * ((uint64_t)3 * counts[1] + NSVCD__LANES);
+  size += (uint64_t)3 * counts[3] * counts[0];
+  size += points + NSVCD_ALIGNMENT;
+  size -= size % NSVCD_ALIGNMENT;
+  return size > 0xffffffffu ? 0 : (size_t)size;
+}
+
+static nsvcd__facets nsvcd__facets_of(const nsvcd_body *body) {
+  const size_t padded = body->padded;
+  const uint32_t *counts = (const uint32_t *)(const void *)((const char *)body + nsvcd__spheres_size(padded));
+  nsvcd__facets f;
+  f.body = body;
+  f.listed = counts[0];
+  f.vertex_count = counts[1];
+  f.components = counts[2];
+  f.corner_bytes = counts[3];
+  f.number_bytes = counts[4];
+  f.discs = (const float *)(const void *)(counts + NSVCD__FACET_COUNTS);
+  f.steps = f.discs + 6 * padded;
+  f.slacks = f.steps + padded;
+  f.quanta = f.slacks + padded;
+  f.first_vertex = (const uint32_t *)(const void *)(f.quanta + padded);
+  f.first_triangle = f.first_vertex + body->points + 1;
+  f.seeds = (const float *)(const void *)(f.first_triangle + body->points + 1);
+  f.numbers = (const unsigned char *)(f.seeds + 3 * f.components);
+  f.vertices = (const int16_t *)(const void *)(f.numbers + f.number_bytes * f.listed);
+  f.corners = (const unsigned char *)(f.vertices + 3 * f.vertex_count + NSVCD__LANES);
+  f.hull_counts = f.corners + 3 * f.corner_bytes * f.listed;
+  return f;
+}
+
+// The vertices of corners k of listing `n`: 0..2.
+static size_t nsvcd__facet_corner(const nsvcd__facets *f, size_t n, size_t k) {
+  if (f->corner_bytes == 1) return f->corners[3 * n + k];
+  uint16_t corner;
+  memcpy(&corner, f->corners + 2 * (3 * n + k), sizeof corner);
+  return corner;
+}
+
+// The number of the triangle, and whether this listing counts for what is enclosed.
+static uint32_t nsvcd__facet_number(const nsvcd__facets *f, size_t n, int *encloses) {
+  uint32_t number;
+  if (f->number_bytes == 2) {
+    uint16_t half;
+    memcpy(&half, f->numbers + 2 * n, sizeof half);
+    number = (uint32_t)(half & 0x7fff) | (uint32_t)(half >> 15) << 31;
+  } else {
+    memcpy(&number, f->numbers + 4 * n, sizeof number);
+  }
+  *encloses = (number & NSVCD__ENCLOSES) != 0;
+  return number & ~NSVCD__ENCLOSES;
+}
+
+static nsvcd__f3 nsvcd__facet_centre(const nsvcd__facets *f, size_t patch) {
+  const nsvcd_body *b = f->body;
+  return nsvcd__f3_of(nsvcd__body_x(b)[patch], nsvcd__body_y(b)[patch], nsvcd__body_z(b)[patch]);
+}
+
+// Vertices first .. first + 15 of a patch, the last one repeated.
+NSVCD__INLINE nsvcd__v3 nsvcd__facet_vertices(const nsvcd__facets *f, size_t patch, size_t first, size_t count) {
+  static const float lane[NSVCD__LANES] = {0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15};
+  const size_t all = f->first_vertex[patch + 1] - f->first_vertex[patch];
+  const int16_t *x = f->vertices + 3 * (size_t)f->first_vertex[patch] + first;
+  const nsvcd__v step = nsvcd__v_set(f->steps[patch]);
+  const nsvcd__v last = nsvcd__v_set((float)(count - 1));
+  const nsvcd__v index = nsvcd__v_load(lane);
+  nsvcd__v3 q = nsvcd__v3_of(nsvcd__v_load_int16(x), nsvcd__v_load_int16(x + all), nsvcd__v_load_int16(x + 2 * all));
+  if (count < NSVCD__LANES) {
+    q.x = nsvcd__v_pick(index, last, q.x, nsvcd__v_set((float)x[count - 1]));
+    q.y = nsvcd__v_pick(index, last, q.y, nsvcd__v_set((float)x[all + count - 1]));
+    q.z = nsvcd__v_pick(index, last, q.z, nsvcd__v_set((float)x[2 * all + count - 1]));
+  }
+  return nsvcd__v3_fma(step, q, nsvcd__v3_set(nsvcd__facet_centre(f, patch)));
+}
+
+// The corners of a listed triangle of a patch, exactly.
+static void nsvcd__facet_triangle(const nsvcd__facets *f, size_t patch, size_t n, nsvcd__d3 *corners) {
+  const size_t all = f->first_vertex[patch + 1] - f->first_vertex[patch];
+  const int16_t *x = f->vertices + 3 * (size_t)f->first_vertex[patch];
+  const nsvcd__f3 centre = nsvcd__facet_centre(f, patch);
+  const double step = (double)f->steps[patch];
+  for (size_t k = 0; k < 3; k++) {
+    const size_t i = nsvcd__facet_corner(f, n, k);
+    corners[k].x = (double)centre.x + step * x[i];
+    corners[k].y = (double)centre.y + step * x[all + i];
+    corners[k].z = (double)centre.z + step * x[2 * all + i];
+  }
+}
+
+#ifndef NSVCD_NO_ENCODER
+// The counts of the body of triangles that a surface makes.
+static void nsvcd__facets_count(const nsvcd_mesh *mesh, const nsvcd__surface *surface, uint32_t *counts) {
+  uint32_t most = 0;
+  for (size_t i = 0; i < surface->count; i++) {
+    const uint32_t vertices = surface->first_vertex[i + 1] - surface->first_vertex[i];
+    most = vertices > most ? vertices : most;
+  }
+  memset(counts, 0, NSVCD__FACET_COUNTS * sizeof *counts);
+  counts[0] = (uint32_t)surface->listed;
+  counts[1] = (uint32_t)surface->vertex_count;
+  counts[2] = (uint32_t)surface->component_count;
+  counts[3] = most <= 256 ? 1 : 2;
+  counts[4] = mesh->triangle_count <= 0x7fff ? 2 : 4;
+}
+
+// Writes patch `to` of a body of triangles from patch `from` of a surface.
+static void nsvcd__facets_write(const nsvcd__surface *surface, size_t from, nsvcd_body *body, size_t to,
+                                const float *centre) {
+  const nsvcd__facets f = nsvcd__facets_of(body);
+  float *spheres = (float *)(body + 1);
+  float *discs = (float *)nsvcd__writable(body, f.discs);
+  float *shares = (float *)nsvcd__writable(body, f.steps);
+  uint8_t *hull_counts = (uint8_t *)nsvcd__writable(body, f.hull_counts);
+  const size_t padded = body->padded;
+  const int empty = surface->hull_counts[from] == 0;
+  for (size_t k = 0; k < 3; k++) spheres[k * padded + to] = empty ? centre[k] : surface->balls[4 * from + k];
+  spheres[3 * padded + to] = empty ? 0 : surface->balls[4 * from + 3];
+  for (size_t k = 0; k < 6; k++) discs[k * padded + to] = empty ? 0 : surface->discs[6 * from + k];
+  shares[to] = empty ? 0 : surface->steps[from];
+  shares[padded + to] = empty ? 0 : surface->slacks[from];
+  shares[2 * padded + to] = empty ? 0 : surface->quanta[from];
+  hull_counts[to] = surface->hull_counts[from];
+
+  const size_t vertex = surface->first_vertex[from];
+  const size_t vertices = surface->first_vertex[from + 1] - vertex;
+  const size_t triangle = surface->first_triangle[from];
+  const size_t triangles = surface->first_triangle[from + 1] - triangle;
+  uint32_t *first_vertex = (uint32_t *)nsvcd__writable(body, f.first_vertex);
+  uint32_t *first_triangle = (uint32_t *)nsvcd__writable(body, f.first_triangle);
+  int16_t *coordinates = (int16_t *)nsvcd__writable(body, f.vertices);
+  unsigned char *numbers = (unsigned char *)nsvcd__writable(body, f.numbers);
+  unsigned char *corners = (unsigned char *)nsvcd__writable(body, f.corners);
+  first_vertex[to + 1] = first_vertex[to] + (uint32_t)vertices;
+  first_triangle[to + 1] = first_triangle[to] + (uint32_t)triangles;
+  memcpy(coordinates + 3 * (size_t)first_vertex[to], surface->vertices + 3 * vertex, 6 * vertices);
+  for (size_t n = 0; n < triangles; n++) {
+    const uint32_t number = surface->ids[triangle + n];
+    const size_t at = first_triangle[to] + n;
+    const uint16_t half = (uint16_t)((number & 0x7fff) | number >> 31 << 15);
+    if (f.number_bytes == 2) memcpy(numbers + 2 * at, &half, 2);
+    if (f.number_bytes == 4) memcpy(numbers + 4 * at, &number, 4);
+    for (size_t k = 0; k < 3; k++) {
+      const uint16_t corner = surface->corners[3 * (triangle + n) + k];
+      if (f.corner_bytes == 1) corners[3 * at + k] = (unsigned char)corner;
+      if (f.corner_bytes == 2) memcpy(corners + 2 * (3 * at + k), &corner, 2);
+    }
+  }
+}
+
+// Builds a body of triangles of `size` bytes in `memory`, its patches in the given order. centres (N, 3): for patches
+// without surface.
+static nsvcd_result nsvcd__facets_build(const nsvcd_mesh *mesh, const nsvcd__surface *surface, const uint32_t *counts,
+                                        const float *centres, const uint16_t *order, int open, void *memory,
+                                        size_t size) {
+  nsvcd_body *b = (nsvcd_body *)memory;
+  memset(memory, 0, size);
+  b->magic = NSVCD__BODY_MAGIC;
+  b->version = NSVCD__BODY_VERSION;
+  b->size = (uint32_t)size;
+  b->points = (uint32_t)surface->count;
+  b->padded = (uint32_t)nsvcd__round_up(surface->count, NSVCD__GROUP);
+  b->open = open != 0;
+  b->triangles = (uint32_t)mesh->triangle_count;
+  memcpy((char *)memory + nsvcd__spheres_size(b->padded), counts, NSVCD__FACET_COUNTS * sizeof *counts);
+
+  const nsvcd__facets f = nsvcd__facets_of(b);
+  for (size_t i = 0; i < surface->count; i++) {
+    nsvcd__facets_write(surface, order[i], b, i, centres + 3 * (size_t)order[i]);
+  }
+  memcpy(nsvcd__writable(b, f.seeds), surface->seeds, 3 * f.components * sizeof(float));
+  float *r = (float *)(b + 1) + 3 * b->padded;
+  for (size_t i = b->points; i < b->padded; i++) r[i] = NSVCD__NOWHERE;
+  if (!nsvcd__all_within(r, b->points, 4 * NSVCD_MAX_COORDINATE)) return NSVCD_ERROR_NUMBER;
+  nsvcd__body_finish(b);
+  return b->radius < NSVCD_MIN_RADIUS ? NSVCD_ERROR_NUMBER : NSVCD_OK;
+}
+#endif
+
+// Is the layout right: sizes, counts, indices? A body of triangles of at most `size` bytes, at least a header.
+static int nsvcd__facets_are_laid_out(const nsvcd_body *body, size_t size) {
+  if (nsvcd__spheres_size(body->padded) + 4 * NSVCD__FACET_COUNTS > size) return 0;
+  const void *at = (const char *)body + nsvcd__spheres_size(body->padded);
+  const uint32_t *counts = (const uint32_t *)at;
+  if (counts[3] < 1 || counts[3] > 2 || (counts[4] != 2 && counts[4] != 4)) return 0;
+  if (counts[5] || counts[6] || counts[7] || body->triangles == 0) return 0;
+  if (body->size != nsvcd__facets_size(body->points, counts) || body->size > size) return 0;
+
+  const nsvcd__facets f = nsvcd__facets_of(body);
+  if (f.first_vertex[0] != 0 || f.first_triangle[0] != 0) return 0;
+  for (size_t i = 0; i < body->points; i++) {
+    if (f.first_vertex[i + 1] < f.first_vertex[i] || f.first_triangle[i + 1] < f.first_triangle[i]) return 0;
+    if (f.first_vertex[i + 1] > f.vertex_count || f.first_triangle[i + 1] > f.listed) return 0;
+    const size_t vertices = f.first_vertex[i + 1] - f.first_vertex[i];
+    const size_t triangles = f.first_triangle[i + 1] - f.first_triangle[i];
+    if (f.hull_counts[i] > NSVCD__HULL || f.hull_counts[i] > vertices) return 0;
+    if ((f.hull_counts[i] == 0) != (vertices == 0) || (vertices == 0) != (triangles == 0)) return 0;
+    for (size_t n = 0; n < 3 * triangles; n++) {
+      if (nsvcd__facet_corner(&f, f.first_triangle[i] + n / 3, n % 3) >= vertices) return 0;
+    }
+  }
+  for (size_t n = 0; n < f.listed; n++) {
+    int encloses;
+    if (nsvcd__facet_number(&f, n, &encloses) >= body->triangles) return 0;
+  }
+  return f.first_vertex[body->points] == f.vertex_count && f.first_triangle[body->points] == f.listed;
+}
+
+// Are the numbers in range? They may lie about the surface, but nothing that is computed from them overflows.
+static int nsvcd__facets_are_sound(const nsvcd_body *body) {
+  const nsvcd__facets f = nsvcd__facets_of(body);
+  const size_t padded = body->padded;
+  if (!nsvcd__all_within(f.discs, 3 * padded, 1.000001f)) return 0;
+  if (!nsvcd__all_within(f.discs + 3 * padded, 3 * padded, NSVCD__MAX_LENGTH)) return 0;
+  if (!nsvcd__all_within(f.steps, padded, NSVCD__MAX_LENGTH / 32768)) return 0;
+  if (!nsvcd__all_within(f.slacks, 2 * padded, NSVCD__MAX_LENGTH)) return 0;
+  if (!nsvcd__all_within(f.seeds, 3 * f.components, NSVCD_MAX_COORDINATE)) return 0;
+  for (size_t i = 0; i < padded; i++) {
+    if (f.discs[5 * padded + i] < 0 || f.steps[i] < 0 || f.slacks[i] < 0 || f.quanta[i] < 0) return 0;
+  }
+  return 1;
+}
+
+// A float not less than x, which is not negative.
+static float nsvcd__round_outward(double x) { return (float)(x * (1 + 2e-7)) + 1e-37f; }
+
+// Multiplies what stands behind the spheres. What rounding does to a vertex goes to the slacks and quanta.
+static void nsvcd__scale_facets(nsvcd_body *body, float scale) {
+  const nsvcd__facets f = nsvcd__facets_of(body);
+  const size_t padded = body->padded;
+  float *low = (float *)nsvcd__writable(body, f.discs) + 3 * padded;
+  float *high = low + padded;
+  float *across = high + padded;
+  float *seeds = (float *)nsvcd__writable(body, f.seeds);
+  for (size_t i = 0; i < body->points; i++) {
+    const nsvcd__f3 centre = nsvcd__facet_centre(&f, i);
+    float *step = (float *)nsvcd__writable(body, f.steps + i);
+    float *slack = step + padded;
+    float *quantum = slack + padded;
+    *step *= scale;
+    const double rounding = 2e-7 * ((double)nsvcd__f3_length(centre) + 6e4 * (double)*step);
+    *slack = nsvcd__round_outward((double)*slack * (double)scale + rounding);
+    *quantum = nsvcd__round_outward((double)*quantum * (double)scale + rounding);
+    low[i] = (float)((double)low[i] * (double)scale - rounding);
+    high[i] = (float)((double)high[i] * (double)scale + rounding);
+    across[i] = nsvcd__round_outward((double)across[i] * (double)scale + rounding);
+  }
+  for (size_t i = 0; i < 3 * f.components; i++) seeds[i] *= scale;
+}
+#endif  // NSVCD_NO_PROOF
+
+// ---- whole bodies
+
+#ifndef NSVCD_NO_NETWORK
+// The layout and the numbers of what stands behind the spheres of a body of latents.
+static int nsvcd__latents_are_sound(const nsvcd_body *body) {
+  return nsvcd__all_within(nsvcd__body_areas(body), 3 * (size_t)body->padded, NSVCD__MAX_LENGTH * NSVCD__MAX_LENGTH);
+}
+#endif
+
+// Is this the beginning of a blob of ours, of `size` bytes or fewer?
+static int nsvcd__header_is_sound(const nsvcd_body *b, size_t size) {
+  if (size < sizeof *b || b->magic != NSVCD__BODY_MAGIC || b->version != NSVCD__BODY_VERSION) return 0;
+  if (b->open > 1 || b->points < 1 || b->points > NSVCD_MAX_POINTS || b->size > size) return 0;
+  if (b->padded != nsvcd__round_up(b->points, NSVCD__GROUP)) return 0;
+  return b->size >= nsvcd__spheres_size(b->padded) && b->size % NSVCD_ALIGNMENT == 0;
+}
+
+// All of a body, its header known to be sound, but for the checksum.
+static int nsvcd__body_is_sound(const nsvcd_body *b) {
+  if (!nsvcd__spheres_are_sound(b)) return 0;
+  if (b->weights_id == 0) {
+#ifndef NSVCD_NO_PROOF
+    return b->inner == 0 && nsvcd__facets_are_laid_out(b, b->size) && nsvcd__facets_are_sound(b);
+#else
+    return 0;
+#endif
+  }
+#ifndef NSVCD_NO_NETWORK
+  if (b->weights_id != NSVCD_WEIGHTS_ID) return 0;
+  const size_t latents = nsvcd_body_size(b->points);
+  if (b->size < latents || !nsvcd__latents_are_sound(b)) return 0;
+  if (b->inner == 0) return b->size == latents && b->triangles == 0;
+  if (b->inner != latents) return 0;
+#else
+  if (b->inner % NSVCD_ALIGNMENT || b->inner < nsvcd__spheres_size(b->padded) || b->inner >= b->size) return 0;
+#endif
+  const nsvcd_body *within = (const nsvcd_body *)(const void *)((const char *)b + b->inner);
+  const size_t left = b->size - b->inner;
+  if (!nsvcd__header_is_sound(within, left) || within->size != left || within->weights_id != 0) return 0;
+  if (within->points != b->points || within->triangles != b->triangles || within->open != b->open) return 0;
+#ifndef NSVCD_NO_PROOF
+  return within->inner == 0 && nsvcd__spheres_are_sound(within) && nsvcd__facets_are_laid_out(within, left) &&
+         nsvcd__facets_are_sound(within);
+#else
+  return 1;  // never looked at
+#endif
+}
+
 NSVCDDEF nsvcd_result nsvcd_body_load(const void *memory, size_t size, const nsvcd_body **body) {
   if (!memory || !body) return NSVCD_ERROR_ARGUMENT;
   const nsvcd_body *b = (const nsvcd_body *)memory;
-  if (size < sizeof *b || !nsvcd__is_aligned(memory)) return NSVCD_ERROR_BODY;
-  if (b->magic != NSVCD__BODY_MAGIC || b->version != NSVCD__BODY_VERSION) return NSVCD_ERROR_BODY;
-  if (b->weights_id != NSVCD_WEIGHTS_ID || b->open > 1) return NSVCD_ERROR_BODY;
-  if (b->points < 1 || b->points > NSVCD_MAX_POINTS) return NSVCD_ERROR_BODY;
-  if (b->padded != nsvcd__round_up(b->points, NSVCD__GROUP)) return NSVCD_ERROR_BODY;
-  if (b->size != nsvcd_body_size(b->points) || b->size > size) return NSVCD_ERROR_BODY;
+  if (!nsvcd__is_aligned(memory) || !nsvcd__header_is_sound(b, size)) return NSVCD_ERROR_BODY;
   if (b->checksum != nsvcd__body_checksum(b) || !nsvcd__body_is_sound(b)) return NSVCD_ERROR_BODY;
   *body = b;
   return NSVCD_OK;
@@ -3462,23 +3993,38 @@ NSVCDDEF nsvcd_result nsvcd_body_scale(const nsvcd_body *body, float scale, void
                                        const nsvcd_body **scaled) {
   if (!body || !memory || !scaled || !nsvcd__is_finite(scale) || scale <= 0) return NSVCD_ERROR_ARGUMENT;
   if (capacity < body->size || !nsvcd__is_aligned(memory)) return NSVCD_ERROR_WORKSPACE;
-  // In double, for the products may overflow a float. The limits are those of nsvcd_body_load.
-  if ((double)body->radius * (double)scale < (double)NSVCD_MIN_RADIUS) return NSVCD_ERROR_ARGUMENT;
-  const double cap = (double)NSVCD__MAX_LENGTH / (double)scale, most = (double)NSVCD_MAX_COORDINATE / (double)scale;
-  for (size_t i = 0; i < 3 * (size_t)body->padded; i++) {
-    if (fabs((double)nsvcd__body_x(body)[i]) > most) return NSVCD_ERROR_ARGUMENT;
-  }
-  if (2 * (double)body->extent > cap) return NSVCD_ERROR_ARGUMENT;  // over every radius and centre of a group
-  for (size_t i = 0; i < 3 * (size_t)body->padded; i++) {
+  if (!nsvcd__spheres_fit(body, scale)) return NSVCD_ERROR_ARGUMENT;
+#ifndef NSVCD_NO_NETWORK
+  const double cap = (double)NSVCD__MAX_LENGTH / (double)scale;
+  for (size_t i = 0; body->weights_id && i < 3 * (size_t)body->padded; i++) {
     if (fabs((double)nsvcd__body_areas(body)[i]) > cap * cap) return NSVCD_ERROR_ARGUMENT;
   }
+#endif
+#ifndef NSVCD_NO_PROOF
+  const nsvcd_body *triangles = nsvcd__triangles_of(body);
+  if (triangles && !nsvcd__spheres_fit(triangles, scale)) return NSVCD_ERROR_ARGUMENT;
+#endif
   memmove(memory, body, body->size);  // in place is allowed
   nsvcd_body *b = (nsvcd_body *)memory;
-  float *floats = (float *)(b + 1);
-  float *area = floats + 4 * b->padded + 4 * nsvcd__group_slots(b->padded);
-  for (size_t i = 0; i < 3 * (size_t)b->padded; i++) floats[i] *= scale;
-  for (size_t i = 0; i < b->points; i++) floats[3 * b->padded + i] *= scale;
-  for (size_t i = 0; i < 3 * (size_t)b->padded; i++) area[i] *= scale, area[i] *= scale;
+#ifndef NSVCD_NO_PROOF
+  if (b->inner) {
+    nsvcd_body *within = (nsvcd_body *)(void *)((char *)memory + b->inner);
+    nsvcd__scale_spheres(within, scale);
+    nsvcd__scale_facets(within, scale);
+    nsvcd__body_finish(within);
+  }
+#endif
+  nsvcd__scale_spheres(b, scale);
+#ifndef NSVCD_NO_PROOF
+  if (b->weights_id == 0) nsvcd__scale_facets(b, scale);
+#endif
+#ifndef NSVCD_NO_NETWORK
+  float *area = (float *)(b + 1) + 4 * b->padded + 4 * nsvcd__group_slots(b->padded);
+  for (size_t i = 0; b->weights_id && i < 3 * (size_t)b->padded; i++) {
+    area[i] *= scale;
+    area[i] *= scale;
+  }
+#endif
   nsvcd__body_finish(b);
   *scaled = b;
   return NSVCD_OK;
@@ -3493,6 +4039,7 @@ NSVCDDEF nsvcd_result nsvcd_body_scale(const nsvcd_body *body, float scale, void
 typedef struct nsvcd__motion {
   const nsvcd_pose *poses;  // (count), the caller's
   size_t count;
+  const nsvcd_pose *fixed_pose;  // the caller's
   float fixed_position[3];
   float to_fixed[9];    // world axes to the fixed body's axes
   float to_fixed_q[4];  // the same as a quaternion
@@ -3541,12 +4088,20 @@ static void nsvcd__mul33(const float *a, const float *b, float *out) {  // out =
   }
 }
 
+// Is the shorter arc from a to b the one to -b? Products of floats are exact in double, so that every machine and the
+// exact poses of the proof say the same, also where the arcs are equally long to rounding.
+static int nsvcd__is_opposed(const float *a, const float *b) {
+  double dot = 0;
+  for (size_t k = 0; k < 4; k++) dot += (double)a[k] * (double)b[k];
+  return dot < 0;
+}
+
 // Puts b on the side of a from which the arc is the shorter one; returns its length in quaternion space, [0, pi/2]:
 // half the angle of rotation. From the chord, because acos of a dot product near 1 has no digits left.
-static float nsvcd__quat_half_angle(const float *a, float *b) {
-  float dot = a[0] * b[0] + a[1] * b[1] + a[2] * b[2] + a[3] * b[3], chord = 0;
+static float nsvcd__quat_half_angle(const float *a, float *b, int opposed) {
+  float chord = 0;
   for (size_t k = 0; k < 4; k++) {
-    if (dot < 0) b[k] = -b[k];
+    if (opposed) b[k] = -b[k];
     chord += (a[k] - b[k]) * (a[k] - b[k]);
   }
   return 2 * asinf(0.5f * sqrtf(chord));
@@ -3557,7 +4112,7 @@ static void nsvcd__slerp(const float *a, const float *b, float u, float *out) {
   float start[4], end[4], wa = 1 - u, wb = u;
   nsvcd__quat_normalize(a, start);
   nsvcd__quat_normalize(b, end);
-  const float angle = nsvcd__quat_half_angle(start, end);
+  const float angle = nsvcd__quat_half_angle(start, end, nsvcd__is_opposed(a, b));
   if (angle > 1e-3f) wa = sinf((1 - u) * angle), wb = sinf(u * angle);  // below, the difference is less than rounding
   for (size_t k = 0; k < 4; k++) end[k] = wa * start[k] + wb * end[k];
   nsvcd__quat_normalize(end, out);
@@ -3581,7 +4136,7 @@ static void nsvcd__motion_init(const nsvcd_pose *poses, size_t count, const nsvc
   nsvcd__transpose33(from_fixed, motion->to_fixed);
   for (size_t k = 0; k < 4; k++) motion->to_fixed_q[k] = k < 3 ? -q[k] : q[k];
   memcpy(motion->fixed_position, fixed_pose->position, sizeof motion->fixed_position);
-  motion->poses = poses, motion->count = count;
+  motion->poses = poses, motion->count = count, motion->fixed_pose = fixed_pose;
   for (size_t k = 0; k < 3; k++) low[k] = high[k] = poses->position[k];
   for (size_t n = 1; n < count; n++) {
     for (size_t k = 0; k < 3; k++) {
@@ -3740,6 +4295,8 @@ typedef struct nsvcd__boxes {
 
 typedef struct nsvcd__workspace {
   size_t segments;                                        // S
+  uint32_t begin[NSVCD__MAX_SEGMENTS + 1];                // samples at which they begin, then the last one
+  size_t per_arc;                                         // samples to an arc of the motion
   float time[NSVCD__MAX_SEGMENTS + 1];                    // of the ends of the segments
   float turn[NSVCD__MAX_SEGMENTS + 1];                    // rotation arc from t = 0 to there, radians
   nsvcd__segments blocks[NSVCD__BLOCKS];                  // (S / 16 rounded up)
@@ -3914,12 +4471,13 @@ static void nsvcd__cut_block(const nsvcd__motion *motion, const nsvcd__samples *
 
 // Fills workspace: segments, their poses in the fixed body's frame, and deviations. `lengths`: the bodies' extents.
 static void nsvcd__cut_motion(const nsvcd__motion *motion, float lengths, nsvcd__workspace *work) {
-  size_t per_arc, begin[NSVCD__MAX_SEGMENTS + 1];
+  size_t per_arc;
+  uint32_t *begin = work->begin;
   const size_t segments = nsvcd__segment_count(motion, &per_arc);
   const nsvcd__samples samples = nsvcd__samples_of(motion, per_arc, work->between);
-  work->segments = segments, work->turn[0] = 0;
+  work->segments = segments, work->turn[0] = 0, work->per_arc = per_arc > 1 ? per_arc : 1;
   for (size_t s = 0; s <= segments; s++) {
-    begin[s] = s * samples.last / segments;
+    begin[s] = (uint32_t)(s * samples.last / segments);
     work->time[s] = samples.last ? (float)begin[s] / (float)samples.last : (float)s;
   }
   for (size_t first = 0; first < segments; first += NSVCD__LANES) {
@@ -4042,6 +4600,9 @@ static uint64_t nsvcd__meet_in(const nsvcd__chords *chords, uint64_t wanted, flo
   }
   return met & wanted;
 }
+
+#ifndef NSVCD_NO_NETWORK
+// ---- runs, for the network
 
 // The candidates kept so far: a heap with the shallowest at its root, and the count of all runs.
 typedef struct nsvcd__candidates {
@@ -4183,6 +4744,10 @@ static void nsvcd__members_against_patch(const nsvcd__workspace *work, const nsv
   }
   if (runs.open) nsvcd__runs_close(&runs, runs.open, work, moving, g, fixed, j, kept);
 }
+
+#endif  // NSVCD_NO_NETWORK
+
+// ---- the search
 
 static void nsvcd__chords_of_group(nsvcd__workspace *work, const nsvcd_body *moving, size_t g) {
   const float *x = nsvcd__body_group(moving, 0), *y = nsvcd__body_group(moving, 1), *z = nsvcd__body_group(moving, 2);
@@ -4333,21 +4898,39 @@ static size_t nsvcd__search_group(nsvcd__workspace *work, const nsvcd_body *movi
   return longest;
 }
 
-// A step of the search: all runs of one pair of groups. Returns 1 if there are more steps to take.
-static int nsvcd__search_step(nsvcd__workspace *work, const nsvcd_body *moving, const nsvcd_body *fixed,
-                              nsvcd__candidates *kept) {
+// A step of the search: a pair of groups that meet.
+typedef struct nsvcd__step {
+  size_t moving_group, fixed_group;
+  uint32_t met;                         // patches of the fixed group that the moving one meets
+  uint64_t segments[NSVCD__GROUP];      // in which each of them does
+} nsvcd__step;
+
+// Takes the next step. Returns 1 if there are more to take.
+static int nsvcd__search_next(nsvcd__workspace *work, const nsvcd_body *moving, const nsvcd_body *fixed,
+                              nsvcd__step *step) {
   const size_t h = work->waiting ? nsvcd__lowest_bit(work->waiting) : nsvcd__search_group(work, moving, fixed);
   const size_t g = work->order[work->step];
-  uint64_t segments[NSVCD__GROUP];
-  uint32_t met = nsvcd__group_against_members(work, fixed, h, work->nearby[g][h], segments);
-  for (; met; met &= met - 1) {
-    const size_t l = nsvcd__lowest_bit(met);
-    nsvcd__pose_members(work, moving, g, segments[l]);
-    nsvcd__members_against_patch(work, moving, g, fixed, NSVCD__GROUP * h + l, segments[l], kept);
-  }
+  step->moving_group = g;
+  step->fixed_group = h;
+  step->met = nsvcd__group_against_members(work, fixed, h, work->nearby[g][h], step->segments);
   work->waiting &= ~((uint32_t)1 << h);
   if (!work->waiting) work->step++;
   return work->step < work->steps;
+}
+
+#ifndef NSVCD_NO_NETWORK
+// A step of the search: all runs of one pair of groups. Returns 1 if there are more steps to take.
+static int nsvcd__search_step(nsvcd__workspace *work, const nsvcd_body *moving, const nsvcd_body *fixed,
+                              nsvcd__candidates *kept) {
+  nsvcd__step step;
+  const int more = nsvcd__search_next(work, moving, fixed, &step);
+  for (uint32_t met = step.met; met; met &= met - 1) {
+    const size_t l = nsvcd__lowest_bit(met);
+    nsvcd__pose_members(work, moving, step.moving_group, step.segments[l]);
+    nsvcd__members_against_patch(work, moving, step.moving_group, fixed, NSVCD__GROUP * step.fixed_group + l,
+                                 step.segments[l], kept);
+  }
+  return more;
 }
 
 // Instead of a search, in a motion that has been cut: all runs of one moving group and one patch of the fixed body.
@@ -4366,6 +4949,1170 @@ static void nsvcd__candidates_start(nsvcd__candidates *kept, nsvcd__candidate *i
   kept->items = items, kept->limit = limit, kept->count = 0, kept->total = 0;
 }
 
+#endif  // NSVCD_NO_NETWORK
+
+#ifndef NSVCD_NO_PROOF
+// ------------------------------------------------------------------------------------------------------ proof
+// In: two bodies of triangles and a motion. Out: a witness (two triangles that meet, and when), a certificate that the
+// surfaces never do, or neither: undecided.
+//
+// THEOREM. Let the moving body be posed by the motion of section *motion*: between two samples its position is linear in
+// t and its rotation a slerp. If the proof ends in CERTIFIED_FREE, then at no t in [0,1] do the surfaces of the two
+// meshes share a point, and no component of one lies within the other.
+//   1. Every point of a surface lies in a piece of some patch (section *surface*). So it is enough to part each patch of
+//      one body from each of the other, at all times.
+//   2. The broad phase leaves out only patches and segments of time in which the spheres over the pieces stay apart. What
+//      it leaves, a pair of patches in one segment, is an *item*. Every item is parted by one of the steps below, or the
+//      verdict is not CERTIFIED_FREE.
+//   3. A *span* is a stretch of the motion: a segment or a part of one. In it every point x of the moving body (body
+//      frame) is within spread + bulge |x| of the chord between its places at the ends (section *broad phase*; within
+//      one arc of angle h, bulge = h^2 / 8). A plane that has all of the moving side's places at both ends on one side,
+//      by more than that, has their chords there too, for a chord is convex, and so all places between.
+//   4. Discs: the plane is normal to a patch; what each patch reaches along it follows from its disc.
+//      Hulls: any plane; a patch's pieces are within its slack of the hull of its first vertices.
+//      Triangles: a plane for a pair of listed triangles. A patch lists all triangles of its pieces, whole or in parts.
+//   5. Rounding: spread contains NSVCD__ROUNDING of all lengths that enter a float computation. Stored vertices are off
+//      by the patch's slack or quantum, which every plane allows for. Pairs of triangles are parted in double.
+//   6. Containment is decided at t = 0, component by component: a body that gets in or out later crosses a surface. The
+//      crossings of a ray with the closed components of the other body are counted with their sign; a ray that passes
+//      an edge too closely is replaced by another. Open components enclose nothing.
+// A WITNESS is a pair of stored triangles that share a point at the true pose, in double; the mesh's own triangles are
+// then within the two quanta of each other. UNDECIDED: two triangles come closer than their quanta and the tolerance
+// without meeting, or the limit of work was reached.
+//
+// Work is counted in units: a plane tried on two hulls, a triangle against 16, a pair of triangles at one time.
+
+#define NSVCD__ITEMS 512         // items kept at once; when there are more, those are settled first
+#define NSVCD__PLANE_STEPS 12    // of Gilbert's iteration
+#define NSVCD__DEEP 0.2f         // depth from which on an item is worth a look for a witness before all are known
+#define NSVCD__NEWS 8            // items that are worth such a look
+#define NSVCD__TRIES 4           // such looks, at most, before the search is done
+#define NSVCD__HALVINGS 40       // of a span, at most
+#define NSVCD__SAME_PLACE 1e-13  // of all lengths: distance in double that is none
+
+typedef struct nsvcd__item {
+  uint16_t moving, fixed, segment;
+  uint16_t sought;  // 1: a witness has been looked for
+  float depth;      // 1 - least distance of the centres / (r1 + r2)
+  float share;      // of the segment, gone by at that time
+} nsvcd__item;
+
+// The motion between two samples, seen from the fixed body, in double.
+typedef struct nsvcd__arc {
+  size_t index;
+  double start[4], end[4];  // unit quaternions, on the shorter side
+  double half_angle;        // between them as quaternions: half the angle of the turn
+  nsvcd__d3 from, moved;    // position at the start, and how it changes
+} nsvcd__arc;
+
+// A pose in double: rows of the rotation.
+typedef struct nsvcd__placement {
+  nsvcd__d3 rows[3];
+  nsvcd__d3 position;
+} nsvcd__placement;
+
+// A stretch of the motion. t in [0,1].
+typedef struct nsvcd__span {
+  nsvcd__transform start, end;
+  float spread, bulge;
+  double t_start, t_end;
+} nsvcd__span;
+
+// 16 triangles of a patch, lane by lane: corners (corner, axis, lane), and their boxes.
+typedef struct nsvcd__block {
+  float corners[3][3][NSVCD__LANES];
+  float low[3][NSVCD__LANES], high[3][NSVCD__LANES];
+  size_t first, count;  // listings
+} nsvcd__block;
+
+typedef struct nsvcd__contact {
+  double time;
+  nsvcd__d3 point, normal;  // the fixed body's frame; out of the fixed body
+  uint32_t moving_triangle, fixed_triangle;
+  uint16_t moving_patch, fixed_patch;
+} nsvcd__contact;
+
+typedef enum nsvcd__verdict { NSVCD__FREE, NSVCD__MEETS, NSVCD__UNDECIDED, NSVCD__WITHIN } nsvcd__verdict;
+
+typedef struct nsvcd__proof {
+  const nsvcd__motion *motion;
+  nsvcd__facets moving, fixed;
+  float lengths;         // extents of both bodies
+  double tolerance;      // metres, beyond the quanta
+  size_t work, limit;    // units
+  int undecided;         // something was left so
+  int within;            // a component seems to be within the other body, but close to its surface
+  nsvcd__contact found;  // if MEETS or WITHIN
+  nsvcd__arc arc;        // the last one asked for
+  size_t count, tries;
+  nsvcd__item items[NSVCD__ITEMS];
+  float start[3][NSVCD__LANES], end[3][NSVCD__LANES], rest[3][NSVCD__LANES];  // hulls, posed
+  nsvcd__f3 normal;                                                           // of the last plane tried
+  nsvcd__block moving_block, fixed_block;
+  float posed[2][3][3][NSVCD__LANES];  // corners of the moving block at the ends of a span
+} nsvcd__proof;
+
+// Tests hear of every certificate: kind, patches, listings (or NSVCD_NONE), times, and the plane's normal (3), fixed
+// body's frame, which points to the moving side.
+#ifndef NSVCD__CERTIFY
+#define NSVCD__CERTIFY(kind, moving, fixed, moving_listing, fixed_listing, t_start, t_end, normal) ((void)0)
+#else
+#define NSVCD__CERTIFIES
+#endif
+enum { NSVCD__BY_DISC, NSVCD__BY_HULL, NSVCD__BY_TRIANGLES };
+
+// ---- exact poses
+
+static void nsvcd__unit_quaternion(const float *q, double *out) {
+  double square = 0;
+  for (size_t k = 0; k < 4; k++) square += (double)q[k] * (double)q[k];
+  for (size_t k = 0; k < 4; k++) out[k] = (double)q[k] / sqrt(square);
+}
+
+// The conjugate of a, times b.
+static void nsvcd__conjugate_times(const double *a, const double *b, double *out) {
+  const nsvcd__d3 u = nsvcd__d3_of(a[0], a[1], a[2]);
+  const nsvcd__d3 v = nsvcd__d3_of(b[0], b[1], b[2]);
+  const nsvcd__d3 across = nsvcd__d3_cross(u, v);
+  out[0] = a[3] * v.x - b[3] * u.x - across.x;
+  out[1] = a[3] * v.y - b[3] * u.y - across.y;
+  out[2] = a[3] * v.z - b[3] * u.z - across.z;
+  out[3] = a[3] * b[3] + nsvcd__d3_dot(u, v);
+}
+
+static void nsvcd__rows_of(const double *q, nsvcd__d3 *rows) {  // q unit
+  const double x = q[0], y = q[1], z = q[2], w = q[3];
+  rows[0] = nsvcd__d3_of(1 - 2 * (y * y + z * z), 2 * (x * y - z * w), 2 * (x * z + y * w));
+  rows[1] = nsvcd__d3_of(2 * (x * y + z * w), 1 - 2 * (x * x + z * z), 2 * (y * z - x * w));
+  rows[2] = nsvcd__d3_of(2 * (x * z - y * w), 2 * (y * z + x * w), 1 - 2 * (x * x + y * y));
+}
+static nsvcd__d3 nsvcd__rotate(const nsvcd__d3 *rows, nsvcd__d3 a) {
+  return nsvcd__d3_of(nsvcd__d3_dot(rows[0], a), nsvcd__d3_dot(rows[1], a), nsvcd__d3_dot(rows[2], a));
+}
+static nsvcd__d3 nsvcd__rotate_back(const nsvcd__d3 *rows, nsvcd__d3 a) {
+  const nsvcd__d3 sum = nsvcd__d3_add(nsvcd__d3_scale(rows[0], a.x), nsvcd__d3_scale(rows[1], a.y));
+  return nsvcd__d3_add(sum, nsvcd__d3_scale(rows[2], a.z));
+}
+static nsvcd__d3 nsvcd__place_point(const nsvcd__placement *at, nsvcd__d3 a) {
+  return nsvcd__d3_add(nsvcd__rotate(at->rows, a), at->position);
+}
+
+// Arc k of the motion, from sample k to the next.
+static const nsvcd__arc *nsvcd__arc_at(nsvcd__proof *p, size_t k) {
+  const nsvcd__motion *motion = p->motion;
+  nsvcd__arc *arc = &p->arc;
+  if (arc->index == k) return arc;
+  const nsvcd_pose *a = &motion->poses[k];
+  const nsvcd_pose *b = motion->count > 1 ? a + 1 : a;
+  double fixed[4], q[4];
+  nsvcd__d3 rows[3];
+  nsvcd__unit_quaternion(motion->fixed_pose->rotation, fixed);
+  nsvcd__unit_quaternion(a->rotation, q);
+  nsvcd__conjugate_times(fixed, q, arc->start);
+  nsvcd__unit_quaternion(b->rotation, q);
+  nsvcd__conjugate_times(fixed, q, arc->end);
+
+  const double sign = nsvcd__is_opposed(a->rotation, b->rotation) ? -1 : 1;
+  double apart = 0, together = 0;
+  for (size_t i = 0; i < 4; i++) {
+    arc->end[i] *= sign;
+    apart += (arc->start[i] - arc->end[i]) * (arc->start[i] - arc->end[i]);
+    together += (arc->start[i] + arc->end[i]) * (arc->start[i] + arc->end[i]);
+  }
+  arc->half_angle = 2 * atan2(sqrt(apart), sqrt(together));
+
+  nsvcd__rows_of(fixed, rows);
+  const nsvcd__d3 origin = nsvcd__d3_load(motion->fixed_pose->position);
+  const nsvcd__d3 from = nsvcd__d3_load(a->position);
+  arc->from = nsvcd__rotate_back(rows, nsvcd__d3_sub(from, origin));
+  arc->moved = nsvcd__rotate_back(rows, nsvcd__d3_sub(nsvcd__d3_load(b->position), from));
+  arc->index = k;
+  return arc;
+}
+
+// The true pose, seen from the fixed body, a share u in [0,1] of the arc later than its start.
+static nsvcd__placement nsvcd__placement_at(const nsvcd__arc *arc, double u) {
+  double before = 1 - u, after = u, q[4], square = 0;
+  if (arc->half_angle > 1e-7) {  // below, the difference is less than rounding
+    before = sin(before * arc->half_angle);
+    after = sin(after * arc->half_angle);
+  }
+  for (size_t k = 0; k < 4; k++) {
+    q[k] = before * arc->start[k] + after * arc->end[k];
+    square += q[k] * q[k];
+  }
+  for (size_t k = 0; k < 4; k++) q[k] /= sqrt(square);
+  nsvcd__placement at;
+  nsvcd__rows_of(q, at.rows);
+  at.position = nsvcd__d3_add(arc->from, nsvcd__d3_scale(arc->moved, u));
+  return at;
+}
+
+static nsvcd__transform nsvcd__transform_of(const nsvcd__placement *at) {
+  nsvcd__transform out;
+  for (size_t k = 0; k < 3; k++) {
+    out.rotation[3 * k] = (float)at->rows[k].x;
+    out.rotation[3 * k + 1] = (float)at->rows[k].y;
+    out.rotation[3 * k + 2] = (float)at->rows[k].z;
+  }
+  out.position = nsvcd__f3_round(at->position);
+  return out;
+}
+
+// ---- spans
+
+// Arcs of the motion: samples less one, at least one.
+static double nsvcd__arc_count(const nsvcd__motion *motion) {
+  return motion->count > 1 ? (double)(motion->count - 1) : 1;
+}
+
+// A segment's share of the motion: where it begins, counted in arcs.
+static double nsvcd__segment_start(const nsvcd__workspace *work, size_t s) {
+  return (double)work->begin[s] / (double)work->per_arc;
+}
+
+static nsvcd__span nsvcd__span_of_segment(const nsvcd__motion *motion, const nsvcd__workspace *work, size_t s) {
+  const nsvcd__segments *block = &work->blocks[s / NSVCD__LANES];
+  const size_t l = s % NSVCD__LANES;
+  nsvcd__span span;
+  for (size_t i = 0; i < 9; i++) {
+    span.start.rotation[i] = block->rotation[i][l];
+    span.end.rotation[i] = block->rotation[i][l] + block->turned[i][l];
+  }
+  span.start.position = nsvcd__f3_of(block->position[0][l], block->position[1][l], block->position[2][l]);
+  const nsvcd__f3 moved = nsvcd__f3_of(block->moved[0][l], block->moved[1][l], block->moved[2][l]);
+  span.end.position = nsvcd__f3_add(span.start.position, moved);
+  span.spread = block->spread[l];
+  span.bulge = block->bulge[l];
+  span.t_start = nsvcd__segment_start(work, s) / nsvcd__arc_count(motion);
+  span.t_end = motion->count > 1 ? nsvcd__segment_start(work, s + 1) / nsvcd__arc_count(motion) : 1;
+  return span;
+}
+
+// From u0 to u1 of arc k.
+static nsvcd__span nsvcd__span_of_arc(nsvcd__proof *p, size_t k, double u0, double u1) {
+  const nsvcd__arc *arc = nsvcd__arc_at(p, k);
+  const nsvcd__placement start = nsvcd__placement_at(arc, u0);
+  const nsvcd__placement end = nsvcd__placement_at(arc, u1);
+  const double angle = 2 * arc->half_angle * (u1 - u0);
+  nsvcd__span span;
+  span.start = nsvcd__transform_of(&start);
+  span.end = nsvcd__transform_of(&end);
+  const float remote = nsvcd__f3_length(span.start.position) + nsvcd__f3_length(span.end.position);
+  span.spread = NSVCD__ROUNDING * (remote + p->lengths);
+  span.bulge = (float)(angle * angle * 0.1250001);
+  span.t_start = ((double)k + u0) / nsvcd__arc_count(p->motion);
+  span.t_end = ((double)k + u1) / nsvcd__arc_count(p->motion);
+  return span;
+}
+
+// No point of the patch's pieces is farther from the body's origin.
+static float nsvcd__patch_reach(const nsvcd__facets *f, size_t patch) {
+  return 1.000001f * (nsvcd__f3_length(nsvcd__facet_centre(f, patch)) + nsvcd__body_r(f->body)[patch]);
+}
+
+// ---- discs
+
+// What all 16 patches of a moving group reach along a direction, from their centres.
+typedef struct nsvcd__reach_along {
+  nsvcd__v low, high;
+} nsvcd__reach_along;
+
+// A disc along a direction: `along` is the direction's part along the disc's normal, `across` its length across that.
+NSVCD__INLINE nsvcd__reach_along nsvcd__disc_along(nsvcd__v low, nsvcd__v high, nsvcd__v radius_across, nsvcd__v along,
+                                                   nsvcd__v across) {
+  const nsvcd__v a = nsvcd__v_mul(low, along);
+  const nsvcd__v b = nsvcd__v_mul(high, along);
+  const nsvcd__v side = nsvcd__v_mul(radius_across, across);
+  const nsvcd__reach_along out = {nsvcd__v_sub(nsvcd__v_min(a, b), side), nsvcd__v_add(nsvcd__v_max(a, b), side)};
+  return out;
+}
+
+NSVCD__INLINE nsvcd__v nsvcd__v3_length(nsvcd__v3 a) { return nsvcd__v_sqrt(nsvcd__v3_dot(a, a)); }
+
+// A matrix's columns, as values: the matrix back, times a.
+static nsvcd__f3 nsvcd__f3_rotate_back(const float *m, nsvcd__f3 a) {
+  return nsvcd__f3_of(m[0] * a.x + m[3] * a.y + m[6] * a.z, m[1] * a.x + m[4] * a.y + m[7] * a.z,
+                      m[2] * a.x + m[5] * a.y + m[8] * a.z);
+}
+
+// What a lane of a group, in a segment, looks like to a resting patch.
+typedef struct nsvcd__approach {
+  nsvcd__v3 from, chord;       // from the resting centre to the moving one, and its way
+  nsvcd__v3 normal;            // of the moving disc, its body's frame
+  nsvcd__v low, high, across;  // of the moving disc
+  float deviation;
+} nsvcd__approach;
+
+// Lanes that the plane normal to the resting disc parts: on the side of its normal, or on the other (`below`).
+static uint32_t nsvcd__apart_by_fixed_disc(const nsvcd__approach *a, const nsvcd__span *span, nsvcd__f3 normal,
+                                           float low, float high, uint32_t *below) {
+  const nsvcd__v3 n = nsvcd__v3_set(normal);
+  const nsvcd__v3 at_start = nsvcd__v3_set(nsvcd__f3_rotate_back(span->start.rotation, normal));
+  const nsvcd__v3 at_end = nsvcd__v3_set(nsvcd__f3_rotate_back(span->end.rotation, normal));
+  const nsvcd__v side_start = nsvcd__v3_length(nsvcd__v3_cross(at_start, a->normal));
+  const nsvcd__v side_end = nsvcd__v3_length(nsvcd__v3_cross(at_end, a->normal));
+  const nsvcd__reach_along start =
+      nsvcd__disc_along(a->low, a->high, a->across, nsvcd__v3_dot(at_start, a->normal), side_start);
+  const nsvcd__reach_along end =
+      nsvcd__disc_along(a->low, a->high, a->across, nsvcd__v3_dot(at_end, a->normal), side_end);
+
+  const nsvcd__v height = nsvcd__v3_dot(n, a->from);
+  const nsvcd__v height_end = nsvcd__v_add(height, nsvcd__v3_dot(n, a->chord));
+  const nsvcd__v lowest = nsvcd__v_min(nsvcd__v_add(height, start.low), nsvcd__v_add(height_end, end.low));
+  const nsvcd__v highest = nsvcd__v_max(nsvcd__v_add(height, start.high), nsvcd__v_add(height_end, end.high));
+  *below = ~nsvcd__v_le(nsvcd__v_set(low - a->deviation), highest) & 0xffff;
+  return (~nsvcd__v_le(lowest, nsvcd__v_set(high + a->deviation)) & 0xffff) | *below;
+}
+
+// The same with the plane normal to the mean w of the moving disc's normals m0 and m1 at both ends. |w| <= 1. These
+// normals make the same angle with w: along it they are |w|^2, across it no more than half of what they differ by.
+static uint32_t nsvcd__apart_by_moving_disc(const nsvcd__approach *a, const nsvcd__span *span, nsvcd__f3 normal,
+                                            float low, float high, float across, nsvcd__v3 *plane, uint32_t *below) {
+  nsvcd__transform middle, half_turn;
+  for (size_t i = 0; i < 9; i++) {
+    half_turn.rotation[i] = 0.5f * (span->end.rotation[i] - span->start.rotation[i]);
+    middle.rotation[i] = 0.5f * (span->end.rotation[i] + span->start.rotation[i]);
+  }
+  middle.position = half_turn.position = nsvcd__f3_of(0, 0, 0);
+  const nsvcd__v3 w = nsvcd__v3_transform(&middle, a->normal);
+  const nsvcd__v3 n = nsvcd__v3_set(normal);
+  const nsvcd__v turned = nsvcd__v3_length(nsvcd__v3_transform(&half_turn, a->normal));
+  const nsvcd__reach_along moving = nsvcd__disc_along(a->low, a->high, a->across, nsvcd__v3_dot(w, w), turned);
+  const nsvcd__reach_along fixed = nsvcd__disc_along(nsvcd__v_set(low), nsvcd__v_set(high), nsvcd__v_set(across),
+                                                     nsvcd__v3_dot(w, n), nsvcd__v3_length(nsvcd__v3_cross(w, n)));
+
+  const nsvcd__v height = nsvcd__v3_dot(w, a->from);
+  const nsvcd__v height_end = nsvcd__v_add(height, nsvcd__v3_dot(w, a->chord));
+  const nsvcd__v deviation = nsvcd__v_set(a->deviation);
+  const nsvcd__v lowest = nsvcd__v_add(nsvcd__v_min(height, height_end), moving.low);
+  const nsvcd__v highest = nsvcd__v_add(nsvcd__v_max(height, height_end), moving.high);
+  *plane = w;
+  *below = ~nsvcd__v_le(nsvcd__v_sub(fixed.low, deviation), highest) & 0xffff;
+  return (~nsvcd__v_le(lowest, nsvcd__v_add(fixed.high, deviation)) & 0xffff) | *below;
+}
+
+#ifdef NSVCD__CERTIFIES
+static void nsvcd__certify_discs(size_t g, size_t j, const nsvcd__span *span, uint32_t apart, uint32_t below,
+                                 nsvcd__v3 plane) {
+  float lanes[3][NSVCD__LANES];
+  nsvcd__v3_store(lanes, plane);
+  for (size_t l = 0; l < NSVCD__LANES; l++) {
+    const float sign = below >> l & 1 ? -1.0f : 1.0f;
+    const float normal[3] = {sign * lanes[0][l], sign * lanes[1][l], sign * lanes[2][l]};
+    if (apart >> l & 1) {
+      NSVCD__CERTIFY(NSVCD__BY_DISC, NSVCD__GROUP * g + l, j, NSVCD_NONE, NSVCD_NONE, span->t_start, span->t_end, normal);
+    }
+  }
+}
+#define NSVCD__CERTIFY_DISCS(g, j, span, apart, below, plane) nsvcd__certify_discs(g, j, span, apart, below, plane)
+#else
+#define NSVCD__CERTIFY_DISCS(g, j, span, apart, below, plane) ((void)(plane), (void)(below))
+#endif
+
+// Of the lanes `met` of moving group g in a segment, those that discs do not part from resting patch j.
+static uint32_t nsvcd__discs_meet(const nsvcd__proof *p, const nsvcd__chords *c, size_t g, size_t j,
+                                  const nsvcd__span *span, float deviation, uint32_t met) {
+  const size_t i = NSVCD__GROUP * g;
+  const size_t moving_padded = p->moving.body->padded;
+  const size_t fixed_padded = p->fixed.body->padded;
+  const float *m = p->moving.discs + i;
+  const float *f = p->fixed.discs + j;
+  const nsvcd__f3 normal = nsvcd__f3_of(f[0], f[fixed_padded], f[2 * fixed_padded]);
+  const float low = f[3 * fixed_padded], high = f[4 * fixed_padded], across = f[5 * fixed_padded];
+  nsvcd__approach a;
+  const nsvcd__v3 start = nsvcd__v3_of(nsvcd__v_load(c->x), nsvcd__v_load(c->y), nsvcd__v_load(c->z));
+  a.from = nsvcd__v3_sub(start, nsvcd__v3_set(nsvcd__facet_centre(&p->fixed, j)));
+  a.chord = nsvcd__v3_of(nsvcd__v_load(c->vx), nsvcd__v_load(c->vy), nsvcd__v_load(c->vz));
+  a.normal = nsvcd__v3_of(nsvcd__v_load(m), nsvcd__v_load(m + moving_padded), nsvcd__v_load(m + 2 * moving_padded));
+  a.low = nsvcd__v_load(m + 3 * moving_padded);
+  a.high = nsvcd__v_load(m + 4 * moving_padded);
+  a.across = nsvcd__v_load(m + 5 * moving_padded);
+  a.deviation = deviation;
+
+  uint32_t below;
+  uint32_t apart = nsvcd__apart_by_fixed_disc(&a, span, normal, low, high, &below) & met;
+  nsvcd__v3 plane = nsvcd__v3_set(normal);
+  NSVCD__CERTIFY_DISCS(g, j, span, apart, below, plane);
+  met &= ~apart;
+  if (!met) return 0;
+  apart = nsvcd__apart_by_moving_disc(&a, span, normal, low, high, across, &plane, &below) & met;
+  NSVCD__CERTIFY_DISCS(g, j, span, apart, below, plane);
+  return met & ~apart;
+}
+
+// ---- hulls
+
+// The hulls of an item's patches, posed, into the workspace.
+static void nsvcd__pose_hulls(nsvcd__proof *p, size_t i, size_t j, const nsvcd__span *span) {
+  const nsvcd__v3 moving = nsvcd__facet_vertices(&p->moving, i, 0, p->moving.hull_counts[i]);
+  nsvcd__v3_store(p->start, nsvcd__v3_transform(&span->start, moving));
+  nsvcd__v3_store(p->end, nsvcd__v3_transform(&span->end, moving));
+  nsvcd__v3_store(p->rest, nsvcd__facet_vertices(&p->fixed, j, 0, p->fixed.hull_counts[j]));
+}
+
+static nsvcd__f3 nsvcd__lane_of(float (*lanes)[NSVCD__LANES], size_t l) {
+  return nsvcd__f3_of(lanes[0][l], lanes[1][l], lanes[2][l]);
+}
+static float nsvcd__clamp01(float x) { return x < 0 ? 0 : x < 1 ? x : 1; }
+
+// Is there a plane between two patches over the whole span? Gilbert's iteration (1966) towards the point nearest to 0 of
+// the differences of the two hulls; each of its directions is tried. The first one is p->normal, and the last is left
+// there.
+static int nsvcd__hulls_are_apart(nsvcd__proof *p, size_t i, size_t j, const nsvcd__span *span) {
+  const float slack =
+      p->moving.slacks[i] + p->fixed.slacks[j] + span->spread + span->bulge * nsvcd__patch_reach(&p->moving, i);
+  nsvcd__pose_hulls(p, i, j, span);
+  const nsvcd__v3 start = nsvcd__v3_load(p->start);
+  const nsvcd__v3 end = nsvcd__v3_load(p->end);
+  const nsvcd__v3 rest = nsvcd__v3_load(p->rest);
+  nsvcd__f3 nearest = {0, 0, 0};
+  p->work++;
+  NSVCD__TALLY(planes, 1);
+  for (size_t step = 0; step < NSVCD__PLANE_STEPS; step++) {
+    const nsvcd__f3 normal = p->normal;
+    const nsvcd__v3 n = nsvcd__v3_set(normal);
+    const nsvcd__v at_start = nsvcd__v3_dot(n, start);
+    const nsvcd__v at_end = nsvcd__v3_dot(n, end);
+    const nsvcd__v at_rest = nsvcd__v_negate(nsvcd__v3_dot(n, rest));
+    const float lowest_start = nsvcd__v_least(at_start);
+    const float lowest_end = nsvcd__v_least(at_end);
+    const float highest = -nsvcd__v_least(at_rest);
+    const float lowest = lowest_start < lowest_end ? lowest_start : lowest_end;
+    const float gap = lowest - highest;
+    if (gap > 0 && gap * gap > slack * slack * nsvcd__f3_dot(normal, normal)) return 1;
+
+    const int is_start = lowest_start < lowest_end;
+    const size_t a = nsvcd__lowest_bit(nsvcd__v_le(is_start ? at_start : at_end, nsvcd__v_set(lowest)) | 0x8000);
+    const size_t b = nsvcd__lowest_bit(nsvcd__v_le(at_rest, nsvcd__v_set(-highest)) | 0x8000);
+    const nsvcd__f3 difference =
+        nsvcd__f3_sub(nsvcd__lane_of(is_start ? p->start : p->end, a), nsvcd__lane_of(p->rest, b));
+    const nsvcd__f3 way = nsvcd__f3_sub(difference, nearest);
+    const float square = nsvcd__f3_dot(way, way);
+    const float share = square > 0 ? nsvcd__clamp01(-nsvcd__f3_dot(nearest, way) / square) : 0;
+    nearest = step == 0 ? difference : nsvcd__f3_add(nearest, nsvcd__f3_scale(way, share));
+    if (nsvcd__f3_dot(nearest, nearest) <= slack * slack) return 0;  // these hulls come this near
+    p->normal = nearest;
+  }
+  return 0;
+}
+
+// ---- pairs of triangles, in double
+
+typedef struct nsvcd__nearest {
+  double square;       // of the distance
+  nsvcd__d3 on_a, on_b;
+} nsvcd__nearest;
+
+static double nsvcd__clamp_share(double x) { return x > 0 ? (x < 1 ? x : 1) : 0; }
+
+static void nsvcd__keep_nearer(nsvcd__nearest *best, nsvcd__d3 a, nsvcd__d3 b) {
+  const nsvcd__d3 d = nsvcd__d3_sub(a, b);
+  const double square = nsvcd__d3_dot(d, d);
+  if (square >= best->square) return;
+  best->square = square;
+  best->on_a = a;
+  best->on_b = b;
+}
+
+// The nearest points of the edges a0 a1 and b0 b1 (Ericson 2005, 5.1.9).
+static void nsvcd__edges_nearest(nsvcd__d3 a0, nsvcd__d3 a1, nsvcd__d3 b0, nsvcd__d3 b1, nsvcd__nearest *best) {
+  const nsvcd__d3 u = nsvcd__d3_sub(a1, a0);
+  const nsvcd__d3 v = nsvcd__d3_sub(b1, b0);
+  const nsvcd__d3 w = nsvcd__d3_sub(a0, b0);
+  const double uu = nsvcd__d3_dot(u, u), vv = nsvcd__d3_dot(v, v), uv = nsvcd__d3_dot(u, v);
+  const double uw = nsvcd__d3_dot(u, w), vw = nsvcd__d3_dot(v, w);
+  const double determinant = uu * vv - uv * uv;
+  double s = determinant > 1e-14 * uu * vv ? nsvcd__clamp_share((uv * vw - uw * vv) / determinant) : 0;
+  const double t = vv > 0 ? nsvcd__clamp_share((uv * s + vw) / vv) : 0;
+  s = uu > 0 ? nsvcd__clamp_share((uv * t - uw) / uu) : 0;
+  nsvcd__keep_nearer(best, nsvcd__d3_mix(a0, a1, s), nsvcd__d3_mix(b0, b1, t));
+}
+
+// The foot of x on the plane of a triangle, if it is within the triangle.
+static int nsvcd__foot_within(nsvcd__d3 x, const nsvcd__d3 *t, nsvcd__d3 *foot) {
+  const nsvcd__d3 n = nsvcd__d3_cross(nsvcd__d3_sub(t[1], t[0]), nsvcd__d3_sub(t[2], t[0]));
+  const double square = nsvcd__d3_dot(n, n);
+  if (!(square > 0)) return 0;
+  const double height = nsvcd__d3_dot(n, nsvcd__d3_sub(x, t[0])) / square;
+  *foot = nsvcd__d3_sub(x, nsvcd__d3_scale(n, height));
+  for (size_t k = 0; k < 3; k++) {
+    const nsvcd__d3 edge = nsvcd__d3_sub(t[(k + 1) % 3], t[k]);
+    if (nsvcd__d3_dot(n, nsvcd__d3_cross(edge, nsvcd__d3_sub(*foot, t[k]))) < -1e-12 * square) return 0;
+  }
+  return 1;
+}
+
+// Where the edge p q passes through a triangle.
+static int nsvcd__edge_passes(nsvcd__d3 p, nsvcd__d3 q, const nsvcd__d3 *t, nsvcd__d3 *point) {
+  const nsvcd__d3 n = nsvcd__d3_cross(nsvcd__d3_sub(t[1], t[0]), nsvcd__d3_sub(t[2], t[0]));
+  const double a = nsvcd__d3_dot(n, nsvcd__d3_sub(p, t[0]));
+  const double b = nsvcd__d3_dot(n, nsvcd__d3_sub(q, t[0]));
+  if ((a > 0 && b > 0) || (a < 0 && b < 0) || !(fabs(a - b) > 0)) return 0;
+  const nsvcd__d3 x = nsvcd__d3_mix(p, q, a / (a - b));
+  return nsvcd__foot_within(x, t, point);
+}
+
+// The nearest points of two triangles; the distance is 0 where they meet.
+static nsvcd__nearest nsvcd__triangles_nearest(const nsvcd__d3 *a, const nsvcd__d3 *b) {
+  nsvcd__nearest best = {HUGE_VAL, {0, 0, 0}, {0, 0, 0}};
+  nsvcd__d3 point;
+  for (size_t k = 0; k < 3; k++) {
+    if (nsvcd__edge_passes(a[k], a[(k + 1) % 3], b, &point) || nsvcd__edge_passes(b[k], b[(k + 1) % 3], a, &point)) {
+      best.square = 0;
+      best.on_a = point;
+      best.on_b = point;
+      return best;
+    }
+  }
+  for (size_t k = 0; k < 3; k++) {
+    for (size_t n = 0; n < 3; n++) nsvcd__edges_nearest(a[k], a[(k + 1) % 3], b[n], b[(n + 1) % 3], &best);
+    if (nsvcd__foot_within(a[k], b, &point)) nsvcd__keep_nearer(&best, a[k], point);
+    if (nsvcd__foot_within(b[k], a, &point)) nsvcd__keep_nearer(&best, point, b[k]);
+  }
+  return best;
+}
+
+static void nsvcd__place_triangle(const nsvcd__placement *at, const nsvcd__d3 *corners, nsvcd__d3 *out) {
+  for (size_t k = 0; k < 3; k++) out[k] = nsvcd__place_point(at, corners[k]);
+}
+
+// A pair of listed triangles, body frames.
+typedef struct nsvcd__pair {
+  size_t moving_patch, fixed_patch, moving_listing, fixed_listing;
+  nsvcd__d3 moving[3], fixed[3];
+  double reach;   // of the moving one, from its body's origin
+  double slack;   // quanta, and rounding in double
+  double rounding;
+} nsvcd__pair;
+
+static nsvcd__pair nsvcd__pair_of(const nsvcd__proof *p, size_t i, size_t j, size_t a, size_t b) {
+  nsvcd__pair pair = {i, j, a, b, {{0, 0, 0}}, {{0, 0, 0}}, 0, 0, 0};
+  nsvcd__facet_triangle(&p->moving, i, a, pair.moving);
+  nsvcd__facet_triangle(&p->fixed, j, b, pair.fixed);
+  for (size_t k = 0; k < 3; k++) {
+    const double reach = nsvcd__d3_length(pair.moving[k]);
+    pair.reach = reach > pair.reach ? reach : pair.reach;
+  }
+  pair.rounding = NSVCD__SAME_PLACE * ((double)p->lengths + nsvcd__d3_length(p->arc.from));
+  pair.slack = (double)p->moving.quanta[i] + (double)p->fixed.quanta[j] + pair.rounding;
+  return pair;
+}
+
+static void nsvcd__keep_contact(nsvcd__proof *p, const nsvcd__pair *pair, double time, nsvcd__d3 point) {
+  int encloses;
+  const nsvcd__d3 *t = pair->fixed;
+  const nsvcd__d3 normal = nsvcd__d3_cross(nsvcd__d3_sub(t[1], t[0]), nsvcd__d3_sub(t[2], t[0]));
+  const double length = nsvcd__d3_length(normal);
+  p->found.time = time;
+  p->found.point = point;
+  p->found.normal = length > 0 ? nsvcd__d3_scale(normal, 1 / length) : nsvcd__d3_of(0, 0, 0);
+  p->found.moving_triangle = nsvcd__facet_number(&p->moving, pair->moving_listing, &encloses);
+  p->found.fixed_triangle = nsvcd__facet_number(&p->fixed, pair->fixed_listing, &encloses);
+  p->found.moving_patch = (uint16_t)pair->moving_patch;
+  p->found.fixed_patch = (uint16_t)pair->fixed_patch;
+}
+
+// Does the plane with this unit normal part the pair from u0 to u1 of the arc?
+static int nsvcd__plane_parts(const nsvcd__arc *arc, const nsvcd__pair *pair, double u0, double u1, nsvcd__d3 normal) {
+  const nsvcd__placement start = nsvcd__placement_at(arc, u0);
+  const nsvcd__placement end = nsvcd__placement_at(arc, u1);
+  const double angle = 2 * arc->half_angle * (u1 - u0);
+  double lowest = HUGE_VAL, highest = -HUGE_VAL;
+  for (size_t k = 0; k < 3; k++) {
+    lowest = fmin(lowest, nsvcd__d3_dot(normal, nsvcd__place_point(&start, pair->moving[k])));
+    lowest = fmin(lowest, nsvcd__d3_dot(normal, nsvcd__place_point(&end, pair->moving[k])));
+    highest = fmax(highest, nsvcd__d3_dot(normal, pair->fixed[k]));
+  }
+  return lowest - highest > pair->slack + angle * angle * 0.1250001 * pair->reach;
+}
+
+// Settles a pair of triangles from u0 to u1 of the arc: halves the time until a plane at the middle's nearest points
+// parts them in each part, or they meet there, or come too close to tell.
+static nsvcd__verdict nsvcd__settle_pair(nsvcd__proof *p, const nsvcd__pair *pair, double u0, double u1) {
+  const nsvcd__arc *arc = &p->arc;
+  const double speed = nsvcd__d3_length(arc->moved) + 2 * arc->half_angle * pair->reach;
+  double ends[NSVCD__HALVINGS + 2];  // later ends of the parts to come, the last one first
+  size_t left = 1;
+  int undecided = 0;
+  ends[0] = u1;
+  for (double u = u0; left > 0;) {
+    const double end = ends[left - 1];
+    const double middle = 0.5 * (u + end);
+    const nsvcd__placement at = nsvcd__placement_at(arc, middle);
+    nsvcd__d3 posed[3];
+    p->work++;
+    NSVCD__TALLY(pairs, 1);
+    if (p->work > p->limit) return NSVCD__UNDECIDED;
+    nsvcd__place_triangle(&at, pair->moving, posed);
+    const nsvcd__nearest nearest = nsvcd__triangles_nearest(posed, pair->fixed);
+    const double distance = sqrt(nearest.square);
+    if (distance <= pair->rounding) {
+      nsvcd__keep_contact(p, pair, ((double)arc->index + middle) / nsvcd__arc_count(p->motion), nearest.on_a);
+      return NSVCD__MEETS;
+    }
+    const nsvcd__d3 normal = nsvcd__d3_scale(nsvcd__d3_sub(nearest.on_a, nearest.on_b), 1 / distance);
+    const int apart = nsvcd__plane_parts(arc, pair, u, end, normal);
+    if (apart) {
+      const float rounded[3] = {(float)normal.x, (float)normal.y, (float)normal.z};
+      NSVCD__CERTIFY(NSVCD__BY_TRIANGLES, pair->moving_patch, pair->fixed_patch, pair->moving_listing,
+                     pair->fixed_listing, ((double)arc->index + u) / nsvcd__arc_count(p->motion),
+                     ((double)arc->index + end) / nsvcd__arc_count(p->motion), rounded);
+      (void)rounded;
+    }
+    const double close = pair->slack + p->tolerance;
+    const int tiny = speed * (end - u) <= 0.25 * close || left > NSVCD__HALVINGS;
+    if (!apart && !tiny) {
+      ends[left++] = middle;
+      continue;
+    }
+    undecided |= !apart;
+    u = end;
+    left--;
+  }
+  return undecided ? NSVCD__UNDECIDED : NSVCD__FREE;
+}
+
+// ---- blocks of triangles
+
+// Listings first .. first + count - 1 of a patch, at most 16; the last is repeated.
+static void nsvcd__block_load(const nsvcd__facets *f, size_t patch, size_t first, size_t count, nsvcd__block *out) {
+  const size_t all = f->first_vertex[patch + 1] - f->first_vertex[patch];
+  const int16_t *x = f->vertices + 3 * (size_t)f->first_vertex[patch];
+  const nsvcd__v step = nsvcd__v_set(f->steps[patch]);
+  const nsvcd__v3 centre = nsvcd__v3_set(nsvcd__facet_centre(f, patch));
+  nsvcd__v3 low = centre, high = centre;
+  out->first = first;
+  out->count = count;
+  for (size_t k = 0; k < 3; k++) {
+    for (size_t l = 0; l < NSVCD__LANES; l++) {
+      const size_t vertex = nsvcd__facet_corner(f, first + (l < count ? l : count - 1), k);
+      out->corners[k][0][l] = (float)x[vertex];
+      out->corners[k][1][l] = (float)x[all + vertex];
+      out->corners[k][2][l] = (float)x[2 * all + vertex];
+    }
+    const nsvcd__v3 corner = nsvcd__v3_fma(step, nsvcd__v3_load(out->corners[k]), centre);
+    low = k == 0 ? corner : nsvcd__v3_min(low, corner);
+    high = k == 0 ? corner : nsvcd__v3_max(high, corner);
+    nsvcd__v3_store(out->corners[k], corner);
+  }
+  nsvcd__v3_store(out->low, low);
+  nsvcd__v3_store(out->high, high);
+}
+
+// Poses the corners of the moving block, into p->posed[which].
+static void nsvcd__block_pose(nsvcd__proof *p, const nsvcd__transform *at, size_t which) {
+  for (size_t k = 0; k < 3; k++) {
+    nsvcd__v3_store(p->posed[which][k], nsvcd__v3_transform(at, nsvcd__v3_load(p->moving_block.corners[k])));
+  }
+}
+
+// Replaces the boxes of the moving block by those of its posed corners, at `ends` (1 or 2) poses.
+static void nsvcd__block_box(nsvcd__proof *p, size_t ends) {
+  nsvcd__v3 low = nsvcd__v3_load(p->posed[0][0]), high = low;
+  for (size_t n = 1; n < 3 * ends; n++) {
+    const nsvcd__v3 corner = nsvcd__v3_load(p->posed[n / 3][n % 3]);
+    low = nsvcd__v3_min(low, corner);
+    high = nsvcd__v3_max(high, corner);
+  }
+  nsvcd__v3_store(p->moving_block.low, low);
+  nsvcd__v3_store(p->moving_block.high, high);
+}
+
+// Lanes of the fixed block whose boxes come within `margin` of that of lane l of the moving one.
+static uint32_t nsvcd__boxes_meet(const nsvcd__proof *p, size_t l, float margin) {
+  const nsvcd__block *a = &p->moving_block, *b = &p->fixed_block;
+  uint32_t met = ((uint32_t)1 << (b->count - 1) << 1) - 1;
+  for (size_t k = 0; k < 3; k++) {
+    met &= nsvcd__v_le(nsvcd__v_load(b->low[k]), nsvcd__v_set(a->high[k][l] + margin));
+    met &= nsvcd__v_le(nsvcd__v_set(a->low[k][l] - margin), nsvcd__v_load(b->high[k]));
+  }
+  return met;
+}
+
+// Lanes of the fixed block whose planes have the lane l of the moving one, at `ends` poses, on one side by more than
+// `margin`; and the same with the plane of the moving one, at one pose.
+static uint32_t nsvcd__planes_part(nsvcd__proof *p, size_t l, size_t ends, float margin, nsvcd__v3 *plane,
+                                   uint32_t *below) {
+  const nsvcd__v3 b0 = nsvcd__v3_load(p->fixed_block.corners[0]);
+  const nsvcd__v3 b1 = nsvcd__v3_load(p->fixed_block.corners[1]);
+  const nsvcd__v3 b2 = nsvcd__v3_load(p->fixed_block.corners[2]);
+  const nsvcd__v3 n = nsvcd__v3_cross(nsvcd__v3_sub(b1, b0), nsvcd__v3_sub(b2, b0));
+  const nsvcd__v limit = nsvcd__v_mul(nsvcd__v_set(margin), nsvcd__v3_length(n));
+  nsvcd__v lowest = nsvcd__v_set(HUGE_VALF), highest = nsvcd__v_set(-HUGE_VALF);
+  for (size_t k = 0; k < 3 * ends; k++) {
+    const nsvcd__v3 a = nsvcd__v3_set(nsvcd__lane_of(p->posed[k / 3][k % 3], l));
+    const nsvcd__v height = nsvcd__v3_dot(n, nsvcd__v3_sub(a, b0));
+    lowest = nsvcd__v_min(lowest, height);
+    highest = nsvcd__v_max(highest, height);
+  }
+  // The normal of a needle may be far off, and then its corners are at different heights.
+  const nsvcd__v height1 = nsvcd__v3_dot(n, nsvcd__v3_sub(b1, b0));
+  const nsvcd__v height2 = nsvcd__v3_dot(n, nsvcd__v3_sub(b2, b0));
+  const nsvcd__v zero = nsvcd__v_set(0);
+  const nsvcd__v low = nsvcd__v_min(zero, nsvcd__v_min(height1, height2));
+  const nsvcd__v high = nsvcd__v_max(zero, nsvcd__v_max(height1, height2));
+  *plane = n;
+  *below = ~nsvcd__v_le(nsvcd__v_sub(low, limit), highest) & 0xffff;
+  return (~nsvcd__v_le(lowest, nsvcd__v_add(high, limit)) & 0xffff) | *below;
+}
+
+// Lanes of the fixed block on one side of the plane of lane l of the moving one, posed once.
+static uint32_t nsvcd__moving_plane_parts(nsvcd__proof *p, size_t l, float margin) {
+  const nsvcd__f3 a0 = nsvcd__lane_of(p->posed[0][0], l);
+  const nsvcd__v3 a = nsvcd__v3_set(a0);
+  const nsvcd__v3 u = nsvcd__v3_sub(nsvcd__v3_set(nsvcd__lane_of(p->posed[0][1], l)), a);
+  const nsvcd__v3 v = nsvcd__v3_sub(nsvcd__v3_set(nsvcd__lane_of(p->posed[0][2], l)), a);
+  const nsvcd__v3 n = nsvcd__v3_cross(u, v);
+  const nsvcd__v limit = nsvcd__v_mul(nsvcd__v_set(margin), nsvcd__v3_length(n));
+  nsvcd__v lowest = nsvcd__v_set(HUGE_VALF), highest = nsvcd__v_set(-HUGE_VALF);
+  for (size_t k = 0; k < 3; k++) {
+    const nsvcd__v height = nsvcd__v3_dot(n, nsvcd__v3_sub(nsvcd__v3_load(p->fixed_block.corners[k]), a));
+    lowest = nsvcd__v_min(lowest, height);
+    highest = nsvcd__v_max(highest, height);
+  }
+  return (~nsvcd__v_le(lowest, limit) | ~nsvcd__v_le(nsvcd__v_negate(limit), highest)) & 0xffff;
+}
+
+// ---- witnesses
+
+// Looks for two triangles of patches i and j that meet a share u of arc k later than its start.
+static int nsvcd__find_witness(nsvcd__proof *p, size_t i, size_t j, size_t k, double u) {
+  const nsvcd__arc *arc = nsvcd__arc_at(p, k);
+  const nsvcd__placement at = nsvcd__placement_at(arc, u);
+  const nsvcd__transform rounded = nsvcd__transform_of(&at);
+  const float margin = NSVCD__ROUNDING * (p->lengths + nsvcd__f3_length(rounded.position));
+  const size_t moving_end = p->moving.first_triangle[i + 1], fixed_end = p->fixed.first_triangle[j + 1];
+  NSVCD__TALLY(tries, 1);
+  for (size_t a = p->moving.first_triangle[i]; a < moving_end; a += NSVCD__LANES) {
+    nsvcd__block_load(&p->moving, i, a, moving_end - a < NSVCD__LANES ? moving_end - a : NSVCD__LANES,
+                      &p->moving_block);
+    nsvcd__block_pose(p, &rounded, 0);
+    nsvcd__block_box(p, 1);
+    for (size_t b = p->fixed.first_triangle[j]; b < fixed_end; b += NSVCD__LANES) {
+      nsvcd__block_load(&p->fixed, j, b, fixed_end - b < NSVCD__LANES ? fixed_end - b : NSVCD__LANES, &p->fixed_block);
+      p->work++;
+      for (size_t l = 0; l < p->moving_block.count; l++) {
+        uint32_t met = nsvcd__boxes_meet(p, l, margin);
+        nsvcd__v3 plane;
+        uint32_t below;
+        if (!met) continue;
+        met &= ~nsvcd__planes_part(p, l, 1, margin, &plane, &below);
+        if (met) met &= ~nsvcd__moving_plane_parts(p, l, margin);
+        for (; met; met &= met - 1) {
+          const nsvcd__pair pair = nsvcd__pair_of(p, i, j, a + l, b + nsvcd__lowest_bit(met));
+          nsvcd__d3 posed[3];
+          nsvcd__place_triangle(&at, pair.moving, posed);
+          const nsvcd__nearest nearest = nsvcd__triangles_nearest(posed, pair.fixed);
+          p->work++;
+          if (nearest.square > pair.rounding * pair.rounding) continue;
+          nsvcd__keep_contact(p, &pair, ((double)k + u) / nsvcd__arc_count(p->motion), nearest.on_a);
+          return 1;
+        }
+      }
+    }
+  }
+  return 0;
+}
+
+// The arc and the share of it at a place of the motion counted in arcs.
+static size_t nsvcd__arc_and_share(const nsvcd__motion *motion, double at, double *share) {
+  const size_t last = motion->count > 1 ? motion->count - 2 : 0;
+  const size_t k = (size_t)at < last ? (size_t)at : last;
+  *share = motion->count > 1 ? at - (double)k : 0;
+  return k;
+}
+
+static int nsvcd__seek_item(nsvcd__proof *p, const nsvcd__workspace *work, nsvcd__item *item) {
+  const double start = nsvcd__segment_start(work, item->segment);
+  const double end = nsvcd__segment_start(work, item->segment + 1u);
+  double u;
+  const size_t k = nsvcd__arc_and_share(p->motion, start + (double)item->share * (end - start), &u);
+  item->sought = 1;
+  return nsvcd__find_witness(p, item->moving, item->fixed, k, u);
+}
+
+// ---- what hulls leave
+
+#ifdef NSVCD__CERTIFIES
+// All pairs of lane l and the fixed block's `apart` lanes, by their planes or, where that is NULL, by their boxes.
+static void nsvcd__certify_block(nsvcd__proof *p, size_t i, size_t j, size_t l, const nsvcd__span *span, uint32_t apart,
+                                 const nsvcd__v3 *plane, uint32_t below) {
+  float lanes[3][NSVCD__LANES];
+  const nsvcd__block *a = &p->moving_block, *b = &p->fixed_block;
+  if (plane) nsvcd__v3_store(lanes, *plane);
+  for (size_t n = 0; n < b->count; n++) {
+    float normal[3] = {0, 0, 0}, widest = -HUGE_VALF;
+    const float sign = below >> n & 1 ? -1.0f : 1.0f;
+    if (!(apart >> n & 1)) continue;
+    for (size_t k = 0; k < 3; k++) {
+      if (plane) normal[k] = sign * lanes[k][n];
+      const float above = a->low[k][l] - b->high[k][n], under = b->low[k][n] - a->high[k][l];
+      if (plane || (above <= widest && under <= widest)) continue;
+      widest = above > under ? above : under;
+      normal[0] = normal[1] = normal[2] = 0;
+      normal[k] = above > under ? 1.0f : -1.0f;
+    }
+    NSVCD__CERTIFY(NSVCD__BY_TRIANGLES, i, j, a->first + l, b->first + n, span->t_start, span->t_end, normal);
+  }
+}
+#define NSVCD__CERTIFY_BLOCK(p, i, j, l, span, apart, plane, below) \
+  nsvcd__certify_block(p, i, j, l, span, apart, plane, below)
+#else
+#define NSVCD__CERTIFY_BLOCK(p, i, j, l, span, apart, plane, below) ((void)0)
+#endif
+
+// All pairs of triangles of an item's patches over a span from u0 to u1 of an arc.
+static nsvcd__verdict nsvcd__settle_triangles(nsvcd__proof *p, size_t i, size_t j, const nsvcd__span *span, double u0,
+                                              double u1) {
+  const size_t moving_end = p->moving.first_triangle[i + 1], fixed_end = p->fixed.first_triangle[j + 1];
+  const float reach = p->moving.body->extent + p->moving.quanta[i];
+  const float margin = p->moving.quanta[i] + p->fixed.quanta[j] + span->spread + span->bulge * reach;
+  nsvcd__verdict verdict = NSVCD__FREE;
+  for (size_t a = p->moving.first_triangle[i]; a < moving_end; a += NSVCD__LANES) {
+    nsvcd__block_load(&p->moving, i, a, moving_end - a < NSVCD__LANES ? moving_end - a : NSVCD__LANES,
+                      &p->moving_block);
+    nsvcd__block_pose(p, &span->start, 0);
+    nsvcd__block_pose(p, &span->end, 1);
+    nsvcd__block_box(p, 2);
+    for (size_t b = p->fixed.first_triangle[j]; b < fixed_end; b += NSVCD__LANES) {
+      nsvcd__block_load(&p->fixed, j, b, fixed_end - b < NSVCD__LANES ? fixed_end - b : NSVCD__LANES, &p->fixed_block);
+      for (size_t l = 0; l < p->moving_block.count; l++) {
+        p->work++;
+        if (p->work > p->limit) return NSVCD__UNDECIDED;
+        uint32_t met = nsvcd__boxes_meet(p, l, margin);
+        uint32_t below = 0;
+        nsvcd__v3 plane;
+        NSVCD__CERTIFY_BLOCK(p, i, j, l, span, ~met, NULL, below);
+        if (!met) continue;
+        const uint32_t apart = nsvcd__planes_part(p, l, 2, margin, &plane, &below) & met;
+        NSVCD__CERTIFY_BLOCK(p, i, j, l, span, apart, &plane, below);
+        for (met &= ~apart; met; met &= met - 1) {
+          const nsvcd__pair pair = nsvcd__pair_of(p, i, j, a + l, b + nsvcd__lowest_bit(met));
+          const nsvcd__verdict one = nsvcd__settle_pair(p, &pair, u0, u1);
+          if (one == NSVCD__MEETS) return one;
+          if (one == NSVCD__UNDECIDED) verdict = one;
+          if (p->work > p->limit) return NSVCD__UNDECIDED;
+        }
+      }
+    }
+  }
+  return verdict;
+}
+
+// An item that no plane parts over its segment: arc by arc, with planes that fit these, then by its triangles.
+static nsvcd__verdict nsvcd__settle_item(nsvcd__proof *p, const nsvcd__workspace *work, const nsvcd__item *item) {
+  const double start = nsvcd__segment_start(work, item->segment);
+  const double end = p->motion->count > 1 ? nsvcd__segment_start(work, item->segment + 1u) : 1;
+  nsvcd__verdict verdict = NSVCD__FREE;
+  for (double at = start; at < end;) {
+    double u0;
+    const size_t k = nsvcd__arc_and_share(p->motion, at, &u0);
+    const double next = end < (double)(k + 1) ? end : (double)(k + 1);
+    const double u1 = p->motion->count > 1 ? next - (double)k : 1;
+    const nsvcd__span span = nsvcd__span_of_arc(p, k, u0, u1);
+    at = next;
+    if (nsvcd__hulls_are_apart(p, item->moving, item->fixed, &span)) {
+      const float normal[3] = {p->normal.x, p->normal.y, p->normal.z};
+      NSVCD__CERTIFY(NSVCD__BY_HULL, item->moving, item->fixed, NSVCD_NONE, NSVCD_NONE, span.t_start, span.t_end,
+                     normal);
+      (void)normal;
+      continue;
+    }
+    const nsvcd__verdict part = nsvcd__settle_triangles(p, item->moving, item->fixed, &span, u0, u1);
+    if (part == NSVCD__MEETS || p->work > p->limit) return part;
+    if (part == NSVCD__UNDECIDED) verdict = part;
+  }
+  return verdict;
+}
+
+// Parts all items that hulls can part, and returns how many are left.
+static size_t nsvcd__part_items(nsvcd__proof *p, const nsvcd__workspace *work) {
+  size_t kept = 0;
+  for (size_t n = 0; n < p->count; n++) {
+    const nsvcd__item item = p->items[n];
+    const nsvcd__span span = nsvcd__span_of_segment(p->motion, work, item.segment);
+    const nsvcd__v centre = nsvcd__v_set(0);
+    (void)centre;
+    nsvcd__transform middle;
+    for (size_t i = 0; i < 9; i++) middle.rotation[i] = 0.5f * (span.start.rotation[i] + span.end.rotation[i]);
+    const nsvcd__f3 c = nsvcd__facet_centre(&p->moving, item.moving);
+    const float *m = middle.rotation;
+    const nsvcd__f3 turned =
+        nsvcd__f3_of(m[0] * c.x + m[1] * c.y + m[2] * c.z, m[3] * c.x + m[4] * c.y + m[5] * c.z,
+                     m[6] * c.x + m[7] * c.y + m[8] * c.z);
+    const nsvcd__f3 position = nsvcd__f3_scale(nsvcd__f3_add(span.start.position, span.end.position), 0.5f);
+    p->normal = nsvcd__f3_sub(nsvcd__f3_add(turned, position), nsvcd__facet_centre(&p->fixed, item.fixed));
+    if (!nsvcd__hulls_are_apart(p, item.moving, item.fixed, &span)) {
+      p->items[kept++] = item;
+      continue;
+    }
+    const float normal[3] = {p->normal.x, p->normal.y, p->normal.z};
+    NSVCD__CERTIFY(NSVCD__BY_HULL, item.moving, item.fixed, NSVCD_NONE, NSVCD_NONE, span.t_start, span.t_end, normal);
+    (void)normal;
+  }
+  return kept;
+}
+
+// Settles all items there are.
+static nsvcd__verdict nsvcd__settle_items(nsvcd__proof *p, const nsvcd__workspace *work) {
+  p->count = nsvcd__part_items(p, work);
+  for (size_t n = 1; n < p->count; n++) {  // the deepest first
+    const nsvcd__item item = p->items[n];
+    size_t at = n;
+    for (; at > 0 && p->items[at - 1].depth < item.depth; at--) p->items[at] = p->items[at - 1];
+    p->items[at] = item;
+  }
+  for (size_t n = 0; n < p->count && p->work <= p->limit; n++) {
+    if (!p->items[n].sought && nsvcd__seek_item(p, work, &p->items[n])) return NSVCD__MEETS;
+  }
+  for (size_t n = 0; n < p->count; n++) {
+    if (p->work > p->limit) return NSVCD__UNDECIDED;
+    const nsvcd__verdict verdict = nsvcd__settle_item(p, work, &p->items[n]);
+    if (verdict == NSVCD__MEETS) return verdict;
+    if (verdict == NSVCD__UNDECIDED) p->undecided = 1;
+  }
+  p->count = 0;
+  return p->work > p->limit ? NSVCD__UNDECIDED : NSVCD__FREE;
+}
+
+// ---- containment
+
+// A component's point that is within the other body.
+typedef struct nsvcd__ray {
+  nsvcd__d3 from, direction;
+  double margin;  // a ray that passes an edge within this tells nothing
+} nsvcd__ray;
+
+// +1 if the ray leaves through the triangle, -1 if it enters, 0 if it misses it; *unclear if it passes an edge.
+static int nsvcd__ray_crosses(const nsvcd__ray *ray, const nsvcd__d3 *t, double margin, int *unclear) {
+  double around[3], least = HUGE_VAL, most = -HUGE_VAL, nearest = HUGE_VAL;
+  const nsvcd__d3 n = nsvcd__d3_cross(nsvcd__d3_sub(t[1], t[0]), nsvcd__d3_sub(t[2], t[0]));
+  for (size_t k = 0; k < 3; k++) {  // the signed volumes of the edges and the ray: all alike if it passes within
+    const nsvcd__d3 edge = nsvcd__d3_sub(t[(k + 1) % 3], t[k]);
+    const nsvcd__d3 across = nsvcd__d3_cross(edge, ray->direction);
+    const double length = nsvcd__d3_length(across);
+    around[k] = nsvcd__d3_dot(across, nsvcd__d3_sub(t[k], ray->from));
+    least = fmin(least, around[k]);
+    most = fmax(most, around[k]);
+    nearest = fmin(nearest, length > 0 ? fabs(around[k]) / length : 0);
+  }
+  const double slope = nsvcd__d3_dot(n, ray->direction);
+  const double height = nsvcd__d3_dot(n, nsvcd__d3_sub(t[0], ray->from));
+  const double size = nsvcd__d3_length(n);
+  const int behind = height * slope < 0 && fabs(height) > margin * size;
+  if (behind) return 0;
+  if (nearest <= margin) {
+    // Near the line of an edge, but is it near the triangle?
+    nsvcd__d3 far_end = nsvcd__d3_add(ray->from, nsvcd__d3_scale(ray->direction, 4 * 1.6e7));
+    nsvcd__nearest near_edge = {HUGE_VAL, {0, 0, 0}, {0, 0, 0}};
+    for (size_t k = 0; k < 3; k++) nsvcd__edges_nearest(ray->from, far_end, t[k], t[(k + 1) % 3], &near_edge);
+    if (near_edge.square <= 4 * margin * margin) *unclear = 1;
+    if (least < 0 && most > 0) return 0;
+  }
+  if (least <= 0 && most >= 0) return 0;
+  if (fabs(height) <= margin * size) *unclear = 1;
+  return slope > 0 ? 1 : slope < 0 ? -1 : 0;
+}
+
+// Patches, 16 from `first` on, that list triangles which the ray may cross. Listed vertices lie in a cube about the
+// patch's centre.
+static uint32_t nsvcd__patches_on_ray(const nsvcd__facets *f, const nsvcd__ray *ray, size_t first) {
+  const nsvcd_body *b = f->body;
+  const nsvcd__v3 centre = nsvcd__v3_of(nsvcd__v_load(nsvcd__body_x(b) + first), nsvcd__v_load(nsvcd__body_y(b) + first),
+                                        nsvcd__v_load(nsvcd__body_z(b) + first));
+  const nsvcd__v3 n = nsvcd__v3_set(nsvcd__f3_round(ray->direction));
+  const nsvcd__v3 d = nsvcd__v3_sub(centre, nsvcd__v3_set(nsvcd__f3_round(ray->from)));
+  const nsvcd__v along = nsvcd__v3_dot(d, n);
+  const nsvcd__v3 off = nsvcd__v3_cross(d, n);
+  const nsvcd__v reach = nsvcd__v_fma(nsvcd__v_set(1.7321f * 32767), nsvcd__v_load(f->steps + first),
+                                      nsvcd__v_set((float)(8 * ray->margin) + NSVCD__ROUNDING * b->extent));
+  const uint32_t near_line = nsvcd__v_le(nsvcd__v3_dot(off, off), nsvcd__v_mul(reach, reach));
+  return near_line & nsvcd__v_le(nsvcd__v_negate(reach), along);
+}
+
+// How often the surface of the closed components winds about a point, by one ray; *unclear if it cannot tell.
+static int nsvcd__crossings(nsvcd__proof *p, const nsvcd__facets *f, const nsvcd__ray *ray, int *unclear) {
+  int sum = 0;
+  for (size_t first = 0; first < f->body->padded && !*unclear; first += NSVCD__LANES) {
+    uint32_t patches = nsvcd__patches_on_ray(f, ray, first);
+    for (; patches; patches &= patches - 1) {
+      const size_t i = first + nsvcd__lowest_bit(patches);
+      if (i >= f->body->points) break;
+      for (size_t n = f->first_triangle[i]; n < f->first_triangle[i + 1]; n++) {
+        nsvcd__d3 corners[3];
+        int encloses;
+        nsvcd__facet_number(f, n, &encloses);
+        if (!encloses) continue;
+        nsvcd__facet_triangle(f, i, n, corners);
+        p->work++;
+        sum += nsvcd__ray_crosses(ray, corners, (double)f->quanta[i] + ray->margin, unclear);
+      }
+    }
+  }
+  return sum;
+}
+
+// Is a point of the surface of f within `distance` of the place?
+static int nsvcd__surface_is_near(const nsvcd__facets *f, nsvcd__d3 place, double distance) {
+  const nsvcd__d3 point[3] = {place, place, place};
+  for (size_t i = 0; i < f->body->points; i++) {
+    const nsvcd__d3 centre = nsvcd__d3_widen(nsvcd__facet_centre(f, i));
+    const double reach = (double)nsvcd__body_r(f->body)[i] + distance;
+    const nsvcd__d3 d = nsvcd__d3_sub(place, centre);
+    if (nsvcd__d3_dot(d, d) > 1.00001 * reach * reach) continue;
+    for (size_t n = f->first_triangle[i]; n < f->first_triangle[i + 1]; n++) {
+      nsvcd__d3 corners[3];
+      nsvcd__facet_triangle(f, i, n, corners);
+      const nsvcd__nearest nearest = nsvcd__triangles_nearest(point, corners);
+      if (nearest.square <= distance * distance) return 1;
+    }
+  }
+  return 0;
+}
+
+// Does the body enclose a place of its frame, farther from its surface than rounding? Rays in directions that no mesh is
+// likely to be aligned with, the first one on the side of the body on which the place is.
+static int nsvcd__is_enclosed(nsvcd__proof *p, const nsvcd__facets *f, nsvcd__d3 place) {
+  static const double directions[8][3] = {
+      {0.5359, 0.6013, 0.5927},   {-0.5741, 0.6229, 0.5314},  {0.6127, -0.5531, 0.5644},  {-0.5477, -0.5923, 0.5909},
+      {0.6311, 0.5573, -0.5396},  {-0.6053, 0.5297, -0.5941}, {0.5623, -0.6217, -0.5452}, {-0.5849, -0.5407, -0.6047}};
+  const nsvcd__d3 centre = nsvcd__d3_load(f->body->centre);
+  const nsvcd__d3 off = nsvcd__d3_sub(place, centre);
+  const double radius = (double)f->body->radius;
+  if (f->body->open || nsvcd__d3_dot(off, off) > 1.00001 * radius * radius) return 0;
+  const size_t best = (off.x < 0 ? 1u : 0u) + (off.y < 0 ? 2u : 0u) + (off.z < 0 ? 4u : 0u);
+  nsvcd__ray ray;
+  ray.from = place;
+  ray.margin = NSVCD__SAME_PLACE * (double)p->lengths;
+  for (size_t n = 0; n < 8; n++) {
+    const double *d = directions[best ^ n];
+    int unclear = 0;
+    ray.direction = nsvcd__d3_of(d[0], d[1], d[2]);
+    ray.direction = nsvcd__d3_scale(ray.direction, 1 / nsvcd__d3_length(ray.direction));
+    const int crossings = nsvcd__crossings(p, f, &ray, &unclear);
+    if (unclear) continue;
+    return crossings != 0;
+  }
+  p->undecided = 1;
+  return 0;
+}
+
+// Is a component of one body within the other at the start of the motion? Then p->found has its point. Where that is so
+// close to the surface that quanta matter, 0 is returned and p->within is set: if planes then part all patches at t = 0,
+// the point, the stored surface and the true one, patch by patch on one side of a plane, agree, and it is within.
+static int nsvcd__starts_within(nsvcd__proof *p) {
+  const nsvcd__placement at = nsvcd__placement_at(nsvcd__arc_at(p, 0), 0);
+  double close = p->tolerance;
+  for (size_t n = 0; n < p->moving.components + p->fixed.components; n++) {
+    const int is_moving = n < p->moving.components;
+    const nsvcd__facets *outer = is_moving ? &p->fixed : &p->moving;
+    const nsvcd__d3 seed =
+        is_moving ? nsvcd__d3_load(p->moving.seeds + 3 * n) : nsvcd__d3_load(p->fixed.seeds + 3 * (n - p->moving.components));
+    const nsvcd__d3 seen = is_moving ? nsvcd__place_point(&at, seed)
+                                     : nsvcd__rotate_back(at.rows, nsvcd__d3_sub(seed, at.position));
+    if (!nsvcd__is_enclosed(p, outer, seen)) continue;
+    for (size_t i = 0; i < outer->body->points; i++) close = fmax(close, 2 * (double)outer->quanta[i]);
+    p->found.point = is_moving ? seen : seed;
+    p->found.normal = nsvcd__d3_of(0, 0, 0);
+    p->found.time = 0;
+    p->found.moving_triangle = p->found.fixed_triangle = 0xffffffffu;
+    p->found.moving_patch = p->found.fixed_patch = 0;
+    p->within = 1;
+    if (!nsvcd__surface_is_near(outer, seen, close)) return 1;
+  }
+  return 0;
+}
+
+// ---- all of it
+
+// Adds the items of moving group g and resting patch j, in the segments `wanted`.
+static nsvcd__verdict nsvcd__collect_items(nsvcd__proof *p, const nsvcd__workspace *work, size_t g, size_t j,
+                                           uint64_t wanted) {
+  const nsvcd_body *moving = p->moving.body, *fixed = p->fixed.body;
+  const nsvcd__v3 centre = nsvcd__v3_set(nsvcd__facet_centre(&p->fixed, j));
+  const nsvcd__v r = nsvcd__v_set(nsvcd__body_r(fixed)[j]);
+  const nsvcd__v radii = nsvcd__v_add(nsvcd__v_load(nsvcd__body_r(moving) + NSVCD__GROUP * g), r);
+  const float group[3] = {nsvcd__body_group(moving, 0)[g], nsvcd__body_group(moving, 1)[g],
+                          nsvcd__body_group(moving, 2)[g]};
+  const float remote = 1.000002f * (nsvcd__length3(group) + nsvcd__body_group(moving, 3)[g]);
+  if (p->fixed.hull_counts[j] == 0) return NSVCD__FREE;
+  for (; wanted; wanted &= wanted - 1) {
+    const size_t s = nsvcd__lowest_bit(wanted);
+    const nsvcd__chords *c = &work->members[s];
+    const nsvcd__v3 start = nsvcd__v3_of(nsvcd__v_load(c->x), nsvcd__v_load(c->y), nsvcd__v_load(c->z));
+    const nsvcd__v3 v = nsvcd__v3_of(nsvcd__v_load(c->vx), nsvcd__v_load(c->vy), nsvcd__v_load(c->vz));
+    const nsvcd__v3 d = nsvcd__v3_sub(start, centre);
+    const nsvcd__v tau = nsvcd__v_clamp(nsvcd__v_mul(nsvcd__v3_dot(d, v), nsvcd__v_load(c->inverse)), 0, 1);
+    const nsvcd__v3 closest = nsvcd__v3_fma(tau, v, d);
+    const nsvcd__v square = nsvcd__v3_dot(closest, closest);
+    const nsvcd__v limit = nsvcd__v_signed_square(nsvcd__v_add(nsvcd__v_load(c->reach), r));
+    uint32_t met = nsvcd__v_le(square, limit);
+    NSVCD__TALLY(tests, 1);
+    if (!met) continue;
+    const nsvcd__span span = nsvcd__span_of_segment(p->motion, work, s);
+    met = nsvcd__discs_meet(p, c, g, j, &span, span.spread + span.bulge * remote, met);
+    if (!met) continue;
+
+    float depth[NSVCD__LANES], share[NSVCD__LANES];
+    const nsvcd__v most = nsvcd__v_max(radii, nsvcd__v_set(1e-30f));
+    nsvcd__v_store(depth, nsvcd__v_sub(nsvcd__v_set(1), nsvcd__v_div(nsvcd__v_sqrt(square), most)));
+    nsvcd__v_store(share, tau);
+    for (; met; met &= met - 1) {
+      const size_t l = nsvcd__lowest_bit(met);
+      const size_t i = NSVCD__GROUP * g + l;
+      if (p->moving.hull_counts[i] == 0) continue;
+      if (p->count == NSVCD__ITEMS) {
+        const nsvcd__verdict verdict = nsvcd__settle_items(p, work);
+        if (verdict != NSVCD__FREE) return verdict;
+      }
+      const nsvcd__item item = {(uint16_t)i, (uint16_t)j, (uint16_t)s, 0, depth[l], share[l]};
+      p->items[p->count++] = item;
+    }
+  }
+  return NSVCD__FREE;
+}
+
+// Looks for a witness in the deepest of the items from `first` on, if it is deep.
+static int nsvcd__seek_deepest(nsvcd__proof *p, const nsvcd__workspace *work, size_t first) {
+  size_t deepest = first;
+  for (size_t n = first + 1; n < p->count; n++) {
+    if (p->items[n].depth > p->items[deepest].depth) deepest = n;
+  }
+  if (first >= p->count || p->items[deepest].depth < NSVCD__DEEP || p->tries >= NSVCD__TRIES) return 0;
+  p->tries++;
+  return nsvcd__seek_item(p, work, &p->items[deepest]);
+}
+
+static nsvcd__verdict nsvcd__prove(nsvcd__proof *p, nsvcd__workspace *work) {
+  const nsvcd_body *moving = p->moving.body, *fixed = p->fixed.body;
+  if (nsvcd__motion_is_far(p->motion, p->lengths)) return NSVCD__FREE;
+  if (nsvcd__starts_within(p)) return NSVCD__WITHIN;
+  nsvcd__cut_motion(p->motion, p->lengths, work);
+  int more = nsvcd__search_begin(moving, fixed, work);
+  size_t seen = 0;
+  while (more) {
+    nsvcd__step step;
+    more = nsvcd__search_next(work, moving, fixed, &step);
+    for (; step.met; step.met &= step.met - 1) {
+      const size_t l = nsvcd__lowest_bit(step.met);
+      nsvcd__pose_members(work, moving, step.moving_group, step.segments[l]);
+      const nsvcd__verdict verdict =
+          nsvcd__collect_items(p, work, step.moving_group, NSVCD__GROUP * step.fixed_group + l, step.segments[l]);
+      if (verdict != NSVCD__FREE) return verdict;
+    }
+    if (p->count < seen) seen = 0;
+    if (p->count < seen + NSVCD__NEWS) continue;
+    if (nsvcd__seek_deepest(p, work, seen)) return NSVCD__MEETS;
+    seen = p->count;
+  }
+  const nsvcd__verdict verdict = nsvcd__settle_items(p, work);
+  if (verdict != NSVCD__FREE) return verdict;
+  return p->undecided ? NSVCD__UNDECIDED : p->within ? NSVCD__WITHIN : NSVCD__FREE;
+}
+#endif  // NSVCD_NO_PROOF
+
+#ifndef NSVCD_NO_NETWORK
 // ------------------------------------------------------------------------------------------------ containment
 // In: two bodies and a pose. Out: is one inside the other? A body wholly inside another never crosses its surface, so
 // surfaces cannot tell. The winding number of a closed surface can (Jacobson et al. 2013), and far from the surface
@@ -4896,54 +6643,181 @@ static void nsvcd__head_logits(const nsvcd__head *head, const float *x, size_t c
   for (size_t p = 0; p < count; p++) logits[p] = x[from * p];
 }
 
+#endif  // NSVCD_NO_NETWORK
+
 // ------------------------------------------------------------------------------------------------------ query
-// In: a mesh -> a body; two bodies and a motion -> an answer. NeuralSVCD, algorithm 1.
+// In: a mesh -> a body; two bodies and a motion -> an answer, by proof (section *proof*) or by the network (NeuralSVCD,
+// algorithm 1).
 
 #ifndef NSVCD_NO_ENCODER
+#ifndef NSVCD_NO_NETWORK
+// The latents of all patches, (N, LATENT). NULL if memory runs out.
+static int8_t *nsvcd__encode_patches(const nsvcd__patches *patches, const nsvcd_allocator *allocator) {
+  int8_t *latents = (int8_t *)nsvcd__alloc_array(allocator, patches->count, NSVCD__LATENT);
+  for (size_t i = 0; latents && i < patches->count; i++) {
+    const size_t first = patches->offsets[i];
+    const size_t count = patches->offsets[i + 1] - first;
+    float latent[NSVCD__LATENT];
+    nsvcd__encode_patch(patches->points + 3 * first, patches->normals + 3 * first, count, patches->centres + 3 * i,
+                        patches->radii[i], latent);
+    for (size_t k = 0; k < NSVCD__LATENT; k++) latents[NSVCD__LATENT * i + k] = (int8_t)lrintf(127 * latent[k]);
+  }
+  return latents;
+}
+#endif
+
+// What a body is built of.
+typedef struct nsvcd__parts {
+  const nsvcd_mesh *mesh;
+  nsvcd__patches patches;
+  int open;
+  size_t latents_size, facets_size;  // bytes; 0: without
+#ifndef NSVCD_NO_NETWORK
+  int8_t *latents;
+#endif
+#ifndef NSVCD_NO_PROOF
+  nsvcd__surface surface;
+  uint32_t counts[NSVCD__FACET_COUNTS];
+#endif
+} nsvcd__parts;
+
+static void nsvcd__parts_free(nsvcd__parts *parts, const nsvcd_allocator *allocator) {
+#ifndef NSVCD_NO_NETWORK
+  nsvcd__free(allocator, parts->latents);
+#endif
+#ifndef NSVCD_NO_PROOF
+  if (parts->facets_size) nsvcd__surface_free(&parts->surface, allocator);
+#endif
+  nsvcd__patches_free(&parts->patches, allocator);
+}
+
+// Everything but the blob.
+static nsvcd_result nsvcd__parts_build(const nsvcd_mesh *mesh, size_t points, const nsvcd_encode_options *options,
+                                       const nsvcd_allocator *allocator, nsvcd__parts *parts) {
+  memset(parts, 0, sizeof *parts);
+  parts->mesh = mesh;
+  parts->open = options && options->open;
+  nsvcd_result result = nsvcd__patches_build(mesh, points, allocator, &parts->patches);
+  if (result) return result;
+#ifndef NSVCD_NO_NETWORK
+  parts->latents_size = nsvcd_body_size(parts->patches.count);
+  parts->latents = nsvcd__encode_patches(&parts->patches, allocator);
+  if (!parts->latents) result = NSVCD_ERROR_MEMORY;
+#endif
+#ifndef NSVCD_NO_PROOF
+  if (!result && !(options && options->no_triangles)) {
+    result = nsvcd__surface_build(mesh, &parts->patches, allocator, &parts->surface);
+    if (!result) {
+      nsvcd__facets_count(mesh, &parts->surface, parts->counts);
+      parts->facets_size = nsvcd__facets_size(parts->patches.count, parts->counts);
+      if (!parts->facets_size) {
+        nsvcd__surface_free(&parts->surface, allocator);
+        result = NSVCD_ERROR_TOO_LARGE;
+      }
+    }
+  }
+#endif
+  if (result) nsvcd__parts_free(parts, allocator);
+  return result;
+}
+
+// Writes the blob: (latents_size + facets_size) bytes.
+static nsvcd_result nsvcd__parts_write(const nsvcd__parts *parts, void *memory, const nsvcd_body **body) {
+  nsvcd_body *b = (nsvcd_body *)memory;
+#ifndef NSVCD_NO_NETWORK
+  const nsvcd__patches *p = &parts->patches;
+  const nsvcd_body *built;
+  const nsvcd_result result = nsvcd__body_build(p->count, p->centres, p->radii, p->area_vectors, parts->latents,
+                                                NSVCD_WEIGHTS_ID, parts->open, memory, parts->latents_size, &built);
+  if (result) return result;
+#endif
+#ifndef NSVCD_NO_PROOF
+  if (parts->facets_size) {
+    uint16_t order[NSVCD_MAX_POINTS];
+    for (size_t i = 0; i < parts->patches.count; i++) order[i] = (uint16_t)i;
+    nsvcd__body_order(parts->patches.count, parts->patches.centres, order);
+    const nsvcd_result facets =
+        nsvcd__facets_build(parts->mesh, &parts->surface, parts->counts, parts->patches.centres, order, parts->open,
+                            (char *)memory + parts->latents_size, parts->facets_size);
+    if (facets) return facets;
+  }
+#endif
+  if (parts->latents_size && parts->facets_size) {
+    b->triangles = (uint32_t)parts->mesh->triangle_count;
+    b->inner = (uint32_t)parts->latents_size;
+    b->size = (uint32_t)(parts->latents_size + parts->facets_size);
+    b->checksum = nsvcd__body_checksum(b);
+  }
+  *body = b;
+  return NSVCD_OK;
+}
+
 NSVCDDEF nsvcd_result nsvcd_encode(const nsvcd_mesh *mesh, const nsvcd_encode_options *options,
                                    const nsvcd_allocator *allocator, void *memory, size_t capacity,
                                    const nsvcd_body **body) {
-  if (!memory || !body) return NSVCD_ERROR_ARGUMENT;
-  if (!nsvcd__is_aligned(memory)) return NSVCD_ERROR_WORKSPACE;
-  nsvcd_result result;
+  if (!body) return NSVCD_ERROR_ARGUMENT;
+  if (memory && !nsvcd__is_aligned(memory)) return NSVCD_ERROR_WORKSPACE;
   size_t points = options ? options->points : 0;
   const float wanted = options ? options->patch_radius : 0;
   if (points > NSVCD_MAX_POINTS || !nsvcd__is_finite(wanted) || wanted < 0) return NSVCD_ERROR_ARGUMENT;
+#ifdef NSVCD_NO_NETWORK
+  if (options && options->no_triangles) return NSVCD_ERROR_ARGUMENT;  // nothing would be left
+#endif
   if (points == 0 && wanted > 0) {
-    result = nsvcd__mesh_check(mesh);  // before its area is taken; nsvcd__patches_build checks on its own
-    if (result) return result;
+    const nsvcd_result checked = nsvcd__mesh_check(mesh);  // before its area is taken; nsvcd__patches_build checks too
+    if (checked) return checked;
     // N balls of radius r cover about N r^2 / 0.45 of surface: measured, on the real meshes, for N = 32 to 512.
-    double count = ceil(0.45 * nsvcd__mesh_area(mesh) / ((double)wanted * (double)wanted));
+    const double count = ceil(0.45 * nsvcd__mesh_area(mesh) / ((double)wanted * (double)wanted));
     points = count >= NSVCD_MAX_POINTS ? NSVCD_MAX_POINTS : count >= 1 ? (size_t)count : 1;
   }
   if (points == 0) points = NSVCD_DEFAULT_POINTS;
 
-  nsvcd__patches patches;
-  result = nsvcd__patches_build(mesh, points, allocator, &patches);
+  nsvcd__parts parts;
+  nsvcd_result result = nsvcd__parts_build(mesh, points, options, allocator, &parts);
   if (result) return result;
-  int8_t *latents = (int8_t *)nsvcd__alloc_array(allocator, patches.count, NSVCD__LATENT);
-  if (!latents) result = NSVCD_ERROR_MEMORY;
-  for (size_t i = 0; !result && i < patches.count; i++) {
-    size_t first = patches.offsets[i], count = patches.offsets[i + 1] - first;
-    float latent[NSVCD__LATENT];
-    nsvcd__encode_patch(patches.points + 3 * first, patches.normals + 3 * first, count, patches.centres + 3 * i,
-                        patches.radii[i], latent);
-    for (size_t k = 0; k < NSVCD__LATENT; k++) latents[NSVCD__LATENT * i + k] = (int8_t)lrintf(127 * latent[k]);
+  const size_t size = parts.latents_size + parts.facets_size;
+  void *to = memory ? memory : nsvcd__alloc(allocator, size);
+  if (size > 0xffffffffu) {
+    result = NSVCD_ERROR_TOO_LARGE;
+  } else if (!to) {
+    result = NSVCD_ERROR_MEMORY;
+  } else if ((memory && capacity < size) || !nsvcd__is_aligned(to)) {
+    result = NSVCD_ERROR_WORKSPACE;
+  } else {
+    result = nsvcd__parts_write(&parts, to, body);
   }
-  if (!result) {
-    result = nsvcd__body_build(patches.count, patches.centres, patches.radii, patches.area_vectors, latents,
-                               NSVCD_WEIGHTS_ID, options && options->open, memory, capacity, body);
-  }
-  nsvcd__free(allocator, latents);
-  nsvcd__patches_free(&patches, allocator);
+  if (result && !memory) nsvcd__free(allocator, to);
+  nsvcd__parts_free(&parts, allocator);
   return result;
+}
+
+NSVCDDEF void nsvcd_body_free(const nsvcd_body *body, const nsvcd_allocator *allocator) {
+  void *memory;
+  memcpy(&memory, &body, sizeof memory);  // a cast would take away a const
+  nsvcd__free(allocator, memory);
 }
 #endif
 
 NSVCDDEF nsvcd_body_facts nsvcd_body_describe(const nsvcd_body *body) {
-  nsvcd_body_facts facts = {
-      body->size, body->points, {body->centre[0], body->centre[1], body->centre[2]}, body->radius, 0};
+  nsvcd_body_facts facts;
+  memset(&facts, 0, sizeof facts);
+  facts.size = body->size;
+  facts.points = body->points;
+  memcpy(facts.centre, body->centre, sizeof facts.centre);
+  facts.radius = body->radius;
+  facts.latents = body->weights_id != 0;
   for (size_t i = 0; i < body->points; i++) facts.mean_patch_radius += nsvcd__body_r(body)[i] / (float)body->points;
+#ifndef NSVCD_NO_PROOF
+  const nsvcd_body *triangles = nsvcd__triangles_of(body);
+  if (triangles) {
+    const nsvcd__facets f = nsvcd__facets_of(triangles);
+    facts.triangles = triangles->triangles;
+    facts.listed = f.listed;
+    for (size_t i = 0; i < body->points; i++) {
+      facts.quantum = f.quanta[i] > facts.quantum ? f.quanta[i] : facts.quantum;
+    }
+  }
+#endif
   return facts;
 }
 
@@ -4965,10 +6839,15 @@ NSVCDDEF const char *nsvcd_status_string(nsvcd_status status) {
       return "inside";
     case NSVCD_STATUS_LIMIT:
       return "limit";
+    case NSVCD_STATUS_WITNESS:
+      return "witness";
+    case NSVCD_STATUS_UNDECIDED:
+      return "undecided";
   }
   return "unknown status";
 }
 
+#ifndef NSVCD_NO_NETWORK
 #ifndef NSVCD_NO_BASE
 #define NSVCD__LARGEST_MODEL NSVCD_MODEL_BASE
 #elif !defined(NSVCD_NO_SMALL)
@@ -4983,12 +6862,23 @@ NSVCDDEF const char *nsvcd_status_string(nsvcd_status status) {
 #define NSVCD__LOOKS 2           // times the shortlist: pairs to look at before the search is done, at most
 #define NSVCD__PROBE 8           // new pairs that are worth a first look before the search is done; later a full batch
 
+#endif  // NSVCD_NO_NETWORK
+
 typedef struct nsvcd__query {
   nsvcd__workspace broad_phase;
-  nsvcd__candidate kept[NSVCD__SHORTLIST * NSVCD_MAX_PAIRS];
+  union {  // of one method after the other
+#ifndef NSVCD_NO_NETWORK
+    nsvcd__candidate kept[NSVCD__SHORTLIST * NSVCD_MAX_PAIRS];
+#endif
+#ifndef NSVCD_NO_PROOF
+    nsvcd__proof proof;
+#endif
+  } by;
 } nsvcd__query;
 
 NSVCDDEF size_t nsvcd_sweep_workspace_size(void) { return sizeof(nsvcd__query); }
+
+#ifndef NSVCD_NO_NETWORK
 
 // The threshold to subtract from the logit. weights.h has one per head, recall and N = 32, 64, ..., 512; between those,
 // and for two bodies that differ, it is interpolated at the mean of log2 N. Returns 0 for any other recall.
@@ -5033,16 +6923,37 @@ typedef struct nsvcd__decisive {
   const nsvcd__head *head;
 } nsvcd__decisive;
 
+#endif  // NSVCD_NO_NETWORK
+
 typedef struct nsvcd__question {
   const nsvcd_body *moving, *fixed;
   nsvcd__motion motion;
+  nsvcd_method method;  // PROOF or NETWORK
+  size_t work;
+  float tolerance;
+#ifndef NSVCD_NO_NETWORK
   nsvcd__settings settings;
   nsvcd__decisive *decisive;  // written unless NULL
+#endif
 } nsvcd__question;
+
+static nsvcd_answer nsvcd__answer_free(void) {
+  nsvcd_answer answer;
+  memset(&answer, 0, sizeof answer);
+  answer.logit = -NSVCD_LOGIT_CERTAIN;
+  answer.status = NSVCD_STATUS_CERTIFIED_FREE;
+  answer.moving_triangle = NSVCD_NO_TRIANGLE;
+  answer.fixed_triangle = NSVCD_NO_TRIANGLE;
+  return answer;
+}
+
+// ---- by the network
+
+#ifndef NSVCD_NO_NETWORK
 
 static nsvcd_result nsvcd__settings_of(const nsvcd_sweep_options *options, size_t points1, size_t points2,
                                        nsvcd__settings *settings) {
-  const nsvcd_sweep_options none = {0, NSVCD_MODEL_DEFAULT, NSVCD_PRECISION_FLOAT, 0};
+  const nsvcd_sweep_options none = {0, NSVCD_MODEL_DEFAULT, NSVCD_PRECISION_FLOAT, 0, NSVCD_METHOD_DEFAULT, 0, 0};
   const nsvcd_sweep_options *o = options ? options : &none;
   if (o->pairs > NSVCD_MAX_PAIRS || (unsigned)o->model > (unsigned)NSVCD_MODEL_BASE) return NSVCD_ERROR_ARGUMENT;
   if (o->precision != NSVCD_PRECISION_FLOAT && o->precision != NSVCD_PRECISION_INT8) return NSVCD_ERROR_ARGUMENT;
@@ -5158,7 +7069,7 @@ static int nsvcd__collides_again(const nsvcd__question *ask, const nsvcd__hint *
                                  nsvcd_answer *answer) {
   const nsvcd__settings *settings = &ask->settings;
   nsvcd__candidates kept;
-  nsvcd__candidates_start(&kept, query->kept, NSVCD__PORTION);
+  nsvcd__candidates_start(&kept, query->by.kept, NSVCD__PORTION);
   nsvcd__search_patch(&query->broad_phase, ask->moving, hint->moving / NSVCD__GROUP, ask->fixed, hint->fixed, &kept);
   if (!nsvcd__score(ask, &kept, 1, kept.count)) return 0;
   answer->overlapping = kept.total;
@@ -5169,11 +7080,11 @@ static int nsvcd__collides_again(const nsvcd__question *ask, const nsvcd__hint *
   return answer->logit >= NSVCD__CLEAR_LOGIT;
 }
 
-// Answers a question whose motion has been prepared. hint: NULL, or that of a batch.
+// Asks the network about a motion that has been prepared. hint: NULL, or that of a batch.
 static void nsvcd__answer(const nsvcd__question *ask, nsvcd__query *query, nsvcd__hint *hint, nsvcd_answer *answer) {
   nsvcd__workspace *work = &query->broad_phase;
   nsvcd__candidates kept;
-  const nsvcd_answer none = {-NSVCD_LOGIT_CERTAIN, 0, 0, 0, 0, NSVCD_STATUS_CERTIFIED_FREE, 0};
+  const nsvcd_answer none = nsvcd__answer_free();
   nsvcd_answer found = none;
   if (nsvcd__motion_is_far(&ask->motion, ask->moving->extent + ask->fixed->extent)) {
     *answer = found;
@@ -5187,7 +7098,7 @@ static void nsvcd__answer(const nsvcd__question *ask, nsvcd__query *query, nsvcd
     int more = nsvcd__search_begin(ask->moving, ask->fixed, work);
     found = none;
     if (hint && hint->known) hint->known = ++hint->misled < 2;
-    nsvcd__candidates_start(&kept, query->kept, ask->settings.shortlist);
+    nsvcd__candidates_start(&kept, query->by.kept, ask->settings.shortlist);
     while (more && !clear) {
       more = nsvcd__search_step(work, ask->moving, ask->fixed, &kept);
       // A deep collision shows early. What is scored now need not be scored later, so that looking costs little.
@@ -5215,6 +7126,102 @@ static void nsvcd__answer(const nsvcd__question *ask, nsvcd__query *query, nsvcd
   *answer = found;
 }
 
+#endif  // NSVCD_NO_NETWORK
+
+// ---- by proof
+
+#ifndef NSVCD_NO_PROOF
+// From the fixed body's frame to the world.
+static nsvcd__d3 nsvcd__to_world(const nsvcd_pose *fixed_pose, nsvcd__d3 a, int is_direction) {
+  double q[4];
+  nsvcd__d3 rows[3];
+  nsvcd__unit_quaternion(fixed_pose->rotation, q);
+  nsvcd__rows_of(q, rows);
+  const nsvcd__d3 turned = nsvcd__rotate(rows, a);
+  return is_direction ? turned : nsvcd__d3_add(turned, nsvcd__d3_load(fixed_pose->position));
+}
+
+static void nsvcd__answer_with_contact(const nsvcd__proof *p, nsvcd_answer *answer) {
+  const nsvcd__contact *found = &p->found;
+  const nsvcd__f3 point = nsvcd__f3_round(nsvcd__to_world(p->motion->fixed_pose, found->point, 0));
+  const nsvcd__f3 normal = nsvcd__f3_round(nsvcd__to_world(p->motion->fixed_pose, found->normal, 1));
+  answer->logit = NSVCD_LOGIT_CERTAIN;
+  answer->collides = 1;
+  answer->time = (float)found->time;
+  answer->moving_patch = found->moving_patch;
+  answer->fixed_patch = found->fixed_patch;
+  answer->moving_triangle = found->moving_triangle;
+  answer->fixed_triangle = found->fixed_triangle;
+  memcpy(answer->point, &point, sizeof answer->point);
+  memcpy(answer->normal, &normal, sizeof answer->normal);
+}
+
+// Proves a question whose motion has been prepared, if it can; else the answer is UNDECIDED and says yes.
+static void nsvcd__answer_by_proof(const nsvcd__question *ask, nsvcd__query *query, nsvcd_answer *answer) {
+  nsvcd__proof *p = &query->by.proof;
+  p->motion = &ask->motion;
+  p->moving = nsvcd__facets_of(nsvcd__triangles_of(ask->moving));
+  p->fixed = nsvcd__facets_of(nsvcd__triangles_of(ask->fixed));
+  p->lengths = p->moving.body->extent + p->fixed.body->extent;
+  p->tolerance = (double)ask->tolerance;
+  p->limit = ask->work;
+  p->work = p->count = p->tries = 0;
+  p->undecided = p->within = 0;
+  p->arc.index = (size_t)-1;
+  const nsvcd__verdict verdict = nsvcd__prove(p, &query->broad_phase);
+
+  nsvcd_answer found = nsvcd__answer_free();
+  found.work = p->work;
+  if (verdict == NSVCD__MEETS || verdict == NSVCD__WITHIN) {
+    found.status = verdict == NSVCD__MEETS ? NSVCD_STATUS_WITNESS : NSVCD_STATUS_INSIDE;
+    nsvcd__answer_with_contact(p, &found);
+  } else if (verdict == NSVCD__UNDECIDED) {
+    found.status = NSVCD_STATUS_UNDECIDED;
+    found.collides = 1;
+    found.logit = NSVCD_LOGIT_CERTAIN;
+  }
+  *answer = found;
+}
+#endif
+
+// Answers a question whose motion has been prepared. hint: NULL, or that of a batch, for the network.
+static void nsvcd__answer_question(const nsvcd__question *ask, nsvcd__query *query, void *hint, nsvcd_answer *answer) {
+#ifndef NSVCD_NO_PROOF
+  if (ask->method == NSVCD_METHOD_PROOF) {
+    nsvcd__answer_by_proof(ask, query, answer);
+#ifndef NSVCD_NO_NETWORK
+    if (answer->status == NSVCD_STATUS_UNDECIDED && ask->moving->weights_id && ask->fixed->weights_id) {
+      const size_t work = answer->work;
+      nsvcd__answer(ask, query, NULL, answer);
+      answer->status = NSVCD_STATUS_UNDECIDED;
+      answer->work = work;
+    }
+#endif
+    return;
+  }
+#endif
+#ifndef NSVCD_NO_NETWORK
+  nsvcd__answer(ask, query, (nsvcd__hint *)hint, answer);
+#else
+  (void)hint;
+#endif
+}
+
+// The method that answers, or DEFAULT where there is none.
+static nsvcd_method nsvcd__method_of(const nsvcd_body *moving, const nsvcd_body *fixed, nsvcd_method wanted) {
+  int can_prove = 0, can_ask = 0;
+#ifndef NSVCD_NO_PROOF
+  can_prove = moving->triangles && fixed->triangles;
+#endif
+#ifndef NSVCD_NO_NETWORK
+  can_ask = moving->weights_id && fixed->weights_id;
+#endif
+  if (can_prove && wanted != NSVCD_METHOD_NETWORK) return NSVCD_METHOD_PROOF;
+  if (can_ask && wanted != NSVCD_METHOD_PROOF) return NSVCD_METHOD_NETWORK;
+  (void)moving, (void)fixed;
+  return NSVCD_METHOD_DEFAULT;
+}
+
 // Checks all that a query is given but its motions, and fills in `ask`, but for its motion.
 static nsvcd_result nsvcd__prepare(const nsvcd_body *moving, const nsvcd_body *fixed,
                                    const nsvcd_sweep_options *options, void *workspace, size_t workspace_size,
@@ -5222,8 +7229,21 @@ static nsvcd_result nsvcd__prepare(const nsvcd_body *moving, const nsvcd_body *f
   if (!moving || !fixed || !answers) return NSVCD_ERROR_ARGUMENT;
   if (!workspace || workspace_size < sizeof(nsvcd__query) || !nsvcd__is_aligned(workspace))
     return NSVCD_ERROR_WORKSPACE;
-  ask->moving = moving, ask->fixed = fixed, ask->decisive = NULL;
+  const nsvcd_method wanted = options ? options->method : NSVCD_METHOD_DEFAULT;
+  if ((unsigned)wanted > (unsigned)NSVCD_METHOD_NETWORK) return NSVCD_ERROR_ARGUMENT;
+  ask->moving = moving;
+  ask->fixed = fixed;
+  ask->work = options && options->work ? options->work : NSVCD_DEFAULT_WORK;
+  ask->tolerance = options ? options->tolerance : 0;
+  if (!nsvcd__is_finite(ask->tolerance) || ask->tolerance < 0) return NSVCD_ERROR_ARGUMENT;
+  ask->method = nsvcd__method_of(moving, fixed, wanted);
+  if (ask->method == NSVCD_METHOD_DEFAULT) return NSVCD_ERROR_BODY;
+#ifndef NSVCD_NO_NETWORK
+  ask->decisive = NULL;
   return nsvcd__settings_of(options, moving->points, fixed->points, &ask->settings);
+#else
+  return NSVCD_OK;
+#endif
 }
 
 NSVCDDEF nsvcd_result nsvcd_sweep(const nsvcd_body *moving, const nsvcd_pose *poses, size_t count,
@@ -5235,7 +7255,7 @@ NSVCDDEF nsvcd_result nsvcd_sweep(const nsvcd_body *moving, const nsvcd_pose *po
   if (!result) result = nsvcd__motions_check(poses, count, 1, fixed_pose);
   if (result) return result;
   nsvcd__motion_init(poses, count, fixed_pose, &ask.motion);
-  nsvcd__answer(&ask, (nsvcd__query *)workspace, NULL, answer);
+  nsvcd__answer_question(&ask, (nsvcd__query *)workspace, NULL, answer);
   return NSVCD_OK;
 }
 
@@ -5244,12 +7264,16 @@ NSVCDDEF nsvcd_result nsvcd_sweep_batch(const nsvcd_body *moving, const nsvcd_po
                                         const nsvcd_sweep_options *options, void *workspace, size_t workspace_size,
                                         nsvcd_answer *answers) {
   nsvcd__question ask;
+  void *with = NULL;
+#ifndef NSVCD_NO_NETWORK
   nsvcd__hint hint = {0, 0, 0, 0};
+  with = &hint;
+#endif
   nsvcd_result result = nsvcd__prepare(moving, fixed, options, workspace, workspace_size, answers, &ask);
   if (!result) result = nsvcd__motions_check(poses, count, motions, fixed_pose);
   for (size_t k = 0; !result && k < motions; k++) {
     nsvcd__motion_init(poses + count * k, count, fixed_pose, &ask.motion);
-    nsvcd__answer(&ask, (nsvcd__query *)workspace, &hint, &answers[k]);
+    nsvcd__answer_question(&ask, (nsvcd__query *)workspace, with, &answers[k]);
   }
   return result;
 }
@@ -5484,7 +7508,7 @@ static float nsvcd__by_samples(const nsvcd__motion *motion, float t, const float
   const float u = at - (float)k;
   const nsvcd_pose *a = &motion->poses[k], *b = a + 1;
   nsvcd__quat_normalize(a->rotation, qa), nsvcd__quat_normalize(b->rotation, qb);
-  const float h = nsvcd__quat_half_angle(qa, qb);
+  const float h = nsvcd__quat_half_angle(qa, qb, nsvcd__is_opposed(a->rotation, b->rotation));
   for (size_t i = 0; i < 3; i++) n[i] = qa[3] * qb[i] - qb[3] * qa[i];
   nsvcd__add_cross3(qa, qb, n);  // sin(h) times the axis of B A^-1
   const float sine = nsvcd__length3(n), inverse = sine > 0 ? 1 / sine : 0;
@@ -5602,8 +7626,12 @@ NSVCDDEF nsvcd_result nsvcd_sweep_gradient(const nsvcd_body *moving, const nsvcd
   nsvcd__question ask;
   nsvcd__decisive decisive;
   nsvcd__query *query = (nsvcd__query *)workspace;
-  if (!gradient) return NSVCD_ERROR_ARGUMENT;
-  nsvcd_result result = nsvcd__prepare(moving, fixed, options, workspace, workspace_size, answer, &ask);
+  if (!gradient || (options && options->method == NSVCD_METHOD_PROOF)) return NSVCD_ERROR_ARGUMENT;
+  nsvcd_sweep_options by_network;
+  memset(&by_network, 0, sizeof by_network);
+  if (options) by_network = *options;
+  by_network.method = NSVCD_METHOD_NETWORK;
+  nsvcd_result result = nsvcd__prepare(moving, fixed, &by_network, workspace, workspace_size, answer, &ask);
   if (!result) result = nsvcd__motions_check(poses, count, 1, fixed_pose);
   if (result) return result;
   nsvcd__motion_init(poses, count, fixed_pose, &ask.motion);
@@ -6043,7 +8071,7 @@ static nsvcd_answer nsvcd__ask(nsvcd__planner *p, uint32_t k, size_t first, size
   const nsvcd_body *a = p->problem->bodies[pair->a], *b = p->problem->bodies[pair->b];
   const nsvcd_pose origin = {{0, 0, 0}, {0, 0, 0, 1}};
   nsvcd_pose motion[NSVCD__RUN + 1];
-  nsvcd_answer answer = {-NSVCD_LOGIT_CERTAIN, 0, 0, 0, 0, NSVCD_STATUS_CERTIFIED_FREE, 0};
+  nsvcd_answer answer = nsvcd__answer_free();
   for (size_t n = 0; n <= segments; n++) {
     const nsvcd_pose *row = p->poses + (first + n) * p->problem->body_count;
     nsvcd__relative_pose(&row[pair->a], &row[pair->b], &motion[n]);

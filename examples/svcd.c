@@ -10,30 +10,25 @@
 
 // --------------------------------------------------------------------------------------------------------- encoding
 
-// Loads and encodes one mesh into fresh memory. `from`: what asks for it, for messages ("file:line: "), or "".
+// Loads and encodes one mesh; nsvcd_body_free gives the body back. `from`: what asks for it, for messages ("file:line: "), or "".
 static const nsvcd_body *encode_file(const char *from, const char *path, const nsvcd_encode_options *options,
-                                     void **memory, double *encode_seconds) {
+                                     double *encode_seconds) {
   nsvcd_mesh mesh;
-  size_t line = 0, points = options->points ? options->points : NSVCD_MAX_POINTS;
+  size_t line = 0;
   nsvcd_result result = nsvcd_obj_load(path, NULL, &mesh, &line);
   if (result && line) complain("%s%s:%zu: %s", from, path, line, nsvcd_result_string(result));
   if (result && !line) complain("%s%s: %s", from, path, nsvcd_result_string(result));
   if (result) return NULL;
   const nsvcd_body *body = NULL;
   double start = seconds();
-  *memory = allocate(nsvcd_body_size(points));
-  result = nsvcd_encode(&mesh, options, NULL, *memory, nsvcd_body_size(points), &body);
+  result = nsvcd_encode(&mesh, options, NULL, NULL, 0, &body);
   *encode_seconds = seconds() - start;
   nsvcd_mesh_free(&mesh, NULL);
-  if (!result) return body;
-  complain("%s%s: %s", from, path, nsvcd_result_string(result));
-  free(*memory);
-  *memory = NULL;
-  return NULL;
+  if (result) complain("%s%s: %s", from, path, nsvcd_result_string(result));
+  return body;
 }
 
 typedef struct encoded {
-  void *memory;            // of the body
   const nsvcd_body *body;  // in the units of its file
   double seconds;          // that encoding took
 } encoded;
@@ -47,7 +42,7 @@ static int encode_meshes(const problem_file *file, const nsvcd_encode_options *o
     char from[1024], path[4096];
     snprintf(from, sizeof from, "%s:%zu: mesh %s: ", file->path, mesh->line, mesh->name);
     snprintf(path, sizeof path, "%.*s%s", mesh->path[0] == '/' ? 0 : (int)folder, file->path, mesh->path);
-    bodies[i].body = encode_file(from, path, options, &bodies[i].memory, &bodies[i].seconds);
+    bodies[i].body = encode_file(from, path, options, &bodies[i].seconds);
     if (!bodies[i].body) return 0;
   }
   return 1;
@@ -100,7 +95,11 @@ static int answer(const session *s, const check_options *options, scratch *b, co
 
 static int answer_all(session *s, const check_options *options) {
   scratch b;
-  b.body_size = nsvcd_body_size(options->encode.points ? options->encode.points : NSVCD_DEFAULT_POINTS);
+  b.body_size = 1;
+  for (size_t i = 0; i < s->file.mesh_count; i++) {
+    const size_t size = nsvcd_body_describe(s->bodies[i].body).size;
+    b.body_size = size > b.body_size ? size : b.body_size;
+  }
   b.workspace_size = nsvcd_sweep_workspace_size();
   b.moving = allocate(b.body_size), b.fixed = allocate(b.body_size), b.workspace = allocate(b.workspace_size);
   int good = 1;
@@ -189,7 +188,7 @@ static void print_accuracy(const session *s) {
 
 static void print_statuses(const session *s) {
   fprintf(stderr, "\nstatus:");
-  for (int status = NSVCD_STATUS_OK; status <= NSVCD_STATUS_LIMIT; status++) {
+  for (int status = NSVCD_STATUS_OK; status <= NSVCD_STATUS_UNDECIDED; status++) {
     size_t count = 0;
     for (size_t i = 0; i < s->file.problem_count; i++) count += (int)s->outcomes[i].answer.status == status;
     fprintf(stderr, "%s %s %.1f %%", status ? "," : "", nsvcd_status_string((nsvcd_status)status),
@@ -244,22 +243,24 @@ static void print_summary(const session *s) {
 
 static int usage(void) {
   fprintf(stderr,
-          "svcd check [--points N] [--pairs K] [--model tiny|small|base] [--int8] [--recall R]\n"
-          "           [--verify BAND|all] [--repeat R] FILE\n"
+          "svcd check [--method proof|network] [--points N] [--pairs K] [--model tiny|small|base] [--int8]\n"
+          "           [--recall R] [--work LIMIT] [--repeat R] FILE\n"
           "    answers the problems of FILE, a line each on standard output, separated by tabs:\n"
           "    ID LOGIT COLLIDES TIME MOVING_PATCH FIXED_PATCH STATUS MICROSECONDS; a summary on standard error.\n"
+          "      --method M   proof: a witness or a certificate; network: an opinion (proof)\n"
           "      --points N   representative points per body, 1..%d (%d)\n"
           "      --pairs K    pairs of patches that the network looks at, 1..%d (8)\n"
           "      --model M    decoder (base)\n"
           "      --recall R   share of collisions to be found: 0.99, 0.999, 0.9999 or 0: balanced errors (0)\n"
+          "      --work LIMIT units that a proof may take (%d)\n"
           "      --repeat R   time every query R times, report the least (5)\n"
           "      --int8       the decoder in 8-bit integers\n"
-          "      --verify     exact verification: not there yet\n"
-          "svcd encode IN.obj OUT.body|OUT.h [--points N | --radius METRES]\n"
-          "    encodes a mesh, to a file or to a C array; --radius: as many points as make patches of that radius\n"
+          "svcd encode IN.obj OUT.body|OUT.h [--points N | --radius METRES] [--no-triangles]\n"
+          "    encodes a mesh, to a file or to a C array; --radius: as many points as make patches of that radius;\n"
+          "    --no-triangles: for the network alone\n"
           "svcd info FILE.body\n"
           "exit status: 0 done, 1 a file or line was refused, 2 usage\n",
-          NSVCD_MAX_POINTS, NSVCD_DEFAULT_POINTS, NSVCD_MAX_PAIRS);
+          NSVCD_MAX_POINTS, NSVCD_DEFAULT_POINTS, NSVCD_MAX_PAIRS, NSVCD_DEFAULT_WORK);
   return USAGE;
 }
 static int usage_error(const char *option, const char *reason) {
@@ -277,6 +278,12 @@ static int parse_model(const char *name, nsvcd_model *model) {
   return 0;
 }
 
+static int parse_method(const char *name, nsvcd_method *method) {
+  const int proof = strcmp(name, "proof") == 0;
+  *method = proof ? NSVCD_METHOD_PROOF : NSVCD_METHOD_NETWORK;
+  return proof || strcmp(name, "network") == 0;
+}
+
 // Returns DONE or USAGE.
 static int parse_check_option(const char *key, const char *value, check_options *options) {
   if (strcmp(key, "--points") == 0)
@@ -289,7 +296,10 @@ static int parse_check_option(const char *key, const char *value, check_options 
     return parse_model(value, &options->sweep.model) ? DONE : usage_error(key, "none of tiny, small, base");
   if (strcmp(key, "--recall") == 0)
     return parse_float(value, &options->sweep.recall) ? DONE : usage_error(key, "not a number");
-  if (strcmp(key, "--verify") == 0) return usage_error(key, "exact verification is not in the library yet");
+  if (strcmp(key, "--work") == 0)
+    return parse_count(value, 1, 1000000000, &options->sweep.work) ? DONE : usage_error(key, "out of range");
+  if (strcmp(key, "--method") == 0)
+    return parse_method(value, &options->sweep.method) ? DONE : usage_error(key, "neither proof nor network");
   return usage_error(key, "no such option");
 }
 
@@ -298,15 +308,17 @@ static int recall_is_known(const nsvcd_sweep_options *options) {
   float positions[9] = {0, 0, 0, 1, 0, 0, 0, 1, 0};
   uint32_t indices[3] = {0, 1, 2};
   nsvcd_mesh mesh = {positions, indices, 3, 1};
-  nsvcd_encode_options one_point = {1, 0, 0};
+  nsvcd_encode_options one_point = {1, 0, 0, 0};
   nsvcd_pose pose = {{0, 0, 0}, {0, 0, 0, 1}};
   nsvcd_answer unused;
   const nsvcd_body *body;
-  void *memory = allocate(nsvcd_body_size(1)), *workspace = allocate(nsvcd_sweep_workspace_size());
-  nsvcd_result result = nsvcd_encode(&mesh, &one_point, NULL, memory, nsvcd_body_size(1), &body);
-  if (!result)
+  void *workspace = allocate(nsvcd_sweep_workspace_size());
+  nsvcd_result result = nsvcd_encode(&mesh, &one_point, NULL, NULL, 0, &body);
+  if (!result) {
     result = nsvcd_sweep(body, &pose, 1, body, &pose, options, workspace, nsvcd_sweep_workspace_size(), &unused);
-  free(memory), free(workspace);
+    nsvcd_body_free(body, NULL);
+  }
+  free(workspace);
   return result == NSVCD_OK;
 }
 
@@ -347,7 +359,7 @@ static int check(int argc, char **argv) {
   }
   good = good && encode_meshes(&s.file, &options.encode, s.bodies) && answer_all(&s, &options) && print_answers(&s);
   if (good) print_summary(&s);
-  for (size_t i = 0; s.bodies && i < s.file.mesh_count; i++) free(s.bodies[i].memory);
+  for (size_t i = 0; s.bodies && i < s.file.mesh_count; i++) nsvcd_body_free(s.bodies[i].body, NULL);
   free(s.bodies), free(s.outcomes), free_problems(&s.file);
   return good ? DONE : REFUSED;
 }
@@ -413,6 +425,8 @@ static void print_facts(const char *path, const nsvcd_body *body) {
   for (uint32_t i = 0; nsvcd_body_patch(body, i, centre, &radius); i++)
     least = fminf(least, radius), most = fmaxf(most, radius);
   printf("%s: %zu points, %zu bytes\n", path, facts.points, facts.size);
+  if (facts.triangles)
+    printf("triangles: %zu, in %zu listings, within %g m\n", facts.triangles, facts.listed, (double)facts.quantum);
   printf("bounding sphere: centre %g %g %g, radius %g m\n", (double)facts.centre[0], (double)facts.centre[1],
          (double)facts.centre[2], (double)facts.radius);
   printf("patch radius: mean %g, least %g, most %g m\n", (double)facts.mean_patch_radius, (double)least, (double)most);
@@ -420,13 +434,15 @@ static void print_facts(const char *path, const nsvcd_body *body) {
 
 static int encode(int argc, char **argv) {
   const char *paths[2] = {NULL, NULL};
-  nsvcd_encode_options options = {0, 0, 0};
+  nsvcd_encode_options options = {0, 0, 0, 0};
   int path_count = 0;
   for (int i = 0; i < argc; i++) {
     const char *value = i + 1 < argc ? argv[i + 1] : "";
     if (argv[i][0] != '-') {
       if (path_count == 2) return usage();
       paths[path_count++] = argv[i];
+    } else if (strcmp(argv[i], "--no-triangles") == 0) {
+      options.no_triangles = 1;
     } else if (strcmp(argv[i], "--points") == 0) {
       if (!parse_count(value, 1, NSVCD_MAX_POINTS, &options.points)) return usage_error(argv[i], "out of range");
       i++;
@@ -442,13 +458,12 @@ static int encode(int argc, char **argv) {
   if (!ends_with(paths[1], ".body") && !ends_with(paths[1], ".h")) return usage_error(paths[1], "neither .body nor .h");
   if (options.points && options.patch_radius > 0) return usage_error("--radius", "not together with --points");
 
-  void *memory = NULL;
   double taken;
-  const nsvcd_body *body = encode_file("", paths[0], &options, &memory, &taken);
+  const nsvcd_body *body = encode_file("", paths[0], &options, &taken);
   int good = body && write_body(paths[0], paths[1], body);
   if (good) print_facts(paths[1], body);
   if (good) printf("encoded in %.1f ms\n", 1e3 * taken);
-  free(memory);
+  nsvcd_body_free(body, NULL);
   return good ? DONE : REFUSED;
 }
 
