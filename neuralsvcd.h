@@ -568,7 +568,7 @@ static nsvcd__d3 nsvcd__d3_widen(nsvcd__f3 a) {
 #define NSVCD__LANES 16
 #define NSVCD__NOWHERE (-1e15f)  // radius of padding: meets nothing, and its square is still finite
 #define NSVCD__HULL NSVCD__LANES       // vertices of a patch's hull, at most
-#define NSVCD__ENCLOSES 0x80000000u    // in a listing of each part of a closed component, once
+#define NSVCD__ENCLOSES 0x80000000u    // of a listing: its triangle belongs to a closed component
 
 // The tests hold what a query does against the bound that nsvcd_sweep states.
 #ifndef NSVCD__TALLY
@@ -836,6 +836,18 @@ NSVCD__INLINE nsvcd__v3 nsvcd__v3_cross(nsvcd__v3 a, nsvcd__v3 b) {
                       nsvcd__v_sub(nsvcd__v_mul(a.z, b.x), nsvcd__v_mul(a.x, b.z)),
                       nsvcd__v_sub(nsvcd__v_mul(a.x, b.y), nsvcd__v_mul(a.y, b.x)));
 }
+// A rotation, row-major, and a position: x -> rotation x + position.
+typedef struct nsvcd__transform {
+  float rotation[9];
+  nsvcd__f3 position;
+} nsvcd__transform;
+
+static nsvcd__f3 nsvcd__f3_transform(const nsvcd__transform *t, nsvcd__f3 a) {
+  const float *m = t->rotation;
+  const nsvcd__f3 turned = nsvcd__f3_of(m[0] * a.x + m[1] * a.y + m[2] * a.z, m[3] * a.x + m[4] * a.y + m[5] * a.z,
+                                        m[6] * a.x + m[7] * a.y + m[8] * a.z);
+  return nsvcd__f3_add(turned, t->position);
+}
 NSVCD__INLINE void nsvcd__v3_store(float (*p)[NSVCD__LANES], nsvcd__v3 a) {  // p (3, LANES)
   nsvcd__v_store(p[0], a.x);
   nsvcd__v_store(p[1], a.y);
@@ -844,12 +856,6 @@ NSVCD__INLINE void nsvcd__v3_store(float (*p)[NSVCD__LANES], nsvcd__v3 a) {  // 
 NSVCD__INLINE nsvcd__v3 nsvcd__v3_load(float (*p)[NSVCD__LANES]) {
   return nsvcd__v3_of(nsvcd__v_load(p[0]), nsvcd__v_load(p[1]), nsvcd__v_load(p[2]));
 }
-
-// A rotation, row-major, and a position: x -> rotation x + position.
-typedef struct nsvcd__transform {
-  float rotation[9];
-  nsvcd__f3 position;
-} nsvcd__transform;
 
 NSVCD__INLINE nsvcd__v3 nsvcd__v3_transform(const nsvcd__transform *t, nsvcd__v3 a) {
   const float *m = t->rotation;
@@ -2973,9 +2979,8 @@ static void nsvcd__store_triangles(const nsvcd__pieces *pieces, const nsvcd__sor
     if (!nsvcd__is_listed_already(pieces, sorted, i, k)) {
       uint32_t whole[3];
       nsvcd__welded_corners(pieces->mesh, &pieces->topology, piece->triangle, whole);
-      nsvcd__store_triangle(sorted, surface, whole[0], whole[1], whole[2], piece->triangle);
+      nsvcd__store_triangle(sorted, surface, whole[0], whole[1], whole[2], piece->triangle | flag);
     }
-    if (piece->leads) surface->ids[surface->listed - 1] |= flag;
   }
 }
 
@@ -3721,7 +3726,7 @@ static size_t nsvcd__facet_corner(const nsvcd__facets *f, size_t n, size_t k) {
   return corner;
 }
 
-// The number of the triangle, and whether this listing counts for what is enclosed.
+// The number of the triangle, and whether it belongs to a closed component.
 static uint32_t nsvcd__facet_number(const nsvcd__facets *f, size_t n, int *encloses) {
   uint32_t number;
   if (f->number_bytes == 2) {
@@ -4982,12 +4987,13 @@ static void nsvcd__candidates_start(nsvcd__candidates *kept, nsvcd__candidate *i
 //
 // Work is counted in units: a plane tried on two hulls, a triangle against 16, a pair of triangles at one time.
 
-#define NSVCD__ITEMS 512         // items kept at once; when there are more, those are settled first
+#define NSVCD__ITEMS 256         // items that no plane parts, kept at once; when there are more, those are settled first
+#define NSVCD__NEWS 8            // items that are worth a look before the search goes on
+#define NSVCD__FRESH 32          // items found, before planes are tried on them
 #define NSVCD__PLANE_STEPS 12    // of Gilbert's iteration
-#define NSVCD__DEEP 0.2f         // depth from which on an item is worth a look for a witness before all are known
-#define NSVCD__NEWS 8            // items that are worth such a look
-#define NSVCD__TRIES 4           // such looks, at most, before the search is done
+#define NSVCD__DEEP 0.2f         // depth from which on an item is worth a look for a witness before any plane
 #define NSVCD__HALVINGS 40       // of a span, at most
+#define NSVCD__CROSSED 128       // triangles that a ray may cross
 #define NSVCD__SAME_PLACE 1e-13  // of all lengths: distance in double that is none
 
 typedef struct nsvcd__item {
@@ -5044,12 +5050,14 @@ typedef struct nsvcd__proof {
   int within;            // a component seems to be within the other body, but close to its surface
   nsvcd__contact found;  // if MEETS or WITHIN
   nsvcd__arc arc;        // the last one asked for
-  size_t count, tries;
-  nsvcd__item items[NSVCD__ITEMS];
+  size_t fresh_count, count;
+  nsvcd__item fresh[NSVCD__FRESH];  // as the search finds them
+  nsvcd__item items[NSVCD__ITEMS];  // that no plane parts over their segment
   float start[3][NSVCD__LANES], end[3][NSVCD__LANES], rest[3][NSVCD__LANES];  // hulls, posed
   nsvcd__f3 normal;                                                           // of the last plane tried
   nsvcd__block moving_block, fixed_block;
   float posed[2][3][3][NSVCD__LANES];  // corners of the moving block at the ends of a span
+  uint32_t crossed[NSVCD__CROSSED];    // triangles
 } nsvcd__proof;
 
 // Tests hear of every certificate: kind, patches, listings (or NSVCD_NONE), times, and the plane's normal (3), fixed
@@ -5826,46 +5834,34 @@ static nsvcd__verdict nsvcd__settle_item(nsvcd__proof *p, const nsvcd__workspace
   return verdict;
 }
 
-// Parts all items that hulls can part, and returns how many are left.
-static size_t nsvcd__part_items(nsvcd__proof *p, const nsvcd__workspace *work) {
-  size_t kept = 0;
-  for (size_t n = 0; n < p->count; n++) {
-    const nsvcd__item item = p->items[n];
-    const nsvcd__span span = nsvcd__span_of_segment(p->motion, work, item.segment);
-    const nsvcd__v centre = nsvcd__v_set(0);
-    (void)centre;
-    nsvcd__transform middle;
-    for (size_t i = 0; i < 9; i++) middle.rotation[i] = 0.5f * (span.start.rotation[i] + span.end.rotation[i]);
-    const nsvcd__f3 c = nsvcd__facet_centre(&p->moving, item.moving);
-    const float *m = middle.rotation;
-    const nsvcd__f3 turned =
-        nsvcd__f3_of(m[0] * c.x + m[1] * c.y + m[2] * c.z, m[3] * c.x + m[4] * c.y + m[5] * c.z,
-                     m[6] * c.x + m[7] * c.y + m[8] * c.z);
-    const nsvcd__f3 position = nsvcd__f3_scale(nsvcd__f3_add(span.start.position, span.end.position), 0.5f);
-    p->normal = nsvcd__f3_sub(nsvcd__f3_add(turned, position), nsvcd__facet_centre(&p->fixed, item.fixed));
-    if (!nsvcd__hulls_are_apart(p, item.moving, item.fixed, &span)) {
-      p->items[kept++] = item;
-      continue;
-    }
-    const float normal[3] = {p->normal.x, p->normal.y, p->normal.z};
-    NSVCD__CERTIFY(NSVCD__BY_HULL, item.moving, item.fixed, NSVCD_NONE, NSVCD_NONE, span.t_start, span.t_end, normal);
-    (void)normal;
-  }
-  return kept;
+// Is there a plane between an item's patches over its segment?
+static int nsvcd__item_is_parted(nsvcd__proof *p, const nsvcd__workspace *work, const nsvcd__item *item) {
+  const nsvcd__span span = nsvcd__span_of_segment(p->motion, work, item->segment);
+  const nsvcd__f3 centre = nsvcd__facet_centre(&p->moving, item->moving);
+  const nsvcd__f3 start = nsvcd__f3_transform(&span.start, centre);
+  const nsvcd__f3 end = nsvcd__f3_transform(&span.end, centre);
+  const nsvcd__f3 middle = nsvcd__f3_scale(nsvcd__f3_add(start, end), 0.5f);
+  p->normal = nsvcd__f3_sub(middle, nsvcd__facet_centre(&p->fixed, item->fixed));
+  if (!nsvcd__hulls_are_apart(p, item->moving, item->fixed, &span)) return 0;
+  const float normal[3] = {p->normal.x, p->normal.y, p->normal.z};
+  NSVCD__CERTIFY(NSVCD__BY_HULL, item->moving, item->fixed, NSVCD_NONE, NSVCD_NONE, span.t_start, span.t_end, normal);
+  (void)normal;
+  return 1;
 }
 
-// Settles all items there are.
-static nsvcd__verdict nsvcd__settle_items(nsvcd__proof *p, const nsvcd__workspace *work) {
-  p->count = nsvcd__part_items(p, work);
-  for (size_t n = 1; n < p->count; n++) {  // the deepest first
-    const nsvcd__item item = p->items[n];
+// Puts the deepest items first.
+static void nsvcd__sort_items(nsvcd__item *items, size_t count) {
+  for (size_t n = 1; n < count; n++) {
+    const nsvcd__item item = items[n];
     size_t at = n;
-    for (; at > 0 && p->items[at - 1].depth < item.depth; at--) p->items[at] = p->items[at - 1];
-    p->items[at] = item;
+    for (; at > 0 && items[at - 1].depth < item.depth; at--) items[at] = items[at - 1];
+    items[at] = item;
   }
-  for (size_t n = 0; n < p->count && p->work <= p->limit; n++) {
-    if (!p->items[n].sought && nsvcd__seek_item(p, work, &p->items[n])) return NSVCD__MEETS;
-  }
+}
+
+// Settles the items that no plane parts, the deepest first.
+static nsvcd__verdict nsvcd__settle_items(nsvcd__proof *p, const nsvcd__workspace *work) {
+  nsvcd__sort_items(p->items, p->count);
   for (size_t n = 0; n < p->count; n++) {
     if (p->work > p->limit) return NSVCD__UNDECIDED;
     const nsvcd__verdict verdict = nsvcd__settle_item(p, work, &p->items[n]);
@@ -5874,6 +5870,27 @@ static nsvcd__verdict nsvcd__settle_items(nsvcd__proof *p, const nsvcd__workspac
   }
   p->count = 0;
   return p->work > p->limit ? NSVCD__UNDECIDED : NSVCD__FREE;
+}
+
+// Looks at fresh items, the deepest first: parts those that planes can part, looks for a witness in the others, and
+// keeps them.
+static nsvcd__verdict nsvcd__sift_items(nsvcd__proof *p, const nsvcd__workspace *work) {
+  const size_t count = p->fresh_count;
+  nsvcd__sort_items(p->fresh, count);
+  p->fresh_count = 0;
+  if (count > 0 && p->fresh[0].depth > NSVCD__DEEP && nsvcd__seek_item(p, work, &p->fresh[0])) return NSVCD__MEETS;
+  for (size_t n = 0; n < count; n++) {
+    nsvcd__item *item = &p->fresh[n];
+    if (p->work > p->limit) return NSVCD__UNDECIDED;
+    if (nsvcd__item_is_parted(p, work, item)) continue;
+    if (!item->sought && nsvcd__seek_item(p, work, item)) return NSVCD__MEETS;
+    if (p->count == NSVCD__ITEMS) {
+      const nsvcd__verdict verdict = nsvcd__settle_items(p, work);
+      if (verdict != NSVCD__FREE) return verdict;
+    }
+    p->items[p->count++] = *item;
+  }
+  return NSVCD__FREE;
 }
 
 // ---- containment
@@ -5915,48 +5932,61 @@ static int nsvcd__ray_crosses(const nsvcd__ray *ray, const nsvcd__d3 *t, double 
   return slope > 0 ? 1 : slope < 0 ? -1 : 0;
 }
 
-// Patches, 16 from `first` on, that list triangles which the ray may cross. Listed vertices lie in a cube about the
-// patch's centre.
+// Patches, 16 from `first` on, whose pieces the ray may meet: it meets their spheres.
 static uint32_t nsvcd__patches_on_ray(const nsvcd__facets *f, const nsvcd__ray *ray, size_t first) {
   const nsvcd_body *b = f->body;
   const nsvcd__v3 centre = nsvcd__v3_of(nsvcd__v_load(nsvcd__body_x(b) + first), nsvcd__v_load(nsvcd__body_y(b) + first),
                                         nsvcd__v_load(nsvcd__body_z(b) + first));
   const nsvcd__v3 n = nsvcd__v3_set(nsvcd__f3_round(ray->direction));
   const nsvcd__v3 d = nsvcd__v3_sub(centre, nsvcd__v3_set(nsvcd__f3_round(ray->from)));
-  const nsvcd__v along = nsvcd__v3_dot(d, n);
   const nsvcd__v3 off = nsvcd__v3_cross(d, n);
-  const nsvcd__v reach = nsvcd__v_fma(nsvcd__v_set(1.7321f * 32767), nsvcd__v_load(f->steps + first),
-                                      nsvcd__v_set((float)(8 * ray->margin) + NSVCD__ROUNDING * b->extent));
-  const uint32_t near_line = nsvcd__v_le(nsvcd__v3_dot(off, off), nsvcd__v_mul(reach, reach));
-  return near_line & nsvcd__v_le(nsvcd__v_negate(reach), along);
+  const nsvcd__v rounding = nsvcd__v_set((float)ray->margin + 4 * NSVCD__ROUNDING * b->extent);
+  const nsvcd__v reach = nsvcd__v_add(nsvcd__v_load(nsvcd__body_r(b) + first), rounding);
+  const uint32_t near_line = nsvcd__v_le(nsvcd__v3_dot(off, off), nsvcd__v_signed_square(reach));
+  return near_line & nsvcd__v_le(nsvcd__v_negate(reach), nsvcd__v3_dot(d, n));
 }
 
-// How often the surface of the closed components winds about a point, by one ray; *unclear if it cannot tell.
+// Is the triangle new to the list of those that a ray has crossed? Then it is added; *unclear if there is no room.
+static int nsvcd__is_new(nsvcd__proof *p, size_t *count, uint32_t number, int *unclear) {
+  for (size_t k = 0; k < *count; k++) {
+    if (p->crossed[k] == number) return 0;
+  }
+  if (*count == NSVCD__CROSSED) *unclear = 1;
+  if (*count < NSVCD__CROSSED) p->crossed[(*count)++] = number;
+  return 1;
+}
+
+// How often the surface of the closed components winds about a point, by one ray; *unclear if it cannot tell. A triangle
+// counts once, whatever patches list it, or parts of it.
 static int nsvcd__crossings(nsvcd__proof *p, const nsvcd__facets *f, const nsvcd__ray *ray, int *unclear) {
   int sum = 0;
+  size_t count = 0;
   for (size_t first = 0; first < f->body->padded && !*unclear; first += NSVCD__LANES) {
     uint32_t patches = nsvcd__patches_on_ray(f, ray, first);
     for (; patches; patches &= patches - 1) {
       const size_t i = first + nsvcd__lowest_bit(patches);
       if (i >= f->body->points) break;
+      const double margin = (double)f->quanta[i] + ray->margin;
       for (size_t n = f->first_triangle[i]; n < f->first_triangle[i + 1]; n++) {
         nsvcd__d3 corners[3];
         int encloses;
-        nsvcd__facet_number(f, n, &encloses);
+        const uint32_t number = nsvcd__facet_number(f, n, &encloses);
         if (!encloses) continue;
         nsvcd__facet_triangle(f, i, n, corners);
         p->work++;
-        sum += nsvcd__ray_crosses(ray, corners, (double)f->quanta[i] + ray->margin, unclear);
+        const int crossing = nsvcd__ray_crosses(ray, corners, margin, unclear);
+        if (crossing && nsvcd__is_new(p, &count, number, unclear)) sum += crossing;
       }
     }
   }
   return sum;
 }
 
-// Is a point of the surface of f within `distance` of the place?
-static int nsvcd__surface_is_near(const nsvcd__facets *f, nsvcd__d3 place, double distance) {
+// Is a stored triangle so close to the place that the true surface may be on its other side?
+static int nsvcd__surface_is_near(const nsvcd__facets *f, nsvcd__d3 place, double tolerance) {
   const nsvcd__d3 point[3] = {place, place, place};
   for (size_t i = 0; i < f->body->points; i++) {
+    const double distance = 2 * (double)f->quanta[i] + tolerance;
     const nsvcd__d3 centre = nsvcd__d3_widen(nsvcd__facet_centre(f, i));
     const double reach = (double)nsvcd__body_r(f->body)[i] + distance;
     const nsvcd__d3 d = nsvcd__d3_sub(place, centre);
@@ -5998,28 +6028,62 @@ static int nsvcd__is_enclosed(nsvcd__proof *p, const nsvcd__facets *f, nsvcd__d3
   return 0;
 }
 
+// Does some surface of a body lie outside of a sphere about the other? start: from the frame of the first to that of the
+// second.
+static int nsvcd__sticks_out(const nsvcd__facets *inner, const nsvcd__transform *start, const nsvcd_body *outer) {
+  const nsvcd_body *b = inner->body;
+  const nsvcd__v3 centre = nsvcd__v3_set(nsvcd__f3_of(outer->centre[0], outer->centre[1], outer->centre[2]));
+  const float rounding = 4 * NSVCD__ROUNDING * (b->extent + outer->extent);
+  const nsvcd__v radius = nsvcd__v_set(outer->radius + rounding);
+  for (size_t first = 0; first < b->padded; first += NSVCD__LANES) {
+    const nsvcd__v3 own = nsvcd__v3_of(nsvcd__v_load(nsvcd__body_x(b) + first), nsvcd__v_load(nsvcd__body_y(b) + first),
+                                       nsvcd__v_load(nsvcd__body_z(b) + first));
+    const nsvcd__v3 d = nsvcd__v3_sub(nsvcd__v3_transform(start, own), centre);
+    const nsvcd__v r = nsvcd__v_load(nsvcd__body_r(b) + first);
+    const nsvcd__v limit = nsvcd__v_add(radius, r);
+    uint32_t out = ~nsvcd__v_le(nsvcd__v3_dot(d, d), nsvcd__v_mul(limit, limit)) & 0xffff;
+    for (; out; out &= out - 1) {
+      const size_t i = first + nsvcd__lowest_bit(out);
+      if (i < inner->body->points && inner->hull_counts[i]) return 1;
+    }
+  }
+  return 0;
+}
+
+// The pose that takes the fixed body's frame to the moving one's.
+static nsvcd__placement nsvcd__inverse_placement(const nsvcd__placement *at) {
+  nsvcd__placement out;
+  out.rows[0] = nsvcd__d3_of(at->rows[0].x, at->rows[1].x, at->rows[2].x);
+  out.rows[1] = nsvcd__d3_of(at->rows[0].y, at->rows[1].y, at->rows[2].y);
+  out.rows[2] = nsvcd__d3_of(at->rows[0].z, at->rows[1].z, at->rows[2].z);
+  out.position = nsvcd__d3_scale(nsvcd__rotate(out.rows, at->position), -1);
+  return out;
+}
+
 // Is a component of one body within the other at the start of the motion? Then p->found has its point. Where that is so
 // close to the surface that quanta matter, 0 is returned and p->within is set: if planes then part all patches at t = 0,
 // the point, the stored surface and the true one, patch by patch on one side of a plane, agree, and it is within.
 static int nsvcd__starts_within(nsvcd__proof *p) {
   const nsvcd__placement at = nsvcd__placement_at(nsvcd__arc_at(p, 0), 0);
-  double close = p->tolerance;
-  for (size_t n = 0; n < p->moving.components + p->fixed.components; n++) {
-    const int is_moving = n < p->moving.components;
-    const nsvcd__facets *outer = is_moving ? &p->fixed : &p->moving;
-    const nsvcd__d3 seed =
-        is_moving ? nsvcd__d3_load(p->moving.seeds + 3 * n) : nsvcd__d3_load(p->fixed.seeds + 3 * (n - p->moving.components));
-    const nsvcd__d3 seen = is_moving ? nsvcd__place_point(&at, seed)
-                                     : nsvcd__rotate_back(at.rows, nsvcd__d3_sub(seed, at.position));
-    if (!nsvcd__is_enclosed(p, outer, seen)) continue;
-    for (size_t i = 0; i < outer->body->points; i++) close = fmax(close, 2 * (double)outer->quanta[i]);
-    p->found.point = is_moving ? seen : seed;
-    p->found.normal = nsvcd__d3_of(0, 0, 0);
-    p->found.time = 0;
-    p->found.moving_triangle = p->found.fixed_triangle = 0xffffffffu;
-    p->found.moving_patch = p->found.fixed_patch = 0;
-    p->within = 1;
-    if (!nsvcd__surface_is_near(outer, seen, close)) return 1;
+  const nsvcd__placement back = nsvcd__inverse_placement(&at);
+  for (size_t way = 0; way < 2; way++) {
+    const nsvcd__facets *inner = way == 0 ? &p->moving : &p->fixed;
+    const nsvcd__facets *outer = way == 0 ? &p->fixed : &p->moving;
+    const nsvcd__placement *start = way == 0 ? &at : &back;
+    const nsvcd__transform rounded = nsvcd__transform_of(start);
+    if (outer->body->open) continue;
+    if (inner->components == 1 && nsvcd__sticks_out(inner, &rounded, outer->body)) continue;
+    for (size_t n = 0; n < inner->components; n++) {
+      const nsvcd__d3 seed = nsvcd__d3_load(inner->seeds + 3 * n);
+      const nsvcd__d3 seen = nsvcd__place_point(start, seed);
+      if (!nsvcd__is_enclosed(p, outer, seen)) continue;
+      memset(&p->found, 0, sizeof p->found);
+      p->found.point = way == 0 ? seen : seed;
+      p->found.moving_triangle = NSVCD_NO_TRIANGLE;
+      p->found.fixed_triangle = NSVCD_NO_TRIANGLE;
+      p->within = 1;
+      if (!nsvcd__surface_is_near(outer, seen, p->tolerance)) return 1;
+    }
   }
   return 0;
 }
@@ -6062,26 +6126,15 @@ static nsvcd__verdict nsvcd__collect_items(nsvcd__proof *p, const nsvcd__workspa
       const size_t l = nsvcd__lowest_bit(met);
       const size_t i = NSVCD__GROUP * g + l;
       if (p->moving.hull_counts[i] == 0) continue;
-      if (p->count == NSVCD__ITEMS) {
-        const nsvcd__verdict verdict = nsvcd__settle_items(p, work);
+      if (p->fresh_count == NSVCD__FRESH) {
+        const nsvcd__verdict verdict = nsvcd__sift_items(p, work);
         if (verdict != NSVCD__FREE) return verdict;
       }
       const nsvcd__item item = {(uint16_t)i, (uint16_t)j, (uint16_t)s, 0, depth[l], share[l]};
-      p->items[p->count++] = item;
+      p->fresh[p->fresh_count++] = item;
     }
   }
   return NSVCD__FREE;
-}
-
-// Looks for a witness in the deepest of the items from `first` on, if it is deep.
-static int nsvcd__seek_deepest(nsvcd__proof *p, const nsvcd__workspace *work, size_t first) {
-  size_t deepest = first;
-  for (size_t n = first + 1; n < p->count; n++) {
-    if (p->items[n].depth > p->items[deepest].depth) deepest = n;
-  }
-  if (first >= p->count || p->items[deepest].depth < NSVCD__DEEP || p->tries >= NSVCD__TRIES) return 0;
-  p->tries++;
-  return nsvcd__seek_item(p, work, &p->items[deepest]);
 }
 
 static nsvcd__verdict nsvcd__prove(nsvcd__proof *p, nsvcd__workspace *work) {
@@ -6090,7 +6143,6 @@ static nsvcd__verdict nsvcd__prove(nsvcd__proof *p, nsvcd__workspace *work) {
   if (nsvcd__starts_within(p)) return NSVCD__WITHIN;
   nsvcd__cut_motion(p->motion, p->lengths, work);
   int more = nsvcd__search_begin(moving, fixed, work);
-  size_t seen = 0;
   while (more) {
     nsvcd__step step;
     more = nsvcd__search_next(work, moving, fixed, &step);
@@ -6101,10 +6153,9 @@ static nsvcd__verdict nsvcd__prove(nsvcd__proof *p, nsvcd__workspace *work) {
           nsvcd__collect_items(p, work, step.moving_group, NSVCD__GROUP * step.fixed_group + l, step.segments[l]);
       if (verdict != NSVCD__FREE) return verdict;
     }
-    if (p->count < seen) seen = 0;
-    if (p->count < seen + NSVCD__NEWS) continue;
-    if (nsvcd__seek_deepest(p, work, seen)) return NSVCD__MEETS;
-    seen = p->count;
+    if (p->fresh_count < NSVCD__NEWS && more) continue;
+    const nsvcd__verdict verdict = nsvcd__sift_items(p, work);
+    if (verdict != NSVCD__FREE) return verdict;
   }
   const nsvcd__verdict verdict = nsvcd__settle_items(p, work);
   if (verdict != NSVCD__FREE) return verdict;
@@ -7165,7 +7216,7 @@ static void nsvcd__answer_by_proof(const nsvcd__question *ask, nsvcd__query *que
   p->lengths = p->moving.body->extent + p->fixed.body->extent;
   p->tolerance = (double)ask->tolerance;
   p->limit = ask->work;
-  p->work = p->count = p->tries = 0;
+  p->work = p->count = p->fresh_count = 0;
   p->undecided = p->within = 0;
   p->arc.index = (size_t)-1;
   const nsvcd__verdict verdict = nsvcd__prove(p, &query->broad_phase);
