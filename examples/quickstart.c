@@ -20,14 +20,13 @@ static double microseconds(void) {
   return 1e6 * (double)now.tv_sec + 1e-3 * (double)now.tv_nsec;
 }
 
-// Loads a mesh and encodes it into fresh memory. NULL, with a message, if that fails.
-static const nsvcd_body *load(const char *path, nsvcd_mesh *mesh, void **memory) {
-  size_t line = 0, size = nsvcd_body_size(NSVCD_DEFAULT_POINTS);
+// Loads a mesh and encodes it. NULL, with a message, if that fails.
+static const nsvcd_body *load(const char *path, nsvcd_mesh *mesh) {
+  size_t line = 0;
   const nsvcd_body *body = NULL;
   nsvcd_result result = nsvcd_obj_load(path, NULL, mesh, &line);
   double start = microseconds();
-  *memory = malloc(size);  // aligned well enough on 64-bit machines; where it is not, nsvcd_encode says so
-  if (!result) result = nsvcd_encode(mesh, NULL, NULL, *memory, size, &body);
+  if (!result) result = nsvcd_encode(mesh, NULL, NULL, NULL, 0, &body);
   if (result) return fprintf(stderr, "%s:%zu: %s\n", path, line, nsvcd_result_string(result)), NULL;
   nsvcd_body_facts facts = nsvcd_body_describe(body);
   printf("%-29s %zu triangles -> %zu patches, %zu bytes, in %.1f ms\n", path, mesh->triangle_count, facts.points,

@@ -445,7 +445,7 @@ static void run_neural(table *t, const problem_set *set, size_t points, const ns
     bodies[f] = (char *)allocate(set->files[f].mesh_count * size);
     for (size_t i = 0; i < set->files[f].mesh_count; i++, made++) {
       const nsvcd_body *body = NULL;
-      nsvcd_encode_options options = {points, 0, 0};
+      nsvcd_encode_options options = {points, 0, 0, 1};
       double start = seconds();
       nsvcd_result result = nsvcd_encode(&set->meshes[f][i], &options, NULL, bodies[f] + i * size, size, &body);
       if (result) complain("%s: %s", set->files[f].meshes[i].path, nsvcd_result_string(result)), exit(REFUSED);
@@ -545,7 +545,7 @@ static void run_neural_cut(table *t, const problem_set *set) {
     const problem *p = get_problem(set, i, &f);
     float low[3], high[3];
     const nsvcd_body *moving = NULL, *fixed = NULL;
-    nsvcd_encode_options whole = {0, 0, 0}, open = {0, 0, 1};
+    nsvcd_encode_options whole = {0, 0, 0, 1}, open = {0, 0, 1, 1};
     nsvcd_mesh part;
     nsvcd_answer a = {0, 0, 0, 0, 0, NSVCD_STATUS_CERTIFIED_FREE, 0};
     swept_box(set, f, p, low, high);

@@ -73,7 +73,7 @@ static int compare_doubles(const void *a, const void *b) {
 static const nsvcd_body *encode(const char *from, const char *path, size_t points, void *memory) {
   char full[4096];
   const char *slash = strrchr(from, '/');
-  nsvcd_encode_options options = {points, 0, 0};
+  nsvcd_encode_options options = {points, 0, 0, 1};
   nsvcd_mesh mesh;
   const nsvcd_body *body = NULL;
   snprintf(full, sizeof full, "%.*s%s", slash ? (int)(slash - from) + 1 : 0, from, path);
@@ -224,7 +224,7 @@ static void time_preparation(void) {
          megabytes / parse);
   for (size_t points = 128; points <= 512; points *= 4) {
     void *memory = allocate(nsvcd_body_size(points));
-    nsvcd_encode_options options = {points, 0, 0};
+    nsvcd_encode_options options = {points, 0, 0, 1};
     double least = 1e9;
     for (int run = 0; run < 5; run++) {
       const double start = seconds();

@@ -148,7 +148,7 @@ static void body_malice(void) {
   size_t size = body_bytes(body), floats_end = size - 9 * NSVCD__LATENT;
   char *copy = aligned(&blob_b_memory);
   for (size_t at = offsetof(struct nsvcd_body, centre); at + 4 <= floats_end; at += 4) {
-    if (at >= offsetof(struct nsvcd_body, reserved) && at < sizeof *body) continue;
+    if (at >= offsetof(struct nsvcd_body, open) && at < sizeof *body) continue;
     if (at + 16 > floats_end) continue;  // the zeros at the end shift the latents' start by up to 15 bytes
     for (size_t n = 0; n < 4; n++) {
       memcpy(copy, body, size);

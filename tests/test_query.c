@@ -130,7 +130,7 @@ static void query_patch_radius_is_honoured(void) {
   size_t fewer = NSVCD_MAX_POINTS + 1;
   const float wanted[3] = {0.025f, 0.04f, 0.07f};
   for (int i = 0; i < 3; i++) {
-    nsvcd_encode_options options = {0, wanted[i], 0};
+    nsvcd_encode_options options = {0, wanted[i], 0, 1};
     size_t size = nsvcd_body_size(NSVCD_MAX_POINTS);
     query_memory memory = query_reserve(size);
     const nsvcd_body *body = NULL;
@@ -285,7 +285,7 @@ static void query_inside_an_open_body(void) {
   nsvcd_mesh small = query_box(0.02, 0.02, 0.02), large = query_box(0.4, 0.4, 0.4);
   query_memory memory[2] = {query_reserve(nsvcd_body_size(512)), query_reserve(nsvcd_body_size(512))};
   const nsvcd_body *inner = NULL, *outer = NULL, *loaded = NULL;
-  nsvcd_encode_options open = {512, 0, 1};
+  nsvcd_encode_options open = {512, 0, 1, 1};
   CHECK_EQ(nsvcd_encode(&small, &open, NULL, memory[0].at, nsvcd_body_size(512), &inner), NSVCD_OK);
   CHECK_EQ(nsvcd_encode(&large, &open, NULL, memory[1].at, nsvcd_body_size(512), &outer), NSVCD_OK);
   CHECK_EQ(nsvcd_body_load(memory[1].at, nsvcd_body_size(512), &loaded), NSVCD_OK);
@@ -321,7 +321,7 @@ static void query_sizes_at_the_limits(void) {
     query_memory memory[2] = {query_reserve(nsvcd_body_size(NSVCD_MAX_POINTS)),
                               query_reserve(nsvcd_body_size(NSVCD_MAX_POINTS))};
     const nsvcd_body *body = NULL, *same = NULL;
-    CHECK_EQ(nsvcd_encode(&cube, NULL, NULL, memory[0].at, nsvcd_body_size(NSVCD_MAX_POINTS), &body), NSVCD_OK);
+    CHECK_EQ(nsvcd_encode(&cube, &query_latents, NULL, memory[0].at, nsvcd_body_size(NSVCD_MAX_POINTS), &body), NSVCD_OK);
     CHECK_EQ(nsvcd_body_scale(body, 1, memory[1].at, nsvcd_body_size(NSVCD_MAX_POINTS), &same), NSVCD_OK);
     nsvcd_pose through[2] = {query_pose(-0.9 * a, 0, 0), query_pose(0.9 * a, 0, 0)}, origin = query_pose(0, 0, 0);
     CHECK_EQ(query_ask(body, through, 2, same, &origin, NULL).collides, 1);
@@ -333,7 +333,7 @@ static void query_sizes_at_the_limits(void) {
   nsvcd_mesh speck = query_box(1e-13, 1e-13, 1e-13);
   query_memory memory = query_reserve(nsvcd_body_size(NSVCD_MAX_POINTS));
   const nsvcd_body *body = NULL;
-  CHECK_EQ(nsvcd_encode(&speck, NULL, NULL, memory.at, nsvcd_body_size(NSVCD_MAX_POINTS), &body), NSVCD_ERROR_NUMBER);
+  CHECK_EQ(nsvcd_encode(&speck, &query_latents, NULL, memory.at, nsvcd_body_size(NSVCD_MAX_POINTS), &body), NSVCD_ERROR_NUMBER);
   CHECK(body == NULL);
   query_release(&memory);
   nsvcd_mesh_free(&speck, NULL);
@@ -528,8 +528,8 @@ static void query_encode_refuses_bad_input(void) {
   nsvcd_mesh mesh = query_box(0.1, 0.1, 0.1), bad = mesh;
   size_t size = nsvcd_body_size(64);
   query_memory memory = query_reserve(nsvcd_body_size(NSVCD_MAX_POINTS) + QUERY_ALIGN);
-  nsvcd_encode_options options = {64, 0, 0}, too_many = {NSVCD_MAX_POINTS + 1, 0, 0}, negative = {0, -1, 0},
-                       nan = {0, NAN, 0};
+  nsvcd_encode_options options = {64, 0, 0, 1}, too_many = {NSVCD_MAX_POINTS + 1, 0, 0, 1}, negative = {0, -1, 0, 1},
+                       nan = {0, NAN, 0, 1};
   query_encode_refuses(NULL, &options, memory.at, size, NSVCD_ERROR_ARGUMENT);
   query_encode_refuses(&mesh, &options, NULL, size, NSVCD_ERROR_ARGUMENT);
   query_encode_refuses(&mesh, &too_many, memory.at, size, NSVCD_ERROR_ARGUMENT);
@@ -589,7 +589,7 @@ static void query_heap_free(void *memory, void *user) {
 
 static void query_encode_survives_every_failed_allocation(void) {
   nsvcd_mesh mesh = query_solid(5, 0.3);
-  nsvcd_encode_options options = {32, 0, 0};
+  nsvcd_encode_options options = {32, 0, 0, 1};
   size_t size = nsvcd_body_size(32);
   query_memory memory = query_reserve(size), undisturbed = query_reserve(size);
   const nsvcd_body *expected = NULL;
