@@ -725,7 +725,7 @@ static void surface_is_covered(void) {
 // Fine meshes are hardly cut, their triangles listed about once, and the hulls are near to the surface.
 static void surface_of_a_fine_mesh(void) {
   shapes_rng rng = {2};
-  nsvcd_mesh mesh = surface_sphere(0.5, 158);
+  nsvcd_mesh mesh = surface_sphere(0.5, 166);
   reader r;
   CHECK_LE(20000, mesh.triangle_count);
   check_all(&mesh, 256, &rng, 1);
