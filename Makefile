@@ -66,7 +66,7 @@ assets: build/make_assets  ## writes examples/assets/*.obj, which are in the rep
 
 # ------------------------------------------------------------------------------------------------------------- tests
 
-TESTS = main test_mesh test_network test_broad_phase test_oracle test_query test_gradient test_cost test_tasks test_plan_spheres test_plan
+TESTS = main test_mesh test_surface test_network test_broad_phase test_oracle test_query test_gradient test_cost test_tasks test_plan_spheres test_plan
 TEST_OBJECTS = $(TESTS:%=build/%.o)
 # Each test file holds its own copy of the header, and uses only a part of its private functions.
 TEST_WARNINGS = -Wall -Wextra -Werror -Wno-unused-function

@@ -553,8 +553,14 @@ static nsvcd__d3 nsvcd__d3_unit(nsvcd__d3 a, nsvcd__d3 otherwise) {
   const double length = nsvcd__d3_length(a);
   return length > 0 ? nsvcd__d3_scale(a, 1 / length) : otherwise;
 }
+// Rounds for certain. gcc 12 at -O2 forgets to where two doubles side by side become floats and doubles again: it takes
+// the two conversions of a vector for none, and a proof built on what is stored would not hold.
+static float nsvcd__to_float(double x) {
+  volatile float rounded = (float)x;
+  return rounded;
+}
 static nsvcd__f3 nsvcd__f3_round(nsvcd__d3 a) {
-  return nsvcd__f3_of((float)a.x, (float)a.y, (float)a.z);
+  return nsvcd__f3_of(nsvcd__to_float(a.x), nsvcd__to_float(a.y), nsvcd__to_float(a.z));
 }
 static nsvcd__d3 nsvcd__d3_widen(nsvcd__f3 a) {
   return nsvcd__d3_of((double)a.x, (double)a.y, (double)a.z);
@@ -1843,7 +1849,7 @@ static nsvcd_result nsvcd__patches_build(const nsvcd_mesh *mesh, size_t points, 
 // corners themselves are off by roundings of double: all bounds are wider by NSVCD__SURFACE_MARGIN.
 
 #define NSVCD__SURFACE_OVERLAP 0.5    // a piece may reach this far into the next patch, in mean sample radii
-#define NSVCD__SURFACE_WHOLE 8.0      // a triangle with a longer edge is listed in parts; in mean sample radii
+#define NSVCD__SURFACE_WHOLE 16.0     // a triangle with a longer edge is listed in parts; in mean sample radii
 #define NSVCD__SURFACE_MARGIN 1e-13   // of the mesh's greatest coordinate
 #define NSVCD__SURFACE_TINY 1e-30     // metres, added to the margin: keeps off what float cannot hold
 #define NSVCD__HULL_SHARE 1e-4        // of the radius: a hull that is as near as this to all corners is good enough
@@ -2346,7 +2352,7 @@ static int nsvcd__pieces_build(const nsvcd_mesh *mesh, const nsvcd__patches *pat
 // ---- rounding outwards
 
 static float nsvcd__float_above(double x) {
-  const float rounded = (float)x;
+  const float rounded = nsvcd__to_float(x);
   return (double)rounded < x ? nextafterf(rounded, HUGE_VALF) : rounded;
 }
 static float nsvcd__float_below(double x) { return -nsvcd__float_above(-x); }

@@ -4,6 +4,7 @@
 check_state check;
 
 void test_mesh(void);
+void test_surface(void);
 void test_network(void);
 void test_broad_phase(void);
 void test_oracle(void);
@@ -17,6 +18,7 @@ void test_plan(void);
 int main(int argc, char **argv) {
   check.filter = argc > 1 ? argv[1] : NULL;
   test_mesh();
+  test_surface();
   test_network();
   test_broad_phase();
   test_oracle();

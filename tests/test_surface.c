@@ -1,0 +1,953 @@
+// What the proof needs of each patch: balls, discs, hulls, triangles. The reference is double precision, written apart,
+// and knows nothing of pieces: it takes points of the mesh and looks where the result says they are.
+#define NSVCD_STATIC
+#define NEURALSVCD_IMPLEMENTATION
+#include "../neuralsvcd.h"
+
+#include "../examples/shapes.h"
+#include "check.h"
+
+#include <stdio.h>
+#include <stdlib.h>
+
+void test_surface(void);
+
+// -------------------------------------------------------------------------------------------------- vectors
+
+typedef struct vec {
+  double x, y, z;
+} vec;
+
+static vec vec_of(double x, double y, double z) {
+  const vec out = {x, y, z};
+  return out;
+}
+static vec vec_load(const float *p) { return vec_of((double)p[0], (double)p[1], (double)p[2]); }
+static vec vec_add(vec a, vec b) { return vec_of(a.x + b.x, a.y + b.y, a.z + b.z); }
+static vec vec_sub(vec a, vec b) { return vec_of(a.x - b.x, a.y - b.y, a.z - b.z); }
+static vec vec_scale(vec a, double s) { return vec_of(s * a.x, s * a.y, s * a.z); }
+static double vec_dot(vec a, vec b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
+static double vec_length(vec a) { return sqrt(vec_dot(a, a)); }
+static vec vec_cross(vec a, vec b) {
+  return vec_of(a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x);
+}
+
+// -------------------------------------------------------------------------------------------------- meshes
+
+static nsvcd_mesh surface_mesh(size_t vertices, size_t triangles) {
+  nsvcd_mesh mesh;
+  mesh.positions = (float *)calloc(3 * vertices, sizeof(float));
+  mesh.indices = (uint32_t *)calloc(3 * triangles, sizeof(uint32_t));
+  mesh.vertex_count = vertices;
+  mesh.triangle_count = triangles;
+  return mesh;
+}
+
+static nsvcd_mesh surface_take(shapes_mesh *shape) {
+  nsvcd_mesh mesh = surface_mesh(shape->vertices, shape->triangles);
+  for (size_t i = 0; i < 3 * shape->vertices; i++) mesh.positions[i] = (float)shape->positions[i];
+  memcpy(mesh.indices, shape->indices, 3 * shape->triangles * sizeof(uint32_t));
+  shapes_free(shape);
+  return mesh;
+}
+
+// A wavy sheet of cuts * cuts squares; waves 0: flat.
+static nsvcd_mesh surface_sheet(size_t cuts, double size, double waves) {
+  shapes_mesh shape;
+  memset(&shape, 0, sizeof shape);
+  for (size_t j = 0; j <= cuts; j++) {
+    for (size_t i = 0; i <= cuts; i++) {
+      const double x = (double)i / (double)cuts;
+      const double y = (double)j / (double)cuts;
+      shapes_vertex(&shape, size * x, size * y, size * waves * sin(5 * x) * cos(7 * y));
+    }
+  }
+  for (uint32_t j = 0; j < cuts; j++) {
+    for (uint32_t i = 0; i < cuts; i++) {
+      const uint32_t a = j * ((uint32_t)cuts + 1) + i;
+      shapes_quad(&shape, a, a + 1, a + (uint32_t)cuts + 2, a + (uint32_t)cuts + 1);
+    }
+  }
+  return surface_take(&shape);
+}
+
+// Random triangles of all shapes. Some are points, some segments, some 1:1000.
+static nsvcd_mesh surface_soup(shapes_rng *rng, size_t triangles, double size) {
+  nsvcd_mesh mesh = surface_mesh(3 * triangles, triangles);
+  for (size_t t = 0; t < triangles; t++) {
+    float *p = mesh.positions + 9 * t;
+    for (size_t k = 0; k < 9; k++) {
+      const double reach = t % 2 ? 0.05 : 1;
+      const double from = k < 3 ? 0 : (double)p[k - 3];
+      p[k] = (float)(from + size * reach * shapes_uniform(rng, -0.5, 0.5));
+    }
+    for (size_t k = 0; k < 3; k++) {
+      const double a = (double)p[k];
+      const double b = (double)p[3 + k];
+      if (t % 7 == 0) p[6 + k] = (float)(a + (b - a) * 0.4 + size * 1e-3 * (k == 0));
+      if (t % 11 == 0) p[3 + k] = p[6 + k] = p[k];
+      if (t % 13 == 0) p[6 + k] = (float)(0.5 * (a + b));
+    }
+    for (uint32_t k = 0; k < 3; k++) mesh.indices[3 * t + k] = 3 * (uint32_t)t + k;
+  }
+  return mesh;
+}
+
+static nsvcd_mesh surface_needles(size_t triangles) {  // 1:1000, from one point
+  nsvcd_mesh mesh = surface_mesh(triangles + 2, triangles);
+  for (size_t i = 0; i <= triangles; i++) {
+    mesh.positions[3 * i] = 1;
+    mesh.positions[3 * i + 1] = 0.001f * (float)i;
+  }
+  for (uint32_t t = 0; t < triangles; t++) {
+    mesh.indices[3 * t] = (uint32_t)triangles + 1;
+    mesh.indices[3 * t + 1] = t;
+    mesh.indices[3 * t + 2] = t + 1;
+  }
+  return mesh;
+}
+
+static void surface_move(nsvcd_mesh *mesh, double scale, double offset) {
+  for (size_t i = 0; i < 3 * mesh->vertex_count; i++) {
+    mesh->positions[i] = (float)(scale * (double)mesh->positions[i] + offset);
+  }
+}
+
+static nsvcd_mesh surface_twice(nsvcd_mesh mesh) {  // every triangle again
+  const size_t bytes = 3 * mesh.triangle_count * sizeof(uint32_t);
+  uint32_t *indices = (uint32_t *)malloc(2 * bytes);
+  memcpy(indices, mesh.indices, bytes);
+  memcpy(indices + 3 * mesh.triangle_count, mesh.indices, bytes);
+  free(mesh.indices);
+  mesh.indices = indices;
+  mesh.triangle_count *= 2;
+  return mesh;
+}
+
+static nsvcd_mesh surface_box(double x, double y, double z, int cuts) {
+  shapes_mesh shape;
+  memset(&shape, 0, sizeof shape);
+  shapes_box(&shape, x, y, z, cuts);
+  return surface_take(&shape);
+}
+
+static nsvcd_mesh surface_solid(uint64_t seed, int hollow) {
+  shapes_mesh shape;
+  shapes_rng rng = {seed};
+  memset(&shape, 0, sizeof shape);
+  if (hollow) shapes_random_hollow(&shape, &rng, (int)(seed % SHAPES_HOLLOWS), 1);
+  if (!hollow) shapes_random_solid(&shape, &rng, 1);
+  return surface_take(&shape);
+}
+
+static nsvcd_mesh surface_sphere(double radius, int segments) {
+  shapes_mesh shape;
+  memset(&shape, 0, sizeof shape);
+  shapes_ellipsoid(&shape, radius, radius, radius, segments);
+  return surface_take(&shape);
+}
+
+enum { SURFACE_KINDS = 21 };
+static nsvcd_mesh surface_kind(int kind) {
+  shapes_rng rng = {77};
+  nsvcd_mesh mesh;
+  switch (kind) {
+    case 0:
+      return surface_box(0.4, 0.3, 0.2, 1);
+    case 1:
+      return surface_box(1, 1, 0.002, 1);
+    case 2:
+      mesh = surface_box(1, 1, 1, 1);
+      mesh.triangle_count = 1;
+      return mesh;
+    case 3:
+      mesh = surface_box(20, 20, 20, 1);  // a plate of 20 m
+      mesh.triangle_count = 2;
+      return mesh;
+    case 4:
+      return surface_sheet(1, 1, 0);
+    case 5:
+      return surface_sheet(40, 1, 0.1);
+    case 6:
+      return surface_needles(300);
+    case 7:
+      return surface_soup(&rng, 400, 1);
+    case 8:
+      return surface_twice(surface_box(0.4, 0.3, 0.2, 3));
+    case 9:
+      return surface_sphere(0.5, 30);
+    case 10:
+      mesh = surface_solid(3, 0);
+      surface_move(&mesh, 1e-3, 0);
+      return mesh;
+    case 11:
+      mesh = surface_solid(4, 0);
+      surface_move(&mesh, 400, 1000);
+      return mesh;
+    case 12:
+      mesh = surface_solid(5, 1);
+      surface_move(&mesh, 0.1, 900);  // far from the origin: coordinates have few digits left
+      return mesh;
+    case 13:
+      mesh = surface_soup(&rng, 100, 1);
+      surface_move(&mesh, 1e-3, 0);
+      return mesh;
+    case 14:
+    case 15:
+    case 16:
+      return surface_solid((uint64_t)kind + 10, 0);
+    default:
+      return surface_solid((uint64_t)kind + 10, 1);
+  }
+}
+
+static double surface_scale(const nsvcd_mesh *mesh) {
+  double scale = 0;
+  for (size_t i = 0; i < 3 * mesh->vertex_count; i++) {
+    scale = fmax(scale, fabs((double)mesh->positions[i]));
+  }
+  return scale;
+}
+
+static vec surface_corner(const nsvcd_mesh *mesh, size_t t, size_t i) {
+  return vec_load(mesh->positions + 3 * (size_t)mesh->indices[3 * t + i]);
+}
+
+// ------------------------------------------------------------------------------------- topology, by sorting
+
+typedef struct place {
+  float p[3];
+  uint32_t vertex;
+} place;
+
+static int place_order(const void *a, const void *b) {
+  const place *x = (const place *)a;
+  const place *y = (const place *)b;
+  for (size_t k = 0; k < 3; k++) {
+    if (x->p[k] < y->p[k]) return -1;
+    if (x->p[k] > y->p[k]) return 1;
+  }
+  return 0;
+}
+
+typedef struct edge {
+  uint32_t low, high;
+  int sign;
+} edge;
+
+static int edge_order(const void *a, const void *b) {
+  const edge *x = (const edge *)a;
+  const edge *y = (const edge *)b;
+  if (x->low != y->low) return x->low < y->low ? -1 : 1;
+  if (x->high != y->high) return x->high < y->high ? -1 : 1;
+  return 0;
+}
+
+typedef struct shells {
+  uint32_t *part;    // (vertices) the component of a vertex, by a label
+  uint8_t *closed;   // (vertices) of a label
+  size_t count;      // components with triangles
+} shells;
+
+static shells shells_of(const nsvcd_mesh *mesh) {
+  const size_t vertices = mesh->vertex_count;
+  const size_t triangles = mesh->triangle_count;
+  shells out = {(uint32_t *)malloc(4 * vertices), (uint8_t *)malloc(vertices), 0};
+  uint32_t *weld = (uint32_t *)malloc(4 * vertices);
+  place *places = (place *)malloc(vertices * sizeof *places);
+  for (size_t v = 0; v < vertices; v++) {
+    memcpy(places[v].p, mesh->positions + 3 * v, 12);
+    places[v].vertex = (uint32_t)v;
+  }
+  qsort(places, vertices, sizeof *places, place_order);
+  for (size_t v = 0, first = 0; v < vertices; v++) {
+    if (place_order(&places[first], &places[v])) first = v;
+    weld[places[v].vertex] = places[first].vertex;
+  }
+
+  for (size_t v = 0; v < vertices; v++) out.part[v] = weld[v];
+  for (int changed = 1; changed;) {  // the least label of a triangle spreads
+    changed = 0;
+    for (size_t pass = 0; pass < 2 * triangles; pass++) {
+      const size_t t = pass < triangles ? pass : 2 * triangles - 1 - pass;
+      uint32_t least = 0xffffffffu;
+      for (size_t i = 0; i < 3; i++) {
+        const uint32_t label = out.part[weld[mesh->indices[3 * t + i]]];
+        least = label < least ? label : least;
+      }
+      for (size_t i = 0; i < 3; i++) {
+        uint32_t *label = &out.part[weld[mesh->indices[3 * t + i]]];
+        changed |= *label != least;
+        *label = least;
+      }
+    }
+  }
+  for (size_t v = 0; v < vertices; v++) out.part[v] = out.part[weld[v]];
+
+  edge *edges = (edge *)malloc(3 * triangles * sizeof *edges);
+  size_t count = 0;
+  uint8_t *used = (uint8_t *)calloc(vertices, 1);
+  for (size_t t = 0; t < triangles; t++) {
+    uint32_t c[3];
+    for (size_t i = 0; i < 3; i++) c[i] = weld[mesh->indices[3 * t + i]];
+    out.count += !used[out.part[c[0]]];
+    used[out.part[c[0]]] = 1;
+    if (c[0] == c[1] || c[1] == c[2] || c[2] == c[0]) continue;
+    for (size_t i = 0; i < 3; i++) {
+      const uint32_t a = c[i];
+      const uint32_t b = c[(i + 1) % 3];
+      const edge e = {a < b ? a : b, a < b ? b : a, a < b ? 1 : -1};
+      edges[count++] = e;
+    }
+  }
+  qsort(edges, count, sizeof *edges, edge_order);
+  memset(out.closed, 1, vertices);
+  for (size_t e = 0; e < count;) {
+    int sum = 0;
+    const size_t first = e;
+    for (; e < count && !edge_order(&edges[first], &edges[e]); e++) sum += edges[e].sign;
+    if (sum) out.closed[out.part[edges[first].low]] = 0;
+  }
+  free(weld);
+  free(places);
+  free(edges);
+  free(used);
+  return out;
+}
+
+static void shells_free(shells *s) {
+  free(s->part);
+  free(s->closed);
+}
+
+// ------------------------------------------------------------------------------------- distances
+
+static double segment_distance(vec a, vec b, vec x) {
+  const vec d = vec_sub(b, a);
+  const double squared = vec_dot(d, d);
+  const double t = squared > 0 ? fmin(1, fmax(0, vec_dot(vec_sub(x, a), d) / squared)) : 0;
+  return vec_length(vec_sub(vec_add(a, vec_scale(d, t)), x));
+}
+
+static double triangle_distance(const vec *c, vec x) {
+  double least = segment_distance(c[0], c[1], x);
+  least = fmin(least, segment_distance(c[1], c[2], x));
+  least = fmin(least, segment_distance(c[2], c[0], x));
+  const vec n = vec_cross(vec_sub(c[1], c[0]), vec_sub(c[2], c[0]));
+  if (!(vec_length(n) > 0)) return least;
+  for (size_t i = 0; i < 3; i++) {
+    const vec side = vec_cross(n, vec_sub(c[(i + 1) % 3], c[i]));
+    if (vec_dot(side, vec_sub(x, c[i])) < 0) return least;
+  }
+  return fmin(least, fabs(vec_dot(n, vec_sub(x, c[0]))) / vec_length(n));
+}
+
+// From outside, the nearest point of a hull lies in a triangle of its vertices: tries them all.
+static int any_triangle_reaches(const vec *points, size_t count, vec x, double reach) {
+  for (size_t i = 0; i < count; i++) {
+    for (size_t j = i; j < count; j++) {
+      for (size_t k = j; k < count; k++) {
+        const vec corners[3] = {points[i], points[j], points[k]};
+        if (triangle_distance(corners, x) <= reach) return 1;
+      }
+    }
+  }
+  return 0;
+}
+
+// Within the hull a point is in a tetrahedron of vertices. Flat ones do not count: triangles tell.
+static int in_tetrahedron(vec a, vec b, vec c, vec d, vec x) {
+  const vec p = vec_sub(a, x);
+  const vec q = vec_sub(b, x);
+  const vec r = vec_sub(c, x);
+  const vec s = vec_sub(d, x);
+  const double parts[4] = {vec_dot(q, vec_cross(r, s)), -vec_dot(p, vec_cross(r, s)),
+                           vec_dot(p, vec_cross(q, s)), -vec_dot(p, vec_cross(q, r))};
+  const double size = vec_length(vec_sub(b, a)) * vec_length(vec_sub(c, a)) * vec_length(vec_sub(d, a));
+  const double whole = parts[0] + parts[1] + parts[2] + parts[3];
+  if (fabs(whole) <= 1e-12 * size) return 0;
+  for (size_t i = 0; i < 4; i++) {
+    if (parts[i] / whole < 0) return 0;
+  }
+  return 1;
+}
+static int any_tetrahedron_holds(const vec *points, size_t count, vec x) {
+  for (size_t i = 0; i < count; i++) {
+    for (size_t j = i + 1; j < count; j++) {
+      for (size_t k = j + 1; k < count; k++) {
+        for (size_t l = k + 1; l < count; l++) {
+          if (in_tetrahedron(points[i], points[j], points[k], points[l], x)) return 1;
+        }
+      }
+    }
+  }
+  return 0;
+}
+
+// Is x within `reach` of the convex hull of these points? A few of Frank and Wolfe's steps settle most: a point of the
+// hull is that near, or a plane shows that none is. The rest is tried out.
+static int hull_reaches(const vec *points, size_t count, vec x, double reach) {
+  double weights[NSVCD__HULL] = {1};
+  vec v = vec_sub(points[0], x);
+  for (int step = 0; step < 60; step++) {
+    const double squared = vec_dot(v, v);
+    if (squared <= reach * reach) return 1;
+    size_t to = 0;
+    size_t from = 0;
+    double least = HUGE_VAL;
+    double most = -HUGE_VAL;
+    for (size_t i = 0; i < count; i++) {
+      const double at = vec_dot(vec_sub(points[i], x), v);
+      if (at < least) to = i;
+      if (at > most && weights[i] > 0) from = i;
+      least = fmin(least, at);
+      if (weights[i] > 0) most = fmax(most, at);
+    }
+    if (least > reach * sqrt(squared)) return 0;
+    const vec d = vec_sub(points[to], points[from]);
+    const double way = -vec_dot(v, d) / vec_dot(d, d);
+    if (!(way > 0)) break;
+    const double share = fmin(way, weights[from]);
+    weights[from] -= share;
+    weights[to] += share;
+    v = vec_of(0, 0, 0);
+    for (size_t i = 0; i < count; i++) v = vec_add(v, vec_scale(vec_sub(points[i], x), weights[i]));
+  }
+  return any_triangle_reaches(points, count, x, reach) || any_tetrahedron_holds(points, count, x);
+}
+
+// ------------------------------------------------------------------------------------- reading the result
+
+typedef struct reader {
+  const nsvcd_mesh *mesh;
+  nsvcd__patches patches;
+  nsvcd__surface surface;
+  vec *vertices;      // (V)
+  size_t *listings;   // (T + 1) listings of a triangle
+  uint32_t *sorted;   // (L) by triangle
+  uint32_t *patch;    // (L) of a listing
+  double tolerance;   // 1e-12 of the greatest coordinate: of this test's own roundings
+} reader;
+
+static uint32_t reader_id(const reader *r, size_t listing) {
+  return r->surface.ids[listing] & ~NSVCD__ENCLOSES;
+}
+
+static void reader_index(reader *r) {
+  const nsvcd__surface *s = &r->surface;
+  r->vertices = (vec *)malloc(s->vertex_count * sizeof(vec));
+  r->listings = (size_t *)calloc(r->mesh->triangle_count + 1, sizeof(size_t));
+  r->sorted = (uint32_t *)malloc(4 * s->listed);
+  r->patch = (uint32_t *)malloc(4 * s->listed);
+  for (uint32_t i = 0; i < s->count; i++) {
+    const size_t first = s->first_vertex[i];
+    const size_t n = s->first_vertex[i + 1] - first;
+    const int16_t *q = s->vertices + 3 * first;
+    for (size_t j = 0; j < n; j++) {
+      const vec offset = vec_of(q[j], q[n + j], q[2 * n + j]);
+      const vec centre = vec_load(s->balls + 4 * i);
+      r->vertices[first + j] = vec_add(centre, vec_scale(offset, (double)s->steps[i]));
+    }
+    for (size_t l = s->first_triangle[i]; l < s->first_triangle[i + 1]; l++) {
+      r->patch[l] = i;
+      r->listings[reader_id(r, l)]++;
+    }
+  }
+  for (size_t t = 1; t <= r->mesh->triangle_count; t++) r->listings[t] += r->listings[t - 1];
+  for (size_t l = s->listed; l-- > 0;) r->sorted[--r->listings[reader_id(r, l)]] = (uint32_t)l;
+}
+
+static int reader_open(reader *r, const nsvcd_mesh *mesh, size_t points) {
+  memset(r, 0, sizeof *r);
+  r->mesh = mesh;
+  r->tolerance = 1e-12 * surface_scale(mesh);
+  CHECK_EQ(nsvcd__patches_build(mesh, points, NULL, &r->patches), NSVCD_OK);
+  const nsvcd_result result = nsvcd__surface_build(mesh, &r->patches, NULL, &r->surface);
+  CHECK_EQ(result, NSVCD_OK);
+  if (result == NSVCD_OK) return 1;
+  nsvcd__patches_free(&r->patches, NULL);
+  return 0;
+}
+
+static void reader_close(reader *r) {
+  nsvcd__surface_free(&r->surface, NULL);
+  nsvcd__patches_free(&r->patches, NULL);
+  free(r->vertices);
+  free(r->listings);
+  free(r->sorted);
+  free(r->patch);
+}
+
+static void reader_corners(const reader *r, size_t listing, vec *corners) {
+  const nsvcd__surface *s = &r->surface;
+  for (size_t k = 0; k < 3; k++) {
+    const size_t vertex = s->first_vertex[r->patch[listing]] + (size_t)s->corners[3 * listing + k];
+    corners[k] = r->vertices[vertex];
+  }
+}
+
+// Everything in its range; 0 if following the numbers would leave the arrays.
+static int check_ranges(const reader *r) {
+  const nsvcd__surface *s = &r->surface;
+  size_t bad = 0;
+  CHECK_EQ(s->count, r->patches.count);
+  CHECK_EQ(s->first_vertex[0], 0);
+  CHECK_EQ(s->first_triangle[0], 0);
+  CHECK_EQ(s->first_vertex[s->count], s->vertex_count);
+  CHECK_EQ(s->first_triangle[s->count], s->listed);
+  for (size_t i = 0; i < 3 * s->vertex_count; i++) bad += s->vertices[i] < -32767;
+  for (size_t i = 0; i < s->count; i++) {
+    const float *ball = s->balls + 4 * i;
+    const float *disc = s->discs + 6 * i;
+    bad += s->first_vertex[i] > s->first_vertex[i + 1];
+    bad += s->first_triangle[i] > s->first_triangle[i + 1];
+    const size_t n = s->first_vertex[i + 1] - s->first_vertex[i];
+    const size_t l = s->first_triangle[i + 1] - s->first_triangle[i];
+    const int empty = l == 0;
+    bad += empty ? s->hull_counts[i] != 0 || n != 0 || ball[3] != NSVCD__NOWHERE : 0;
+    for (size_t k = 0; k < 4; k++) bad += !nsvcd__is_finite(ball[k]);
+    for (size_t k = 0; k < 6; k++) bad += !nsvcd__is_finite(disc[k]);
+    if (empty) continue;
+    const vec normal = vec_load(disc);
+    bad += s->hull_counts[i] < 1 || s->hull_counts[i] > NSVCD__HULL || s->hull_counts[i] > n;
+    bad += vec_length(normal) > 1 || vec_length(normal) < 1 - 1e-6;
+    bad += !(ball[3] > 0) || !(s->steps[i] > 0) || !(s->slacks[i] > 0) || !(s->quanta[i] > 0);
+    bad += !(disc[3] <= disc[4]) || !(disc[5] >= 0);
+    for (size_t k = 3 * s->first_triangle[i]; k < 3 * s->first_triangle[i + 1]; k++) {
+      bad += s->corners[k] >= n;
+    }
+  }
+  for (size_t l = 0; l < s->listed; l++) bad += reader_id(r, l) >= r->mesh->triangle_count;
+  CHECK_EQ(bad, 0);
+  return bad == 0;
+}
+
+// Do ball, disc and hull of the patch contain x? Counts what does not.
+typedef struct misses {
+  size_t points, triangle, ball, disc, hull, nowhere;
+} misses;
+
+static int patch_holds(const reader *r, size_t i, vec x, misses *m) {
+  const nsvcd__surface *s = &r->surface;
+  const float *ball = s->balls + 4 * i;
+  const float *disc = s->discs + 6 * i;
+  const vec offset = vec_sub(x, vec_load(ball));
+  if (vec_length(offset) > (double)ball[3] + r->tolerance) {
+    m->ball++;
+    return 0;
+  }
+  const vec normal = vec_load(disc);
+  const double along = vec_dot(offset, normal);
+  const double across = vec_length(vec_cross(offset, normal)) / vec_length(normal);
+  if (along < (double)disc[3] - r->tolerance || along > (double)disc[4] + r->tolerance ||
+      across > (double)disc[5] + r->tolerance) {
+    m->disc++;
+    return 0;
+  }
+  const vec *hull = r->vertices + s->first_vertex[i];
+  const double reach = (double)s->slacks[i] + r->tolerance;
+  if (hull_reaches(hull, s->hull_counts[i], x, reach)) return 1;
+  m->hull++;
+  return 0;
+}
+
+// A point of triangle t: some patch lists a triangle with this id that is here, and holds the point.
+static void check_point(const reader *r, size_t t, vec x, misses *m) {
+  int listed = 0;
+  misses tried = *m;
+  m->points++;
+  for (size_t k = r->listings[t]; k < r->listings[t + 1]; k++) {
+    const size_t l = r->sorted[k];
+    vec corners[3];
+    reader_corners(r, l, corners);
+    const double quantum = (double)r->surface.quanta[r->patch[l]];
+    // Tolerances in the triangle's own plane are only as good as its shape; a millionth of the quantum is none.
+    if (triangle_distance(corners, x) > quantum * (1 + 1e-6) + 10 * r->tolerance) continue;
+    listed = 1;
+    if (patch_holds(r, r->patch[l], x, &tried)) return;
+  }
+  *m = tried;
+  m->points++;
+  m->triangle += !listed;
+  m->nowhere++;
+}
+
+static void check_points(const reader *r, shapes_rng *rng, size_t random) {
+  misses m;
+  memset(&m, 0, sizeof m);
+  for (size_t t = 0; t < r->mesh->triangle_count; t++) {
+    vec c[3];
+    for (size_t i = 0; i < 3; i++) c[i] = surface_corner(r->mesh, t, i);
+    for (size_t i = 0; i < 3; i++) {
+      const double share = shapes_uniform(rng, 0, 1);
+      const vec along = vec_scale(vec_sub(c[(i + 1) % 3], c[i]), share);
+      check_point(r, t, c[i], &m);
+      check_point(r, t, vec_add(c[i], along), &m);
+    }
+    for (size_t k = 0; k < random; k++) {
+      double u = shapes_uniform(rng, 0, 1);
+      double v = shapes_uniform(rng, 0, 1);
+      if (u + v > 1) {
+        u = 1 - u;
+        v = 1 - v;
+      }
+      const vec across = vec_scale(vec_sub(c[2], c[0]), v);
+      const vec x = vec_add(c[0], vec_add(vec_scale(vec_sub(c[1], c[0]), u), across));
+      check_point(r, t, x, &m);
+    }
+  }
+  CHECK_EQ(m.nowhere, 0);
+  if (m.nowhere == 0) return;
+  printf("  of %zu points: no triangle %zu; left out by balls %zu, discs %zu, hulls %zu\n", m.points,
+         m.triangle, m.ball, m.disc, m.hull);
+}
+
+// Vertices of whole triangles are within the quantum of the mesh's; what is listed lies within it of its triangle.
+static void check_quanta(const reader *r) {
+  size_t bad = 0;
+  for (size_t l = 0; l < r->surface.listed; l++) {
+    vec corners[3];
+    vec mesh_corners[3];
+    const size_t t = reader_id(r, l);
+    const double quantum = (double)r->surface.quanta[r->patch[l]] * (1 + 1e-6) + 10 * r->tolerance;
+    reader_corners(r, l, corners);
+    for (size_t i = 0; i < 3; i++) mesh_corners[i] = surface_corner(r->mesh, t, i);
+    for (size_t i = 0; i < 3; i++) bad += triangle_distance(mesh_corners, corners[i]) > quantum;
+  }
+  CHECK_EQ(bad, 0);
+}
+
+static vec area_vector(const vec *c) {
+  return vec_scale(vec_cross(vec_sub(c[1], c[0]), vec_sub(c[2], c[0])), 0.5);
+}
+
+// The listings that enclose are each triangle of a closed component once, and nothing else: per triangle the vector of
+// areas, over all of them the volume.
+static void check_enclosing(const reader *r) {
+  const nsvcd_mesh *mesh = r->mesh;
+  shells parts = shells_of(mesh);
+  size_t bad = 0;
+  size_t marked = 0;
+  double volume = 0;
+  double volume_error = 0;
+  for (size_t t = 0; t < mesh->triangle_count; t++) {
+    vec c[3];
+    for (size_t i = 0; i < 3; i++) c[i] = surface_corner(mesh, t, i);
+    const double size = vec_length(vec_sub(c[1], c[0])) + vec_length(vec_sub(c[2], c[0]));
+    const int closed = parts.closed[parts.part[mesh->indices[3 * t]]];
+    vec sum = closed ? vec_scale(area_vector(c), -1) : vec_of(0, 0, 0);
+    double error = 100 * r->tolerance * size;
+    size_t found = 0;
+    volume -= closed ? vec_dot(c[0], vec_cross(c[1], c[2])) / 6 : 0;
+    for (size_t k = r->listings[t]; k < r->listings[t + 1]; k++) {
+      const size_t l = r->sorted[k];
+      vec part[3];
+      if (!(r->surface.ids[l] & NSVCD__ENCLOSES)) continue;
+      reader_corners(r, l, part);
+      const double quantum = (double)r->surface.quanta[r->patch[l]];
+      const double perimeter = vec_length(vec_sub(part[1], part[0])) +
+                               vec_length(vec_sub(part[2], part[1])) +
+                               vec_length(vec_sub(part[0], part[2]));
+      sum = vec_add(sum, area_vector(part));
+      error += perimeter * quantum + 4 * quantum * quantum;
+      volume += vec_dot(part[0], vec_cross(part[1], part[2])) / 6;
+      found++;
+    }
+    bad += vec_length(sum) > error;
+    bad += closed ? found == 0 : found > 0;
+    marked += found > 0;
+    volume_error += error * surface_scale(mesh) * 2 + 1e-15 * pow(surface_scale(mesh), 3);
+  }
+  CHECK_EQ(bad, 0);
+  CHECK_LE(fabs(volume), volume_error);
+  if (bad) printf("  %zu of %zu triangles enclose\n", marked, mesh->triangle_count);
+  shells_free(&parts);
+}
+
+static void check_seeds(const reader *r) {
+  const nsvcd_mesh *mesh = r->mesh;
+  const nsvcd__surface *s = &r->surface;
+  shells parts = shells_of(mesh);
+  uint8_t *taken = (uint8_t *)calloc(mesh->vertex_count, 1);
+  uint8_t *used = (uint8_t *)calloc(mesh->vertex_count, 1);
+  CHECK_EQ(s->component_count, parts.count);
+  for (size_t i = 0; i < 3 * mesh->triangle_count; i++) used[mesh->indices[i]] = 1;
+  for (size_t k = 0; k < s->component_count; k++) {
+    size_t v = 0;
+    const float *seed = s->seeds + 3 * k;
+    for (; v < mesh->vertex_count; v++) {
+      const float *p = mesh->positions + 3 * v;
+      if (used[v] && p[0] == seed[0] && p[1] == seed[1] && p[2] == seed[2]) break;
+    }
+    CHECK(v < mesh->vertex_count);
+    if (v == mesh->vertex_count) break;
+    CHECK(!taken[parts.part[v]]);
+    taken[parts.part[v]] = 1;
+  }
+  free(taken);
+  free(used);
+  shells_free(&parts);
+}
+
+static void check_all(const nsvcd_mesh *mesh, size_t points, shapes_rng *rng, size_t random) {
+  reader r;
+  const int failures = check.failures_in_test;
+  if (!reader_open(&r, mesh, points)) return;
+  if (check_ranges(&r)) {
+    reader_index(&r);
+    check_points(&r, rng, random);
+    check_quanta(&r);
+    check_enclosing(&r);
+    check_seeds(&r);
+  }
+  reader_close(&r);
+  if (check.failures_in_test > failures) {
+    printf("  %zu triangles, %zu patches\n", mesh->triangle_count, points);
+  }
+}
+
+// ------------------------------------------------------------------------------------- tests
+
+static const size_t surface_points[6] = {1, 2, 17, 64, 256, 512};
+
+static void surface_is_covered(void) {
+  shapes_rng rng = {1};
+  for (int kind = 0; kind < SURFACE_KINDS; kind++) {
+    nsvcd_mesh mesh = surface_kind(kind);
+    const size_t random = 3 + 2000 / mesh.triangle_count;
+    const int failures = check.failures_in_test;
+    for (size_t n = 0; n < 6; n++) check_all(&mesh, surface_points[n], &rng, random);
+    if (check.failures_in_test > failures) printf("  kind %d\n", kind);
+    nsvcd_mesh_free(&mesh, NULL);
+  }
+}
+
+// Fine meshes are hardly cut, their triangles listed about once, and the hulls are near to the surface.
+static void surface_of_a_fine_mesh(void) {
+  shapes_rng rng = {2};
+  nsvcd_mesh mesh = surface_sphere(0.5, 166);
+  reader r;
+  CHECK_LE(20000, mesh.triangle_count);
+  check_all(&mesh, 256, &rng, 1);
+  check_all(&mesh, 1, &rng, 1);
+  CHECK(reader_open(&r, &mesh, 256));
+  const nsvcd__surface *s = &r.surface;
+  double slack = 0;
+  double thickness = 0;
+  double radius = 0;
+  double patch_radius = 0;
+  for (size_t i = 0; i < s->count; i++) {
+    const double share = 1 / (double)s->count;
+    slack += share * (double)s->slacks[i] / (double)s->balls[4 * i + 3];
+    thickness += share * (double)(s->discs[6 * i + 4] - s->discs[6 * i + 3]) / (double)s->balls[4 * i + 3];
+    radius += share * (double)s->balls[4 * i + 3];
+    patch_radius += share * (double)r.patches.radii[i];
+  }
+  CHECK_LE((double)s->listed, 1.15 * (double)mesh.triangle_count);
+  CHECK_LE(slack, 0.03);
+  CHECK_LE(thickness, 0.12);
+  CHECK_LE(radius, 1.05 * patch_radius);
+  CHECK_EQ(s->component_count, 1);
+  reader_close(&r);
+  nsvcd_mesh_free(&mesh, NULL);
+}
+
+// Large faces are cut: balls are about as small as those of the patches, hulls of flat patches fit, the integers are fine.
+static void surface_of_large_faces(void) {
+  for (int kind = 0; kind < 2; kind++) {
+    nsvcd_mesh mesh = kind ? surface_kind(3) : surface_box(0.4, 0.3, 0.2, 1);
+    reader r;
+    CHECK(reader_open(&r, &mesh, 256));
+    double radius = 0;
+    double patch_radius = 0;
+    for (size_t i = 0; i < r.surface.count; i++) {
+      radius += (double)r.surface.balls[4 * i + 3];
+      patch_radius += (double)r.patches.radii[i];
+      CHECK_LE(r.surface.slacks[i], 1e-3f * r.surface.balls[4 * i + 3]);
+      CHECK_LE(r.surface.quanta[i], 1e-3f * r.surface.balls[4 * i + 3]);
+    }
+    CHECK_LE(radius, 1.1 * patch_radius);
+    reader_close(&r);
+    nsvcd_mesh_free(&mesh, NULL);
+  }
+}
+
+static size_t enclosing(const nsvcd_mesh *mesh, size_t *components) {
+  reader r;
+  size_t count = 0;
+  if (!reader_open(&r, mesh, 17)) return 0;
+  uint8_t *found = (uint8_t *)calloc(mesh->triangle_count, 1);
+  for (size_t l = 0; l < r.surface.listed; l++) {
+    if (r.surface.ids[l] & NSVCD__ENCLOSES) found[reader_id(&r, l)] = 1;
+  }
+  for (size_t t = 0; t < mesh->triangle_count; t++) count += found[t];
+  *components = r.surface.component_count;
+  free(found);
+  reader_close(&r);
+  return count;
+}
+
+static void surface_open_and_closed(void) {
+  size_t components;
+  nsvcd_mesh mesh = surface_solid(8, 0);
+  const size_t whole = mesh.triangle_count;
+  CHECK_EQ(enclosing(&mesh, &components), whole);
+  mesh.triangle_count--;
+  CHECK_LE(enclosing(&mesh, &components), whole - 2);
+  nsvcd_mesh_free(&mesh, NULL);
+
+  // Two boxes side by side; then one of them without its last triangle, then with that turned over.
+  shapes_mesh shape;
+  memset(&shape, 0, sizeof shape);
+  shapes_box(&shape, 1, 1, 1, 2);
+  const size_t first = shape.triangles;
+  shapes_box_at(&shape, 3, 0, 0, 1, 1, 1);
+  const size_t both = shape.triangles;
+  mesh = surface_take(&shape);
+  CHECK_EQ(enclosing(&mesh, &components), both);
+  CHECK_EQ(components, 2);
+  mesh.triangle_count--;
+  CHECK_EQ(enclosing(&mesh, &components), first);
+  CHECK_EQ(components, 2);
+  mesh.triangle_count++;
+  uint32_t *last = mesh.indices + 3 * (both - 1);
+  const uint32_t swap = last[0];
+  last[0] = last[1];
+  last[1] = swap;
+  CHECK_EQ(enclosing(&mesh, &components), first);
+  // A triangle with two corners in one closes nothing and opens nothing.
+  last[1] = last[0];
+  CHECK_EQ(enclosing(&mesh, &components), first);
+  nsvcd_mesh_free(&mesh, NULL);
+
+  // -0 is 0: a box of which some zeros are negative.
+  mesh = surface_box(2, 2, 2, 2);
+  for (size_t i = 0; i < 3 * mesh.vertex_count; i += 2) {
+    if (mesh.positions[i] == 0) mesh.positions[i] = -mesh.positions[i];
+  }
+  CHECK_EQ(enclosing(&mesh, &components), mesh.triangle_count);
+  CHECK_EQ(components, 1);
+  nsvcd_mesh_free(&mesh, NULL);
+}
+
+// Against Badoiu and Clarkson's steps, which come within 1 / steps of the least ball.
+static void surface_balls_are_minimal(void) {
+  shapes_rng rng = {9};
+  for (size_t trial = 0; trial < 200; trial++) {
+    nsvcd__d3 points[40];
+    const size_t count = 1 + trial % 40;
+    for (size_t i = 0; i < count; i++) {
+      points[i] = nsvcd__d3_of(shapes_uniform(&rng, -1, 1), shapes_uniform(&rng, -1, 1),
+                               trial % 3 ? shapes_uniform(&rng, -1, 1) : 0.25);
+      if (trial % 7 == 0 && i > 3) points[i] = points[i / 2];
+    }
+    const nsvcd__d3 centre = nsvcd__ball_centre(points, count);
+    nsvcd__d3 other = points[0];
+    double radius = 0;
+    double least = HUGE_VAL;
+    for (size_t i = 0; i < count; i++) radius = fmax(radius, nsvcd__d3_gap(points[i], centre));
+    for (size_t step = 1; step < 5000; step++) {
+      size_t farthest = 0;
+      for (size_t i = 0; i < count; i++) {
+        if (nsvcd__d3_gap(points[i], other) > nsvcd__d3_gap(points[farthest], other)) farthest = i;
+      }
+      least = fmin(least, nsvcd__d3_gap(points[farthest], other));
+      other = nsvcd__d3_mix(other, points[farthest], 1 / (double)(step + 1));
+    }
+    CHECK_LE(sqrt(radius), sqrt(least) * (1 + 1e-9) + 1e-12);
+  }
+}
+
+static int same_surface(const nsvcd__surface *a, const nsvcd__surface *b) {
+  const size_t n = a->count;
+  if (n != b->count || a->listed != b->listed || a->vertex_count != b->vertex_count) return 0;
+  return !memcmp(a->balls, b->balls, 16 * n) && !memcmp(a->discs, b->discs, 24 * n) &&
+         !memcmp(a->steps, b->steps, 4 * n) && !memcmp(a->slacks, b->slacks, 4 * n) &&
+         !memcmp(a->quanta, b->quanta, 4 * n) && !memcmp(a->hull_counts, b->hull_counts, n) &&
+         !memcmp(a->vertices, b->vertices, 6 * a->vertex_count) &&
+         !memcmp(a->corners, b->corners, 6 * a->listed) && !memcmp(a->ids, b->ids, 4 * a->listed) &&
+         !memcmp(a->seeds, b->seeds, 12 * a->component_count);
+}
+
+static void surface_is_deterministic(void) {
+  nsvcd_mesh mesh = surface_solid(12, 1);
+  reader a;
+  reader b;
+  CHECK(reader_open(&a, &mesh, 64));
+  CHECK(reader_open(&b, &mesh, 64));
+  CHECK(same_surface(&a.surface, &b.surface));
+  reader_close(&a);
+  reader_close(&b);
+  nsvcd_mesh_free(&mesh, NULL);
+}
+
+// Counts what is allocated and fails allocation number `fail_at` (from 0; -1: never).
+typedef struct surface_heap {
+  int live, calls, fail_at;
+} surface_heap;
+static void *surface_heap_alloc(size_t size, void *user) {
+  surface_heap *heap = (surface_heap *)user;
+  if (heap->calls++ == heap->fail_at) return NULL;
+  heap->live++;
+  return malloc(size);
+}
+static void surface_heap_free(void *memory, void *user) {
+  ((surface_heap *)user)->live--;
+  free(memory);
+}
+
+static void surface_allocation_fails(void) {
+  nsvcd_mesh mesh = surface_box(1, 0.5, 0.3, 4);
+  nsvcd__patches patches;
+  nsvcd__surface untouched;
+  int failures = 0;
+  CHECK_EQ(nsvcd__patches_build(&mesh, 64, NULL, &patches), NSVCD_OK);
+  memset(&untouched, 0xab, sizeof untouched);
+  for (int fail_at = 0; fail_at < 1000; fail_at++) {
+    surface_heap heap = {0, 0, 0};
+    nsvcd_allocator allocator = {surface_heap_alloc, surface_heap_free, NULL};
+    nsvcd__surface surface = untouched;
+    heap.fail_at = fail_at;
+    allocator.user = &heap;
+    const nsvcd_result result = nsvcd__surface_build(&mesh, &patches, &allocator, &surface);
+    if (result == NSVCD_OK) {
+      nsvcd__surface_free(&surface, &allocator);
+      CHECK_EQ(heap.live, 0);
+      break;
+    }
+    failures++;
+    CHECK_EQ(result, NSVCD_ERROR_MEMORY);
+    CHECK_EQ(heap.live, 0);
+    CHECK_EQ(memcmp(&surface, &untouched, sizeof surface), 0);
+  }
+  CHECK_LE(30, failures);
+  CHECK_LE(failures, 100);
+  nsvcd__patches_free(&patches, NULL);
+  nsvcd_mesh_free(&mesh, NULL);
+}
+
+// More vertices in a patch than 16 bits can name: refused, with nothing left behind.
+static void surface_too_large(void) {
+  nsvcd_mesh mesh = surface_sheet(260, 1, 0);
+  nsvcd__patches patches;
+  nsvcd__surface surface;
+  surface_heap heap = {0, 0, -1};
+  nsvcd_allocator allocator = {surface_heap_alloc, surface_heap_free, NULL};
+  allocator.user = &heap;
+  CHECK_EQ(nsvcd__patches_build(&mesh, 1, NULL, &patches), NSVCD_OK);
+  CHECK_EQ(nsvcd__surface_build(&mesh, &patches, &allocator, &surface), NSVCD_ERROR_TOO_LARGE);
+  CHECK_EQ(heap.live, 0);
+  nsvcd__patches_free(&patches, NULL);
+  nsvcd_mesh_free(&mesh, NULL);
+}
+
+void test_surface(void) {
+  RUN(surface_is_covered);
+  RUN(surface_of_a_fine_mesh);
+  RUN(surface_of_large_faces);
+  RUN(surface_open_and_closed);
+  RUN(surface_balls_are_minimal);
+  RUN(surface_is_deterministic);
+  RUN(surface_allocation_fails);
+  RUN(surface_too_large);
+}
