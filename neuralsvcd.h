@@ -2116,7 +2116,6 @@ typedef struct nsvcd__piece {
   uint32_t count;
   uint32_t triangle;
   uint32_t patch;
-  uint8_t leads;   // 1: the first piece of its triangle
   uint8_t parted;  // 1: its triangle is listed in parts
 } nsvcd__piece;
 
@@ -2293,7 +2292,7 @@ static double nsvcd__longest_edge(const nsvcd__pieces *pieces, const nsvcd__face
 // 0 without memory. guess: the patch of the piece before.
 static int nsvcd__cut_up(nsvcd__pieces *pieces, uint32_t triangle, uint32_t *guess,
                          const nsvcd_allocator *allocator) {
-  nsvcd__piece piece = {0, 0, triangle, 0, 1, 0};
+  nsvcd__piece piece = {0, 0, triangle, 0, 0};
   nsvcd__facet *whole = &pieces->waiting[0];
   nsvcd__welded_corners(pieces->mesh, &pieces->topology, triangle, whole->points);
   whole->count = 3;
@@ -2305,7 +2304,6 @@ static int nsvcd__cut_up(nsvcd__pieces *pieces, uint32_t triangle, uint32_t *gue
     piece.patch = *guess;
     if (!nsvcd__trim(pieces, piece.patch, &facet, allocator)) return 0;
     if (!nsvcd__add_piece(pieces, &facet, piece, allocator)) return 0;
-    piece.leads = 0;
   }
   return 1;
 }

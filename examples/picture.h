@@ -23,15 +23,13 @@ typedef struct picture_panel {
   nsvcd_pose poses[PICTURE_MAX_POSES];
   size_t count;
   nsvcd_answer answer;
-  float contact[3];
   double microseconds;
 } picture_panel;
 
 static void picture_take(picture_panel *panel, const char *name, const nsvcd_pose *poses, size_t count,
-                         const nsvcd_answer *answer, const float *contact, double microseconds) {
+                         const nsvcd_answer *answer, double microseconds) {
   panel->name = name, panel->count = count < PICTURE_MAX_POSES ? count : PICTURE_MAX_POSES;
   memcpy(panel->poses, poses, panel->count * sizeof *poses);
-  memcpy(panel->contact, contact, sizeof panel->contact);
   panel->answer = *answer, panel->microseconds = microseconds;
 }
 
@@ -188,14 +186,27 @@ static void picture_path(FILE *svg, const picture_panel *panel, const char *ink)
   }
   fprintf(svg, "\"/>\n");
 }
+// The witness: a ring about the point, and the normal, 12 cm long, out of the fixed body.
 static void picture_contact(FILE *svg, const picture_panel *panel) {
-  double p[3], world[3] = {(double)panel->contact[0], (double)panel->contact[1], (double)panel->contact[2]};
+  const nsvcd_answer *a = &panel->answer;
+  double world[3], tip[3], p[3], q[3];
+  for (int k = 0; k < 3; k++) {
+    world[k] = (double)a->point[k];
+    tip[k] = world[k] + 0.12 * (double)a->normal[k];
+  }
   picture_project(world, p);
+  picture_project(tip, q);
+  const double x = q[0] - p[0], y = q[1] - p[1], length = hypot(x, y) + 1e-9;
+  const double ux = x / length, uy = y / length;
   fprintf(svg,
           "<circle cx=\"%.1f\" cy=\"%.1f\" r=\"17\" fill=\"none\" stroke=\"#fff\" stroke-width=\"7\"/>"
           "<circle cx=\"%.1f\" cy=\"%.1f\" r=\"17\" fill=\"none\" stroke=\"#ffb300\" stroke-width=\"4\"/>"
           "<circle cx=\"%.1f\" cy=\"%.1f\" r=\"4\" fill=\"#ffb300\" stroke=\"#fff\" stroke-width=\"1.5\"/>\n",
           p[0], p[1], p[0], p[1], p[0], p[1]);
+  fprintf(svg, "<path d=\"M%.1f %.1fL%.1f %.1f\" stroke=\"#fff\" stroke-width=\"7\"/>", p[0], p[1], q[0], q[1]);
+  fprintf(svg, "<path d=\"M%.1f %.1fL%.1f %.1f\" stroke=\"#ffb300\" stroke-width=\"4\"/>", p[0], p[1], q[0], q[1]);
+  fprintf(svg, "<path d=\"M%.1f %.1fL%.1f %.1fL%.1f %.1fZ\" fill=\"#ffb300\"/>\n", q[0] + 14 * ux, q[1] + 14 * uy,
+          q[0] - 7 * uy, q[1] + 7 * ux, q[0] + 7 * uy, q[1] - 7 * ux);
 }
 
 // What of the fixed mesh covers the moving one, or all the rest. Seen from above, nothing that lies lower can cover it.
@@ -243,7 +254,7 @@ static void picture_scene(FILE *svg, const nsvcd_mesh *moving, const nsvcd_mesh 
   picture_moving(svg, moving, &panel->poses[shown], colour, 0, 1);
   picture_fixed(svg, triangles, count, depth, lowest, 1);
   free(triangles);
-  if (a->collides && a->status != NSVCD_STATUS_INSIDE) picture_contact(svg, panel);
+  if (a->status == NSVCD_STATUS_WITNESS) picture_contact(svg, panel);
 }
 
 // Name and verdict above, facts below.
@@ -262,10 +273,14 @@ static void picture_captions(FILE *svg, const picture_panel *panel) {
           PICTURE_WIDTH);
   fprintf(svg, "<text x=\"24\" y=\"%d\" font-size=\"15\" fill=\"#4a5564\">", PICTURE_HEIGHT - 17);
   if (a->collides) fprintf(svg, "at t = %.2f of the way, ", (double)a->time);
-  if (a->status == NSVCD_STATUS_CERTIFIED_FREE)
-    fprintf(svg, "certified free: no covering spheres meet");
-  else
-    fprintf(svg, "logit %+.1f", (double)a->logit);
+  if (a->status == NSVCD_STATUS_CERTIFIED_FREE) {
+    fprintf(svg, "certified free");
+  } else if (a->status == NSVCD_STATUS_WITNESS) {
+    fprintf(svg, "triangle %lu meets triangle %lu", (unsigned long)a->moving_triangle,
+            (unsigned long)a->fixed_triangle);
+  } else {
+    fprintf(svg, "%s", nsvcd_status_string(a->status));
+  }
   fprintf(svg, ", answered in %.0f µs</text>\n", panel->microseconds);
 }
 
@@ -280,7 +295,7 @@ static void picture_legend(FILE *svg, int x, int y) {
           "stroke-linecap=\"round\"/><text x=\"474\">the path it is carried along</text>\n");
   fprintf(svg,
           "<circle cx=\"736\" cy=\"-5\" r=\"9\" fill=\"none\" stroke=\"#ffb300\" stroke-width=\"4\"/>"
-          "<text x=\"756\">where the network sees the hit; the solid mug: when</text>\n</g>\n");
+          "<text x=\"756\">the witness: where two triangles meet, and the normal</text>\n</g>\n");
 }
 
 // Returns 1, or 0 after a message.

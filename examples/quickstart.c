@@ -50,20 +50,11 @@ static void carry(float height, nsvcd_pose *poses) {
   }
 }
 
-// Where the bodies are said to meet: the centre of the fixed body's patch, in world axes. The rack stands at the
-// origin.
-static void contact_point(const nsvcd_body *fixed, const nsvcd_answer *answer, float *point) {
-  float radius;
-  point[0] = point[1] = point[2] = 0;
-  nsvcd_body_patch(fixed, answer->fixed_patch, point, &radius);
-}
-
 int main(void) {
   // Once per mesh: load and encode. A body is one block of bytes: keep it, save it, copy it.
   nsvcd_mesh mug_mesh, rack_mesh;
-  void *mug_memory, *rack_memory;
-  const nsvcd_body *mug = load("examples/assets/mug.obj", &mug_mesh, &mug_memory);
-  const nsvcd_body *rack = load("examples/assets/dish_rack.obj", &rack_mesh, &rack_memory);
+  const nsvcd_body *mug = load("examples/assets/mug.obj", &mug_mesh);
+  const nsvcd_body *rack = load("examples/assets/dish_rack.obj", &rack_mesh);
   if (!mug || !rack) return 1;
 
   // Once per thread: memory to work in. Queries allocate nothing.
@@ -89,20 +80,21 @@ int main(void) {
     }
     if (result) return fprintf(stderr, "%s\n", nsvcd_result_string(result)), 1;
 
-    float where[3];
-    contact_point(rack, &answer, where);
-    printf("%-12s -> %s (logit %+.2f, %s; %.0f us)", names[i], answer.collides ? "HITS" : "clears",
-           (double)answer.logit, nsvcd_status_string(answer.status), least);
-    if (answer.collides)
-      printf(" at t = %.2f near (%.3f, %.3f, %.3f)", (double)answer.time, (double)where[0], (double)where[1],
-             (double)where[2]);
+    printf("%-12s -> %s (%s; %.0f us)", names[i], answer.collides ? "HITS" : "clears",
+           nsvcd_status_string(answer.status), least);
+    if (answer.collides) {
+      const float *p = answer.point, *n = answer.normal;
+      printf(" at t = %.2f, (%.3f, %.3f, %.3f), normal (%.2f, %.2f, %.2f)", (double)answer.time, (double)p[0],
+             (double)p[1], (double)p[2], (double)n[0], (double)n[1], (double)n[2]);
+    }
     printf("\n");
-    picture_take(&panels[i], names[i], motion, POSES, &answer, where, least);
+    picture_take(&panels[i], names[i], motion, POSES, &answer, least);
   }
   if (!picture_write("build/demo.svg", &mug_mesh, &rack_mesh, panels, 2)) return 1;
   printf("see build/demo.svg\n");
 
-  free(workspace), free(mug_memory), free(rack_memory);
+  free(workspace);
+  nsvcd_body_free(mug, NULL), nsvcd_body_free(rack, NULL);
   nsvcd_mesh_free(&mug_mesh, NULL), nsvcd_mesh_free(&rack_mesh, NULL);
   return 0;
 }

@@ -2,7 +2,10 @@
 #define NSVCD_STATIC
 #define NEURALSVCD_IMPLEMENTATION
 #include <stddef.h>
-static struct { size_t tests, ranked, judged, collision; } tally;  // the last one is of no interest here
+static struct {
+  size_t tests, ranked, judged, planes, pairs, tries;
+  size_t collision;  // of no interest here
+} tally;
 #define NSVCD__TALLY(what, amount) (tally.what += (amount))
 #include "../neuralsvcd.h"
 
@@ -30,7 +33,7 @@ static size_t cost_search(const query_scene *s) {
   nsvcd__motion motion;
   nsvcd__candidates kept;
   nsvcd__motion_init(s->motion, QUERY_POSES, &s->fixed_pose, &motion);
-  nsvcd__candidates_start(&kept, query.kept, 32);
+  nsvcd__candidates_start(&kept, query.by.kept, 32);
   nsvcd__cut_motion(&motion, s->moving->extent + s->fixed->extent, &query.broad_phase);
   int more = nsvcd__search_begin(s->moving, s->fixed, &query.broad_phase);
   while (more) more = nsvcd__search_step(&query.broad_phase, s->moving, s->fixed, &kept);

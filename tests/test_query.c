@@ -524,6 +524,26 @@ static void query_encode_refuses(const nsvcd_mesh *mesh, const nsvcd_encode_opti
   CHECK(body == mark);
 }
 
+// Without memory the body comes from the allocator, and is the same.
+static void query_encode_allocates(void) {
+  nsvcd_mesh mesh = query_box(0.1, 0.2, 0.3);
+  for (int without = 0; without < 2; without++) {
+    const nsvcd_encode_options options = {64, 0, 0, without};
+    const nsvcd_body *body = NULL;
+    const nsvcd_body *same = NULL;
+    CHECK_EQ(nsvcd_encode(&mesh, &options, NULL, NULL, 0, &body), NSVCD_OK);
+    const nsvcd_body_facts facts = nsvcd_body_describe(body);
+    query_memory memory = query_reserve(facts.size);
+    CHECK_EQ(nsvcd_encode(&mesh, &options, NULL, memory.at, facts.size, &same), NSVCD_OK);
+    CHECK(memcmp(body, same, facts.size) == 0);
+    CHECK_EQ(facts.triangles, without ? 0 : mesh.triangle_count);
+    query_encode_refuses(&mesh, &options, memory.at, facts.size - 1, NSVCD_ERROR_WORKSPACE);
+    nsvcd_body_free(body, NULL);
+    query_release(&memory);
+  }
+  nsvcd_mesh_free(&mesh, NULL);
+}
+
 static void query_encode_refuses_bad_input(void) {
   nsvcd_mesh mesh = query_box(0.1, 0.1, 0.1), bad = mesh;
   size_t size = nsvcd_body_size(64);
@@ -531,7 +551,6 @@ static void query_encode_refuses_bad_input(void) {
   nsvcd_encode_options options = {64, 0, 0, 1}, too_many = {NSVCD_MAX_POINTS + 1, 0, 0, 1}, negative = {0, -1, 0, 1},
                        nan = {0, NAN, 0, 1};
   query_encode_refuses(NULL, &options, memory.at, size, NSVCD_ERROR_ARGUMENT);
-  query_encode_refuses(&mesh, &options, NULL, size, NSVCD_ERROR_ARGUMENT);
   query_encode_refuses(&mesh, &too_many, memory.at, size, NSVCD_ERROR_ARGUMENT);
   query_encode_refuses(&mesh, &negative, memory.at, size, NSVCD_ERROR_ARGUMENT);
   query_encode_refuses(&mesh, &nan, memory.at, size, NSVCD_ERROR_ARGUMENT);
@@ -763,6 +782,7 @@ void test_query(void) {
   RUN(query_refuses_bad_arguments);
   RUN(query_refuses_bad_poses);
   RUN(query_refuses_a_bad_workspace);
+  RUN(query_encode_allocates);
   RUN(query_encode_refuses_bad_input);
   RUN(query_scale_refuses_bad_input);
   RUN(query_encode_survives_every_failed_allocation);

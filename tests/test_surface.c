@@ -621,8 +621,8 @@ static vec area_vector(const vec *c) {
   return vec_scale(vec_cross(vec_sub(c[1], c[0]), vec_sub(c[2], c[0])), 0.5);
 }
 
-// The listings that enclose are each triangle of a closed component once, and nothing else: per triangle the vector of
-// areas, over all of them the volume.
+// The listings that enclose are those of closed components, and each triangle is there whole, or all of its parts are:
+// per triangle the vector of areas, over all of them the volume.
 static void check_enclosing(const reader *r) {
   const nsvcd_mesh *mesh = r->mesh;
   shells parts = shells_of(mesh);
@@ -639,20 +639,36 @@ static void check_enclosing(const reader *r) {
     double error = 100 * r->tolerance * size;
     size_t found = 0;
     volume -= closed ? vec_dot(c[0], vec_cross(c[1], c[2])) / 6 : 0;
-    for (size_t k = r->listings[t]; k < r->listings[t + 1]; k++) {
+    const double before = volume;
+    size_t flags = 0;
+    int whole = 0;
+    for (size_t k = r->listings[t]; k < r->listings[t + 1] && !whole; k++) {
       const size_t l = r->sorted[k];
       vec part[3];
-      if (!(r->surface.ids[l] & NSVCD__ENCLOSES)) continue;
+      flags += (r->surface.ids[l] & NSVCD__ENCLOSES) != 0;
+      if (!closed) continue;
       reader_corners(r, l, part);
       const double quantum = (double)r->surface.quanta[r->patch[l]];
       const double perimeter = vec_length(vec_sub(part[1], part[0])) +
                                vec_length(vec_sub(part[2], part[1])) +
                                vec_length(vec_sub(part[0], part[2]));
-      sum = vec_add(sum, area_vector(part));
-      error += perimeter * quantum + 4 * quantum * quantum;
-      volume += vec_dot(part[0], vec_cross(part[1], part[2])) / 6;
+      const double part_error = perimeter * quantum + 4 * quantum * quantum;
+      const double part_volume = vec_dot(part[0], vec_cross(part[1], part[2])) / 6;
+      const vec rest = vec_sub(area_vector(part), area_vector(c));
+      whole = vec_length(rest) <= part_error + 100 * r->tolerance * size;
+      if (whole) {  // it stands for all the others
+        sum = rest;
+        error = 100 * r->tolerance * size;
+        volume = before;
+      } else {
+        sum = vec_add(sum, area_vector(part));
+      }
+      error += part_error;
+      volume += part_volume;
       found++;
     }
+    if (closed && !whole) bad += flags != r->listings[t + 1] - r->listings[t];
+    if (!closed) found = flags;
     bad += vec_length(sum) > error;
     bad += closed ? found == 0 : found > 0;
     marked += found > 0;
