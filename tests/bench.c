@@ -1,6 +1,6 @@
 // bench.c - accuracy against time: every method on the same problems, in one process, on one thread.
 //
-//   bench [--quick] [--limit N] [--out build/tradeoff] NAME=FILE[,FILE...]...
+//   bench [--quick|--race] [--limit N] [--out build/tradeoff] NAME=FILE[,FILE...]...
 //
 // For each set NAME (problem files, FORMATS.md) and each method: rows of settings, with accuracy, misses and false
 // alarms, time per query (pose samples in, verdict out; warm, the least of three runs), bytes per body and the time to
@@ -8,6 +8,7 @@
 // rows that no other row of the same method beats in both - and what NeuralSVCD needs for the same accuracy.
 //
 // Sets named after an extreme (see problems.c) are answered by NeuralSVCD alone, to see how far it leaves the standard.
+// --race: the proof, the network's default and the mesh hierarchy only, on all sets.
 #define _POSIX_C_SOURCE 200112L
 #define NEURALSVCD_IMPLEMENTATION
 #include "../neuralsvcd.h"
@@ -29,6 +30,7 @@ typedef struct row {
   size_t counts[2][2];               // truth, verdict
   double median, mean, high, worst;  // of a query, microseconds; high: 99th percentile
   double bytes, prepare;             // of a body, mean; milliseconds
+  size_t undecided;                  // of the proof
   int front;
 } row;
 
@@ -118,7 +120,8 @@ static int load_set(char *argument, size_t limit, problem_set *set) {
   memset(set, 0, sizeof *set);
   if (!equals) return complain("%s: expected NAME=FILE", argument);
   *equals = 0;
-  set->name = argument, set->extreme = is_extreme(argument);
+  set->name = argument;
+  set->extreme = is_extreme(argument);
   for (char *path = equals + 1, *next; path; path = next) {  // not strtok, which the reader of problems uses
     problem_file *file = &set->files[set->file_count];
     next = strchr(path, ',');
@@ -432,56 +435,108 @@ static void run_oracle(table *t, const problem_set *set) {
 
 static const char *const model_names[] = {"base", "tiny", "small", "base"};
 
-// One encoding of all meshes, many query settings.
-static void run_neural(table *t, const problem_set *set, size_t points, const nsvcd_sweep_options *settings,
-                       size_t setting_count) {
-  size_t first = t->count, size = nsvcd_body_size(points), workspace_size = nsvcd_sweep_workspace_size();
-  double *times = (double *)allocate(setting_count * set->problems * sizeof *times);
-  void *moving_memory = allocate(size), *fixed_memory = allocate(size), *workspace = allocate(workspace_size);
-  double encode_ms = 0, bytes = 0;
+// All meshes of a set, encoded once.
+typedef struct shelf {
+  const nsvcd_body **bodies[4];  // by file and mesh
+  size_t largest;                // bytes
+  double bytes, encode_ms;       // mean
+} shelf;
+
+static void fill_shelf(const problem_set *set, const nsvcd_encode_options *options, shelf *s) {
   size_t made = 0;
-  char *bodies[4] = {NULL, NULL, NULL, NULL};
+  memset(s, 0, sizeof *s);
   for (size_t f = 0; f < set->file_count; f++) {
-    bodies[f] = (char *)allocate(set->files[f].mesh_count * size);
+    s->bodies[f] = (const nsvcd_body **)allocate(set->files[f].mesh_count * sizeof *s->bodies[f]);
     for (size_t i = 0; i < set->files[f].mesh_count; i++, made++) {
-      const nsvcd_body *body = NULL;
-      nsvcd_encode_options options = {points, 0, 0, 1};
-      double start = seconds();
-      nsvcd_result result = nsvcd_encode(&set->meshes[f][i], &options, NULL, bodies[f] + i * size, size, &body);
+      const double start = seconds();
+      const nsvcd_result result = nsvcd_encode(&set->meshes[f][i], options, NULL, NULL, 0, &s->bodies[f][i]);
       if (result) complain("%s: %s", set->files[f].meshes[i].path, nsvcd_result_string(result)), exit(REFUSED);
-      encode_ms += clock_ms(start), bytes += (double)nsvcd_body_describe(body).size;
+      s->encode_ms += clock_ms(start);
+      const size_t size = nsvcd_body_describe(s->bodies[f][i]).size;
+      s->bytes += (double)size;
+      s->largest = size > s->largest ? size : s->largest;
     }
   }
+  s->bytes /= (double)made;
+  s->encode_ms /= (double)made;
+}
+static void free_shelf(const problem_set *set, shelf *s) {
+  for (size_t f = 0; f < set->file_count; f++) {
+    for (size_t i = 0; i < set->files[f].mesh_count; i++) nsvcd_body_free(s->bodies[f][i], NULL);
+    free(s->bodies[f]);
+  }
+}
+
+// What a row of ours is called.
+static void name_setting(const nsvcd_sweep_options *o, size_t points, char *name, size_t size) {
+  int used;
+  if (o->method == NSVCD_METHOD_PROOF) {
+    snprintf(name, size, "N %zu", points);
+    return;
+  }
+  used = snprintf(name, size, "N %zu, K %zu, %s%s", points, o->pairs ? o->pairs : NSVCD_DEFAULT_PAIRS,
+                  model_names[o->model], o->precision == NSVCD_PRECISION_INT8 ? ", int8" : "");
+  if (o->recall > 0) snprintf(name + used, size - (size_t)used, ", recall %g %%", 100 * (double)o->recall);
+}
+
+// One encoding of all meshes, many query settings. method: the name of the rows.
+static void run_ours(table *t, const problem_set *set, const char *method, const nsvcd_encode_options *encode,
+                     const nsvcd_sweep_options *settings, size_t setting_count) {
+  size_t first = t->count, workspace_size = nsvcd_sweep_workspace_size();
+  double *times = (double *)allocate(setting_count * set->problems * sizeof *times);
+  shelf s;
+  fill_shelf(set, encode, &s);
+  const size_t size = s.largest;
+  void *moving_memory = allocate(size), *fixed_memory = allocate(size), *workspace = allocate(workspace_size);
   for (size_t k = 0; k < setting_count; k++) {
-    const nsvcd_sweep_options *o = &settings[k];
-    row *r = new_row(t, "NeuralSVCD");
-    int used =
-        snprintf(r->setting, sizeof r->setting, "N %zu, K %zu, %s%s", points, o->pairs ? o->pairs : NSVCD_DEFAULT_PAIRS,
-                 model_names[o->model], o->precision == NSVCD_PRECISION_INT8 ? ", int8" : "");
-    if (o->recall > 0)
-      snprintf(r->setting + used, sizeof r->setting - (size_t)used, ", recall %g %%", 100 * (double)o->recall);
-    r->bytes = bytes / (double)made, r->prepare = encode_ms / (double)made;
+    row *r = new_row(t, method);
+    name_setting(&settings[k], encode->points, r->setting, sizeof r->setting);
+    r->bytes = s.bytes, r->prepare = s.encode_ms;
   }
   for (size_t i = 0; i < set->problems; i++) {
     size_t f;
     const problem *p = get_problem(set, i, &f);
-    const nsvcd_body *moving = (const nsvcd_body *)(bodies[f] + p->moving * size), *fixed;
-    nsvcd_result result = nsvcd_body_scale(moving, p->moving_scale, moving_memory, size, &moving);
-    fixed = (const nsvcd_body *)(bodies[f] + p->fixed * size);
-    if (!result) result = nsvcd_body_scale(fixed, p->fixed_scale, fixed_memory, size, &fixed);
+    const nsvcd_body *moving = NULL, *fixed = NULL;
+    nsvcd_result result = nsvcd_body_scale(s.bodies[f][p->moving], p->moving_scale, moving_memory, size, &moving);
+    if (!result) result = nsvcd_body_scale(s.bodies[f][p->fixed], p->fixed_scale, fixed_memory, size, &fixed);
     for (size_t k = 0; k < setting_count && !result; k++) {
       nsvcd_answer a;
       TIME(times[k * set->problems + i],
            result = nsvcd_sweep(moving, set->files[f].poses + p->first_pose, p->count, fixed, &p->fixed_pose,
                                 &settings[k], workspace, workspace_size, &a));
       t->rows[first + k].counts[p->label == 1][a.collides]++;
+      t->rows[first + k].undecided += a.status == NSVCD_STATUS_UNDECIDED;
     }
     if (result) complain("problem %s: %s", p->id, nsvcd_result_string(result)), exit(REFUSED);
-    progress(set->name, "NeuralSVCD", i + 1, set->problems);
+    progress(set->name, method, i + 1, set->problems);
   }
   for (size_t k = 0; k < setting_count; k++) set_times(&t->rows[first + k], times + k * set->problems, set->problems);
-  for (size_t f = 0; f < set->file_count; f++) free(bodies[f]);
+  free_shelf(set, &s);
   free(times), free(moving_memory), free(fixed_memory), free(workspace);
+}
+
+// The proof, at several resolutions.
+static void run_proof(table *t, const problem_set *set) {
+  static const size_t all_points[] = {64, 128, 256, 512};
+  nsvcd_sweep_options settings;
+  memset(&settings, 0, sizeof settings);
+  settings.method = NSVCD_METHOD_PROOF;
+  for (size_t i = 0; i < sizeof all_points / sizeof all_points[0]; i++) {
+    const nsvcd_encode_options encode = {all_points[i], 0, 0, 0};
+    run_ours(t, set, "proof", &encode, &settings, 1);
+  }
+}
+
+// Few methods in one run, for ratios: the hierarchy, the network's default, the proof.
+static void run_race(table *t, const problem_set *set) {
+  static const query_setting settings[3] = {{16, 0}, {32, 0}, {64, 0}};
+  const preparation how = {0, 0};
+  const nsvcd_encode_options encode = {NSVCD_DEFAULT_POINTS, 0, 0, 1};
+  nsvcd_sweep_options network;
+  memset(&network, 0, sizeof network);
+  run_discrete(t, set, &full_mesh_method, &how, "", settings, 3);
+  run_ours(t, set, "NeuralSVCD", &encode, &network, 1);
+  run_proof(t, set);
 }
 
 static void run_all_neural(table *t, const problem_set *set, int quick) {
@@ -506,7 +561,8 @@ static void run_all_neural(table *t, const problem_set *set, int quick) {
   }
   for (size_t i = 0; i < sizeof all_points / sizeof all_points[0]; i++) {
     if (set->extreme && all_points[i] != 128 && all_points[i] != 512) continue;
-    run_neural(t, set, all_points[i], settings, count);
+    const nsvcd_encode_options encode = {all_points[i], 0, 0, 1};
+    run_ours(t, set, "NeuralSVCD", &encode, settings, count);
   }
 }
 
@@ -547,7 +603,8 @@ static void run_neural_cut(table *t, const problem_set *set) {
     const nsvcd_body *moving = NULL, *fixed = NULL;
     nsvcd_encode_options whole = {0, 0, 0, 1}, open = {0, 0, 1, 1};
     nsvcd_mesh part;
-    nsvcd_answer a = {0, 0, 0, 0, 0, NSVCD_STATUS_CERTIFIED_FREE, 0};
+    nsvcd_answer a;
+    memset(&a, 0, sizeof a);
     swept_box(set, f, p, low, high);
     double start = seconds();
     nsvcd_result result = nsvcd_mesh_cut(&set->meshes[f][p->fixed], low, high, NULL, &part);
@@ -589,7 +646,7 @@ static const row *match(const table *t, const row *rival, int by_accuracy) {
   const row *best = NULL;
   for (size_t i = 0; i < t->count; i++) {
     const row *r = &t->rows[i];
-    if (strcmp(r->method, "NeuralSVCD") != 0) continue;
+    if (strcmp(r->method, "NeuralSVCD") != 0 && strcmp(r->method, "proof") != 0) continue;
     if (by_accuracy ? accuracy_of(r) < accuracy_of(rival) : r->median > rival->median) continue;
     if (!best || (by_accuracy ? r->median < best->median : accuracy_of(r) > accuracy_of(best))) best = r;
   }
@@ -620,11 +677,13 @@ static void print_rows(const problem_set *set, const table *t) {
     size_t right = r->counts[0][0] + r->counts[1][1];
     double low, high;
     wilson(right, set->problems, &low, &high);
-    printf("| %s, %s | %.2f [%.2f, %.2f] | %.2f | %.2f | %.1f / %.1f / %.0f / %.0f | %.1f | %.1f |", r->method,
-           r->setting, accuracy_of(r), 100 * low, 100 * high, share(r->counts[1][0], r->counts[1][1]),
+    char undecided[40] = "";
+    if (r->undecided) snprintf(undecided, sizeof undecided, ", %zu undecided", r->undecided);
+    printf("| %s, %s%s | %.2f [%.2f, %.2f] | %.2f | %.2f | %.1f / %.1f / %.0f / %.0f | %.1f | %.1f |", r->method,
+           r->setting, undecided, accuracy_of(r), 100 * low, 100 * high, share(r->counts[1][0], r->counts[1][1]),
            share(r->counts[0][1], r->counts[0][0]), r->median, r->mean, r->high, r->worst, r->bytes / 1024, r->prepare);
     const row *same = match(t, r, 1), *fast = match(t, r, 0);
-    int ours = strcmp(r->method, "NeuralSVCD") == 0;
+    int ours = strcmp(r->method, "NeuralSVCD") == 0 || strcmp(r->method, "proof") == 0;
     if (ours || !same)
       printf(" %s |", ours ? "" : "not reached");
     else
@@ -647,17 +706,19 @@ static void draw_rows(chart *c, const problem_set *set, const table *t) {
 }
 
 static int usage(void) {
-  fprintf(stderr, "bench [--quick] [--limit N] [--out PREFIX] NAME=FILE[,FILE...]...\n");
+  fprintf(stderr, "bench [--quick|--race] [--limit N] [--out PREFIX] NAME=FILE[,FILE...]...\n");
   return USAGE;
 }
 
 int main(int argc, char **argv) {
-  int quick = 0, i = 1;
+  int quick = 0, race = 0, i = 1;
   size_t limit = 0;
   const char *out = "build/tradeoff";
   for (; i < argc && strncmp(argv[i], "--", 2) == 0; i++) {
     if (strcmp(argv[i], "--quick") == 0)
       quick = 1;
+    else if (strcmp(argv[i], "--race") == 0)
+      race = 1;
     else if (strcmp(argv[i], "--limit") == 0 && i + 1 < argc && parse_count(argv[i + 1], 1, SIZE_MAX, &limit))
       i++;
     else if (strcmp(argv[i], "--out") == 0 && i + 1 < argc)
@@ -679,7 +740,15 @@ int main(int argc, char **argv) {
     problem_set set;
     table t = {NULL, 0, 0};
     if (!load_set(argv[i], limit, &set)) return REFUSED;
+    if (race) {
+      run_race(&t, &set);
+      for (size_t k = 0; k < t.count; k++) t.rows[k].front = 1;
+      write_rows(file, &set, &t), print_rows(&set, &t);
+      free(t.rows), free_set(&set);
+      continue;
+    }
     if (!set.extreme) run_baselines(&t, &set, quick), run_oracle(&t, &set);
+    run_proof(&t, &set);
     run_all_neural(&t, &set, quick);
     if (strcmp(set.name, "mixed") == 0 || strcmp(set.name, "cavity") == 0) run_neural_cut(&t, &set);
     mark_fronts(&t);
