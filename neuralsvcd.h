@@ -1692,11 +1692,11 @@ static nsvcd_result nsvcd__patches_build(const nsvcd_mesh *mesh, size_t points, 
 
 #define NSVCD__HULL NSVCD__LANES      // vertices of a patch's hull, at most
 #define NSVCD__ENCLOSES (1u << 31)    // of an id
-#define NSVCD__SURFACE_OVERLAP 0.5    // mean sample radii: a piece may reach so far into the next patch
+#define NSVCD__SURFACE_OVERLAP 0.5    // mean sample radii: so far a piece may reach into another cell
 #define NSVCD__SURFACE_WHOLE 16.0     // the same: with a longer edge a triangle is listed in parts
 #define NSVCD__SURFACE_MARGIN 1e-13   // of the mesh's greatest coordinate
 #define NSVCD__SURFACE_TINY 1e-30     // metres, added to that: keeps off what float cannot hold
-#define NSVCD__HULL_SHARE 1e-4        // of the radius: a hull as near as this to all corners will do
+#define NSVCD__HULL_SHARE 1e-4        // of the radius: a hull as near as this to all corners is good
 #define NSVCD__FACET_CORNERS 16       // corners of a piece, at most
 #define NSVCD__FACET_STACK 64         // parts that wait for their turn (12 at most were seen)
 #define NSVCD__CUTS_PER_TRIANGLE 8    // these two bound the cuts: a fine mesh needs less than one,
@@ -1710,8 +1710,8 @@ typedef struct nsvcd__surface {
   size_t vertex_count;      // V, vertices stored, over all patches
   size_t component_count;   // C, connected components (vertices at the same place are one vertex)
   float *balls;             // (N, 4) centre c and radius. An empty patch has radius NSVCD__NOWHERE
-  float *discs;             // (N, 6) normal n (|n| <= 1), low, high, across: points x of pieces have
-                            // low <= n.(x - c) <= high, and are within `across` of the line
+  float *discs;             // (N, 6) normal n (|n| <= 1), low, high, across: points x of pieces
+                            // have low <= n.(x - c) <= high and are within `across` of the line
                             // through c along n
   float *steps;             // (N) metres per integer: a stored vertex is c + step * (x, y, z)
   float *slacks;            // (N) metres: every point of a piece is within this of the convex hull
@@ -1720,7 +1720,7 @@ typedef struct nsvcd__surface {
   uint8_t *hull_counts;     // (N) 1..NSVCD__HULL; 0 where empty
   uint32_t *first_vertex;   // (N + 1)
   uint32_t *first_triangle; // (N + 1)
-  int16_t *vertices;        // patch i: x of its vertices, then y, then z, from 3 * first_vertex[i] on
+  int16_t *vertices;        // patch i: x of its vertices, then y, then z, at 3 * first_vertex[i]
   uint16_t *corners;        // (L, 3) numbers of vertices within the patch
   uint32_t *ids;            // (L) triangle of the mesh. Those with NSVCD__ENCLOSES are the closed
                             // components, every place once: whole triangles have it in one of
@@ -2576,7 +2576,7 @@ static double nsvcd__choose_hull(const nsvcd__d3 *points, size_t count, double e
 
 // ---- patch by patch
 
-// The pieces by patch, and working memory for one patch at a time. A pass numbers points as it meets
+// The pieces by patch, and working memory for one patch at a time. A pass numbers points as it sees
 // them: the hull's first, when vertices are stored.
 typedef struct nsvcd__sorted {
   size_t *first;      // (N + 1) pieces of a patch
