@@ -553,8 +553,9 @@ static nsvcd__d3 nsvcd__d3_unit(nsvcd__d3 a, nsvcd__d3 otherwise) {
   const double length = nsvcd__d3_length(a);
   return length > 0 ? nsvcd__d3_scale(a, 1 / length) : otherwise;
 }
-// Rounds for certain. gcc 12 at -O2 forgets to where two doubles side by side become floats and doubles again: it takes
-// the two conversions of a vector for none, and a proof built on what is stored would not hold.
+// Rounds for certain. gcc 12 at -O2 forgets to where two doubles side by side become floats and
+// doubles again: it takes the two conversions of a vector for none, and a proof built on what is
+// stored would not hold.
 static float nsvcd__to_float(double x) {
   volatile float rounded = (float)x;
   return rounded;
@@ -1835,28 +1836,31 @@ static nsvcd_result nsvcd__patches_build(const nsvcd_mesh *mesh, size_t points, 
 
 #if !defined(NSVCD_NO_ENCODER) && !defined(NSVCD_NO_PROOF)
 // ---------------------------------------------------------------------------------------------------- surface
-// In: a checked mesh and the centres of its N patches. Out: nsvcd__surface: of every patch an outer description of the
-// surface that belongs to it, and the triangles of that surface. A proof of freedom of collision is built on it.
+// In: a checked mesh and the centres of its N patches. Out: nsvcd__surface: of every patch an outer
+// description of the surface that belongs to it, and the triangles of that surface. A proof of
+// freedom of collision is built on it.
 //
-// What holds. Every point of the mesh lies in a piece. Every piece is a convex part of one triangle, and belongs to one
-// patch. That patch lists the piece's triangle, or the piece itself where the triangle is large beside the patches. Its
-// ball, its disc and its hull swollen by the slack contain the piece. Triangles without area are surface like others.
+// What holds. Every point of the mesh lies in a piece. Every piece is a convex part of one
+// triangle, and belongs to one patch. That patch lists the piece's triangle, or the piece itself
+// where the triangle is large beside the patches. Its ball, its disc and its hull swollen by the
+// slack contain the piece. Triangles without area are surface like others.
 //
-// Why it holds. A piece is only ever divided in two parts that share the corners between them, and both parts are kept.
-// So the pieces cover the mesh whatever the cuts are, and poor cuts can make a description only larger. Each number is
-// taken from the corners of the pieces, about what is stored in float, and then rounded outwards. A piece is the convex
-// hull of its corners, and so are ball, disc and swollen hull convex: what contains the corners contains the piece. The
-// corners themselves are off by roundings of double: all bounds are wider by NSVCD__SURFACE_MARGIN.
+// Why it holds. A piece is only ever divided in two parts that share the corners between them, and
+// both parts are kept. So the pieces cover the mesh whatever the cuts are, and poor cuts can make a
+// description only larger. Each number is taken from the corners of the pieces, about what is
+// stored in float, and then rounded outwards. A piece is the convex hull of its corners, and so are
+// ball, disc and swollen hull convex: what contains the corners contains the piece. The corners
+// themselves are off by roundings of double: all bounds are wider by NSVCD__SURFACE_MARGIN.
 
-#define NSVCD__SURFACE_OVERLAP 0.5    // a piece may reach this far into the next patch, in mean sample radii
-#define NSVCD__SURFACE_WHOLE 16.0     // a triangle with a longer edge is listed in parts; in mean sample radii
+#define NSVCD__SURFACE_OVERLAP 0.5    // mean sample radii: so far a piece may reach into another cell
+#define NSVCD__SURFACE_WHOLE 16.0     // the same: with a longer edge a triangle is listed in parts
 #define NSVCD__SURFACE_MARGIN 1e-13   // of the mesh's greatest coordinate
-#define NSVCD__SURFACE_TINY 1e-30     // metres, added to the margin: keeps off what float cannot hold
-#define NSVCD__HULL_SHARE 1e-4        // of the radius: a hull that is as near as this to all corners is good enough
+#define NSVCD__SURFACE_TINY 1e-30     // metres, added to that: keeps off what float cannot hold
+#define NSVCD__HULL_SHARE 1e-4        // of the radius: a hull as near as this to all corners is good
 #define NSVCD__FACET_CORNERS 16       // corners of a piece, at most
-#define NSVCD__FACET_STACK 256        // parts that wait for their turn; if there are more, they stay uncut
-#define NSVCD__CUTS_PER_TRIANGLE 8    // bound the number of cuts: natural is a fraction of one in a fine mesh,
-#define NSVCD__CUTS_PER_PATCH 64      // and three or so for every patch that lies in one large face
+#define NSVCD__FACET_STACK 64         // parts that wait for their turn (12 at most were seen)
+#define NSVCD__CUTS_PER_TRIANGLE 8    // these two bound the cuts: a fine mesh needs less than one,
+#define NSVCD__CUTS_PER_PATCH 64      // a large face some three for each of its patches
 #define NSVCD__MAX_CUTS (1u << 29)    // vertices and new corners together have numbers of 32 bits
 #define NSVCD__PATCH_VERTICES 65536u  // as many as corners of 16 bits can name
 
@@ -1866,19 +1870,20 @@ typedef struct nsvcd__surface {
   size_t vertex_count;      // V, vertices stored, over all patches
   size_t component_count;   // C, connected components (vertices at the same place are one vertex)
   float *balls;             // (N, 4) centre c and radius. An empty patch has radius NSVCD__NOWHERE
-  float *discs;             // (N, 6) normal n (|n| <= 1), low, high, across: every point x of a piece has
-                            // low <= n.(x - c) <= high, and is within `across` of the line through c along n
+  float *discs;             // (N, 6) normal n (|n| <= 1), low, high, across: points x of pieces
+                            // have low <= n.(x - c) <= high and are within `across` of the line
+                            // through c along n
   float *steps;             // (N) metres per integer: a stored vertex is c + step * (x, y, z)
-  float *slacks;            // (N) metres: every point of a piece is within this of the convex hull of the
-                            // first hull_counts[i] stored vertices
-  float *quanta;            // (N) metres: every corner of what is listed is within this of its stored vertex
+  float *slacks;            // (N) metres: every point of a piece is within this of the convex hull
+                            // of the first hull_counts[i] stored vertices
+  float *quanta;            // (N) metres: every corner listed is within this of its stored vertex
   uint8_t *hull_counts;     // (N) 1..NSVCD__HULL; 0 where empty
   uint32_t *first_vertex;   // (N + 1)
   uint32_t *first_triangle; // (N + 1)
-  int16_t *vertices;        // patch i: x of all its vertices, then y, then z, from 3 * first_vertex[i] on
+  int16_t *vertices;        // patch i: x of its vertices, then y, then z, at 3 * first_vertex[i]
   uint16_t *corners;        // (L, 3) numbers of vertices within the patch
-  uint32_t *ids;            // (L) triangle of the mesh. With NSVCD__ENCLOSES they are every closed component once,
-                            // without overlap: whole triangles have it in one of the patches that list them
+  uint32_t *ids;            // (L) triangle of the mesh. With NSVCD__ENCLOSES where it belongs to a
+                            // closed component
   float *seeds;             // (C, 3) a vertex of each component
 } nsvcd__surface;
 
@@ -1907,11 +1912,12 @@ static int nsvcd__list_reserve(nsvcd__list *list, size_t more, size_t size,
 
 // ---- topology: welded vertices, components, which of them are closed
 
-// Working memory and what is learned of the mesh. Vertices at the same place are one: the first of them.
+// Working memory and what is learned of the mesh. Vertices at the same place are one: the first of
+// them.
 typedef struct nsvcd__topology {
   size_t component_count;
   uint32_t *welded;   // (vertices) the first vertex at the same place
-  uint32_t *parents;  // (vertices) of the union-find forest; in the end the root, which is the least vertex
+  uint32_t *parents;  // (vertices) of the union-find forest; in the end the root, the least vertex
   uint8_t *open;      // (vertices) of a root: its component is not closed
   uint8_t *seen;      // (vertices) of a root: a triangle belongs to it
 } nsvcd__topology;
@@ -1999,8 +2005,8 @@ static void nsvcd__find_components(const nsvcd_mesh *mesh, nsvcd__topology *topo
   }
 }
 
-// The directed edges at each vertex, listed at the lesser end: +1 where they lead away from it, -1 where towards it. A
-// component is closed if they cancel.
+// The directed edges at each vertex, listed at the lesser end: +1 where they lead away from it, -1
+// where towards it. A component is closed if they cancel.
 typedef struct nsvcd__edges {
   size_t *first;      // (vertices + 1) edges of a vertex
   uint32_t *ends;     // (3 triangles) the greater end
@@ -2028,7 +2034,8 @@ static int nsvcd__edges_alloc(nsvcd__edges *edges, const nsvcd_mesh *mesh,
   return 0;
 }
 
-// The welded corners of triangle t; 0 if two of them are one, for then its edges cancel among themselves.
+// The welded corners of triangle t; 0 if two of them are one, for then its edges cancel among
+// themselves.
 static int nsvcd__welded_corners(const nsvcd_mesh *mesh, const nsvcd__topology *topology, size_t t,
                                  uint32_t *corners) {
   for (size_t i = 0; i < 3; i++) corners[i] = topology->welded[mesh->indices[3 * t + i]];
@@ -2104,8 +2111,8 @@ static int nsvcd__topology_build(const nsvcd_mesh *mesh, nsvcd__topology *topolo
 
 // ---- pieces: triangles cut by the cells of the centres
 
-// A convex part of one triangle that is being cut. Its corners are points by number: the mesh's welded vertices, then
-// those that cuts have made.
+// A convex part of one triangle that is being cut. Its corners are points by number: the mesh's
+// welded vertices, then those that cuts have made.
 typedef struct nsvcd__facet {
   uint32_t points[NSVCD__FACET_CORNERS];
   size_t count;
@@ -2146,7 +2153,8 @@ static const nsvcd__piece *nsvcd__piece_at(const nsvcd__pieces *pieces, size_t i
   return (const nsvcd__piece *)pieces->list.items + i;
 }
 
-static const uint32_t *nsvcd__piece_corners(const nsvcd__pieces *pieces, const nsvcd__piece *piece) {
+static const uint32_t *nsvcd__piece_corners(const nsvcd__pieces *pieces,
+                                            const nsvcd__piece *piece) {
   return (const uint32_t *)pieces->corners.items + piece->first;
 }
 
@@ -2165,8 +2173,9 @@ static nsvcd__d3 nsvcd__centre_at(const nsvcd__patches *patches, uint32_t i) {
                       (double)patches->centre_z[i]);
 }
 
-// Divides `from` where `beyond`, a value at each of its corners, changes its sign: `near_part` is where it is negative.
-// 0 if one of the parts has less than three corners, which roundings can do, or too many.
+// Divides `from` where `beyond`, a value at each of its corners, changes its sign: `near_part` is
+// where it is negative. 0 if one of the parts has less than three corners, which roundings can do,
+// or too many.
 static int nsvcd__divide(nsvcd__pieces *pieces, const nsvcd__facet *from, const double *beyond,
                          nsvcd__facet *near_part, nsvcd__facet *far_part) {
   const uint32_t vertices = (uint32_t)pieces->mesh->vertex_count;
@@ -2227,7 +2236,8 @@ static double nsvcd__facet_reach(const nsvcd__pieces *pieces, const nsvcd__facet
   return sqrt(reach);
 }
 
-// Cuts from the facet what lies too far beyond its patch's cell; that waits for its turn. 0 without memory.
+// Cuts from the facet what lies too far beyond its patch's cell; that waits for its turn. 0 without
+// memory.
 static int nsvcd__trim(nsvcd__pieces *pieces, uint32_t patch, nsvcd__facet *facet,
                        const nsvcd_allocator *allocator) {
   const nsvcd__patches *patches = pieces->patches;
@@ -2357,7 +2367,8 @@ static float nsvcd__float_below(double x) { return -nsvcd__float_above(-x); }
 
 // ---- small linear systems, for balls and for distances
 
-// Solves a x = b for a symmetric, positive definite matrix of n <= 3 rows; the answer replaces b. 0 if it is singular.
+// Solves a x = b for a symmetric, positive definite matrix of n <= 3 rows; the answer replaces b. 0
+// if it is singular.
 static int nsvcd__solve(double a[3][3], double *b, size_t n) {
   double first[3];
   for (size_t i = 0; i < n; i++) first[i] = a[i][i];
@@ -2403,8 +2414,8 @@ static int nsvcd__ball_through(const nsvcd__d3 *points, size_t count, nsvcd__bal
   return 1;
 }
 
-// The least ball that holds `border` (1 to 5 points) among those through the last of them and up to three others. Keeps
-// in `border` only the points that it goes through. 0 if there is none.
+// The least ball that holds `border` (1 to 5 points) among those through the last of them and up to
+// three others. Keeps in `border` only the points that it goes through. 0 if there is none.
 static int nsvcd__ball_of_few(nsvcd__d3 *border, size_t *count, nsvcd__ball *ball) {
   const unsigned last = 1u << (*count - 1);
   unsigned best = 0;
@@ -2434,9 +2445,10 @@ static int nsvcd__ball_of_few(nsvcd__d3 *border, size_t *count, nsvcd__ball *bal
   return best != 0;
 }
 
-// The least enclosing ball: the point farthest outside joins the border, until there is none (after Gaertner, "Fast and
-// robust smallest enclosing balls", 1999). It grows with every step. Roundings can end it early: then it is a little
-// too large, for the radius is taken from the points by the caller.
+// The least enclosing ball: the point farthest outside joins the border, until there is none (after
+// Gaertner, "Fast and robust smallest enclosing balls", 1999). It grows with every step. Roundings
+// can end it early: then it is a little too large, for the radius is taken from the points by the
+// caller.
 static nsvcd__d3 nsvcd__ball_centre(const nsvcd__d3 *points, size_t count) {
   nsvcd__ball ball = {points[0], 0};
   nsvcd__d3 border[5] = {points[0]};
@@ -2452,7 +2464,8 @@ static nsvcd__d3 nsvcd__ball_centre(const nsvcd__d3 *points, size_t count) {
     if (most <= ball.squared * (1 + 1e-9)) break;
     border[border_count++] = points[farthest];
     nsvcd__ball larger = ball;
-    if (!nsvcd__ball_of_few(border, &border_count, &larger) || larger.squared <= ball.squared) break;
+    if (!nsvcd__ball_of_few(border, &border_count, &larger)) break;
+    if (larger.squared <= ball.squared) break;
     ball = larger;
   }
   return ball.centre;
@@ -2527,8 +2540,8 @@ static nsvcd__matrix nsvcd__covariance(const nsvcd__d3 *points, size_t count) {
   return out;
 }
 
-// Near the direction in which the points vary least. The adjugate of the covariance has the same axes, and the least
-// becomes the largest: squaring that a few times leaves nothing else.
+// Near the direction in which the points vary least. The adjugate of the covariance has the same
+// axes, and the least becomes the largest: squaring that a few times leaves nothing else.
 static nsvcd__d3 nsvcd__least_axis(const nsvcd__d3 *points, size_t count) {
   const nsvcd__matrix c = nsvcd__covariance(points, count);
   const nsvcd__d3 along = nsvcd__d3_unit(nsvcd__longest(c), nsvcd__d3_of(0, 0, 1));
@@ -2605,13 +2618,15 @@ static nsvcd__d3 nsvcd__simplex_point(const nsvcd__simplex *s) {
   return sum;
 }
 
-// Weights, of any sign, of the point nearest to the origin in the plane (line, point) through the simplex. 0 if that is
-// not known, for the points are too much in line.
+// Weights, of any sign, of the point nearest to the origin in the plane (line, point) through the
+// simplex. 0 if that is not known, for the points are too much in line.
 static int nsvcd__plane_weights(const nsvcd__simplex *s, double *weights) {
   nsvcd__d3 edges[3];
   double matrix[3][3];
   double shares[3];
-  for (size_t i = 0; i + 1 < s->count; i++) edges[i] = nsvcd__d3_sub(s->points[i + 1], s->points[0]);
+  for (size_t i = 0; i + 1 < s->count; i++) {
+    edges[i] = nsvcd__d3_sub(s->points[i + 1], s->points[0]);
+  }
   for (size_t i = 0; i + 1 < s->count; i++) {
     for (size_t j = 0; j + 1 < s->count; j++) matrix[i][j] = nsvcd__d3_dot(edges[i], edges[j]);
     shares[i] = -nsvcd__d3_dot(edges[i], s->points[0]);
@@ -2625,8 +2640,9 @@ static int nsvcd__plane_weights(const nsvcd__simplex *s, double *weights) {
   return 1;
 }
 
-// Moves the weights to the simplex's point nearest to the origin, and drops the corners that do not bear it (Wolfe,
-// "Finding the nearest point in a polytope", 1976). 0 if roundings are in the way: the weights still are weights.
+// Moves the weights to the simplex's point nearest to the origin, and drops the corners that do not
+// bear it (Wolfe, "Finding the nearest point in a polytope", 1976). 0 if roundings are in the way:
+// the weights still are weights.
 static int nsvcd__simplex_settle(nsvcd__simplex *s) {
   for (;;) {
     double target[4];
@@ -2648,8 +2664,8 @@ static int nsvcd__simplex_settle(nsvcd__simplex *s) {
   }
 }
 
-// A bound on the distance of a point from the convex hull of some vertices: that of a point of the hull. It is within a
-// thousandth of the distance, unless it is below `enough`.
+// A bound on the distance of a point from the convex hull of some vertices: that of a point of the
+// hull. It is within a thousandth of the distance, unless it is below `enough`.
 static double nsvcd__hull_distance(const nsvcd__d3 *hull, size_t count, nsvcd__d3 point,
                                    double enough) {
   nsvcd__simplex s;
@@ -2679,8 +2695,9 @@ static double nsvcd__hull_distance(const nsvcd__d3 *hull, size_t count, nsvcd__d
   return sqrt(best);
 }
 
-// Chooses up to NSVCD__HULL of the points such that all are near to the hull of those: always the one that is farthest
-// from it. Returns how far the farthest is at most; chosen: numbers within points. bounds: working memory, one a point.
+// Chooses up to NSVCD__HULL of the points such that all are near to the hull of those: always the
+// one that is farthest from it. Returns how far the farthest is at most; chosen: numbers within
+// points. bounds: working memory, one a point.
 static double nsvcd__choose_hull(const nsvcd__d3 *points, size_t count, double enough,
                                  double *bounds, size_t *chosen, size_t *chosen_count) {
   nsvcd__d3 hull[NSVCD__HULL];
@@ -2697,7 +2714,8 @@ static double nsvcd__choose_hull(const nsvcd__d3 *points, size_t count, double e
     hull[*chosen_count] = points[next];
     chosen[(*chosen_count)++] = next;
     bounds[next] = 0;
-    // A point that was near enough stays so, for the hull only grows: distances found before are bounds.
+    // A point that was near enough stays so, for the hull only grows: distances found before are
+    // bounds.
     farthest = 0;
     size_t first = 0;
     for (size_t i = 1; i < count; i++) first = bounds[i] > bounds[first] ? i : first;
@@ -2715,10 +2733,11 @@ static double nsvcd__choose_hull(const nsvcd__d3 *points, size_t count, double e
 
 // ---- patch by patch
 
-// The pieces by patch, and working memory for one patch at a time.
+// The pieces by patch, and working memory for one patch at a time. A pass numbers points as it sees
+// them: the hull's first, when vertices are stored.
 typedef struct nsvcd__sorted {
   size_t *first;      // (N + 1) pieces of a patch
-  uint32_t *order;    // (pieces) numbers of pieces, patch by patch, within a patch as they were made
+  uint32_t *order;    // (pieces) numbers of pieces, patch by patch, in a patch as they were made
   size_t most;        // corners of the pieces of one patch, at most
   uint32_t *stamps;   // (points) the last pass that met a point; passes count from 1
   uint32_t *numbers;  // (points) its number in that pass
@@ -2795,7 +2814,8 @@ static int nsvcd__sort_pieces(const nsvcd__pieces *pieces, const nsvcd_allocator
   return 1;
 }
 
-// The number of a point in this pass: a new one if it is met for the first time. Returns how many there are now.
+// The number of a point in this pass: a new one if it is met for the first time. Returns how many
+// there are now.
 static size_t nsvcd__number_point(nsvcd__sorted *sorted, size_t met, uint32_t point) {
   if (sorted->stamps[point] == sorted->pass) return met;
   sorted->stamps[point] = sorted->pass;
@@ -2830,7 +2850,8 @@ static nsvcd__d3 nsvcd__piece_normal(const nsvcd__pieces *pieces, const nsvcd__p
   return sum;
 }
 
-// The least ball of the points of the pass, about whose centre they are placed. ball: centre and radius.
+// The least ball of the points of the pass, about whose centre they are placed. ball: centre and
+// radius.
 static void nsvcd__fit_ball(const nsvcd__pieces *pieces, nsvcd__sorted *sorted, size_t met,
                             float *ball) {
   // From near by the centre is found without the roundings of what is far away.
@@ -2880,7 +2901,8 @@ static void nsvcd__describe_patch(const nsvcd__pieces *pieces, nsvcd__sorted *so
   }
 }
 
-// Pieces of one triangle follow each other in a patch: a whole triangle is listed with the first of them.
+// Pieces of one triangle follow each other in a patch: a whole triangle is listed with the first of
+// them.
 static int nsvcd__is_listed_already(const nsvcd__pieces *pieces, const nsvcd__sorted *sorted,
                                     size_t i, size_t k) {
   if (k == sorted->first[i]) return 0;
@@ -2888,7 +2910,8 @@ static int nsvcd__is_listed_already(const nsvcd__pieces *pieces, const nsvcd__so
   return nsvcd__sorted_piece(pieces, sorted, k - 1)->triangle == piece->triangle;
 }
 
-// Numbers the vertices of patch i: the hull's, then others of what it lists. Returns how many; listed: triangles.
+// Numbers the vertices of patch i: the hull's, then others of what it lists. Returns how many;
+// listed: triangles.
 static size_t nsvcd__number_vertices(const nsvcd__pieces *pieces, nsvcd__sorted *sorted, size_t i,
                                      size_t hull_count, size_t *listed) {
   size_t met = 0;
@@ -3006,7 +3029,8 @@ static void nsvcd__surface_free(nsvcd__surface *surface, const nsvcd_allocator *
   memset(surface, 0, sizeof *surface);
 }
 
-// What there is one of for each patch and each component. 0 without memory; the caller frees what there is.
+// What there is one of for each patch and each component. 0 without memory; the caller frees what
+// there is.
 static int nsvcd__surface_alloc(nsvcd__surface *s, const nsvcd_allocator *allocator) {
   const size_t n = s->count;
   s->balls = (float *)nsvcd__alloc_array(allocator, 4 * n, sizeof(float));
@@ -3090,8 +3114,9 @@ static nsvcd_result nsvcd__surface_fill(const nsvcd__pieces *pieces, nsvcd__sort
   return NSVCD_OK;
 }
 
-// mesh: checked. patches: of this mesh. On success release *surface with nsvcd__surface_free, with the same allocator;
-// on failure it is untouched. MEMORY; TOO_LARGE if a patch has more than NSVCD__PATCH_VERTICES vertices.
+// mesh: checked. patches: of this mesh. On success release *surface with nsvcd__surface_free, with
+// the same allocator; on failure it is untouched. MEMORY; TOO_LARGE if a patch has more than
+// NSVCD__PATCH_VERTICES vertices.
 static nsvcd_result nsvcd__surface_build(const nsvcd_mesh *mesh, const nsvcd__patches *patches,
                                          const nsvcd_allocator *allocator,
                                          nsvcd__surface *surface) {

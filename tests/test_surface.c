@@ -1,5 +1,6 @@
-// What the proof needs of each patch: balls, discs, hulls, triangles. The reference is double precision, written apart,
-// and knows nothing of pieces: it takes points of the mesh and looks where the result says they are.
+// What the proof needs of each patch: balls, discs, hulls, triangles. The reference is double
+// precision, written apart, and knows nothing of pieces: it takes points of the mesh and looks
+// where the result says they are.
 #define NSVCD_STATIC
 #define NEURALSVCD_IMPLEMENTATION
 #include "../neuralsvcd.h"
@@ -363,7 +364,8 @@ static int in_tetrahedron(vec a, vec b, vec c, vec d, vec x) {
   const vec s = vec_sub(d, x);
   const double parts[4] = {vec_dot(q, vec_cross(r, s)), -vec_dot(p, vec_cross(r, s)),
                            vec_dot(p, vec_cross(q, s)), -vec_dot(p, vec_cross(q, r))};
-  const double size = vec_length(vec_sub(b, a)) * vec_length(vec_sub(c, a)) * vec_length(vec_sub(d, a));
+  const double base = vec_length(vec_sub(b, a)) * vec_length(vec_sub(c, a));
+  const double size = base * vec_length(vec_sub(d, a));
   const double whole = parts[0] + parts[1] + parts[2] + parts[3];
   if (fabs(whole) <= 1e-12 * size) return 0;
   for (size_t i = 0; i < 4; i++) {
@@ -384,8 +386,8 @@ static int any_tetrahedron_holds(const vec *points, size_t count, vec x) {
   return 0;
 }
 
-// Is x within `reach` of the convex hull of these points? A few of Frank and Wolfe's steps settle most: a point of the
-// hull is that near, or a plane shows that none is. The rest is tried out.
+// Is x within `reach` of the convex hull of these points? A few of Frank and Wolfe's steps settle
+// most: a point of the hull is that near, or a plane shows that none is. The rest is tried out.
 static int hull_reaches(const vec *points, size_t count, vec x, double reach) {
   double weights[NSVCD__HULL] = {1};
   vec v = vec_sub(points[0], x);
@@ -551,7 +553,8 @@ static int patch_holds(const reader *r, size_t i, vec x, misses *m) {
   return 0;
 }
 
-// A point of triangle t: some patch lists a triangle with this id that is here, and holds the point.
+// A point of triangle t: some patch lists a triangle with this id that is here, and holds the
+// point.
 static void check_point(const reader *r, size_t t, vec x, misses *m) {
   int listed = 0;
   misses tried = *m;
@@ -561,7 +564,8 @@ static void check_point(const reader *r, size_t t, vec x, misses *m) {
     vec corners[3];
     reader_corners(r, l, corners);
     const double quantum = (double)r->surface.quanta[r->patch[l]];
-    // Tolerances in the triangle's own plane are only as good as its shape; a millionth of the quantum is none.
+    // Tolerances in the triangle's own plane are only as good as its shape; a millionth of the
+    // quantum is none.
     if (triangle_distance(corners, x) > quantum * (1 + 1e-6) + 10 * r->tolerance) continue;
     listed = 1;
     if (patch_holds(r, r->patch[l], x, &tried)) return;
@@ -598,11 +602,12 @@ static void check_points(const reader *r, shapes_rng *rng, size_t random) {
   }
   CHECK_EQ(m.nowhere, 0);
   if (m.nowhere == 0) return;
-  printf("  of %zu points: no triangle %zu; left out by balls %zu, discs %zu, hulls %zu\n", m.points,
-         m.triangle, m.ball, m.disc, m.hull);
+  printf("  of %zu points: no triangle %zu; ", m.points, m.triangle);
+  printf("left out by balls %zu, discs %zu, hulls %zu\n", m.ball, m.disc, m.hull);
 }
 
-// Vertices of whole triangles are within the quantum of the mesh's; what is listed lies within it of its triangle.
+// Vertices of whole triangles are within the quantum of the mesh's; what is listed lies within it
+// of its triangle.
 static void check_quanta(const reader *r) {
   size_t bad = 0;
   for (size_t l = 0; l < r->surface.listed; l++) {
@@ -738,7 +743,8 @@ static void surface_is_covered(void) {
   }
 }
 
-// Fine meshes are hardly cut, their triangles listed about once, and the hulls are near to the surface.
+// Fine meshes are hardly cut, their triangles listed about once, and the hulls are near to the
+// surface.
 static void surface_of_a_fine_mesh(void) {
   shapes_rng rng = {2};
   nsvcd_mesh mesh = surface_sphere(0.5, 166);
@@ -754,9 +760,11 @@ static void surface_of_a_fine_mesh(void) {
   double patch_radius = 0;
   for (size_t i = 0; i < s->count; i++) {
     const double share = 1 / (double)s->count;
-    slack += share * (double)s->slacks[i] / (double)s->balls[4 * i + 3];
-    thickness += share * (double)(s->discs[6 * i + 4] - s->discs[6 * i + 3]) / (double)s->balls[4 * i + 3];
-    radius += share * (double)s->balls[4 * i + 3];
+    const double own = (double)s->balls[4 * i + 3];
+    const double thick = (double)(s->discs[6 * i + 4] - s->discs[6 * i + 3]);
+    slack += share * (double)s->slacks[i] / own;
+    thickness += share * thick / own;
+    radius += share * own;
     patch_radius += share * (double)r.patches.radii[i];
   }
   CHECK_LE((double)s->listed, 1.15 * (double)mesh.triangle_count);
@@ -768,7 +776,8 @@ static void surface_of_a_fine_mesh(void) {
   nsvcd_mesh_free(&mesh, NULL);
 }
 
-// Large faces are cut: balls are about as small as those of the patches, hulls of flat patches fit, the integers are fine.
+// Large faces are cut: balls are about as small as those of the patches, hulls of flat patches fit,
+// the integers are fine.
 static void surface_of_large_faces(void) {
   for (int kind = 0; kind < 2; kind++) {
     nsvcd_mesh mesh = kind ? surface_kind(3) : surface_box(0.4, 0.3, 0.2, 1);
