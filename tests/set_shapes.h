@@ -174,28 +174,63 @@ SHAPES_DEF void set_host(shapes_mesh *mesh, shapes_rng *rng, int shell) {
 
 // --------------------------------------------------------------------------------------------------------- slivers
 
-// A block with a centre fan on top and bottom; along its outline, pairs of corners are a hair apart.
-SHAPES_DEF void set_fan_block(shapes_mesh *mesh, double x, double y, double z, int pairs, double hair) {
-  const int corners = 8 * pairs;
-  const uint32_t bottom = shapes_vertex(mesh, 0, 0, -z / 2);
-  const uint32_t top = shapes_vertex(mesh, 0, 0, z / 2);
-  const uint32_t ring = (uint32_t)mesh->vertices;
-  for (int i = 0; i < corners; i++) {
+#define SET_MAX_OUTLINE 256
+
+typedef struct set_outline {
+  double corner[SET_MAX_OUTLINE][2];  // counter-clockwise about the origin
+  int count;
+} set_outline;
+
+// A rectangle, its edges cut. Every other piece is `hair` long, in halves of an edge.
+SHAPES_DEF set_outline set_rectangle(double x, double y, int pairs, double hair) {
+  set_outline out;
+  out.count = 8 * pairs;
+  for (int i = 0; i < out.count; i++) {
     const int side = i / (2 * pairs);
     const int step = i / 2 % pairs;
-    // From one corner of the block (-1) to the next (1), the corner itself included.
+    // From one corner of the rectangle (-1) to the next (1), the first included.
     const double along = 2.0 * step / pairs - 1 + (i % 2 ? hair : 0);
     const double u = side == 0 ? along : side == 1 ? 1 : side == 2 ? -along : -1;
     const double v = side == 0 ? -1 : side == 1 ? along : side == 2 ? 1 : -along;
-    shapes_vertex(mesh, u * x / 2, v * y / 2, -z / 2);
-    shapes_vertex(mesh, u * x / 2, v * y / 2, z / 2);
+    out.corner[i][0] = u * x / 2;
+    out.corner[i][1] = v * y / 2;
   }
-  for (int i = 0; i < corners; i++) {
-    const uint32_t a = ring + 2 * (uint32_t)i;
-    const uint32_t b = ring + 2 * (uint32_t)((i + 1) % corners);
+  return out;
+}
+// A regular polygon, or every other edge `hair` times the radius long.
+SHAPES_DEF set_outline set_circle(double radius, int count, double hair) {
+  set_outline out;
+  out.count = count;
+  for (int i = 0; i < count; i++) {
+    const int pair = i - i % 2;
+    const double even = 2 * SHAPES_PI * i / count;
+    const double angle = hair > 0 ? 2 * SHAPES_PI * pair / count + i % 2 * hair : even;
+    out.corner[i][0] = radius * cos(angle);
+    out.corner[i][1] = radius * sin(angle);
+  }
+  return out;
+}
+// The outline from z = 0 to 1, with a fan about the centre of each end; pointed: an apex for the upper end.
+SHAPES_DEF void set_fan_solid(shapes_mesh *mesh, const set_outline *outline, int pointed) {
+  const uint32_t bottom = shapes_vertex(mesh, 0, 0, 0);
+  const uint32_t top = shapes_vertex(mesh, 0, 0, 1);
+  const uint32_t ring = (uint32_t)mesh->vertices;
+  const uint32_t stride = pointed ? 1 : 2;
+  for (int i = 0; i < outline->count; i++) {
+    const double *p = outline->corner[i];
+    shapes_vertex(mesh, p[0], p[1], 0);
+    if (!pointed) shapes_vertex(mesh, p[0], p[1], 1);
+  }
+  for (int i = 0; i < outline->count; i++) {
+    const uint32_t a = ring + stride * (uint32_t)i;
+    const uint32_t b = ring + stride * (uint32_t)((i + 1) % outline->count);
     shapes_triangle(mesh, bottom, b, a);
-    shapes_triangle(mesh, top, a + 1, b + 1);
-    shapes_quad(mesh, a, b, b + 1, a + 1);
+    if (pointed) {
+      shapes_triangle(mesh, top, a, b);
+    } else {
+      shapes_triangle(mesh, top, a + 1, b + 1);
+      shapes_quad(mesh, a, b, b + 1, a + 1);
+    }
   }
 }
 // Cuts every triangle into three, by a point so near the middle of an edge that one of the three is a needle.
@@ -220,28 +255,40 @@ SHAPES_DEF void set_cut_needles(shapes_mesh *mesh, shapes_rng *rng, double near_
     shapes_triangle(mesh, t[2], t[0], cut);
   }
 }
-#define SET_SLIVERS 4
-// kind in [0, SET_SLIVERS): a cylinder, a cone, a block and a random solid, full of needles of 1 to 1000 and worse.
-SHAPES_DEF void set_slivers(shapes_mesh *mesh, shapes_rng *rng, int kind) {
-  const double radius = shapes_uniform(rng, 0.04, 0.1);
+// A column, cone or block full of needles. Where each edge of the outline makes needles, it has to be slender
+// to do with 200 of them. That costs: they lie across each other's boxes, and the oracle tries most pairs.
+SHAPES_DEF void set_needle_solid(shapes_mesh *mesh, shapes_rng *rng, int kind) {
+  const double radius = shapes_uniform(rng, 0.1, 0.4);
+  const double slender = shapes_uniform(rng, 0.016, 0.032);
   const double x = shapes_uniform(rng, 0.3, 1);
   const double y = shapes_uniform(rng, 0.3, 1);
-  const int segments = 10 + (int)(1000 * 2 * SHAPES_PI * radius);  // a needle of length 1 is 1/1000 wide
-  if (kind == 0)
-    shapes_cylinder(mesh, radius, 1, segments);
-  else if (kind == 1)
-    shapes_cone(mesh, radius, 0, 1, segments);
-  else if (kind == 2)
-    set_fan_block(mesh, x, y, 1, 8 + shapes_pick(rng, 17), 1e-4);
+  const int pairs = 6 + shapes_pick(rng, 18);
+  const int all = shapes_pick(rng, 4) == 0;
+  const int edges = 5 + (int)(1000 * 2 * SHAPES_PI * slender);  // of 1/1000 each, at height 1
+  set_outline outline;
+  if (kind == 2)
+    outline = set_rectangle(x, y, pairs, 1e-4);
+  else if (all)
+    outline = set_circle(slender, edges, 0);
   else
+    outline = set_circle(radius, 4 * pairs, 1e-4);
+  set_fan_solid(mesh, &outline, kind == 1);
+}
+#define SET_SLIVERS 4
+// kind in [0, SET_SLIVERS): a column, a cone, a block, a random solid; needles of 1 to 1000 and worse.
+SHAPES_DEF void set_slivers(shapes_mesh *mesh, shapes_rng *rng, int kind) {
+  if (kind < 3) {
+    set_needle_solid(mesh, rng, kind);
+  } else {
     shapes_random_solid(mesh, rng, SET_EXTENT);
-  if (kind == 3) set_cut_needles(mesh, rng, 5e-4);
+    set_cut_needles(mesh, rng, 5e-4);
+  }
   shapes_fit(mesh, SET_EXTENT);
 }
 
 // ------------------------------------------------------------------------------------------------------------ soup
 
-// Triangles of the mesh once or twice more, with their corners in another turn of the same order.
+// Some triangles once or twice more, the second time with another corner first.
 SHAPES_DEF void set_duplicate(shapes_mesh *mesh, shapes_rng *rng, int count) {
   const int triangles = (int)mesh->triangles;
   for (int i = 0; i < count; i++) {
