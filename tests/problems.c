@@ -938,6 +938,7 @@ static int is_as_planned(problem *p, const rest_plan *plan) {
   oracle_rotate(m, up, normal);
   const oracle_result r = ask(p, &p->fixed_pose, 0);
   p->label = plan->label;
+  if (r.winding > 0.25 && r.winding < 0.75) return 0;  // an open mesh
   if (!plan->label) {
     p->margin = r.distance;
     return r.status == ORACLE_FREE && fabs(r.distance - plan->gap * p->set->unit) < undecided;
@@ -1203,6 +1204,10 @@ static void print_summary(const set_info *set, const counts *c, double seconds) 
     printf("\n");
   }
 }
+// Sets that are what they are by their own meshes.
+static int is_procedural_only(const set_info *set) {
+  return set->moving_family == GROUPS || set->moving_family == NEEDLES || set->moving_family == SOUP;
+}
 static int usage(void) {
   fprintf(
       stderr,
@@ -1211,7 +1216,8 @@ static int usage(void) {
       "  --list: use these file names of DIR only, one per line. --open: also, or only, meshes that are not closed.\n"
       "  --motion-samples, --sigma: other than the set's own, in brackets below.\n"
       "  --pool: how many procedural meshes to make (default: a tenth of N, 40 to 400).\n"
-      "SET is one of (DIR replaces the meshes of the moving body, and of the fixed one where both are alike):\n");
+      "SET is one of (DIR replaces the meshes of the moving body, and of the fixed one where both are alike;\n"
+      "not for nested, slivers and soup):\n");
   for (size_t i = 0; i < SETS; i++) {
     fprintf(stderr, "  %-9s %s [%zu", sets[i].name, sets[i].what, sets[i].samples);
     if (uses_sigma(&sets[i])) fprintf(stderr, ", %g", sets[i].sigma * sets[i].unit);
@@ -1255,6 +1261,7 @@ int main(int argc, char **argv) {
   for (size_t i = 0; set && i < SETS; i++)
     if (!strcmp(set, sets[i].name)) p.set = &sets[i];
   if (!samples && p.set) samples = p.set->samples;
+  if (p.set && meshes && strcmp(meshes, "procedural") != 0 && is_procedural_only(p.set)) return usage();
   if (argc % 2 == 0 || !p.set || !meshes || !out || !count || samples > MAX_SAMPLES) return usage();
   if (sigma <= 0) sigma = p.set->sigma * p.set->unit;
   int inside = p.set->placing == CONTAINED;

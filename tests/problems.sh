@@ -116,6 +116,8 @@ for set in $sets; do
 done
 build/problems --set wide --meshes procedural --count 1 --out "$dir/x.txt" 2>/dev/null
 test $? = 2 || fail "an unknown set is not refused"
+build/problems --set soup --meshes "$dir" --count 1 --out "$dir/x.txt" 2>/dev/null
+test $? = 2 || fail "soup of other meshes than its own is not refused"
 
 test "$failures" = 0 || exit 1
 echo "problems: all sets are as they should be"
