@@ -19,17 +19,18 @@
 // 0). Set `far`: label 0, nothing else is asked of it. Set `offset`: the motion is rounded to float32 before anything
 // is measured and the fixed pose before it is labelled, since a reader of floats sees nothing finer than 1 mm there;
 // labels and free margins hold for the rounded poses, depths may be off by that rounding.
-// Set `rest`: a body stands, slides, is set down or lifted at a stated gap above or below (pressed in)
-// the flat surface of a fixed one, in turn over gaps, motions and labels. The margin is the oracle's if
-// free. If colliding it is minus the depth by which the body was pressed in: raised by 0.1 mm less it
-// still collides, by 0.2 mm more it is free, by the oracle. nan where no surfaces meet: wholly inside.
-// Set `nested`: one body has two or three parts far from each other. Label 1, nan: exactly one of them is
-// inside the other body (a solid, or the wall of a closed shell), the rest are outside, nothing touches.
-// Label 0: one is in the shell's cavity, or by the solid.
-// Set `same`: steps 2 to 4 from nearly the same pose, and that pose itself. There the margin is minus the
-// way out along the direction of the march, by the eight steps and bisection.
-// Sets `soup` and `one`: the label says whether surfaces touch. Where a body might be said to be inside
-// (winding number above 0.25), the problem is thrown away: such meshes have no inside.
+// Set `rest`: a body stands, slides, is set down or lifted at a stated gap above or below (pressed
+// in) the flat surface of a fixed one, in turn over gaps, motions and labels. The margin is the
+// oracle's if free. If colliding it is minus the depth by which the body was pressed in: raised by
+// 0.1 mm less it still collides, by 0.2 mm more it is free, by the oracle. nan where no surfaces
+// meet: wholly inside.
+// Set `nested`: one body has two or three parts far from each other. Label 1, nan: exactly one of
+// them is inside the other body (a solid, or the wall of a closed shell), the rest are outside,
+// nothing touches. Label 0: one is in the shell's cavity, or by the solid.
+// Set `same`: steps 2 to 4 from nearly the same pose, and that pose itself. There the margin is
+// minus the way out along the direction of the march, by the eight steps and bisection.
+// Sets `soup` and `one`: the label says whether surfaces touch. Where a body might be said to be
+// inside (winding number above 0.25), the problem is thrown away: such meshes have no inside.
 #define _XOPEN_SOURCE 700
 #include <dirent.h>
 #include <errno.h>
@@ -67,8 +68,9 @@ typedef enum family {  // of procedural meshes; from RESTING on: set_shapes.h
   TRIANGLES
 } family;
 
-static const char *const family_names[] = {"",      "solid", "hollow", "shell",  "shell", "sheet",   "resting",
-                                           "floor", "group", "host",   "needle", "soup",  "triangle"};
+static const char *const family_names[] = {"",       "solid",   "hollow",  "shell", "shell",
+                                           "sheet",  "resting", "floor",   "group", "host",
+                                           "needle", "soup",    "triangle"};
 
 typedef enum placing {
   ACROSS,      // bounds of the fixed body overlap those of the motion
@@ -534,9 +536,9 @@ static double depth(const problem *p, const double *direction, double eps) {
   }
   return fabs(eps - open);
 }
-// Is a place of the world, off all surfaces, in the cavity of a convex shell? Seen from there the outer
-// surface is all round, so that the triangles that show their backs fill the sphere; seen from outside they
-// fill less than half of it for the outer surface, and still less for the inner one.
+// Is a place of the world, off all surfaces, in the cavity of a convex shell? Seen from there the
+// outer surface is all round, so that the triangles that show their backs fill the sphere; seen
+// from outside they fill less than half of it for the outer surface, still less for the inner one.
 static int surrounds(const oracle_mesh *shell, const oracle_pose *pose, const double *world) {
   double m[9], away[3], point[3], backs = 0;
   oracle_sub(world, pose->position, away);
@@ -737,7 +739,7 @@ static int attempt_inside(shapes_rng *rng, problem *p, int label, int large_move
   return 1;
 }
 
-// ------------------------------------------------------------------------------------------- the set `rest`
+// ---------------------------------------------------------------------------------- the set `rest`
 
 typedef enum rest_move { STAND, SLIDE, SET_DOWN, LIFT } rest_move;
 
@@ -775,7 +777,8 @@ static void turn_by(double *q, const double *axis, double angle) {
   memcpy(q, turned, sizeof turned);
 }
 // From one corner to another, both turned by the matrix. Corner i is that of triangle i / 3.
-static void corner_to_corner(const oracle_mesh *mesh, size_t from, size_t to, const double *m, double *out) {
+static void corner_to_corner(const oracle_mesh *mesh, size_t from, size_t to, const double *m,
+                             double *out) {
   double d[3];
   oracle_sub(mesh->triangles[to / 3].v[to % 3], mesh->triangles[from / 3].v[from % 3], d);
   oracle_rotate(m, d, out);
@@ -791,7 +794,8 @@ static size_t lowest_corner(const oracle_mesh *mesh, const double *q) {
   }
   return lowest;
 }
-// Tilts the body about its lowest corner until a second one is as low. `along` (unit) then points there.
+// Tilts the body about its lowest corner until a second one is as low. `along` (unit) then points
+// there.
 static int tilt_to_edge(const oracle_mesh *mesh, size_t lowest, double *q, double *along) {
   double m[9];
   double slope = HUGE_VAL;
@@ -812,7 +816,8 @@ static int tilt_to_edge(const oracle_mesh *mesh, size_t lowest, double *q, doubl
   return 1;
 }
 // Tilts it on about that edge, to the side of `sign`, until a third corner is as low.
-static void tilt_to_face(const oracle_mesh *mesh, size_t lowest, double *q, const double *along, int sign) {
+static void tilt_to_face(const oracle_mesh *mesh, size_t lowest, double *q, const double *along,
+                         int sign) {
   const double side[3] = {-sign * along[1], sign * along[0], 0};
   const double axis[3] = {-sign * along[0], -sign * along[1], 0};
   double m[9];
@@ -826,8 +831,8 @@ static void tilt_to_face(const oracle_mesh *mesh, size_t lowest, double *q, cons
   }
   if (slope < 1e150) turn_by(q, axis, atan(slope));
 }
-// How the body stands: as in its file, after quarter turns, or on a face of its convex hull; then turned
-// about the vertical, or not.
+// How the body stands: as in its file, after quarter turns, or on a face of its convex hull; then
+// turned about the vertical, or not.
 static void rest_rotation(shapes_rng *rng, const oracle_mesh *mesh, double *q) {
   const double axes[3][3] = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
   const double still[4] = {0, 0, 0, 1};
@@ -863,8 +868,8 @@ static box turned_bounds(const oracle_mesh *mesh, const double *q) {
   }
   return out;
 }
-// The body where it is at the gap, or within the floor. The fixed body is at the origin, z up. Between walls
-// the whole body has to be over the flat part, elsewhere its middle.
+// The body where it is at the gap, or within the floor. The fixed body is at the origin, z up.
+// Between walls the whole body has to be over the flat part, elsewhere its middle.
 static oracle_pose rest_pose(shapes_rng *rng, const problem *p, const rest_plan *plan) {
   const set_floor *floor = &p->fixed_source->floor;
   oracle_pose pose;
@@ -885,7 +890,8 @@ static oracle_pose rest_pose(shapes_rng *rng, const problem *p, const rest_plan 
   return pose;
 }
 // The pose turned by an angle about the vertical through a place, then moved.
-static oracle_pose turned_pose(oracle_pose pose, const double *about, double angle, const double *move) {
+static oracle_pose turned_pose(oracle_pose pose, const double *about, double angle,
+                               const double *move) {
   const double up[3] = {0, 0, 1};
   const double x = pose.position[0] - about[0];
   const double y = pose.position[1] - about[1];
@@ -895,7 +901,8 @@ static oracle_pose turned_pose(oracle_pose pose, const double *about, double ang
   turn_by(pose.rotation, up, angle);
   return pose;
 }
-// Never lower than `rest`, and as low as that all the time (STAND, SLIDE), at the end or at the start.
+// Never lower than `rest`, and as low as that all the time (STAND, SLIDE), at the end or at the
+// start.
 static void rest_motion(shapes_rng *rng, problem *p, rest_move move, const oracle_pose *rest) {
   const double heading = shapes_uniform(rng, 0, 2 * SHAPES_PI);
   const double length = draw_path(rng, p);
@@ -927,8 +934,8 @@ static void move_scene(problem *p, const oracle_pose *scene) {
   p->fixed_pose = composed(scene, &p->fixed_pose);
   for (size_t s = 0; s < p->samples; s++) p->motion[s] = composed(scene, &p->motion[s]);
 }
-// Does the oracle agree with the plan? Sets label and margin. Walls that are nearer than the floor, or the
-// edge of a floor that ends under the body, make another problem of it: rejected.
+// Does the oracle agree with the plan? Sets label and margin. Walls that are nearer than the floor,
+// or the edge of a floor that ends under the body, make another problem of it: rejected.
 static int is_as_planned(problem *p, const rest_plan *plan) {
   const double up[3] = {0, 0, 1};
   const double undecided = UNDECIDED * p->set->unit;
@@ -968,11 +975,11 @@ static int attempt_rest(shapes_rng *rng, problem *p, counts *c) {
   return is_as_planned(p, &plan) || rejected(&c->other);
 }
 
-// ------------------------------------------------------------------------------- the sets `nested` and `same`
+// -------------------------------------------------------------------- the sets `nested` and `same`
 
 // How many parts of one body are inside the other, where no surfaces touch.
-static size_t parts_inside(const oracle_mesh *group, const oracle_pose *pose, const oracle_mesh *host,
-                           const oracle_pose *host_pose) {
+static size_t parts_inside(const oracle_mesh *group, const oracle_pose *pose,
+                           const oracle_mesh *host, const oracle_pose *host_pose) {
   size_t inside = 0;
   for (size_t i = 0; i < group->seed_count; i++) {
     oracle_mesh part = *group;
@@ -988,7 +995,8 @@ static void pin(oracle_pose *pose, const double *local, const double *world) {
   oracle_transform(pose, local, now);
   for (int k = 0; k < 3; k++) pose->position[k] += world[k] - now[k];
 }
-// A part of the group somewhere in the bounds of the host. Where the group moves, it turns about that part.
+// A part of the group somewhere in the bounds of the host. Where the group moves, it turns about
+// that part.
 static void place_part(shapes_rng *rng, problem *p, const double *part) {
   const double origin[3] = {0, 0, 0};
   const double length = draw_path(rng, p);
@@ -1012,8 +1020,8 @@ static void place_part(shapes_rng *rng, problem *p, const double *part) {
     pin(&p->motion[s], part, place);
   }
 }
-// One attempt at `nested`: a part of the group is put in the solid or wall (label 1), cavity or vicinity (0)
-// of the host. Half of the groups move, half are fixed.
+// One attempt at `nested`: a part of the group is put in the solid or wall (label 1), cavity or
+// vicinity (0) of the host. Half of the groups move, half are fixed.
 static int attempt_nested(shapes_rng *rng, problem *p, counts *c) {
   const oracle_mesh *group = p->swapped ? &p->fixed : &p->moving;
   const oracle_mesh *host = p->swapped ? &p->moving : &p->fixed;
@@ -1052,8 +1060,8 @@ static void place_alike(shapes_rng *rng, problem *p) {
   turn_by(q, axis, angle);
   set_pose(&p->fixed_pose, center, q, p->fixed.center);
 }
-// One attempt at `same`. Every other problem is left where the bodies cross; the rest march out and go on
-// like the others, where keeping the balance makes most of them free.
+// One attempt at `same`. Every other problem is left where the bodies cross; the rest march out and
+// go on like the others, where keeping the balance makes most of them free.
 static int attempt_same(shapes_rng *rng, problem *p, double sigma, counts *c) {
   const int tiny = p->id / 2 % 2;
   const double origin[3] = {0, 0, 0};
@@ -1069,7 +1077,8 @@ static int attempt_same(shapes_rng *rng, problem *p, double sigma, counts *c) {
   place_alike(rng, p);
   const oracle_pose crossing = p->fixed_pose;
   if (ask(p, &crossing, 0).status != ORACLE_COLLIDES) return rejected(&c->undecided);
-  if (!march_out(rng, p, p->set->unit * draw(rng, p->set->march))) return rejected(&c->no_free_place);
+  if (!march_out(rng, p, p->set->unit * draw(rng, p->set->march)))
+    return rejected(&c->no_free_place);
   if (p->id % 2 == 0) {
     if (!touch(p, direction)) return rejected(&c->not_touching);
     return perturb(rng, p, direction, sigma, c);
@@ -1083,7 +1092,7 @@ static int attempt_same(shapes_rng *rng, problem *p, double sigma, counts *c) {
   return p->margin < -UNDECIDED * p->set->unit || rejected(&c->undecided);
 }
 
-// ------------------------------------------------------------------------------------------------ any of the sets
+// --------------------------------------------------------------------------------- any of the sets
 
 typedef struct pools {
   pool small;   // of the moving body
@@ -1111,8 +1120,8 @@ static int swapped_of_ten(const set_info *set) {
   if (set->placing == CONTAINED) return 3;
   return set->placing == PARTLY_IN || set->fixed_family == TRIANGLES ? 5 : 0;
 }
-// On a plate lies another plate, every other time. What is to be inside the floor needs a thick one, and is
-// small enough to fit however it is turned.
+// On a plate lies another plate, every other time. What is to be inside the floor needs a thick
+// one, and is small enough to fit however it is turned.
 static choice choose_for_rest(shapes_rng *rng, pools *from, const problem *p, choice chosen) {
   const rest_plan plan = plan_rest(p->id);
   while (plan.whole && chosen.large->floor.thickness < 0.01) chosen.large = any(rng, &from->large);
@@ -1121,7 +1130,8 @@ static choice choose_for_rest(shapes_rng *rng, pools *from, const problem *p, ch
     while (!chosen.small->floor.plate);
   }
   if (plan.whole) {
-    const double thickness = chosen.large->floor.thickness / chosen.large->extent * chosen.large_extent;
+    const double thickness =
+        chosen.large->floor.thickness / chosen.large->extent * chosen.large_extent;
     chosen.small_extent = thickness * shapes_uniform(rng, 0.2, 0.6);
   }
   return chosen;
@@ -1137,7 +1147,8 @@ static void choose_bodies(shapes_rng *rng, pools *from, problem *p) {
   chosen.small_extent = set->unit * draw(rng, set->moving);
   chosen.large_extent = set->unit * draw(rng, set->fixed);
   if (set->placing == ON_FLOOR) chosen = choose_for_rest(rng, from, p, chosen);
-  if (set->fixed_family == TRIANGLES && shapes_pick(rng, 3) == 0) chosen.small = any(rng, &from->large);
+  if (set->fixed_family == TRIANGLES && shapes_pick(rng, 3) == 0)
+    chosen.small = any(rng, &from->large);
   if (set->placing == ALIKE) {
     chosen.large = chosen.small;
     chosen.large_extent = chosen.small_extent;
@@ -1163,7 +1174,6 @@ static int attempt_any(shapes_rng *rng, problem *p, double sigma, counts *c) {
       return attempt(rng, p, sigma, c);
   }
 }
-
 
 // ---------------------------------------------------------------------------------------------------------- output
 
@@ -1206,7 +1216,8 @@ static void print_summary(const set_info *set, const counts *c, double seconds) 
 }
 // Sets that are what they are by their own meshes.
 static int is_procedural_only(const set_info *set) {
-  return set->moving_family == GROUPS || set->moving_family == NEEDLES || set->moving_family == SOUP;
+  const family kind = set->moving_family;
+  return kind == GROUPS || kind == NEEDLES || kind == SOUP;
 }
 static int usage(void) {
   fprintf(
@@ -1216,8 +1227,8 @@ static int usage(void) {
       "  --list: use these file names of DIR only, one per line. --open: also, or only, meshes that are not closed.\n"
       "  --motion-samples, --sigma: other than the set's own, in brackets below.\n"
       "  --pool: how many procedural meshes to make (default: a tenth of N, 40 to 400).\n"
-      "SET is one of (DIR replaces the meshes of the moving body, and of the fixed one where both are alike;\n"
-      "not for nested, slivers and soup):\n");
+      "SET is one of (DIR replaces the meshes of the moving body, and of the fixed one where both are\n"
+      "alike; not for nested, slivers and soup):\n");
   for (size_t i = 0; i < SETS; i++) {
     fprintf(stderr, "  %-9s %s [%zu", sets[i].name, sets[i].what, sets[i].samples);
     if (uses_sigma(&sets[i])) fprintf(stderr, ", %g", sets[i].sigma * sets[i].unit);
@@ -1261,7 +1272,8 @@ int main(int argc, char **argv) {
   for (size_t i = 0; set && i < SETS; i++)
     if (!strcmp(set, sets[i].name)) p.set = &sets[i];
   if (!samples && p.set) samples = p.set->samples;
-  if (p.set && meshes && strcmp(meshes, "procedural") != 0 && is_procedural_only(p.set)) return usage();
+  const int folder_given = meshes && strcmp(meshes, "procedural") != 0;
+  if (folder_given && p.set && is_procedural_only(p.set)) return usage();
   if (argc % 2 == 0 || !p.set || !meshes || !out || !count || samples > MAX_SAMPLES) return usage();
   if (sigma <= 0) sigma = p.set->sigma * p.set->unit;
   int inside = p.set->placing == CONTAINED;

@@ -1,5 +1,6 @@
-// set_shapes.h - meshes that only the sets of problems.c ask for: floors to put things down on, bodies of
-// several parts, needles, triangle soup, single triangles. Made of the parts of examples/shapes.h.
+// set_shapes.h - meshes that only the sets of problems.c ask for: floors to put things down on,
+// bodies of several parts, needles, triangle soup, single triangles. Made of the parts of
+// examples/shapes.h.
 //
 // A draw has a statement of its own: C leaves the order of a call's arguments open.
 #ifndef NSVCD_TESTS_SET_SHAPES_H
@@ -9,7 +10,7 @@
 
 #define SET_EXTENT 0.3  // metres, as of the other procedural meshes
 
-// ---------------------------------------------------------------------------------------------------- rest: bodies
+// ------------------------------------------------------------------------------------ rest: bodies
 
 // A part with flat faces that a saw or a press makes: the same outline all along z.
 SHAPES_DEF void set_extruded(shapes_mesh *mesh, shapes_rng *rng) {
@@ -74,7 +75,7 @@ SHAPES_DEF void set_resting(shapes_mesh *mesh, shapes_rng *rng, int kind) {
   shapes_fit(mesh, SET_EXTENT);
 }
 
-// ---------------------------------------------------------------------------------------------------- rest: floors
+// ------------------------------------------------------------------------------------ rest: floors
 
 // What a maker of floors says of its mesh, z up, in the mesh's units.
 typedef struct set_floor {
@@ -113,7 +114,8 @@ SHAPES_DEF set_floor set_make_floor(shapes_mesh *mesh, shapes_rng *rng, int kind
     floor = crate;
   } else {
     set_plate(mesh, rng, kind == 4);
-    // The floor is the highest point near the axis: of a plate with a rim, the last two rings of the profile.
+    // The floor is the highest point near the axis: of a plate with a rim, the last two rings of
+    // the profile.
     const double height = mesh->positions[3 * (mesh->vertices - 1) + 2];
     const double below = mesh->positions[2];
     const double half = kind == 4 ? 0.4 * 0.15 : 0.7 * 0.15;
@@ -123,9 +125,10 @@ SHAPES_DEF set_floor set_make_floor(shapes_mesh *mesh, shapes_rng *rng, int kind
   return floor;
 }
 
-// ---------------------------------------------------------------------------------------------------------- nested
+// ------------------------------------------------------------------------------------------ nested
 
-// Two or three closed parts, far from each other: where one is inside a body of their distance, the others are not.
+// Two or three closed parts, far from each other: where one is inside a body of their distance, the
+// others are not.
 SHAPES_DEF void set_group(shapes_mesh *mesh, shapes_rng *rng) {
   const int parts = 2 + shapes_pick(rng, 2);
   for (int i = 0; i < parts; i++) {
@@ -172,7 +175,7 @@ SHAPES_DEF void set_host(shapes_mesh *mesh, shapes_rng *rng, int shell) {
   shapes_fit(mesh, SET_EXTENT);
 }
 
-// --------------------------------------------------------------------------------------------------------- slivers
+// ----------------------------------------------------------------------------------------- slivers
 
 #define SET_MAX_OUTLINE 256
 
@@ -210,7 +213,8 @@ SHAPES_DEF set_outline set_circle(double radius, int count, double hair) {
   }
   return out;
 }
-// The outline from z = 0 to 1, with a fan about the centre of each end; pointed: an apex for the upper end.
+// The outline from z = 0 to 1, with a fan about the centre of each end; pointed: an apex for the
+// upper end.
 SHAPES_DEF void set_fan_solid(shapes_mesh *mesh, const set_outline *outline, int pointed) {
   const uint32_t bottom = shapes_vertex(mesh, 0, 0, 0);
   const uint32_t top = shapes_vertex(mesh, 0, 0, 1);
@@ -233,7 +237,8 @@ SHAPES_DEF void set_fan_solid(shapes_mesh *mesh, const set_outline *outline, int
     }
   }
 }
-// Cuts every triangle into three, by a point so near the middle of an edge that one of the three is a needle.
+// Cuts every triangle into three, by a point so near the middle of an edge that one of the three is
+// a needle.
 SHAPES_DEF void set_cut_needles(shapes_mesh *mesh, shapes_rng *rng, double near_edge) {
   const size_t count = mesh->triangles;
   for (size_t i = 0; i < count; i++) {
@@ -255,8 +260,9 @@ SHAPES_DEF void set_cut_needles(shapes_mesh *mesh, shapes_rng *rng, double near_
     shapes_triangle(mesh, t[2], t[0], cut);
   }
 }
-// A column, cone or block full of needles. Where each edge of the outline makes needles, it has to be slender
-// to do with 200 of them. That costs: they lie across each other's boxes, and the oracle tries most pairs.
+// A column, cone or block full of needles. Where each edge of the outline makes needles, it has to
+// be slender to do with 200 of them. That costs: they lie across each other's boxes, and the oracle
+// tries most pairs.
 SHAPES_DEF void set_needle_solid(shapes_mesh *mesh, shapes_rng *rng, int kind) {
   const double radius = shapes_uniform(rng, 0.1, 0.4);
   const double slender = shapes_uniform(rng, 0.016, 0.032);
@@ -275,7 +281,8 @@ SHAPES_DEF void set_needle_solid(shapes_mesh *mesh, shapes_rng *rng, int kind) {
   set_fan_solid(mesh, &outline, kind == 1);
 }
 #define SET_SLIVERS 4
-// kind in [0, SET_SLIVERS): a column, a cone, a block, a random solid; needles of 1 to 1000 and worse.
+// kind in [0, SET_SLIVERS): a column, a cone, a block, a random solid; needles of 1 to 1000 and
+// worse.
 SHAPES_DEF void set_slivers(shapes_mesh *mesh, shapes_rng *rng, int kind) {
   if (kind < 3) {
     set_needle_solid(mesh, rng, kind);
@@ -286,7 +293,7 @@ SHAPES_DEF void set_slivers(shapes_mesh *mesh, shapes_rng *rng, int kind) {
   shapes_fit(mesh, SET_EXTENT);
 }
 
-// ------------------------------------------------------------------------------------------------------------ soup
+// -------------------------------------------------------------------------------------------- soup
 
 // Some triangles once or twice more, the second time with another corner first.
 SHAPES_DEF void set_duplicate(shapes_mesh *mesh, shapes_rng *rng, int count) {
@@ -313,7 +320,8 @@ SHAPES_DEF void set_degenerate(shapes_mesh *mesh, shapes_rng *rng, int count) {
     const double middle[3] = {(p[0] + q[0]) / 2, (p[1] + q[1]) / 2, (p[2] + q[2]) / 2};
     if (i % 3 == 0) shapes_triangle(mesh, a, a, b);
     if (i % 3 == 1) shapes_triangle(mesh, a, a, a);
-    if (i % 3 == 2) shapes_triangle(mesh, a, shapes_vertex(mesh, middle[0], middle[1], middle[2]), b);
+    if (i % 3 == 2)
+      shapes_triangle(mesh, a, shapes_vertex(mesh, middle[0], middle[1], middle[2]), b);
   }
 }
 // Vertices that no triangle uses, some of them outside the bounds of those that are used.
@@ -346,7 +354,7 @@ SHAPES_DEF void set_soup(shapes_mesh *mesh, shapes_rng *rng) {
   set_shuffle(mesh, rng);
 }
 
-// ------------------------------------------------------------------------------------------------------------- one
+// --------------------------------------------------------------------------------------------- one
 
 // One triangle; every fourth is a needle.
 SHAPES_DEF void set_triangle(shapes_mesh *mesh, shapes_rng *rng, int needle) {
