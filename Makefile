@@ -98,7 +98,7 @@ test: build/tests check-header check-gradient check-examples check-problems chec
 
 # ---------------------------------------------------------------------------------------------------------- accuracy
 
-build/problems: tests/problems.c tests/oracle.h examples/shapes.h | build
+build/problems: tests/problems.c tests/set_shapes.h tests/oracle.h examples/shapes.h | build
 	$(CC) $(ALL_CFLAGS) -o $@ tests/problems.c -lm
 problems: build/problems  ## the generator of exactly labelled problems
 

@@ -19,6 +19,18 @@
 // 0). Set `far`: label 0, nothing else is asked of it. Set `offset`: the motion is rounded to float32 before anything
 // is measured and the fixed pose before it is labelled, since a reader of floats sees nothing finer than 1 mm there;
 // labels and free margins hold for the rounded poses, depths may be off by that rounding.
+// Set `rest`: a body stands, slides, is set down or lifted at a stated gap above or below (pressed
+// in) the flat surface of a fixed one, in turn over gaps, motions and labels. The margin is the
+// oracle's if free. If colliding it is minus the depth by which the body was pressed in: raised by
+// 0.1 mm less it still collides, by 0.2 mm more it is free, by the oracle. nan where no surfaces
+// meet: wholly inside.
+// Set `nested`: one body has two or three parts far from each other. Label 1, nan: exactly one of
+// them is inside the other body (a solid, or the wall of a closed shell), the rest are outside,
+// nothing touches. Label 0: one is in the shell's cavity, or by the solid.
+// Set `same`: steps 2 to 4 from nearly the same pose, and that pose itself. There the margin is
+// minus the way out along the direction of the march, by the eight steps and bisection.
+// Sets `soup` and `one`: the label says whether surfaces touch. Where a body might be said to be
+// inside (winding number above 0.25), the problem is thrown away: such meshes have no inside.
 #define _XOPEN_SOURCE 700
 #include <dirent.h>
 #include <errno.h>
@@ -30,6 +42,7 @@
 
 #include "../examples/shapes.h"
 #include "oracle.h"
+#include "set_shapes.h"
 
 #define TOLERANCE 5e-5  // of the oracle, metres; this and the next three are multiplied by the set's unit
 #define UNDECIDED 1e-4  // labels nearer to contact than this are thrown away
@@ -39,9 +52,25 @@
 
 // ------------------------------------------------------------------------------------------------------------ sets
 
-typedef enum family { NONE, SOLIDS, HOLLOWS, SHELLS, CLOSED_SHELLS, SHEETS } family;  // of procedural meshes
+typedef enum family {  // of procedural meshes; from RESTING on: set_shapes.h
+  NONE,
+  SOLIDS,
+  HOLLOWS,
+  SHELLS,
+  CLOSED_SHELLS,
+  SHEETS,
+  RESTING,
+  FLOORS,
+  GROUPS,
+  HOSTS,
+  NEEDLES,
+  SOUP,
+  TRIANGLES
+} family;
 
-static const char *const family_names[] = {"", "solid", "hollow", "shell", "shell", "sheet"};
+static const char *const family_names[] = {"",       "solid",   "hollow",  "shell", "shell",
+                                           "sheet",  "resting", "floor",   "group", "host",
+                                           "needle", "soup",    "triangle"};
 
 typedef enum placing {
   ACROSS,      // bounds of the fixed body overlap those of the motion
@@ -49,14 +78,19 @@ typedef enum placing {
   IN_CAVITY,   // the motion stays in the cavity of the fixed body, unless it collides
   ON_SURFACE,  // the motion passes near a random place of the fixed body's surface
   CONTAINED,   // one body inside the other (`inside`)
-  APART        // a gap of at least the extent of the larger body, over the whole motion
+  APART,       // a gap of at least the extent of the larger body, over the whole motion
+  ON_FLOOR,    // on the flat surface of the fixed body (`rest`)
+  PARTLY_IN,   // one part of one body inside the other (`nested`)
+  ALIKE        // the same mesh twice, at nearly the same pose or just out of it (`same`)
 } placing;
 
 typedef enum special {
   PLAIN,
   PATH_IN_EXTENTS,  // the path counts extents of the moving body
   HALF_SINGLE,      // every other motion is a single pose
-  FAR_FROM_ORIGIN   // the scene is ORIGIN_DISTANCE away, in poses of float32
+  FAR_FROM_ORIGIN,  // the scene is ORIGIN_DISTANCE away, in poses of float32
+  SURFACES_ONLY,    // the meshes have no inside
+  HALF_TINY         // half of the motions are at most 1 mm and 1 degree
 } special;
 
 #define ORIGIN_DISTANCE 1e4
@@ -118,6 +152,24 @@ static const set_info sets[] = {
     {"mixed",    ON_SURFACE, PLAIN,           SOLIDS, NONE,           0,   6,  33, {0, 120},   1,
      {0.05, 0.05}, {20, 20},   {0.1, 0.6},  {0.002, 0.015}, 0.010,
      "a body of 5 cm at the surface of one of 20 m"},
+    {"rest",     ON_FLOOR,   PLAIN,           RESTING, FLOORS,       30,  10,  33, {0, 90},    1,
+     {0.03, 0.2},  {0.2, 0.5}, {0.01, 0.1}, {0, 0},         0.032,
+     "a body stands on, slides on, leaves a tile, table, crate, plate"},
+    {"nested",   PARTLY_IN,  PLAIN,           GROUPS, HOSTS,         40, 100,  33, {0, 60},    1,
+     {0.4, 0.7},   {0.2, 0.4}, {0.01, 0.1}, {0, 0},         0.032,
+     "of two or three parts one is inside a solid, or in a cavity"},
+    {"slivers",  ACROSS,     PLAIN,           NEEDLES, NONE,          0,   3,  33, {0, 120},   1,
+     {0.1, 0.4},   {0.1, 0.4}, {0.1, 0.6},  {0.002, 0.015}, 0.032,
+     "standard, of triangles like needles, 1 to 1000 and worse"},
+    {"soup",     ACROSS,     SURFACES_ONLY,   SOUP,   NONE,           0,   3,  33, {0, 120},   1,
+     {0.1, 0.4},   {0.1, 0.4}, {0.1, 0.6},  {0.002, 0.015}, 0.032,
+     "standard, with double, flat and shuffled triangles"},
+    {"one",      ACROSS,     SURFACES_ONLY,   SOLIDS, TRIANGLES,     40,   3,  33, {0, 120},   1,
+     {0.1, 0.4},   {0.1, 0.4}, {0.1, 0.6},  {0.002, 0.015}, 0.032,
+     "standard, but one body or both are a single triangle"},
+    {"same",     ALIKE,      HALF_TINY,       SOLIDS, NONE,           0,   3,  33, {0, 120},   1,
+     {0.1, 0.4},   {0.1, 0.4}, {0.1, 0.6},  {0.005, 0.020}, 0.005,
+     "a body against itself, 2 mm and 1 degree off, or just outside"},
 };
 // clang-format on
 #define SETS (sizeof sets / sizeof *sets)
@@ -130,6 +182,8 @@ typedef struct source {
   shapes_mesh mesh;
   double extent;  // largest, in file units
   int used;
+  set_floor floor;  // FLOORS only
+  int shell;        // HOSTS only: has a cavity
 } source;
 
 typedef struct pool {
@@ -145,6 +199,11 @@ static source *pool_add(pool *p) {
   }
   memset(&p->items[p->count], 0, sizeof *p->items);
   return &p->items[p->count++];
+}
+
+static void pool_free(pool *p) {
+  for (size_t i = 0; i < p->count; i++) shapes_free(&p->items[i].mesh);
+  free(p->items);
 }
 
 // A minimal OBJ reader for known good files: v and f lines only. To be replaced by nsvcd_obj_load.
@@ -255,6 +314,33 @@ static void load_folder(pool *p, const char *folder, const char *list, open_poli
   fprintf(stderr, "%s: %zu meshes, %zu refused\n", folder, p->count, refused);
 }
 
+// A mesh of one of the families of set_shapes.h, the i-th of its pool.
+static void make_special(source *s, shapes_rng *rng, family kind, size_t i) {
+  switch (kind) {
+    case RESTING:
+      set_resting(&s->mesh, rng, (int)(i % SET_RESTING));
+      break;
+    case FLOORS:
+      s->floor = set_make_floor(&s->mesh, rng, (int)(i % SET_FLOORS));
+      break;
+    case GROUPS:
+      set_group(&s->mesh, rng);
+      break;
+    case HOSTS:
+      s->shell = (int)(i % 2);
+      set_host(&s->mesh, rng, s->shell);
+      break;
+    case NEEDLES:
+      set_slivers(&s->mesh, rng, (int)(i % SET_SLIVERS));
+      break;
+    case SOUP:
+      set_soup(&s->mesh, rng);
+      break;
+    default:
+      set_triangle(&s->mesh, rng, i % 4 == 3);
+      break;
+  }
+}
 // Makes `count` meshes of a family and writes them beside the problem file: NAME_meshes/PREFIXnnn.obj.
 static void make_procedural(pool *p, shapes_rng *rng, family kind, size_t count, const char *prefix,
                             const char *out_path) {
@@ -266,7 +352,9 @@ static void make_procedural(pool *p, shapes_rng *rng, family kind, size_t count,
   if (mkdir(folder, 0777) != 0 && errno != EEXIST) exit(1);
   for (size_t i = 0; i < count; i++) {
     source *s = pool_add(p);
-    if (kind == SOLIDS)
+    if (kind >= RESTING)
+      make_special(s, rng, kind, i);
+    else if (kind == SOLIDS)
       shapes_random_solid(&s->mesh, rng, 0.3);
     else if (kind == HOLLOWS)
       shapes_random_hollow(&s->mesh, rng, (int)(i % SHAPES_HOLLOWS), 0.3);
@@ -300,6 +388,8 @@ typedef struct problem {
   oracle_mesh moving, fixed;
   oracle_pose motion[MAX_SAMPLES], fixed_pose;
   size_t samples;
+  size_t id;
+  int swapped;  // the body of the second pool moves
   int label;
   double margin;
 } problem;
@@ -383,6 +473,11 @@ static oracle_pose offset_pose(const oracle_pose *pose, const double *direction,
   for (int k = 0; k < 3; k++) out.position[k] += s * direction[k];
   return out;
 }
+// Counts why an attempt came to nothing.
+static int rejected(size_t *reason) {
+  *reason += 1;
+  return 0;
+}
 // The full answer if enough is 0; otherwise whether the separation exceeds `enough`.
 static oracle_result ask(const problem *p, const oracle_pose *fixed_pose, double enough) {
   oracle_options o = {TOLERANCE * p->set->unit, 0, 0, 0};
@@ -441,21 +536,27 @@ static double depth(const problem *p, const double *direction, double eps) {
   }
   return fabs(eps - open);
 }
-// Where nothing touches: is the moving body, at the start, in the cavity of a convex shell? Seen from there the outer
-// surface is all round, so that the triangles that show their backs fill the sphere; seen from outside they fill less
-// than half of it for the outer surface, and still less for the inner one.
-static int in_cavity(const problem *p) {
-  double m[9], world[3], point[3], backs = 0;
-  oracle_transform(&p->motion[0], p->moving.seeds, world);
-  oracle_sub(world, p->fixed_pose.position, world);
-  oracle_matrix(p->fixed_pose.rotation, m);
-  oracle_rotate_back(m, world, point);
-  for (size_t i = 0; i < p->fixed.triangle_count; i++) {
-    oracle_mesh one = p->fixed;
-    one.triangles += i, one.triangle_count = 1;
+// Is a place of the world, off all surfaces, in the cavity of a convex shell? Seen from there the
+// outer surface is all round, so that the triangles that show their backs fill the sphere; seen
+// from outside they fill less than half of it for the outer surface, still less for the inner one.
+static int surrounds(const oracle_mesh *shell, const oracle_pose *pose, const double *world) {
+  double m[9], away[3], point[3], backs = 0;
+  oracle_sub(world, pose->position, away);
+  oracle_matrix(pose->rotation, m);
+  oracle_rotate_back(m, away, point);
+  for (size_t i = 0; i < shell->triangle_count; i++) {
+    oracle_mesh one = *shell;
+    one.triangles += i;
+    one.triangle_count = 1;
     backs += fmax(0, oracle_winding(&one, point));
   }
   return backs > 0.995;
+}
+// Where nothing touches: is the moving body, at the start, in the cavity of the fixed one?
+static int in_cavity(const problem *p) {
+  double world[3];
+  oracle_transform(&p->motion[0], p->moving.seeds, world);
+  return surrounds(&p->fixed, &p->fixed_pose, world);
 }
 // Steps 4 and 5. Returns 1 with label and margin.
 static int perturb(shapes_rng *rng, problem *p, const double *direction, double sigma, counts *c) {
@@ -465,7 +566,8 @@ static int perturb(shapes_rng *rng, problem *p, const double *direction, double 
     oracle_pose here = offset_pose(&touching, direction, eps), back = touching;
     if (p->set->special == FAR_FROM_ORIGIN) round_pose(&here), back = offset_pose(&here, direction, -eps);
     oracle_result r = ask(p, &here, 0);
-    if (r.status == ORACLE_UNDECIDED || (r.winding > 0.25 && r.winding < 0.75)) {
+    double surely = p->set->special == SURFACES_ONLY ? 1e9 : 0.75;  // inside; 1e9: never
+    if (r.status == ORACLE_UNDECIDED || (r.winding > 0.25 && r.winding < surely)) {
       c->undecided++;
       continue;
     }
@@ -637,6 +739,442 @@ static int attempt_inside(shapes_rng *rng, problem *p, int label, int large_move
   return 1;
 }
 
+// ---------------------------------------------------------------------------------- the set `rest`
+
+typedef enum rest_move { STAND, SLIDE, SET_DOWN, LIFT } rest_move;
+
+typedef struct rest_plan {
+  int label;
+  int whole;  // wholly within the floor
+  int single;
+  rest_move move;
+  double gap;  // to the surface, metres; negative: pressed in
+} rest_plan;
+
+// What the problem of this number is to be: labels, gaps and motions in turn.
+static rest_plan plan_rest(size_t id) {
+  static const double gaps[] = {2e-4, 5e-4, 1e-3, 2e-3, 5e-3, 1e-2, 2e-2};
+  const size_t count = sizeof gaps / sizeof *gaps;
+  const size_t turn = id / 2;
+  const size_t slot = turn % (count + 1);
+  const size_t round = turn / (count + 1);
+  const double gap = gaps[slot ? slot - 1 : round % count];
+  rest_plan plan;
+  plan.label = (int)(id % 2);
+  plan.whole = plan.label && slot == 0;
+  plan.gap = plan.label ? -gap : gap;
+  plan.move = (rest_move)((turn + round) % 4);
+  if (plan.whole && plan.move > SLIDE) plan.move = SLIDE;  // neither comes in nor leaves
+  plan.single = plan.move == STAND && turn / 4 % 2;
+  return plan;
+}
+static void turn_by(double *q, const double *axis, double angle) {
+  double step[4];
+  double turned[4];
+  oracle_axis_angle(axis, angle, step);
+  oracle_quat_mul(step, q, turned);
+  oracle_quat_normalize(turned);
+  memcpy(q, turned, sizeof turned);
+}
+// From one corner to another, both turned by the matrix. Corner i is that of triangle i / 3.
+static void corner_to_corner(const oracle_mesh *mesh, size_t from, size_t to, const double *m,
+                             double *out) {
+  double d[3];
+  oracle_sub(mesh->triangles[to / 3].v[to % 3], mesh->triangles[from / 3].v[from % 3], d);
+  oracle_rotate(m, d, out);
+}
+static size_t lowest_corner(const oracle_mesh *mesh, const double *q) {
+  double m[9];
+  size_t lowest = 0;
+  oracle_matrix(q, m);
+  for (size_t i = 1; i < 3 * mesh->triangle_count; i++) {
+    double d[3];
+    corner_to_corner(mesh, lowest, i, m, d);
+    if (d[2] < 0) lowest = i;
+  }
+  return lowest;
+}
+// Tilts the body about its lowest corner until a second one is as low. `along` (unit) then points
+// there.
+static int tilt_to_edge(const oracle_mesh *mesh, size_t lowest, double *q, double *along) {
+  double m[9];
+  double slope = HUGE_VAL;
+  oracle_matrix(q, m);
+  for (size_t i = 0; i < 3 * mesh->triangle_count; i++) {
+    double d[3];
+    corner_to_corner(mesh, lowest, i, m, d);
+    const double run = hypot(d[0], d[1]);
+    if (run < 1e-6 * mesh->radius || d[2] / run >= slope) continue;
+    slope = d[2] / run;
+    along[0] = d[0] / run;
+    along[1] = d[1] / run;
+    along[2] = 0;
+  }
+  if (slope > 1e150) return 0;
+  const double axis[3] = {-along[1], along[0], 0};
+  turn_by(q, axis, atan(slope));
+  return 1;
+}
+// Tilts it on about that edge, to the side of `sign`, until a third corner is as low.
+static void tilt_to_face(const oracle_mesh *mesh, size_t lowest, double *q, const double *along,
+                         int sign) {
+  const double side[3] = {-sign * along[1], sign * along[0], 0};
+  const double axis[3] = {-sign * along[0], -sign * along[1], 0};
+  double m[9];
+  double slope = HUGE_VAL;
+  oracle_matrix(q, m);
+  for (size_t i = 0; i < 3 * mesh->triangle_count; i++) {
+    double d[3];
+    corner_to_corner(mesh, lowest, i, m, d);
+    const double run = oracle_dot(d, side);
+    if (run > 1e-6 * mesh->radius) slope = fmin(slope, d[2] / run);
+  }
+  if (slope < 1e150) turn_by(q, axis, atan(slope));
+}
+// How the body stands: as in its file, after quarter turns, or on a face of its convex hull; then
+// turned about the vertical, or not.
+static void rest_rotation(shapes_rng *rng, const oracle_mesh *mesh, double *q) {
+  const double axes[3][3] = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
+  const double still[4] = {0, 0, 0, 1};
+  const int way = shapes_pick(rng, 3);
+  memcpy(q, still, sizeof still);
+  for (int k = 0; k < 3 && way == 1; k++) turn_by(q, axes[k], shapes_pick(rng, 4) * SHAPES_PI / 2);
+  if (way == 2) {
+    double along[3] = {0, 0, 0};
+    shapes_quaternion(rng, q);
+    const int sign = shapes_pick(rng, 2) ? 1 : -1;
+    const size_t lowest = lowest_corner(mesh, q);
+    if (tilt_to_edge(mesh, lowest, q, along)) tilt_to_face(mesh, lowest, q, along, sign);
+  }
+  if (shapes_pick(rng, 2)) turn_by(q, axes[2], shapes_uniform(rng, 0, 2 * SHAPES_PI));
+}
+
+typedef struct box {
+  double low[3];
+  double high[3];
+} box;
+
+static box turned_bounds(const oracle_mesh *mesh, const double *q) {
+  box out = {{HUGE_VAL, HUGE_VAL, HUGE_VAL}, {-HUGE_VAL, -HUGE_VAL, -HUGE_VAL}};
+  double m[9];
+  oracle_matrix(q, m);
+  for (size_t i = 0; i < 3 * mesh->triangle_count; i++) {
+    double place[3];
+    oracle_rotate(m, mesh->triangles[i / 3].v[i % 3], place);
+    for (int k = 0; k < 3; k++) {
+      out.low[k] = fmin(out.low[k], place[k]);
+      out.high[k] = fmax(out.high[k], place[k]);
+    }
+  }
+  return out;
+}
+// The body where it is at the gap, or within the floor. The fixed body is at the origin, z up.
+// Between walls the whole body has to be over the flat part, elsewhere its middle.
+static oracle_pose rest_pose(shapes_rng *rng, const problem *p, const rest_plan *plan) {
+  const set_floor *floor = &p->fixed_source->floor;
+  oracle_pose pose;
+  rest_rotation(rng, &p->moving, pose.rotation);
+  const box bounds = turned_bounds(&p->moving, pose.rotation);
+  for (int k = 0; k < 2; k++) {
+    const double size = bounds.high[k] - bounds.low[k];
+    const double reach = p->fixed_scale * floor->half[k] - (floor->walled ? size / 2 : 0);
+    const double place = fmax(reach, 0) * shapes_uniform(rng, -1, 1);
+    pose.position[k] = place - (bounds.low[k] + bounds.high[k]) / 2;
+  }
+  const double surface = p->fixed_scale * floor->height;
+  const double middle = surface - p->fixed_scale * floor->thickness * shapes_uniform(rng, 0.4, 0.6);
+  if (plan->whole)
+    pose.position[2] = middle - (bounds.low[2] + bounds.high[2]) / 2;
+  else
+    pose.position[2] = surface + plan->gap * p->set->unit - bounds.low[2];
+  return pose;
+}
+// The pose turned by an angle about the vertical through a place, then moved.
+static oracle_pose turned_pose(oracle_pose pose, const double *about, double angle,
+                               const double *move) {
+  const double up[3] = {0, 0, 1};
+  const double x = pose.position[0] - about[0];
+  const double y = pose.position[1] - about[1];
+  pose.position[0] = about[0] + cos(angle) * x - sin(angle) * y + move[0];
+  pose.position[1] = about[1] + sin(angle) * x + cos(angle) * y + move[1];
+  pose.position[2] += move[2];
+  turn_by(pose.rotation, up, angle);
+  return pose;
+}
+// Never lower than `rest`, and as low as that all the time (STAND, SLIDE), at the end or at the
+// start.
+static void rest_motion(shapes_rng *rng, problem *p, rest_move move, const oracle_pose *rest) {
+  const double heading = shapes_uniform(rng, 0, 2 * SHAPES_PI);
+  const double length = draw_path(rng, p);
+  const double rise = shapes_uniform(rng, 0.05, 0.2) * p->set->unit;
+  const double yaw = draw_turn(rng, p);
+  const double turn = move == STAND || shapes_pick(rng, 2) ? 0 : yaw;
+  double about[3];
+  oracle_transform(rest, p->moving.center, about);
+  for (size_t s = 0; s < p->samples; s++) {
+    const double t = p->samples > 1 ? (double)s / (double)(p->samples - 1) : 0;
+    double by[3] = {0, 0, 0};
+    if (move == SLIDE) {
+      by[0] = (t - 0.5) * length * cos(heading);
+      by[1] = (t - 0.5) * length * sin(heading);
+    }
+    if (move == SET_DOWN) by[2] = (1 - t) * rise;
+    if (move == LIFT) by[2] = t * rise;
+    p->motion[s] = turned_pose(*rest, about, (t - 0.5) * turn, by);
+  }
+}
+static oracle_pose composed(const oracle_pose *outer, const oracle_pose *inner) {
+  oracle_pose out;
+  oracle_transform(outer, inner->position, out.position);
+  oracle_quat_mul(outer->rotation, inner->rotation, out.rotation);
+  oracle_quat_normalize(out.rotation);
+  return out;
+}
+static void move_scene(problem *p, const oracle_pose *scene) {
+  p->fixed_pose = composed(scene, &p->fixed_pose);
+  for (size_t s = 0; s < p->samples; s++) p->motion[s] = composed(scene, &p->motion[s]);
+}
+// Does the oracle agree with the plan? Sets label and margin. Walls that are nearer than the floor,
+// or the edge of a floor that ends under the body, make another problem of it: rejected.
+static int is_as_planned(problem *p, const rest_plan *plan) {
+  const double up[3] = {0, 0, 1};
+  const double undecided = UNDECIDED * p->set->unit;
+  double m[9];
+  double normal[3];
+  oracle_matrix(p->fixed_pose.rotation, m);
+  oracle_rotate(m, up, normal);
+  const oracle_result r = ask(p, &p->fixed_pose, 0);
+  p->label = plan->label;
+  if (r.winding > 0.25 && r.winding < 0.75) return 0;  // an open mesh
+  if (!plan->label) {
+    p->margin = r.distance;
+    return r.status == ORACLE_FREE && fabs(r.distance - plan->gap * p->set->unit) < undecided;
+  }
+  p->margin = (double)NAN;
+  if (r.status == ORACLE_INSIDE) return r.distance > undecided;
+  if (plan->whole || r.status != ORACLE_COLLIDES) return 0;
+  const double depth = -plan->gap * p->set->unit;
+  const oracle_pose less = offset_pose(&p->fixed_pose, normal, undecided - depth);
+  const oracle_pose more = offset_pose(&p->fixed_pose, normal, -2 * undecided - depth);
+  p->margin = -depth;
+  return ask(p, &less, 0).status == ORACLE_COLLIDES && is_free(p, &more);
+}
+static int attempt_rest(shapes_rng *rng, problem *p, counts *c) {
+  const rest_plan plan = plan_rest(p->id);
+  const oracle_pose still = {{0, 0, 0}, {0, 0, 0, 1}};
+  const oracle_pose rest = rest_pose(rng, p, &plan);
+  c->placed++;
+  p->fixed_pose = still;
+  rest_motion(rng, p, plan.move, &rest);
+  if (shapes_pick(rng, 2)) {  // else axis-aligned, z up
+    oracle_pose scene;
+    for (int k = 0; k < 3; k++) scene.position[k] = shapes_uniform(rng, -1, 1) * p->set->unit;
+    shapes_quaternion(rng, scene.rotation);
+    move_scene(p, &scene);
+  }
+  return is_as_planned(p, &plan) || rejected(&c->other);
+}
+
+// -------------------------------------------------------------------- the sets `nested` and `same`
+
+// How many parts of one body are inside the other, where no surfaces touch.
+static size_t parts_inside(const oracle_mesh *group, const oracle_pose *pose,
+                           const oracle_mesh *host, const oracle_pose *host_pose) {
+  size_t inside = 0;
+  for (size_t i = 0; i < group->seed_count; i++) {
+    oracle_mesh part = *group;
+    part.seeds += 3 * i;
+    part.seed_count = 1;
+    inside += oracle_inside(&part, pose, host, host_pose) > 0.5;
+  }
+  return inside;
+}
+// Moves the pose so that a place of its body is at a place of the world.
+static void pin(oracle_pose *pose, const double *local, const double *world) {
+  double now[3];
+  oracle_transform(pose, local, now);
+  for (int k = 0; k < 3; k++) pose->position[k] += world[k] - now[k];
+}
+// A part of the group somewhere in the bounds of the host. Where the group moves, it turns about
+// that part.
+static void place_part(shapes_rng *rng, problem *p, const double *part) {
+  const double origin[3] = {0, 0, 0};
+  const double length = draw_path(rng, p);
+  const double turn = draw_turn(rng, p);
+  double q[4];
+  double start[3];
+  random_motion(rng, p, origin, length, turn);
+  shapes_quaternion(rng, q);
+  if (p->swapped) {
+    within(rng, &p->moving, &p->motion[0], start);
+    set_pose(&p->fixed_pose, start, q, p->fixed.center);
+    pin(&p->fixed_pose, part, start);
+    return;
+  }
+  set_pose(&p->fixed_pose, origin, q, p->fixed.center);
+  within(rng, &p->fixed, &p->fixed_pose, start);
+  for (size_t s = 0; s < p->samples; s++) {
+    double place[3];
+    motion_center(p, s, place);
+    for (int k = 0; k < 3; k++) place[k] += start[k];
+    pin(&p->motion[s], part, place);
+  }
+}
+// One attempt at `nested`: a part of the group is put in the solid or wall (label 1), cavity or
+// vicinity (0) of the host. Half of the groups move, half are fixed.
+static int attempt_nested(shapes_rng *rng, problem *p, counts *c) {
+  const oracle_mesh *group = p->swapped ? &p->fixed : &p->moving;
+  const oracle_mesh *host = p->swapped ? &p->moving : &p->fixed;
+  const oracle_pose *group_pose = p->swapped ? &p->fixed_pose : &p->motion[0];
+  const oracle_pose *host_pose = p->swapped ? &p->motion[0] : &p->fixed_pose;
+  const int shell = p->swapped ? p->moving_source->shell : p->fixed_source->shell;
+  const double *part = group->seeds + 3 * shapes_pick(rng, (int)group->seed_count);
+  const double clearance = CLEARANCE * p->set->unit;
+  double place[3];
+  p->label = (int)(p->id % 2);
+  c->placed++;
+  place_part(rng, p, part);
+  oracle_transform(group_pose, part, place);
+  int good = parts_inside(group, group_pose, host, host_pose) == (size_t)p->label;
+  if (!p->label && shell) good = good && surrounds(host, host_pose, place);
+  if (!good) return rejected(&c->no_free_place);
+  const oracle_result r = ask(p, &p->fixed_pose, p->label ? clearance : 0);
+  good = r.status == (p->label ? ORACLE_INSIDE : ORACLE_FREE) && r.distance >= clearance;
+  p->margin = p->label ? (double)NAN : r.distance;
+  return good || rejected(&c->other);
+}
+// The fixed body where the moving one is at some time, up to 2 mm and 1 degree off.
+static void place_alike(shapes_rng *rng, problem *p) {
+  const oracle_pose *there = &p->motion[shapes_pick(rng, (int)p->samples)];
+  const double angle = shapes_uniform(rng, 0, SHAPES_PI / 180);
+  const double offset = shapes_uniform(rng, 0, 2e-3) * p->set->unit;
+  double axis[3];
+  double away[3];
+  double center[3];
+  double q[4];
+  shapes_direction(rng, axis);
+  shapes_direction(rng, away);
+  oracle_transform(there, p->moving.center, center);
+  for (int k = 0; k < 3; k++) center[k] += offset * away[k];
+  memcpy(q, there->rotation, sizeof q);
+  turn_by(q, axis, angle);
+  set_pose(&p->fixed_pose, center, q, p->fixed.center);
+}
+// One attempt at `same`. Every other problem is left where the bodies cross; the rest march out and
+// go on like the others, where keeping the balance makes most of them free.
+static int attempt_same(shapes_rng *rng, problem *p, double sigma, counts *c) {
+  const int tiny = p->id / 2 % 2;
+  const double origin[3] = {0, 0, 0};
+  double length = draw_path(rng, p);
+  double turn = draw_turn(rng, p);
+  double direction[3];
+  c->placed++;
+  if (tiny) {
+    length = shapes_uniform(rng, 0, 1e-3) * p->set->unit;
+    turn = shapes_uniform(rng, 0, SHAPES_PI / 180);
+  }
+  random_motion(rng, p, origin, length, turn);
+  place_alike(rng, p);
+  const oracle_pose crossing = p->fixed_pose;
+  if (ask(p, &crossing, 0).status != ORACLE_COLLIDES) return rejected(&c->undecided);
+  if (!march_out(rng, p, p->set->unit * draw(rng, p->set->march)))
+    return rejected(&c->no_free_place);
+  if (p->id % 2 == 0) {
+    if (!touch(p, direction)) return rejected(&c->not_touching);
+    return perturb(rng, p, direction, sigma, c);
+  }
+  oracle_sub(crossing.position, p->fixed_pose.position, direction);
+  const double way = oracle_length(direction);
+  for (int k = 0; k < 3; k++) direction[k] /= way;
+  p->label = 1;
+  p->margin = -depth(p, direction, way);
+  p->fixed_pose = crossing;
+  return p->margin < -UNDECIDED * p->set->unit || rejected(&c->undecided);
+}
+
+// --------------------------------------------------------------------------------- any of the sets
+
+typedef struct pools {
+  pool small;   // of the moving body
+  pool large;   // of the fixed one, where it is of another family
+  pool shells;  // cavities of `inside`
+} pools;
+
+typedef struct choice {
+  source *small;
+  source *large;
+  double small_extent;
+  double large_extent;
+} choice;
+
+static int uses_sigma(const set_info *set) {
+  const placing how = set->placing;
+  return how != CONTAINED && how != APART && how != ON_FLOOR && how != PARTLY_IN;
+}
+static int is_single_pose(const set_info *set, size_t id) {
+  if (set->placing == ON_FLOOR) return plan_rest(id).single;
+  return set->special == HALF_SINGLE && id % 2;
+}
+// Of ten problems, in how many the body of the second pool moves.
+static int swapped_of_ten(const set_info *set) {
+  if (set->placing == CONTAINED) return 3;
+  return set->placing == PARTLY_IN || set->fixed_family == TRIANGLES ? 5 : 0;
+}
+// On a plate lies another plate, every other time. What is to be inside the floor needs a thick
+// one, and is small enough to fit however it is turned.
+static choice choose_for_rest(shapes_rng *rng, pools *from, const problem *p, choice chosen) {
+  const rest_plan plan = plan_rest(p->id);
+  while (plan.whole && chosen.large->floor.thickness < 0.01) chosen.large = any(rng, &from->large);
+  if (chosen.large->floor.plate && shapes_pick(rng, 2)) {
+    do chosen.small = any(rng, &from->large);
+    while (!chosen.small->floor.plate);
+  }
+  if (plan.whole) {
+    const double thickness =
+        chosen.large->floor.thickness / chosen.large->extent * chosen.large_extent;
+    chosen.small_extent = thickness * shapes_uniform(rng, 0.2, 0.6);
+  }
+  return chosen;
+}
+static void choose_bodies(shapes_rng *rng, pools *from, problem *p) {
+  const set_info *set = p->set;
+  const int tenths = swapped_of_ten(set);
+  const int cavity = set->placing == CONTAINED && p->id % 2 == 0;
+  choice chosen;
+  p->swapped = tenths && shapes_pick(rng, 10) < tenths;
+  chosen.small = any(rng, &from->small);
+  chosen.large = any(rng, cavity ? &from->shells : set->fixed_family ? &from->large : &from->small);
+  chosen.small_extent = set->unit * draw(rng, set->moving);
+  chosen.large_extent = set->unit * draw(rng, set->fixed);
+  if (set->placing == ON_FLOOR) chosen = choose_for_rest(rng, from, p, chosen);
+  if (set->fixed_family == TRIANGLES && shapes_pick(rng, 3) == 0)
+    chosen.small = any(rng, &from->large);
+  if (set->placing == ALIKE) {
+    chosen.large = chosen.small;
+    chosen.large_extent = chosen.small_extent;
+  }
+  p->moving_source = p->swapped ? chosen.large : chosen.small;
+  p->fixed_source = p->swapped ? chosen.small : chosen.large;
+  p->moving_extent = p->swapped ? chosen.large_extent : chosen.small_extent;
+  p->fixed_extent = p->swapped ? chosen.small_extent : chosen.large_extent;
+}
+static int attempt_any(shapes_rng *rng, problem *p, double sigma, counts *c) {
+  switch (p->set->placing) {
+    case CONTAINED:
+      return attempt_inside(rng, p, (int)(p->id % 2), p->swapped, c);
+    case APART:
+      return attempt_far(rng, p, c);
+    case ON_FLOOR:
+      return attempt_rest(rng, p, c);
+    case PARTLY_IN:
+      return attempt_nested(rng, p, c);
+    case ALIKE:
+      return attempt_same(rng, p, sigma, c);
+    default:
+      return attempt(rng, p, sigma, c);
+  }
+}
+
 // ---------------------------------------------------------------------------------------------------------- output
 
 static void write_pose(FILE *file, const oracle_pose *pose) {
@@ -676,6 +1214,11 @@ static void print_summary(const set_info *set, const counts *c, double seconds) 
     printf("\n");
   }
 }
+// Sets that are what they are by their own meshes.
+static int is_procedural_only(const set_info *set) {
+  const family kind = set->moving_family;
+  return kind == GROUPS || kind == NEEDLES || kind == SOUP;
+}
 static int usage(void) {
   fprintf(
       stderr,
@@ -684,10 +1227,11 @@ static int usage(void) {
       "  --list: use these file names of DIR only, one per line. --open: also, or only, meshes that are not closed.\n"
       "  --motion-samples, --sigma: other than the set's own, in brackets below.\n"
       "  --pool: how many procedural meshes to make (default: a tenth of N, 40 to 400).\n"
-      "SET is one of (DIR replaces the meshes of the moving body, and of the fixed one where both are alike):\n");
+      "SET is one of (DIR replaces the meshes of the moving body, and of the fixed one where both are\n"
+      "alike; not for nested, slivers and soup):\n");
   for (size_t i = 0; i < SETS; i++) {
     fprintf(stderr, "  %-9s %s [%zu", sets[i].name, sets[i].what, sets[i].samples);
-    if (sets[i].placing != CONTAINED && sets[i].placing != APART) fprintf(stderr, ", %g", sets[i].sigma * sets[i].unit);
+    if (uses_sigma(&sets[i])) fprintf(stderr, ", %g", sets[i].sigma * sets[i].unit);
     fprintf(stderr, "]\n");
   }
   return 2;
@@ -728,13 +1272,16 @@ int main(int argc, char **argv) {
   for (size_t i = 0; set && i < SETS; i++)
     if (!strcmp(set, sets[i].name)) p.set = &sets[i];
   if (!samples && p.set) samples = p.set->samples;
+  const int folder_given = meshes && strcmp(meshes, "procedural") != 0;
+  if (folder_given && p.set && is_procedural_only(p.set)) return usage();
   if (argc % 2 == 0 || !p.set || !meshes || !out || !count || samples > MAX_SAMPLES) return usage();
   if (sigma <= 0) sigma = p.set->sigma * p.set->unit;
   int inside = p.set->placing == CONTAINED;
 
   clock_t begin = clock();
   shapes_rng rng = {seed};
-  pool small = {NULL, 0, 0}, large = {NULL, 0, 0}, shells = {NULL, 0, 0};  // moving; fixed; cavities of `inside`
+  pools from;
+  memset(&from, 0, sizeof from);
   char folder[PATH_MAX];
   snprintf(folder, sizeof folder, "%s", strrchr(out, '/') ? out : "./");
   *(strrchr(folder, '/') + 1) = 0;
@@ -742,16 +1289,16 @@ int main(int argc, char **argv) {
   if (!file) return fprintf(stderr, "%s: cannot be written\n", out), 1;
   if (!pool_size) pool_size = count / 10 < 40 ? 40 : count / 10 > 400 ? 400 : count / 10;
   if (strcmp(meshes, "procedural") != 0)
-    load_folder(&small, meshes, list, policy, folder);
+    load_folder(&from.small, meshes, list, policy, folder);
   else
-    make_procedural(&small, &rng, p.set->moving_family, pool_size, family_names[p.set->moving_family], out);
+    make_procedural(&from.small, &rng, p.set->moving_family, pool_size, family_names[p.set->moving_family], out);
   size_t fixed_meshes = p.set->fixed_meshes;
   if (p.set->fixed_family == HOLLOWS && fixed_meshes > pool_size) fixed_meshes = pool_size;
   if (p.set->fixed_family)
-    make_procedural(&large, &rng, p.set->fixed_family, fixed_meshes,
+    make_procedural(&from.large, &rng, p.set->fixed_family, fixed_meshes,
                     inside ? "large" : family_names[p.set->fixed_family], out);
-  if (inside) make_procedural(&shells, &rng, SHELLS, 30, "shell", out);
-  if (!small.count) return fprintf(stderr, "%s: no meshes\n", meshes), 1;
+  if (inside) make_procedural(&from.shells, &rng, SHELLS, 30, "shell", out);
+  if (!from.small.count) return fprintf(stderr, "%s: no meshes\n", meshes), 1;
 
   fprintf(file,
           "nsvcd-problems 1\n# problems --set %s --meshes %s --count %zu --seed %llu --motion-samples %zu sigma %g\n",
@@ -759,29 +1306,21 @@ int main(int argc, char **argv) {
   counts c;
   memset(&c, 0, sizeof c);
   for (size_t id = 0; id < count;) {
-    int label = (int)(id % 2), large_moves = inside && shapes_pick(&rng, 10) < 3, done = 0;
-    source *a = any(&rng, &small), *b = any(&rng, inside && !label ? &shells : p.set->fixed_family ? &large : &small);
-    double extent_a = p.set->unit * draw(&rng, p.set->moving), extent_b = p.set->unit * draw(&rng, p.set->fixed);
-    p.samples = p.set->special == HALF_SINGLE && id % 2 ? 1 : samples;
-    p.moving_source = large_moves ? b : a, p.fixed_source = large_moves ? a : b;
-    p.moving_extent = large_moves ? extent_b : extent_a, p.fixed_extent = large_moves ? extent_a : extent_b;
+    int done = 0;
+    p.id = id;
+    p.samples = is_single_pose(p.set, id) ? 1 : samples;
+    choose_bodies(&rng, &from, &p);
     if (!load_body(&p.moving, p.moving_source, p.moving_extent, &p.moving_scale)) return 1;
     if (!load_body(&p.fixed, p.fixed_source, p.fixed_extent, &p.fixed_scale)) return 1;
-    for (int i = 0; i < p.set->tries && !done; i++)
-      done = inside                    ? attempt_inside(&rng, &p, label, large_moves, &c)
-             : p.set->placing == APART ? attempt_far(&rng, &p, &c)
-                                       : attempt(&rng, &p, sigma, &c);
+    for (int i = 0; i < p.set->tries && !done; i++) done = attempt_any(&rng, &p, sigma, &c);
     if (done) tally(&c, &p), write_problem(file, &p, id++);
     oracle_mesh_free(&p.moving), oracle_mesh_free(&p.fixed);
   }
   int ok = !ferror(file);
   if (fclose(file) != 0 || !ok) return fprintf(stderr, "%s: write error\n", out), 1;
   print_summary(p.set, &c, (double)(clock() - begin) / CLOCKS_PER_SEC);
-  pool *pools[3];
-  pools[0] = &small, pools[1] = &large, pools[2] = &shells;
-  for (int i = 0; i < 3; i++) {
-    for (size_t k = 0; k < pools[i]->count; k++) shapes_free(&pools[i]->items[k].mesh);
-    free(pools[i]->items);
-  }
+  pool_free(&from.small);
+  pool_free(&from.large);
+  pool_free(&from.shells);
   return 0;
 }
