@@ -525,6 +525,9 @@ static nsvcd__f3 nsvcd__f3_add(nsvcd__f3 a, nsvcd__f3 b) { return nsvcd__f3_of(a
 static nsvcd__f3 nsvcd__f3_sub(nsvcd__f3 a, nsvcd__f3 b) { return nsvcd__f3_of(a.x - b.x, a.y - b.y, a.z - b.z); }
 static nsvcd__f3 nsvcd__f3_scale(nsvcd__f3 a, float s) { return nsvcd__f3_of(s * a.x, s * a.y, s * a.z); }
 static float nsvcd__f3_dot(nsvcd__f3 a, nsvcd__f3 b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
+static nsvcd__f3 nsvcd__f3_cross(nsvcd__f3 a, nsvcd__f3 b) {
+  return nsvcd__f3_of(a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x);
+}
 static float nsvcd__f3_length(nsvcd__f3 a) { return sqrtf(nsvcd__f3_dot(a, a)); }
 
 static nsvcd__d3 nsvcd__d3_of(double x, double y, double z) {
@@ -838,6 +841,7 @@ NSVCD__INLINE nsvcd__v3 nsvcd__v3_fma(nsvcd__v s, nsvcd__v3 b, nsvcd__v3 a) {
 NSVCD__INLINE nsvcd__v nsvcd__v3_dot(nsvcd__v3 a, nsvcd__v3 b) {
   return nsvcd__v_fma(a.x, b.x, nsvcd__v_fma(a.y, b.y, nsvcd__v_mul(a.z, b.z)));
 }
+NSVCD__INLINE nsvcd__v nsvcd__v3_length(nsvcd__v3 a) { return nsvcd__v_sqrt(nsvcd__v3_dot(a, a)); }
 NSVCD__INLINE nsvcd__v3 nsvcd__v3_cross(nsvcd__v3 a, nsvcd__v3 b) {
   return nsvcd__v3_of(nsvcd__v_sub(nsvcd__v_mul(a.y, b.z), nsvcd__v_mul(a.z, b.y)),
                       nsvcd__v_sub(nsvcd__v_mul(a.z, b.x), nsvcd__v_mul(a.x, b.z)),
@@ -4320,6 +4324,9 @@ typedef struct nsvcd__chords {
 typedef struct nsvcd__segments {
   float rotation[9][NSVCD__LANES], position[3][NSVCD__LANES], turned[9][NSVCD__LANES], moved[3][NSVCD__LANES];
   float spread[NSVCD__LANES], bulge[NSVCD__LANES];
+  // For the proof, the same along directions: see nsvcd__deviation.
+  float rounding[NSVCD__LANES], drift[NSVCD__LANES], axis[3][NSVCD__LANES], bulge_along_axis[NSVCD__LANES];
+  float drift_along_axis[NSVCD__LANES], way[3][NSVCD__LANES], drift_off_way[NSVCD__LANES];
 } nsvcd__segments;
 
 // 16 boxes, as their least and greatest coordinates.
@@ -4349,6 +4356,24 @@ typedef struct nsvcd__workspace {
 static nsvcd__v nsvcd__v_arc_bound(nsvcd__v chord2) {
   const nsvcd__v x = nsvcd__v_mul(nsvcd__v_set(0.50025f), nsvcd__v_sqrt(chord2));
   return nsvcd__v_mul(x, nsvcd__v_fma(nsvcd__v_set(2.2832f), nsvcd__v_mul(x, x), nsvcd__v_set(4)));
+}
+
+// The vector part of b a^-1, of two quaternions: the axis of the turn from a to b, times the sine of half its angle.
+static nsvcd__v3 nsvcd__v_turn_between(const nsvcd__v *a, const nsvcd__v *b) {
+  const nsvcd__v3 u = nsvcd__v3_of(a[0], a[1], a[2]);
+  const nsvcd__v3 v = nsvcd__v3_of(b[0], b[1], b[2]);
+  const nsvcd__v3 across = nsvcd__v3_cross(u, v);
+  return nsvcd__v3_fma(a[3], v, nsvcd__v3_fma(nsvcd__v_negate(b[3]), u, across));
+}
+
+// Vectors over their lengths; x where there is none.
+static nsvcd__v3 nsvcd__v3_unit(nsvcd__v3 a) {
+  const nsvcd__v length = nsvcd__v_sqrt(nsvcd__v3_dot(a, a));
+  const nsvcd__v least = nsvcd__v_set(1e-18f);
+  const nsvcd__v3 unit = nsvcd__v3_scale(a, nsvcd__v_div(nsvcd__v_set(1), nsvcd__v_max(length, least)));
+  const nsvcd__v zero = nsvcd__v_set(0);
+  return nsvcd__v3_of(nsvcd__v_pick(length, least, nsvcd__v_set(1), unit.x), nsvcd__v_pick(length, least, zero, unit.y),
+                      nsvcd__v_pick(length, least, zero, unit.z));
 }
 
 // Bounds of the total length of the rotation arcs, radians, and of the longest.
@@ -4443,19 +4468,29 @@ static nsvcd__v nsvcd__v_arc(const nsvcd__v *a, const nsvcd__v *b) {
   return nsvcd__v_arc_bound(square);
 }
 
+// A bound of h^2 / 8 |axis x a|, of a turn by h (arc: a bound of it) about a: with w = a sin(h / 2) that is no more than
+// pi / 8 h |axis x w|.
+static nsvcd__v nsvcd__v_turn_off_axis(nsvcd__v3 axis, const nsvcd__v *from, const nsvcd__v *to, nsvcd__v arc) {
+  const nsvcd__v3 across = nsvcd__v3_cross(axis, nsvcd__v_turn_between(from, to));
+  return nsvcd__v_mul(nsvcd__v_mul(arc, nsvcd__v_set(0.3931f)), nsvcd__v_sqrt(nsvcd__v3_dot(across, across)));
+}
+
 // 16 segments, of which `count` exist; `begin`: (17) their ends as sample indices. turn: arc of each.
 static void nsvcd__cut_block(const nsvcd__motion *motion, const nsvcd__samples *samples, const size_t *begin,
                              size_t count, float lengths, nsvcd__segments *out, float *turn) {
   nsvcd__v q[4], last_q[4], end_q[4], fixed_q[4], p[3], r0[9], p0[3], r1[9], p1[3],
       widest = nsvcd__v_set(0), sum = widest, bulge = widest, spread = widest;
+  nsvcd__v last_fixed_q[4], end_fixed_q[4];
+  nsvcd__v axis_bulge = widest, axis_turn = widest, axis_drift = widest, way_drift = widest;
   size_t index[NSVCD__LANES], most = 0;
   float share[NSVCD__LANES];
   nsvcd__load_samples(samples, begin, last_q, p);
-  nsvcd__v_to_fixed(motion, last_q, p, fixed_q, p0);
-  nsvcd__v_matrix(fixed_q, r0);
+  nsvcd__v_to_fixed(motion, last_q, p, last_fixed_q, p0);
+  nsvcd__v_matrix(last_fixed_q, r0);
   nsvcd__load_samples(samples, begin + 1, end_q, p);
-  nsvcd__v_to_fixed(motion, end_q, p, fixed_q, p1);
-  nsvcd__v_matrix(fixed_q, r1);
+  nsvcd__v_to_fixed(motion, end_q, p, end_fixed_q, p1);
+  nsvcd__v_matrix(end_fixed_q, r1);
+  const nsvcd__v3 axis = nsvcd__v3_unit(nsvcd__v_turn_between(last_fixed_q, end_fixed_q));
   for (size_t l = 0; l < NSVCD__LANES; l++) {
     const size_t length = begin[l + 1] - begin[l];
     share[l] = length ? 1 / (float)length : 0, most = length > most ? length : most;
@@ -4470,6 +4505,7 @@ static void nsvcd__cut_block(const nsvcd__motion *motion, const nsvcd__samples *
     p1[i] = nsvcd__v_sub(p1[i], p0[i]);
     nsvcd__v_store(out->moved[i], p1[i]);
   }
+  const nsvcd__v3 way = nsvcd__v3_unit(nsvcd__v3_of(p1[0], p1[1], p1[2]));
   for (size_t j = 1; j < most; j++) {  // the samples within; lanes with fewer of them stay at the end
     for (size_t l = 0; l < NSVCD__LANES; l++) index[l] = begin[l] + j < begin[l + 1] ? begin[l] + j : begin[l + 1];
     nsvcd__load_samples(samples, index, q, p);
@@ -4481,22 +4517,43 @@ static void nsvcd__cut_block(const nsvcd__motion *motion, const nsvcd__samples *
     nsvcd__v_to_fixed(motion, q, p, fixed_q, at);
     nsvcd__v_matrix(fixed_q, r);
     for (size_t i = 0; i < 9; i++) {
-      const nsvcd__v d = nsvcd__v_sub(r[i], nsvcd__v_fma(u, r1[i], r0[i]));
-      square = nsvcd__v_fma(d, d, square);
+      r[i] = nsvcd__v_sub(r[i], nsvcd__v_fma(u, r1[i], r0[i]));
+      square = nsvcd__v_fma(r[i], r[i], square);
     }
     for (size_t i = 0; i < 3; i++) {
-      const nsvcd__v d = nsvcd__v_sub(at[i], nsvcd__v_fma(u, p1[i], p0[i]));
-      gap = nsvcd__v_fma(d, d, gap);
+      at[i] = nsvcd__v_sub(at[i], nsvcd__v_fma(u, p1[i], p0[i]));
+      gap = nsvcd__v_fma(at[i], at[i], gap);
     }
     bulge = nsvcd__v_max(bulge, square), spread = nsvcd__v_max(spread, gap);
+
+    const nsvcd__v3 row0 = nsvcd__v3_of(r[0], r[1], r[2]);
+    const nsvcd__v3 row1 = nsvcd__v3_of(r[3], r[4], r[5]);
+    const nsvcd__v3 row2 = nsvcd__v3_of(r[6], r[7], r[8]);
+    const nsvcd__v3 along = nsvcd__v3_fma(axis.x, row0, nsvcd__v3_fma(axis.y, row1, nsvcd__v3_scale(row2, axis.z)));
+    const nsvcd__v3 off = nsvcd__v3_of(at[0], at[1], at[2]);
+    const nsvcd__v3 off_way = nsvcd__v3_cross(way, off);
+    const nsvcd__v off_axis = nsvcd__v3_dot(axis, off);
+    axis_bulge = nsvcd__v_max(axis_bulge, nsvcd__v3_dot(along, along));
+    axis_drift = nsvcd__v_max(axis_drift, nsvcd__v_mul(off_axis, off_axis));
+    way_drift = nsvcd__v_max(way_drift, nsvcd__v3_dot(off_way, off_way));
+    axis_turn = nsvcd__v_max(axis_turn, nsvcd__v_turn_off_axis(axis, last_fixed_q, fixed_q, arc));
+    memcpy(last_fixed_q, fixed_q, sizeof fixed_q);
   }
   const nsvcd__v arc = nsvcd__v_arc(last_q, end_q);
   widest = nsvcd__v_max(widest, arc), sum = nsvcd__v_add(sum, arc);
+  axis_turn = nsvcd__v_max(axis_turn, nsvcd__v_turn_off_axis(axis, last_fixed_q, end_fixed_q, arc));
   bulge = nsvcd__v_fma(nsvcd__v_mul(widest, widest), nsvcd__v_set(0.125f), nsvcd__v_sqrt(bulge));
   spread = nsvcd__v_sqrt(spread);
+  nsvcd__v_store(out->drift, spread);
+  nsvcd__v3_store(out->axis, axis);
+  nsvcd__v3_store(out->way, way);
+  nsvcd__v_store(out->bulge_along_axis, nsvcd__v_add(nsvcd__v_sqrt(axis_bulge), axis_turn));
+  nsvcd__v_store(out->drift_along_axis, nsvcd__v_sqrt(axis_drift));
+  nsvcd__v_store(out->drift_off_way, nsvcd__v_sqrt(way_drift));
   for (size_t i = 0; i < 3; i++) p1[i] = nsvcd__v_add(p1[i], p0[i]);
   nsvcd__v remote = nsvcd__v_add(nsvcd__v_sqrt(nsvcd__v_dot3(p0, p0)), nsvcd__v_sqrt(nsvcd__v_dot3(p1, p1)));
   remote = nsvcd__v_add(remote, nsvcd__v_add(spread, nsvcd__v_set(lengths)));
+  nsvcd__v_store(out->rounding, nsvcd__v_mul(remote, nsvcd__v_set(NSVCD__ROUNDING)));
   nsvcd__v_store(out->spread, nsvcd__v_fma(remote, nsvcd__v_set(NSVCD__ROUNDING), spread));
   nsvcd__v_store(out->bulge, bulge);
   nsvcd__v_store(turn, sum);
@@ -5037,6 +5094,7 @@ typedef struct nsvcd__arc {
   size_t index;
   double start[4], end[4];  // unit quaternions, on the shorter side
   double half_angle;        // between them as quaternions: half the angle of the turn
+  nsvcd__d3 axis;           // of the turn, unit
   nsvcd__d3 from, moved;    // position at the start, and how it changes
 } nsvcd__arc;
 
@@ -5049,8 +5107,12 @@ typedef struct nsvcd__placement {
 // A stretch of the motion. t in [0,1].
 typedef struct nsvcd__span {
   nsvcd__transform start, end;
-  float spread, bulge;
   double t_start, t_end;
+  float spread, bulge;                // of any direction, as in section *broad phase*
+  float rounding, drift;              // the two parts of spread
+  nsvcd__f3 axis, way;                // unit; of the turn from start to end, and of the origin's way
+  float bulge_along_axis;             // what points at 1 m leave their chords by, along the axis
+  float drift_along_axis, drift_off_way;  // what the origin leaves its chord by: along the axis, and across the way
 } nsvcd__span;
 
 // 16 triangles of a patch, lane by lane: corners (corner, axis, lane), and their boxes.
@@ -5079,11 +5141,13 @@ typedef struct nsvcd__proof {
   int within;            // a component seems to be within the other body, but close to its surface
   nsvcd__contact found;  // if MEETS or WITHIN
   nsvcd__arc arc;        // the last one asked for
+  uint64_t spans_known;  // segments
+  nsvcd__span spans[NSVCD__MAX_SEGMENTS];
   size_t fresh_count, count;
   nsvcd__item fresh[NSVCD__FRESH];  // as the search finds them
   nsvcd__item items[NSVCD__ITEMS];  // that no plane parts over their segment
   float start[3][NSVCD__LANES], end[3][NSVCD__LANES], rest[3][NSVCD__LANES];  // hulls, posed
-  nsvcd__f3 normal;                                                           // of the last plane tried
+  nsvcd__f3 held;                                                             // normal of the last plane that held
   nsvcd__block moving_block, fixed_block;
   float posed[2][3][3][NSVCD__LANES];  // corners of the moving block at the ends of a span
   uint32_t crossed[NSVCD__CROSSED];    // triangles
@@ -5158,6 +5222,13 @@ static const nsvcd__arc *nsvcd__arc_at(nsvcd__proof *p, size_t k) {
   }
   arc->half_angle = 2 * atan2(sqrt(apart), sqrt(together));
 
+  const nsvcd__d3 u = nsvcd__d3_of(arc->start[0], arc->start[1], arc->start[2]);
+  const nsvcd__d3 v = nsvcd__d3_of(arc->end[0], arc->end[1], arc->end[2]);
+  const nsvcd__d3 difference = nsvcd__d3_sub(nsvcd__d3_scale(v, arc->start[3]), nsvcd__d3_scale(u, arc->end[3]));
+  const nsvcd__d3 turn = nsvcd__d3_add(difference, nsvcd__d3_cross(u, v));
+  const double sine = nsvcd__d3_length(turn);
+  arc->axis = sine > 0 ? nsvcd__d3_scale(turn, 1 / sine) : nsvcd__d3_of(1, 0, 0);
+
   nsvcd__rows_of(fixed, rows);
   const nsvcd__d3 origin = nsvcd__d3_load(motion->fixed_pose->position);
   const nsvcd__d3 from = nsvcd__d3_load(a->position);
@@ -5221,9 +5292,23 @@ static nsvcd__span nsvcd__span_of_segment(const nsvcd__motion *motion, const nsv
   span.end.position = nsvcd__f3_add(span.start.position, moved);
   span.spread = block->spread[l];
   span.bulge = block->bulge[l];
+  span.rounding = block->rounding[l];
+  span.drift = block->drift[l];
+  span.axis = nsvcd__f3_of(block->axis[0][l], block->axis[1][l], block->axis[2][l]);
+  span.way = nsvcd__f3_of(block->way[0][l], block->way[1][l], block->way[2][l]);
+  span.bulge_along_axis = block->bulge_along_axis[l];
+  span.drift_along_axis = block->drift_along_axis[l];
+  span.drift_off_way = block->drift_off_way[l];
   span.t_start = nsvcd__segment_start(work, s) / nsvcd__arc_count(motion);
   span.t_end = motion->count > 1 ? nsvcd__segment_start(work, s + 1) / nsvcd__arc_count(motion) : 1;
   return span;
+}
+
+// Kept once it has been made.
+static const nsvcd__span *nsvcd__segment_span(nsvcd__proof *p, const nsvcd__workspace *work, size_t s) {
+  if (!(p->spans_known >> s & 1)) p->spans[s] = nsvcd__span_of_segment(p->motion, work, s);
+  p->spans_known |= (uint64_t)1 << s;
+  return &p->spans[s];
 }
 
 // From u0 to u1 of arc k.
@@ -5236,11 +5321,52 @@ static nsvcd__span nsvcd__span_of_arc(nsvcd__proof *p, size_t k, double u0, doub
   span.start = nsvcd__transform_of(&start);
   span.end = nsvcd__transform_of(&end);
   const float remote = nsvcd__f3_length(span.start.position) + nsvcd__f3_length(span.end.position);
-  span.spread = NSVCD__ROUNDING * (remote + p->lengths);
+  span.rounding = NSVCD__ROUNDING * (remote + p->lengths);
+  span.spread = span.rounding;
   span.bulge = (float)(angle * angle * 0.1250001);
+  span.drift = span.drift_along_axis = span.drift_off_way = 0;
+  span.axis = nsvcd__f3_round(arc->axis);
+  span.way = span.axis;  // any: the way is straight
+  span.bulge_along_axis = 1e-6f * span.bulge;
   span.t_start = ((double)k + u0) / nsvcd__arc_count(p->motion);
   span.t_end = ((double)k + u1) / nsvcd__arc_count(p->motion);
   return span;
+}
+
+// What the points of the moving body, none farther than `reach` from its origin, leave their chords by along a direction
+// n, |n| <= 1, but for rounding. With D the difference between the true rotation and the chord's at some time, and d that
+// of the positions, a point x is off by n.(D x + d). Split n into its parts along the axis and across it: then
+//   |n.D x| <= (|n.axis| |D^T axis| + |n x axis| |D|) |x|
+// and |n.d| is bounded in the same way, or with the way of the origin in place of the axis.
+static float nsvcd__deviation(const nsvcd__span *span, nsvcd__f3 n, float reach) {
+  const float along = fabsf(nsvcd__f3_dot(n, span->axis));
+  const float across = nsvcd__f3_length(nsvcd__f3_cross(n, span->axis));
+  const float along_way = fabsf(nsvcd__f3_dot(n, span->way));
+  const float across_way = nsvcd__f3_length(nsvcd__f3_cross(n, span->way));
+  const float by_axis = along * span->drift_along_axis + across * span->drift;
+  const float by_way = along_way * span->drift + across_way * span->drift_off_way;
+  const float drift = by_axis < by_way ? by_axis : by_way;
+  return drift + reach * (along * span->bulge_along_axis + across * span->bulge);
+}
+
+// The same for 16 directions.
+NSVCD__INLINE nsvcd__v nsvcd__v_deviation(const nsvcd__span *span, nsvcd__v3 n, float reach) {
+  const nsvcd__v3 axis = nsvcd__v3_set(span->axis);
+  const nsvcd__v3 way = nsvcd__v3_set(span->way);
+  const nsvcd__v dot = nsvcd__v3_dot(n, axis);
+  const nsvcd__v dot_way = nsvcd__v3_dot(n, way);
+  const nsvcd__v along = nsvcd__v_max(dot, nsvcd__v_negate(dot));
+  const nsvcd__v across = nsvcd__v3_length(nsvcd__v3_cross(n, axis));
+  const nsvcd__v along_way = nsvcd__v_max(dot_way, nsvcd__v_negate(dot_way));
+  const nsvcd__v across_way = nsvcd__v3_length(nsvcd__v3_cross(n, way));
+  const nsvcd__v drift = nsvcd__v_set(span->drift);
+  const nsvcd__v by_axis =
+      nsvcd__v_fma(along, nsvcd__v_set(span->drift_along_axis), nsvcd__v_mul(across, drift));
+  const nsvcd__v by_way =
+      nsvcd__v_fma(along_way, drift, nsvcd__v_mul(across_way, nsvcd__v_set(span->drift_off_way)));
+  const nsvcd__v turn = nsvcd__v_fma(along, nsvcd__v_set(span->bulge_along_axis),
+                                     nsvcd__v_mul(across, nsvcd__v_set(span->bulge)));
+  return nsvcd__v_fma(turn, nsvcd__v_set(reach), nsvcd__v_min(by_axis, by_way));
 }
 
 // No point of the patch's pieces is farther from the body's origin.
@@ -5265,8 +5391,6 @@ NSVCD__INLINE nsvcd__reach_along nsvcd__disc_along(nsvcd__v low, nsvcd__v high, 
   return out;
 }
 
-NSVCD__INLINE nsvcd__v nsvcd__v3_length(nsvcd__v3 a) { return nsvcd__v_sqrt(nsvcd__v3_dot(a, a)); }
-
 // A matrix's columns, as values: the matrix back, times a.
 static nsvcd__f3 nsvcd__f3_rotate_back(const float *m, nsvcd__f3 a) {
   return nsvcd__f3_of(m[0] * a.x + m[3] * a.y + m[6] * a.z, m[1] * a.x + m[4] * a.y + m[7] * a.z,
@@ -5278,7 +5402,7 @@ typedef struct nsvcd__approach {
   nsvcd__v3 from, chord;       // from the resting centre to the moving one, and its way
   nsvcd__v3 normal;            // of the moving disc, its body's frame
   nsvcd__v low, high, across;  // of the moving disc
-  float deviation;
+  float reach;                 // no point of the group is farther from the body's origin
 } nsvcd__approach;
 
 // Lanes that the plane normal to the resting disc parts: on the side of its normal, or on the other (`below`).
@@ -5298,8 +5422,9 @@ static uint32_t nsvcd__apart_by_fixed_disc(const nsvcd__approach *a, const nsvcd
   const nsvcd__v height_end = nsvcd__v_add(height, nsvcd__v3_dot(n, a->chord));
   const nsvcd__v lowest = nsvcd__v_min(nsvcd__v_add(height, start.low), nsvcd__v_add(height_end, end.low));
   const nsvcd__v highest = nsvcd__v_max(nsvcd__v_add(height, start.high), nsvcd__v_add(height_end, end.high));
-  *below = ~nsvcd__v_le(nsvcd__v_set(low - a->deviation), highest) & 0xffff;
-  return (~nsvcd__v_le(lowest, nsvcd__v_set(high + a->deviation)) & 0xffff) | *below;
+  const float deviation = span->rounding + nsvcd__deviation(span, normal, a->reach);
+  *below = ~nsvcd__v_le(nsvcd__v_set(low - deviation), highest) & 0xffff;
+  return (~nsvcd__v_le(lowest, nsvcd__v_set(high + deviation)) & 0xffff) | *below;
 }
 
 // The same with the plane normal to the mean w of the moving disc's normals m0 and m1 at both ends. |w| <= 1. These
@@ -5321,7 +5446,7 @@ static uint32_t nsvcd__apart_by_moving_disc(const nsvcd__approach *a, const nsvc
 
   const nsvcd__v height = nsvcd__v3_dot(w, a->from);
   const nsvcd__v height_end = nsvcd__v_add(height, nsvcd__v3_dot(w, a->chord));
-  const nsvcd__v deviation = nsvcd__v_set(a->deviation);
+  const nsvcd__v deviation = nsvcd__v_add(nsvcd__v_set(span->rounding), nsvcd__v_deviation(span, w, a->reach));
   const nsvcd__v lowest = nsvcd__v_add(nsvcd__v_min(height, height_end), moving.low);
   const nsvcd__v highest = nsvcd__v_add(nsvcd__v_max(height, height_end), moving.high);
   *plane = w;
@@ -5349,7 +5474,7 @@ static void nsvcd__certify_discs(size_t g, size_t j, const nsvcd__span *span, ui
 
 // Of the lanes `met` of moving group g in a segment, those that discs do not part from resting patch j.
 static uint32_t nsvcd__discs_meet(const nsvcd__proof *p, const nsvcd__chords *c, size_t g, size_t j,
-                                  const nsvcd__span *span, float deviation, uint32_t met) {
+                                  const nsvcd__span *span, float reach, uint32_t met) {
   const size_t i = NSVCD__GROUP * g;
   const size_t moving_padded = p->moving.body->padded;
   const size_t fixed_padded = p->fixed.body->padded;
@@ -5365,7 +5490,7 @@ static uint32_t nsvcd__discs_meet(const nsvcd__proof *p, const nsvcd__chords *c,
   a.low = nsvcd__v_load(m + 3 * moving_padded);
   a.high = nsvcd__v_load(m + 4 * moving_padded);
   a.across = nsvcd__v_load(m + 5 * moving_padded);
-  a.deviation = deviation;
+  a.reach = reach;
 
   uint32_t below;
   uint32_t apart = nsvcd__apart_by_fixed_disc(&a, span, normal, low, high, &below) & met;
@@ -5393,43 +5518,78 @@ static nsvcd__f3 nsvcd__lane_of(float (*lanes)[NSVCD__LANES], size_t l) {
 }
 static float nsvcd__clamp01(float x) { return x < 0 ? 0 : x < 1 ? x : 1; }
 
-// Is there a plane between two patches over the whole span? Gilbert's iteration (1966) towards the point nearest to 0 of
-// the differences of the two hulls; each of its directions is tried. The first one is p->normal, and the last is left
-// there.
+// Posed hulls along a direction: how far the moving one, at both ends of the span, stays ahead of the resting one, and
+// the difference of the two vertices that say so.
+typedef struct nsvcd__support {
+  float gap;
+  nsvcd__f3 difference;
+} nsvcd__support;
+
+NSVCD__INLINE nsvcd__support nsvcd__support_along(nsvcd__proof *p, nsvcd__f3 normal) {
+  const nsvcd__v3 n = nsvcd__v3_set(normal);
+  const nsvcd__v at_start = nsvcd__v3_dot(n, nsvcd__v3_load(p->start));
+  const nsvcd__v at_end = nsvcd__v3_dot(n, nsvcd__v3_load(p->end));
+  const nsvcd__v at_rest = nsvcd__v_negate(nsvcd__v3_dot(n, nsvcd__v3_load(p->rest)));
+  const nsvcd__v at_either = nsvcd__v_min(at_start, at_end);
+  const float lowest = nsvcd__v_least(at_either);
+  const float highest = -nsvcd__v_least(at_rest);
+  // Were a number not one, no lane would compare: then the last one.
+  const size_t a = nsvcd__lowest_bit(nsvcd__v_le(at_either, nsvcd__v_set(lowest)) | 0x8000);
+  const size_t b = nsvcd__lowest_bit(nsvcd__v_le(at_rest, nsvcd__v_set(-highest)) | 0x8000);
+  const int is_start = (nsvcd__v_le(at_start, at_end) >> a & 1) != 0;
+  const nsvcd__f3 moving = nsvcd__lane_of(is_start ? p->start : p->end, a);
+  const nsvcd__support out = {lowest - highest, nsvcd__f3_sub(moving, nsvcd__lane_of(p->rest, b))};
+  return out;
+}
+
+// Directions that are worth a try before any search: that of the last plane that held, the discs' normals, and the line
+// of centres. The last one is the first of the search.
+#define NSVCD__GUESSES 4
+static void nsvcd__guess_normals(const nsvcd__proof *p, size_t i, size_t j, const nsvcd__span *span,
+                                 nsvcd__f3 *guesses) {
+  const size_t moving_padded = p->moving.body->padded, fixed_padded = p->fixed.body->padded;
+  const float *m = p->moving.discs + i, *f = p->fixed.discs + j;
+  const nsvcd__f3 centre = nsvcd__facet_centre(&p->moving, i);
+  const nsvcd__f3 start = nsvcd__f3_transform(&span->start, centre);
+  const nsvcd__f3 end = nsvcd__f3_transform(&span->end, centre);
+  const nsvcd__f3 line =
+      nsvcd__f3_sub(nsvcd__f3_scale(nsvcd__f3_add(start, end), 0.5f), nsvcd__facet_centre(&p->fixed, j));
+  const nsvcd__f3 own = nsvcd__f3_of(m[0], m[moving_padded], m[2 * moving_padded]);
+  const nsvcd__f3 moved = nsvcd__f3_sub(nsvcd__f3_transform(&span->start, own), span->start.position);
+  const nsvcd__f3 fixed = nsvcd__f3_of(f[0], f[fixed_padded], f[2 * fixed_padded]);
+  guesses[0] = p->held;
+  guesses[1] = nsvcd__f3_scale(fixed, nsvcd__f3_dot(fixed, line) < 0 ? -1.0f : 1.0f);
+  guesses[2] = nsvcd__f3_scale(moved, nsvcd__f3_dot(moved, line) < 0 ? -1.0f : 1.0f);
+  guesses[3] = line;
+}
+
+// Is there a plane between two patches over the whole span? After the guesses Gilbert's iteration (1966) towards the
+// point nearest to 0 of the differences of the two hulls; each of its directions is tried. p->held is what held.
 static int nsvcd__hulls_are_apart(nsvcd__proof *p, size_t i, size_t j, const nsvcd__span *span) {
-  const float slack =
-      p->moving.slacks[i] + p->fixed.slacks[j] + span->spread + span->bulge * nsvcd__patch_reach(&p->moving, i);
-  nsvcd__pose_hulls(p, i, j, span);
-  const nsvcd__v3 start = nsvcd__v3_load(p->start);
-  const nsvcd__v3 end = nsvcd__v3_load(p->end);
-  const nsvcd__v3 rest = nsvcd__v3_load(p->rest);
+  const float slack = p->moving.slacks[i] + p->fixed.slacks[j] + span->rounding;
+  const float reach = nsvcd__patch_reach(&p->moving, i);
+  nsvcd__f3 guesses[NSVCD__GUESSES];
   nsvcd__f3 nearest = {0, 0, 0};
+  nsvcd__pose_hulls(p, i, j, span);
+  nsvcd__guess_normals(p, i, j, span, guesses);
   p->work++;
   NSVCD__TALLY(planes, 1);
-  for (size_t step = 0; step < NSVCD__PLANE_STEPS; step++) {
-    const nsvcd__f3 normal = p->normal;
-    const nsvcd__v3 n = nsvcd__v3_set(normal);
-    const nsvcd__v at_start = nsvcd__v3_dot(n, start);
-    const nsvcd__v at_end = nsvcd__v3_dot(n, end);
-    const nsvcd__v at_rest = nsvcd__v_negate(nsvcd__v3_dot(n, rest));
-    const float lowest_start = nsvcd__v_least(at_start);
-    const float lowest_end = nsvcd__v_least(at_end);
-    const float highest = -nsvcd__v_least(at_rest);
-    const float lowest = lowest_start < lowest_end ? lowest_start : lowest_end;
-    const float gap = lowest - highest;
-    if (gap > 0 && gap * gap > slack * slack * nsvcd__f3_dot(normal, normal)) return 1;
-
-    const int is_start = lowest_start < lowest_end;
-    const size_t a = nsvcd__lowest_bit(nsvcd__v_le(is_start ? at_start : at_end, nsvcd__v_set(lowest)) | 0x8000);
-    const size_t b = nsvcd__lowest_bit(nsvcd__v_le(at_rest, nsvcd__v_set(-highest)) | 0x8000);
-    const nsvcd__f3 difference =
-        nsvcd__f3_sub(nsvcd__lane_of(is_start ? p->start : p->end, a), nsvcd__lane_of(p->rest, b));
-    const nsvcd__f3 way = nsvcd__f3_sub(difference, nearest);
+  for (size_t step = 0; step < NSVCD__GUESSES + NSVCD__PLANE_STEPS; step++) {
+    const nsvcd__f3 normal = step < NSVCD__GUESSES ? guesses[step] : nearest;
+    const nsvcd__support found = nsvcd__support_along(p, normal);
+    if (found.gap > 0) {
+      if (found.gap > slack * nsvcd__f3_length(normal) + nsvcd__deviation(span, normal, reach)) {
+        p->held = normal;
+        return 1;
+      }
+    }
+    if (step + 1 < NSVCD__GUESSES) continue;
+    const nsvcd__f3 way = nsvcd__f3_sub(found.difference, nearest);
     const float square = nsvcd__f3_dot(way, way);
     const float share = square > 0 ? nsvcd__clamp01(-nsvcd__f3_dot(nearest, way) / square) : 0;
-    nearest = step == 0 ? difference : nsvcd__f3_add(nearest, nsvcd__f3_scale(way, share));
+    const nsvcd__f3 nearer = nsvcd__f3_add(nearest, nsvcd__f3_scale(way, share));
+    nearest = step < NSVCD__GUESSES ? found.difference : nearer;
     if (nsvcd__f3_dot(nearest, nearest) <= slack * slack) return 0;  // these hulls come this near
-    p->normal = nearest;
   }
   return 0;
 }
@@ -5561,7 +5721,8 @@ static int nsvcd__plane_parts(const nsvcd__arc *arc, const nsvcd__pair *pair, do
     lowest = fmin(lowest, nsvcd__d3_dot(normal, nsvcd__place_point(&end, pair->moving[k])));
     highest = fmax(highest, nsvcd__d3_dot(normal, pair->fixed[k]));
   }
-  return lowest - highest > pair->slack + angle * angle * 0.1250001 * pair->reach;
+  const double off_axis = nsvcd__d3_length(nsvcd__d3_cross(normal, arc->axis)) + 1e-6;
+  return lowest - highest > pair->slack + angle * angle * 0.1250001 * pair->reach * off_axis;
 }
 
 // Settles a pair of triangles from u0 to u1 of the arc: halves the time until a plane at the middle's nearest points
@@ -5850,7 +6011,7 @@ static nsvcd__verdict nsvcd__settle_item(nsvcd__proof *p, const nsvcd__workspace
     const nsvcd__span span = nsvcd__span_of_arc(p, k, u0, u1);
     at = next;
     if (nsvcd__hulls_are_apart(p, item->moving, item->fixed, &span)) {
-      const float normal[3] = {p->normal.x, p->normal.y, p->normal.z};
+      const float normal[3] = {p->held.x, p->held.y, p->held.z};
       NSVCD__CERTIFY(NSVCD__BY_HULL, item->moving, item->fixed, NSVCD_NONE, NSVCD_NONE, span.t_start, span.t_end,
                      normal);
       (void)normal;
@@ -5865,15 +6026,11 @@ static nsvcd__verdict nsvcd__settle_item(nsvcd__proof *p, const nsvcd__workspace
 
 // Is there a plane between an item's patches over its segment?
 static int nsvcd__item_is_parted(nsvcd__proof *p, const nsvcd__workspace *work, const nsvcd__item *item) {
-  const nsvcd__span span = nsvcd__span_of_segment(p->motion, work, item->segment);
-  const nsvcd__f3 centre = nsvcd__facet_centre(&p->moving, item->moving);
-  const nsvcd__f3 start = nsvcd__f3_transform(&span.start, centre);
-  const nsvcd__f3 end = nsvcd__f3_transform(&span.end, centre);
-  const nsvcd__f3 middle = nsvcd__f3_scale(nsvcd__f3_add(start, end), 0.5f);
-  p->normal = nsvcd__f3_sub(middle, nsvcd__facet_centre(&p->fixed, item->fixed));
-  if (!nsvcd__hulls_are_apart(p, item->moving, item->fixed, &span)) return 0;
-  const float normal[3] = {p->normal.x, p->normal.y, p->normal.z};
-  NSVCD__CERTIFY(NSVCD__BY_HULL, item->moving, item->fixed, NSVCD_NONE, NSVCD_NONE, span.t_start, span.t_end, normal);
+  const nsvcd__span *span = nsvcd__segment_span(p, work, item->segment);
+  if (!nsvcd__hulls_are_apart(p, item->moving, item->fixed, span)) return 0;
+  const float normal[3] = {p->held.x, p->held.y, p->held.z};
+  NSVCD__CERTIFY(NSVCD__BY_HULL, item->moving, item->fixed, NSVCD_NONE, NSVCD_NONE, span->t_start, span->t_end,
+                 normal);
   (void)normal;
   return 1;
 }
@@ -6143,8 +6300,8 @@ static nsvcd__verdict nsvcd__collect_items(nsvcd__proof *p, const nsvcd__workspa
     uint32_t met = nsvcd__v_le(square, limit);
     NSVCD__TALLY(tests, 1);
     if (!met) continue;
-    const nsvcd__span span = nsvcd__span_of_segment(p->motion, work, s);
-    met = nsvcd__discs_meet(p, c, g, j, &span, span.spread + span.bulge * remote, met);
+    const nsvcd__span *span = nsvcd__segment_span(p, work, s);
+    met = nsvcd__discs_meet(p, c, g, j, span, remote, met);
     if (!met) continue;
 
     float depth[NSVCD__LANES], share[NSVCD__LANES];
@@ -7246,6 +7403,8 @@ static void nsvcd__answer_by_proof(const nsvcd__question *ask, nsvcd__query *que
   p->tolerance = (double)ask->tolerance;
   p->limit = ask->work;
   p->work = p->count = p->fresh_count = 0;
+  p->spans_known = 0;
+  p->held = nsvcd__f3_of(0, 0, 0);
   p->undecided = p->within = 0;
   p->arc.index = (size_t)-1;
   const nsvcd__verdict verdict = nsvcd__prove(p, &query->broad_phase);
