@@ -3678,6 +3678,7 @@ static int nsvcd__spheres_fit(const nsvcd_body *body, float scale) {
 //   counts          (8)      uint32 listed L, vertices V, components C, bytes of a corner, bytes of a number, zeros
 //   discs           (6, P)   float unit normal n, low, high, across: a piece's points x have low <= n.(x - c) <= high,
 //                            and are no farther than `across` from the line along n; c: centre of the patch's sphere
+//   group discs     (6, G)   float the same over the members of each group; c: centre of the group's sphere
 //   steps           (P)      float metres per integer: a stored vertex is c + step (x, y, z)
 //   slacks          (P)      float pieces are within this of the hull of the patch's first vertices
 //   quanta          (P)      float corners of triangles are within this of their stored vertices
@@ -3694,7 +3695,7 @@ static int nsvcd__spheres_fit(const nsvcd_body *body, float scale) {
 
 typedef struct nsvcd__facets {
   const nsvcd_body *body;  // of triangles
-  const float *discs, *steps, *slacks, *quanta;
+  const float *discs, *group_discs, *steps, *slacks, *quanta;
   const uint32_t *first_vertex, *first_triangle;
   const float *seeds;
   const unsigned char *numbers, *corners;
@@ -3717,7 +3718,8 @@ static const nsvcd_body *nsvcd__triangles_of(const nsvcd_body *body) {
 // Bytes of a body of triangles; 0 if they cannot be counted in 32 bits.
 static size_t nsvcd__facets_size(size_t points, const uint32_t *counts) {
   const size_t padded = nsvcd__round_up(points, NSVCD__GROUP);
-  uint64_t size = nsvcd__spheres_size(padded) + 4 * NSVCD__FACET_COUNTS + 36 * padded + 8 * (points + 1);
+  uint64_t size = nsvcd__spheres_size(padded) + 4 * NSVCD__FACET_COUNTS + 8 * (points + 1);
+  size += 36 * padded + 24 * nsvcd__group_slots(padded);
   size += (uint64_t)12 * counts[2];
   size += (uint64_t)counts[4] * counts[0];
   size += 2 * ((uint64_t)3 * counts[1] + NSVCD__LANES);
@@ -3738,7 +3740,8 @@ static nsvcd__facets nsvcd__facets_of(const nsvcd_body *body) {
   f.corner_bytes = counts[3];
   f.number_bytes = counts[4];
   f.discs = (const float *)(const void *)(counts + NSVCD__FACET_COUNTS);
-  f.steps = f.discs + 6 * padded;
+  f.group_discs = f.discs + 6 * padded;
+  f.steps = f.group_discs + 6 * nsvcd__group_slots(padded);
   f.slacks = f.steps + padded;
   f.quanta = f.slacks + padded;
   f.first_vertex = (const uint32_t *)(const void *)(f.quanta + padded);
@@ -3807,6 +3810,79 @@ static void nsvcd__facet_triangle(const nsvcd__facets *f, size_t patch, size_t n
     corners[k].y = (double)centre.y + step * x[all + i];
     corners[k].z = (double)centre.z + step * x[2 * all + i];
   }
+}
+
+// A float not less than x, which is not negative.
+static float nsvcd__round_outward(double x) { return (float)(x * (1 + 2e-7)) + 1e-37f; }
+
+// What the members of a group reach along a direction and across it, from the centre of the group's sphere.
+typedef struct nsvcd__slab {
+  double low, high, across;
+} nsvcd__slab;
+
+static nsvcd__slab nsvcd__slab_of_group(const nsvcd__facets *f, size_t g, nsvcd__d3 normal) {
+  const size_t first = NSVCD__GROUP * g;
+  const nsvcd__d3 centre =
+      nsvcd__d3_of((double)nsvcd__body_group(f->body, 0)[g], (double)nsvcd__body_group(f->body, 1)[g],
+                   (double)nsvcd__body_group(f->body, 2)[g]);
+  nsvcd__slab slab = {HUGE_VAL, -HUGE_VAL, 0};
+  for (size_t i = first; i < first + NSVCD__GROUP && i < f->body->points; i++) {
+    const size_t all = f->first_vertex[i + 1] - f->first_vertex[i];
+    const int16_t *x = f->vertices + 3 * (size_t)f->first_vertex[i];
+    const nsvcd__d3 own = nsvcd__d3_sub(nsvcd__d3_widen(nsvcd__facet_centre(f, i)), centre);
+    const double step = (double)f->steps[i], slack = (double)f->slacks[i];
+    for (size_t k = 0; k < f->hull_counts[i]; k++) {
+      const nsvcd__d3 offset = nsvcd__d3_of(step * x[k], step * x[all + k], step * x[2 * all + k]);
+      const nsvcd__d3 v = nsvcd__d3_add(own, offset);
+      const double height = nsvcd__d3_dot(normal, v);
+      const double square = nsvcd__d3_dot(v, v) - height * height;
+      slab.low = fmin(slab.low, height - slack);
+      slab.high = fmax(slab.high, height + slack);
+      slab.across = fmax(slab.across, sqrt(square > 0 ? square : 0) + slack);
+    }
+  }
+  return slab;
+}
+
+// Writes a group's disc: its normal is the mean of the members', or that of the member in which the group is thinnest.
+static void nsvcd__finish_group(nsvcd_body *body, size_t g) {
+  const nsvcd__facets f = nsvcd__facets_of(body);
+  const size_t padded = body->padded, slots = nsvcd__group_slots(padded), first = NSVCD__GROUP * g;
+  float *disc = (float *)nsvcd__writable(body, f.group_discs) + g;
+  nsvcd__d3 normals[1 + NSVCD__GROUP], best = {0, 0, 1};
+  nsvcd__slab thinnest = {0, HUGE_VAL, 0};
+  normals[0] = nsvcd__d3_of(0, 0, 0);
+  for (size_t k = 0; k < NSVCD__GROUP; k++) {
+    const float *n = f.discs + first + k;
+    const nsvcd__d3 normal = nsvcd__d3_of((double)n[0], (double)n[padded], (double)n[2 * padded]);
+    normals[1 + k] = normal;
+    normals[0] = nsvcd__d3_add(normals[0], nsvcd__d3_scale(normal, nsvcd__d3_dot(normal, normals[1]) < 0 ? -1 : 1));
+  }
+  for (size_t k = 0; k < 1 + NSVCD__GROUP; k += k == 0 ? 1 : 4) {
+    const double length = nsvcd__d3_length(normals[k]);
+    if (!(length > 1e-3)) continue;
+    // As it is stored, and no longer than 1.
+    const nsvcd__d3 unit = nsvcd__d3_widen(nsvcd__f3_round(nsvcd__d3_scale(normals[k], 0.9999998 / length)));
+    const nsvcd__slab slab = nsvcd__slab_of_group(&f, g, unit);
+    if (!(slab.high - slab.low < thinnest.high - thinnest.low)) continue;
+    thinnest = slab;
+    best = unit;
+  }
+  const double margin = 1e-6 * (double)body->extent;  // float rounding, and that `across` takes |n| to be 1
+  const nsvcd__f3 normal = nsvcd__f3_round(best);
+  disc[0] = normal.x;
+  disc[slots] = normal.y;
+  disc[2 * slots] = normal.z;
+  disc[3 * slots] = (float)(thinnest.low - margin);
+  disc[4 * slots] = thinnest.high < HUGE_VAL ? (float)(thinnest.high + margin) : 0;
+  disc[5 * slots] = nsvcd__round_outward(thinnest.across + margin);
+}
+
+// What is computed from the patches of a body of triangles, when these are in place.
+static void nsvcd__facets_finish(nsvcd_body *body) {
+  nsvcd__body_finish(body);
+  for (size_t g = 0; g < nsvcd__body_groups(body); g++) nsvcd__finish_group(body, g);
+  body->checksum = nsvcd__body_checksum(body);
 }
 
 #ifndef NSVCD_NO_ENCODER
@@ -3893,7 +3969,7 @@ static nsvcd_result nsvcd__facets_build(const nsvcd_mesh *mesh, const nsvcd__sur
   float *r = (float *)(b + 1) + 3 * b->padded;
   for (size_t i = b->points; i < b->padded; i++) r[i] = NSVCD__NOWHERE;
   if (!nsvcd__all_within(r, b->points, 4 * NSVCD_MAX_COORDINATE)) return NSVCD_ERROR_NUMBER;
-  nsvcd__body_finish(b);
+  nsvcd__facets_finish(b);
   return b->radius < NSVCD_MIN_RADIUS ? NSVCD_ERROR_NUMBER : NSVCD_OK;
 }
 #endif
@@ -3930,9 +4006,11 @@ static int nsvcd__facets_are_laid_out(const nsvcd_body *body, size_t size) {
 // Are the numbers in range? They may lie about the surface, but nothing that is computed from them overflows.
 static int nsvcd__facets_are_sound(const nsvcd_body *body) {
   const nsvcd__facets f = nsvcd__facets_of(body);
-  const size_t padded = body->padded;
+  const size_t padded = body->padded, slots = nsvcd__group_slots(padded);
   if (!nsvcd__all_within(f.discs, 3 * padded, 1.000001f)) return 0;
   if (!nsvcd__all_within(f.discs + 3 * padded, 3 * padded, NSVCD__MAX_LENGTH)) return 0;
+  if (!nsvcd__all_within(f.group_discs, 3 * slots, 1.000001f)) return 0;
+  if (!nsvcd__all_within(f.group_discs + 3 * slots, 3 * slots, NSVCD__MAX_LENGTH)) return 0;
   if (!nsvcd__all_within(f.steps, padded, NSVCD__MAX_LENGTH / 32768)) return 0;
   if (!nsvcd__all_within(f.slacks, 2 * padded, NSVCD__MAX_LENGTH)) return 0;
   if (!nsvcd__all_within(f.seeds, 3 * f.components, NSVCD_MAX_COORDINATE)) return 0;
@@ -3941,9 +4019,6 @@ static int nsvcd__facets_are_sound(const nsvcd_body *body) {
   }
   return 1;
 }
-
-// A float not less than x, which is not negative.
-static float nsvcd__round_outward(double x) { return (float)(x * (1 + 2e-7)) + 1e-37f; }
 
 // Multiplies what stands behind the spheres. What rounding does to a vertex goes to the slacks and quanta.
 static void nsvcd__scale_facets(nsvcd_body *body, float scale) {
@@ -4049,12 +4124,15 @@ NSVCDDEF nsvcd_result nsvcd_body_scale(const nsvcd_body *body, float scale, void
     nsvcd_body *within = (nsvcd_body *)(void *)((char *)memory + b->inner);
     nsvcd__scale_spheres(within, scale);
     nsvcd__scale_facets(within, scale);
-    nsvcd__body_finish(within);
+    nsvcd__facets_finish(within);
   }
 #endif
   nsvcd__scale_spheres(b, scale);
 #ifndef NSVCD_NO_PROOF
-  if (b->weights_id == 0) nsvcd__scale_facets(b, scale);
+  if (b->weights_id == 0) {
+    nsvcd__scale_facets(b, scale);
+    nsvcd__facets_finish(b);
+  }
 #endif
 #ifndef NSVCD_NO_NETWORK
   float *area = (float *)(b + 1) + 4 * b->padded + 4 * nsvcd__group_slots(b->padded);
@@ -4063,7 +4141,7 @@ NSVCDDEF nsvcd_result nsvcd_body_scale(const nsvcd_body *body, float scale, void
     area[i] *= scale;
   }
 #endif
-  nsvcd__body_finish(b);
+  if (b->weights_id) nsvcd__body_finish(b);
   *scaled = b;
   return NSVCD_OK;
 }
@@ -4989,39 +5067,22 @@ static size_t nsvcd__search_group(nsvcd__workspace *work, const nsvcd_body *movi
   return longest;
 }
 
-// A step of the search: a pair of groups that meet.
-typedef struct nsvcd__step {
-  size_t moving_group, fixed_group;
-  uint32_t met;                         // patches of the fixed group that the moving one meets
-  uint64_t segments[NSVCD__GROUP];      // in which each of them does
-} nsvcd__step;
-
-// Takes the next step. Returns 1 if there are more to take.
-static int nsvcd__search_next(nsvcd__workspace *work, const nsvcd_body *moving, const nsvcd_body *fixed,
-                              nsvcd__step *step) {
-  const size_t h = work->waiting ? nsvcd__lowest_bit(work->waiting) : nsvcd__search_group(work, moving, fixed);
-  const size_t g = work->order[work->step];
-  step->moving_group = g;
-  step->fixed_group = h;
-  step->met = nsvcd__group_against_members(work, fixed, h, work->nearby[g][h], step->segments);
-  work->waiting &= ~((uint32_t)1 << h);
-  if (!work->waiting) work->step++;
-  return work->step < work->steps;
-}
-
 #ifndef NSVCD_NO_NETWORK
 // A step of the search: all runs of one pair of groups. Returns 1 if there are more steps to take.
 static int nsvcd__search_step(nsvcd__workspace *work, const nsvcd_body *moving, const nsvcd_body *fixed,
                               nsvcd__candidates *kept) {
-  nsvcd__step step;
-  const int more = nsvcd__search_next(work, moving, fixed, &step);
-  for (uint32_t met = step.met; met; met &= met - 1) {
+  const size_t h = work->waiting ? nsvcd__lowest_bit(work->waiting) : nsvcd__search_group(work, moving, fixed);
+  const size_t g = work->order[work->step];
+  uint64_t segments[NSVCD__GROUP];
+  uint32_t met = nsvcd__group_against_members(work, fixed, h, work->nearby[g][h], segments);
+  for (; met; met &= met - 1) {
     const size_t l = nsvcd__lowest_bit(met);
-    nsvcd__pose_members(work, moving, step.moving_group, step.segments[l]);
-    nsvcd__members_against_patch(work, moving, step.moving_group, fixed, NSVCD__GROUP * step.fixed_group + l,
-                                 step.segments[l], kept);
+    nsvcd__pose_members(work, moving, g, segments[l]);
+    nsvcd__members_against_patch(work, moving, g, fixed, NSVCD__GROUP * h + l, segments[l], kept);
   }
-  return more;
+  work->waiting &= ~((uint32_t)1 << h);
+  if (!work->waiting) work->step++;
+  return work->step < work->steps;
 }
 
 // Instead of a search, in a motion that has been cut: all runs of one moving group and one patch of the fixed body.
@@ -5349,23 +5410,46 @@ static float nsvcd__deviation(const nsvcd__span *span, nsvcd__f3 n, float reach)
   return drift + reach * (along * span->bulge_along_axis + across * span->bulge);
 }
 
-// The same for 16 directions.
-NSVCD__INLINE nsvcd__v nsvcd__v_deviation(const nsvcd__span *span, nsvcd__v3 n, float reach) {
-  const nsvcd__v3 axis = nsvcd__v3_set(span->axis);
-  const nsvcd__v3 way = nsvcd__v3_set(span->way);
-  const nsvcd__v dot = nsvcd__v3_dot(n, axis);
-  const nsvcd__v dot_way = nsvcd__v3_dot(n, way);
+// The same for 16 directions, or one direction in 16 spans.
+typedef struct nsvcd__v_span {
+  nsvcd__v3 axis, way;
+  nsvcd__v rounding, drift, bulge, bulge_along_axis, drift_along_axis, drift_off_way;
+} nsvcd__v_span;
+
+NSVCD__INLINE nsvcd__v_span nsvcd__v_span_set(const nsvcd__span *span) {
+  nsvcd__v_span out;
+  out.axis = nsvcd__v3_set(span->axis);
+  out.way = nsvcd__v3_set(span->way);
+  out.rounding = nsvcd__v_set(span->rounding);
+  out.drift = nsvcd__v_set(span->drift);
+  out.bulge = nsvcd__v_set(span->bulge);
+  out.bulge_along_axis = nsvcd__v_set(span->bulge_along_axis);
+  out.drift_along_axis = nsvcd__v_set(span->drift_along_axis);
+  out.drift_off_way = nsvcd__v_set(span->drift_off_way);
+  return out;
+}
+NSVCD__INLINE nsvcd__v_span nsvcd__v_span_load(const nsvcd__segments *block) {
+  nsvcd__v_span out;
+  out.axis = nsvcd__v3_of(nsvcd__v_load(block->axis[0]), nsvcd__v_load(block->axis[1]), nsvcd__v_load(block->axis[2]));
+  out.way = nsvcd__v3_of(nsvcd__v_load(block->way[0]), nsvcd__v_load(block->way[1]), nsvcd__v_load(block->way[2]));
+  out.rounding = nsvcd__v_load(block->rounding);
+  out.drift = nsvcd__v_load(block->drift);
+  out.bulge = nsvcd__v_load(block->bulge);
+  out.bulge_along_axis = nsvcd__v_load(block->bulge_along_axis);
+  out.drift_along_axis = nsvcd__v_load(block->drift_along_axis);
+  out.drift_off_way = nsvcd__v_load(block->drift_off_way);
+  return out;
+}
+NSVCD__INLINE nsvcd__v nsvcd__v_deviation(const nsvcd__v_span *span, nsvcd__v3 n, float reach) {
+  const nsvcd__v dot = nsvcd__v3_dot(n, span->axis);
+  const nsvcd__v dot_way = nsvcd__v3_dot(n, span->way);
   const nsvcd__v along = nsvcd__v_max(dot, nsvcd__v_negate(dot));
-  const nsvcd__v across = nsvcd__v3_length(nsvcd__v3_cross(n, axis));
+  const nsvcd__v across = nsvcd__v3_length(nsvcd__v3_cross(n, span->axis));
   const nsvcd__v along_way = nsvcd__v_max(dot_way, nsvcd__v_negate(dot_way));
-  const nsvcd__v across_way = nsvcd__v3_length(nsvcd__v3_cross(n, way));
-  const nsvcd__v drift = nsvcd__v_set(span->drift);
-  const nsvcd__v by_axis =
-      nsvcd__v_fma(along, nsvcd__v_set(span->drift_along_axis), nsvcd__v_mul(across, drift));
-  const nsvcd__v by_way =
-      nsvcd__v_fma(along_way, drift, nsvcd__v_mul(across_way, nsvcd__v_set(span->drift_off_way)));
-  const nsvcd__v turn = nsvcd__v_fma(along, nsvcd__v_set(span->bulge_along_axis),
-                                     nsvcd__v_mul(across, nsvcd__v_set(span->bulge)));
+  const nsvcd__v across_way = nsvcd__v3_length(nsvcd__v3_cross(n, span->way));
+  const nsvcd__v by_axis = nsvcd__v_fma(along, span->drift_along_axis, nsvcd__v_mul(across, span->drift));
+  const nsvcd__v by_way = nsvcd__v_fma(along_way, span->drift, nsvcd__v_mul(across_way, span->drift_off_way));
+  const nsvcd__v turn = nsvcd__v_fma(along, span->bulge_along_axis, nsvcd__v_mul(across, span->bulge));
   return nsvcd__v_fma(turn, nsvcd__v_set(reach), nsvcd__v_min(by_axis, by_way));
 }
 
@@ -5446,7 +5530,8 @@ static uint32_t nsvcd__apart_by_moving_disc(const nsvcd__approach *a, const nsvc
 
   const nsvcd__v height = nsvcd__v3_dot(w, a->from);
   const nsvcd__v height_end = nsvcd__v_add(height, nsvcd__v3_dot(w, a->chord));
-  const nsvcd__v deviation = nsvcd__v_add(nsvcd__v_set(span->rounding), nsvcd__v_deviation(span, w, a->reach));
+  const nsvcd__v_span spans = nsvcd__v_span_set(span);
+  const nsvcd__v deviation = nsvcd__v_add(spans.rounding, nsvcd__v_deviation(&spans, w, a->reach));
   const nsvcd__v lowest = nsvcd__v_add(nsvcd__v_min(height, height_end), moving.low);
   const nsvcd__v highest = nsvcd__v_add(nsvcd__v_max(height, height_end), moving.high);
   *plane = w;
@@ -5501,6 +5586,141 @@ static uint32_t nsvcd__discs_meet(const nsvcd__proof *p, const nsvcd__chords *c,
   apart = nsvcd__apart_by_moving_disc(&a, span, normal, low, high, across, &plane, &below) & met;
   NSVCD__CERTIFY_DISCS(g, j, span, apart, below, plane);
   return met & ~apart;
+}
+
+// ---- discs of groups, 16 segments at a time
+
+// A disc's numbers.
+typedef struct nsvcd__disc {
+  nsvcd__f3 normal;
+  float low, high, across;
+} nsvcd__disc;
+
+// Disc i of (6, stride).
+static nsvcd__disc nsvcd__disc_at(const float *discs, size_t stride, size_t i) {
+  const float *d = discs + i;
+  nsvcd__disc out;
+  out.normal = nsvcd__f3_of(d[0], d[stride], d[2 * stride]);
+  out.low = d[3 * stride];
+  out.high = d[4 * stride];
+  out.across = d[5 * stride];
+  return out;
+}
+
+NSVCD__INLINE nsvcd__reach_along nsvcd__one_disc_along(const nsvcd__disc *disc, nsvcd__v along, nsvcd__v across) {
+  return nsvcd__disc_along(nsvcd__v_set(disc->low), nsvcd__v_set(disc->high), nsvcd__v_set(disc->across), along, across);
+}
+
+// 16 matrices, (9, LANES), times one vector; and back.
+NSVCD__INLINE nsvcd__v3 nsvcd__v3_turned(float (*m)[NSVCD__LANES], nsvcd__f3 a) {
+  const nsvcd__v3 v = nsvcd__v3_set(a);
+  return nsvcd__v3_of(nsvcd__v3_dot(nsvcd__v3_load(m), v), nsvcd__v3_dot(nsvcd__v3_load(m + 3), v),
+                      nsvcd__v3_dot(nsvcd__v3_load(m + 6), v));
+}
+NSVCD__INLINE nsvcd__v3 nsvcd__v3_turned_back(float (*m)[NSVCD__LANES], nsvcd__f3 a) {
+  const nsvcd__v3 sum = nsvcd__v3_scale(nsvcd__v3_load(m), nsvcd__v_set(a.x));
+  return nsvcd__v3_fma(nsvcd__v_set(a.z), nsvcd__v3_load(m + 6),
+                       nsvcd__v3_fma(nsvcd__v_set(a.y), nsvcd__v3_load(m + 3), sum));
+}
+
+// Segments of a block in which discs part a moving group from a resting one. The planes are those of single discs,
+// nsvcd__apart_by_fixed_disc and nsvcd__apart_by_moving_disc, with all in lanes but the discs.
+static uint32_t nsvcd__groups_apart(nsvcd__segments *block, const nsvcd__chords *c, const nsvcd__disc *moving,
+                                    const nsvcd__disc *fixed, nsvcd__f3 fixed_centre, float reach, nsvcd__v3 *planes,
+                                    uint32_t *below) {
+  const nsvcd__v_span spans = nsvcd__v_span_load(block);
+  const nsvcd__v3 n = nsvcd__v3_set(fixed->normal);
+  const nsvcd__v3 m = nsvcd__v3_set(moving->normal);
+  const nsvcd__v3 from = nsvcd__v3_sub(nsvcd__v3_of(nsvcd__v_load(c->x), nsvcd__v_load(c->y), nsvcd__v_load(c->z)),
+                                       nsvcd__v3_set(fixed_centre));
+  const nsvcd__v3 chord = nsvcd__v3_of(nsvcd__v_load(c->vx), nsvcd__v_load(c->vy), nsvcd__v_load(c->vz));
+
+  const nsvcd__v3 at_start = nsvcd__v3_turned_back(block->rotation, fixed->normal);
+  const nsvcd__v3 at_end = nsvcd__v3_add(at_start, nsvcd__v3_turned_back(block->turned, fixed->normal));
+  const nsvcd__reach_along start = nsvcd__one_disc_along(moving, nsvcd__v3_dot(at_start, m),
+                                                         nsvcd__v3_length(nsvcd__v3_cross(at_start, m)));
+  const nsvcd__reach_along end =
+      nsvcd__one_disc_along(moving, nsvcd__v3_dot(at_end, m), nsvcd__v3_length(nsvcd__v3_cross(at_end, m)));
+  const nsvcd__v height = nsvcd__v3_dot(n, from);
+  const nsvcd__v height_end = nsvcd__v_add(height, nsvcd__v3_dot(n, chord));
+  const nsvcd__v lowest = nsvcd__v_min(nsvcd__v_add(height, start.low), nsvcd__v_add(height_end, end.low));
+  const nsvcd__v highest = nsvcd__v_max(nsvcd__v_add(height, start.high), nsvcd__v_add(height_end, end.high));
+  const nsvcd__v deviation = nsvcd__v_add(spans.rounding, nsvcd__v_deviation(&spans, n, reach));
+  below[0] = ~nsvcd__v_le(nsvcd__v_sub(nsvcd__v_set(fixed->low), deviation), highest) & 0xffff;
+  const uint32_t by_fixed = (~nsvcd__v_le(lowest, nsvcd__v_add(nsvcd__v_set(fixed->high), deviation)) & 0xffff) | below[0];
+
+  const nsvcd__v half = nsvcd__v_set(0.5f);
+  const nsvcd__v3 turned = nsvcd__v3_scale(nsvcd__v3_turned(block->turned, moving->normal), half);
+  const nsvcd__v3 w = nsvcd__v3_add(nsvcd__v3_turned(block->rotation, moving->normal), turned);
+  const nsvcd__reach_along own = nsvcd__one_disc_along(moving, nsvcd__v3_dot(w, w), nsvcd__v3_length(turned));
+  const nsvcd__reach_along other =
+      nsvcd__one_disc_along(fixed, nsvcd__v3_dot(w, n), nsvcd__v3_length(nsvcd__v3_cross(w, n)));
+  const nsvcd__v along = nsvcd__v3_dot(w, from);
+  const nsvcd__v along_end = nsvcd__v_add(along, nsvcd__v3_dot(w, chord));
+  const nsvcd__v stray = nsvcd__v_add(spans.rounding, nsvcd__v_deviation(&spans, w, reach));
+  const nsvcd__v low = nsvcd__v_add(nsvcd__v_min(along, along_end), own.low);
+  const nsvcd__v high = nsvcd__v_add(nsvcd__v_max(along, along_end), own.high);
+  below[1] = ~nsvcd__v_le(nsvcd__v_sub(other.low, stray), high) & 0xffff;
+  planes[0] = n;
+  planes[1] = w;
+  const uint32_t by_moving = (~nsvcd__v_le(low, nsvcd__v_add(other.high, stray)) & 0xffff) | below[1];
+  below[2] = by_fixed;
+  return by_fixed | by_moving;
+}
+
+#ifdef NSVCD__CERTIFIES
+// All pairs of members of two groups, in the segments `apart` of a block.
+static void nsvcd__certify_groups(const nsvcd__proof *p, const nsvcd__workspace *work, size_t block, size_t g, size_t h,
+                                  uint32_t apart, const nsvcd__v3 *planes, const uint32_t *below) {
+  float lanes[2][3][NSVCD__LANES];
+  for (size_t k = 0; k < 2; k++) nsvcd__v3_store(lanes[k], planes[k]);
+  for (size_t l = 0; l < NSVCD__LANES; l++) {
+    if (!(apart >> l & 1)) continue;
+    const size_t which = below[2] >> l & 1 ? 0 : 1;
+    const float sign = below[which] >> l & 1 ? -1.0f : 1.0f;
+    const float normal[3] = {sign * lanes[which][0][l], sign * lanes[which][1][l], sign * lanes[which][2][l]};
+    const nsvcd__span span = nsvcd__span_of_segment(p->motion, work, NSVCD__LANES * block + l);
+    for (size_t k = 0; k < NSVCD__GROUP * NSVCD__GROUP; k++) {
+      const size_t i = NSVCD__GROUP * g + k / NSVCD__GROUP, j = NSVCD__GROUP * h + k % NSVCD__GROUP;
+      if (i >= p->moving.body->points || j >= p->fixed.body->points) continue;
+      NSVCD__CERTIFY(NSVCD__BY_DISC, i, j, NSVCD_NONE, NSVCD_NONE, span.t_start, span.t_end, normal);
+    }
+  }
+}
+#define NSVCD__CERTIFY_GROUPS(p, work, block, g, h, apart, planes, below) \
+  nsvcd__certify_groups(p, work, block, g, h, apart, planes, below)
+#else
+#define NSVCD__CERTIFY_GROUPS(p, work, block, g, h, apart, planes, below) ((void)0)
+#endif
+
+// Clears the segments in which discs part moving group g from the resting ones that it meets, its chords being those in
+// the workspace.
+static void nsvcd__part_groups(const nsvcd__proof *p, nsvcd__workspace *work, size_t g) {
+  const nsvcd_body *moving = p->moving.body, *fixed = p->fixed.body;
+  const nsvcd__disc own =
+      nsvcd__disc_at(p->moving.group_discs, nsvcd__group_slots(moving->padded), g);
+  const float centre[3] = {nsvcd__body_group(moving, 0)[g], nsvcd__body_group(moving, 1)[g],
+                           nsvcd__body_group(moving, 2)[g]};
+  const float reach = 1.000002f * (nsvcd__length3(centre) + nsvcd__body_group(moving, 3)[g]);
+  for (uint32_t waiting = work->waiting; waiting; waiting &= waiting - 1) {
+    const size_t h = nsvcd__lowest_bit(waiting);
+    const nsvcd__disc disc = nsvcd__disc_at(p->fixed.group_discs, nsvcd__group_slots(fixed->padded), h);
+    const nsvcd__f3 fixed_centre = nsvcd__f3_of(nsvcd__body_group(fixed, 0)[h], nsvcd__body_group(fixed, 1)[h],
+                                                nsvcd__body_group(fixed, 2)[h]);
+    uint64_t *met = &work->nearby[g][h];
+    for (size_t b = 0; b < NSVCD__BLOCKS && *met >> (NSVCD__LANES * b); b++) {
+      const uint32_t there = (uint32_t)(*met >> (NSVCD__LANES * b)) & 0xffff;
+      nsvcd__v3 planes[2];
+      uint32_t below[3];
+      if (!there) continue;
+      NSVCD__TALLY(tests, 1);
+      const uint32_t apart = there & nsvcd__groups_apart(&work->blocks[b], &work->group[b], &own, &disc, fixed_centre,
+                                                         reach, planes, below);
+      NSVCD__CERTIFY_GROUPS(p, work, b, g, h, apart, planes, below);
+      *met &= ~((uint64_t)apart << (NSVCD__LANES * b));
+    }
+    if (!*met) work->waiting &= ~((uint32_t)1 << h);
+  }
 }
 
 // ---- hulls
@@ -6323,27 +6543,38 @@ static nsvcd__verdict nsvcd__collect_items(nsvcd__proof *p, const nsvcd__workspa
   return NSVCD__FREE;
 }
 
-static nsvcd__verdict nsvcd__prove(nsvcd__proof *p, nsvcd__workspace *work) {
+// Settles moving group g, the next in order, against all that it meets.
+static nsvcd__verdict nsvcd__prove_group(nsvcd__proof *p, nsvcd__workspace *work) {
   const nsvcd_body *moving = p->moving.body, *fixed = p->fixed.body;
-  if (nsvcd__motion_is_far(p->motion, p->lengths)) return NSVCD__FREE;
-  if (nsvcd__starts_within(p)) return NSVCD__WITHIN;
-  nsvcd__cut_motion(p->motion, p->lengths, work);
-  int more = nsvcd__search_begin(moving, fixed, work);
-  while (more) {
-    nsvcd__step step;
-    more = nsvcd__search_next(work, moving, fixed, &step);
-    for (; step.met; step.met &= step.met - 1) {
-      const size_t l = nsvcd__lowest_bit(step.met);
-      nsvcd__pose_members(work, moving, step.moving_group, step.segments[l]);
-      const nsvcd__verdict verdict =
-          nsvcd__collect_items(p, work, step.moving_group, NSVCD__GROUP * step.fixed_group + l, step.segments[l]);
+  const size_t g = work->order[work->step];
+  nsvcd__search_group(work, moving, fixed);
+  nsvcd__part_groups(p, work, g);
+  for (; work->waiting; work->waiting &= work->waiting - 1) {
+    const size_t h = nsvcd__lowest_bit(work->waiting);
+    uint64_t segments[NSVCD__GROUP];
+    uint32_t met = nsvcd__group_against_members(work, fixed, h, work->nearby[g][h], segments);
+    for (; met; met &= met - 1) {
+      const size_t l = nsvcd__lowest_bit(met);
+      nsvcd__pose_members(work, moving, g, segments[l]);
+      const nsvcd__verdict verdict = nsvcd__collect_items(p, work, g, NSVCD__GROUP * h + l, segments[l]);
       if (verdict != NSVCD__FREE) return verdict;
     }
-    if (p->fresh_count < NSVCD__NEWS && more) continue;
+    if (p->fresh_count < NSVCD__NEWS) continue;
     const nsvcd__verdict verdict = nsvcd__sift_items(p, work);
     if (verdict != NSVCD__FREE) return verdict;
   }
-  const nsvcd__verdict verdict = nsvcd__settle_items(p, work);
+  return NSVCD__FREE;
+}
+
+static nsvcd__verdict nsvcd__prove(nsvcd__proof *p, nsvcd__workspace *work) {
+  nsvcd__verdict verdict = NSVCD__FREE;
+  if (nsvcd__motion_is_far(p->motion, p->lengths)) return NSVCD__FREE;
+  if (nsvcd__starts_within(p)) return NSVCD__WITHIN;
+  nsvcd__cut_motion(p->motion, p->lengths, work);
+  nsvcd__search_begin(p->moving.body, p->fixed.body, work);
+  for (; work->step < work->steps && verdict == NSVCD__FREE; work->step++) verdict = nsvcd__prove_group(p, work);
+  if (verdict == NSVCD__FREE) verdict = nsvcd__sift_items(p, work);
+  if (verdict == NSVCD__FREE) verdict = nsvcd__settle_items(p, work);
   if (verdict != NSVCD__FREE) return verdict;
   return p->undecided ? NSVCD__UNDECIDED : p->within ? NSVCD__WITHIN : NSVCD__FREE;
 }
