@@ -486,7 +486,7 @@ NSVCDDEF nsvcd_result nsvcd_plan(const nsvcd_plan_problem *problem, const nsvcd_
 // Vectors are float[3], quaternions float[4] x y z w, rotation matrices float[9] row-major.
 
 static float nsvcd__dot3(const float *a, const float *b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
-static void nsvcd__sub3(const float *a, const float *b, float *out) {
+static inline void nsvcd__sub3(const float *a, const float *b, float *out) {
   out[0] = a[0] - b[0], out[1] = a[1] - b[1], out[2] = a[2] - b[2];
 }
 static float nsvcd__length3(const float *a) { return sqrtf(nsvcd__dot3(a, a)); }
@@ -504,7 +504,7 @@ static void nsvcd__quat_to_matrix(const float *q, float *m) {
   m[3] = 2 * (x * y + z * w), m[4] = 1 - 2 * (x * x + z * z), m[5] = 2 * (y * z - x * w);
   m[6] = 2 * (x * z - y * w), m[7] = 2 * (y * z + x * w), m[8] = 1 - 2 * (x * x + y * y);
 }
-static void nsvcd__mul33_vec(const float *m, const float *v, float *out) {  // out = m v, may not alias
+static inline void nsvcd__mul33_vec(const float *m, const float *v, float *out) {  // out = m v, may not alias
   out[0] = nsvcd__dot3(m, v), out[1] = nsvcd__dot3(m + 3, v), out[2] = nsvcd__dot3(m + 6, v);
 }
 
@@ -517,42 +517,42 @@ typedef struct nsvcd__d3 {
   double x, y, z;
 } nsvcd__d3;
 
-static nsvcd__f3 nsvcd__f3_of(float x, float y, float z) {
+static inline nsvcd__f3 nsvcd__f3_of(float x, float y, float z) {
   const nsvcd__f3 out = {x, y, z};
   return out;
 }
-static nsvcd__f3 nsvcd__f3_add(nsvcd__f3 a, nsvcd__f3 b) { return nsvcd__f3_of(a.x + b.x, a.y + b.y, a.z + b.z); }
-static nsvcd__f3 nsvcd__f3_sub(nsvcd__f3 a, nsvcd__f3 b) { return nsvcd__f3_of(a.x - b.x, a.y - b.y, a.z - b.z); }
-static nsvcd__f3 nsvcd__f3_scale(nsvcd__f3 a, float s) { return nsvcd__f3_of(s * a.x, s * a.y, s * a.z); }
-static float nsvcd__f3_dot(nsvcd__f3 a, nsvcd__f3 b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
-static nsvcd__f3 nsvcd__f3_cross(nsvcd__f3 a, nsvcd__f3 b) {
+static inline nsvcd__f3 nsvcd__f3_add(nsvcd__f3 a, nsvcd__f3 b) { return nsvcd__f3_of(a.x + b.x, a.y + b.y, a.z + b.z); }
+static inline nsvcd__f3 nsvcd__f3_sub(nsvcd__f3 a, nsvcd__f3 b) { return nsvcd__f3_of(a.x - b.x, a.y - b.y, a.z - b.z); }
+static inline nsvcd__f3 nsvcd__f3_scale(nsvcd__f3 a, float s) { return nsvcd__f3_of(s * a.x, s * a.y, s * a.z); }
+static inline float nsvcd__f3_dot(nsvcd__f3 a, nsvcd__f3 b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
+static inline nsvcd__f3 nsvcd__f3_cross(nsvcd__f3 a, nsvcd__f3 b) {
   return nsvcd__f3_of(a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x);
 }
-static float nsvcd__f3_length(nsvcd__f3 a) { return sqrtf(nsvcd__f3_dot(a, a)); }
+static inline float nsvcd__f3_length(nsvcd__f3 a) { return sqrtf(nsvcd__f3_dot(a, a)); }
 
-static nsvcd__d3 nsvcd__d3_of(double x, double y, double z) {
+static inline nsvcd__d3 nsvcd__d3_of(double x, double y, double z) {
   const nsvcd__d3 out = {x, y, z};
   return out;
 }
-static nsvcd__d3 nsvcd__d3_load(const float *p) { return nsvcd__d3_of((double)p[0], (double)p[1], (double)p[2]); }
-static nsvcd__d3 nsvcd__d3_add(nsvcd__d3 a, nsvcd__d3 b) { return nsvcd__d3_of(a.x + b.x, a.y + b.y, a.z + b.z); }
-static nsvcd__d3 nsvcd__d3_sub(nsvcd__d3 a, nsvcd__d3 b) { return nsvcd__d3_of(a.x - b.x, a.y - b.y, a.z - b.z); }
-static nsvcd__d3 nsvcd__d3_scale(nsvcd__d3 a, double s) { return nsvcd__d3_of(s * a.x, s * a.y, s * a.z); }
+static inline nsvcd__d3 nsvcd__d3_load(const float *p) { return nsvcd__d3_of((double)p[0], (double)p[1], (double)p[2]); }
+static inline nsvcd__d3 nsvcd__d3_add(nsvcd__d3 a, nsvcd__d3 b) { return nsvcd__d3_of(a.x + b.x, a.y + b.y, a.z + b.z); }
+static inline nsvcd__d3 nsvcd__d3_sub(nsvcd__d3 a, nsvcd__d3 b) { return nsvcd__d3_of(a.x - b.x, a.y - b.y, a.z - b.z); }
+static inline nsvcd__d3 nsvcd__d3_scale(nsvcd__d3 a, double s) { return nsvcd__d3_of(s * a.x, s * a.y, s * a.z); }
 // a + t (b - a).
-static nsvcd__d3 nsvcd__d3_mix(nsvcd__d3 a, nsvcd__d3 b, double t) {
+static inline nsvcd__d3 nsvcd__d3_mix(nsvcd__d3 a, nsvcd__d3 b, double t) {
   return nsvcd__d3_add(a, nsvcd__d3_scale(nsvcd__d3_sub(b, a), t));
 }
-static double nsvcd__d3_dot(nsvcd__d3 a, nsvcd__d3 b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
-static nsvcd__d3 nsvcd__d3_cross(nsvcd__d3 a, nsvcd__d3 b) {
+static inline double nsvcd__d3_dot(nsvcd__d3 a, nsvcd__d3 b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
+static inline nsvcd__d3 nsvcd__d3_cross(nsvcd__d3 a, nsvcd__d3 b) {
   return nsvcd__d3_of(a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x);
 }
-static double nsvcd__d3_length(nsvcd__d3 a) { return sqrt(nsvcd__d3_dot(a, a)); }
-static double nsvcd__d3_gap(nsvcd__d3 a, nsvcd__d3 b) {  // squared distance
+static inline double nsvcd__d3_length(nsvcd__d3 a) { return sqrt(nsvcd__d3_dot(a, a)); }
+static inline double nsvcd__d3_gap(nsvcd__d3 a, nsvcd__d3 b) {  // squared distance
   const nsvcd__d3 offset = nsvcd__d3_sub(a, b);
   return nsvcd__d3_dot(offset, offset);
 }
 // Of length 1; `otherwise` if a has none.
-static nsvcd__d3 nsvcd__d3_unit(nsvcd__d3 a, nsvcd__d3 otherwise) {
+static inline nsvcd__d3 nsvcd__d3_unit(nsvcd__d3 a, nsvcd__d3 otherwise) {
   const double length = nsvcd__d3_length(a);
   return length > 0 ? nsvcd__d3_scale(a, 1 / length) : otherwise;
 }
@@ -563,10 +563,10 @@ static float nsvcd__to_float(double x) {
   volatile float rounded = (float)x;
   return rounded;
 }
-static nsvcd__f3 nsvcd__f3_round(nsvcd__d3 a) {
+static inline nsvcd__f3 nsvcd__f3_round(nsvcd__d3 a) {
   return nsvcd__f3_of(nsvcd__to_float(a.x), nsvcd__to_float(a.y), nsvcd__to_float(a.z));
 }
-static nsvcd__d3 nsvcd__d3_widen(nsvcd__f3 a) {
+static inline nsvcd__d3 nsvcd__d3_widen(nsvcd__f3 a) {
   return nsvcd__d3_of((double)a.x, (double)a.y, (double)a.z);
 }
 
@@ -587,7 +587,9 @@ static nsvcd__d3 nsvcd__d3_widen(nsvcd__f3 a) {
 
 // Functions whose loops over constant arguments must be unrolled: left to its own measure, gcc may not inline them, and
 // the decoder takes four times as long (tests/PERFORMANCE.md).
-#if defined(__GNUC__) || defined(__clang__)
+#if defined(__OPTIMIZE_SIZE__)
+#define NSVCD__INLINE static inline
+#elif defined(__GNUC__) || defined(__clang__)
 #define NSVCD__INLINE static inline __attribute__((always_inline))
 #elif defined(_MSC_VER)
 #define NSVCD__INLINE static __forceinline
@@ -853,7 +855,7 @@ typedef struct nsvcd__transform {
   nsvcd__f3 position;
 } nsvcd__transform;
 
-static nsvcd__f3 nsvcd__f3_transform(const nsvcd__transform *t, nsvcd__f3 a) {
+static inline nsvcd__f3 nsvcd__f3_transform(const nsvcd__transform *t, nsvcd__f3 a) {
   const float *m = t->rotation;
   const nsvcd__f3 turned = nsvcd__f3_of(m[0] * a.x + m[1] * a.y + m[2] * a.z, m[3] * a.x + m[4] * a.y + m[5] * a.z,
                                         m[6] * a.x + m[7] * a.y + m[8] * a.z);
@@ -4198,7 +4200,7 @@ static void nsvcd__transpose33(const float *m, float *out) {  // may not alias
   }
 }
 
-static void nsvcd__mul33(const float *a, const float *b, float *out) {  // out = a b, may not alias
+static inline void nsvcd__mul33(const float *a, const float *b, float *out) {  // out = a b, may not alias
   for (size_t i = 0; i < 3; i++) {
     for (size_t j = 0; j < 3; j++) out[3 * i + j] = a[3 * i] * b[j] + a[3 * i + 1] * b[3 + j] + a[3 * i + 2] * b[6 + j];
   }
@@ -4275,6 +4277,7 @@ static int nsvcd__motion_is_far(const nsvcd__motion *motion, float distance) {
   return square > 1.00001f * distance * distance;
 }
 
+#ifndef NSVCD_NO_NETWORK
 // Pose a fraction u in [0,1] after sample k: rotation matrix and position from the fixed body's origin, in world axes.
 static void nsvcd__motion_between(const nsvcd__motion *motion, size_t k, float u, float *rotation, float *position) {
   const nsvcd_pose *a = &motion->poses[k];
@@ -4295,6 +4298,21 @@ static void nsvcd__motion_to_fixed(const nsvcd__motion *motion, const float *rot
   nsvcd__mul33(motion->to_fixed, rotation, fixed_rotation);
   nsvcd__mul33_vec(motion->to_fixed, position, fixed_position);
 }
+
+// Pose of the moving body in the fixed body's frame at time t, clamped to [0,1]: x_fixed = rotation x + position.
+static void nsvcd__motion_pose(const nsvcd__motion *motion, float t, float *rotation, float *position) {
+  size_t k = 0;
+  float u = 0, r[9], p[3];
+  if (motion->count > 1) {
+    size_t last = motion->count - 2;
+    u = (t < 0 ? 0 : t > 1 ? 1 : t) * (float)(last + 1);
+    k = (size_t)u < last ? (size_t)u : last;
+    u -= (float)k;
+  }
+  nsvcd__motion_between(motion, k, u, r, p);
+  nsvcd__motion_to_fixed(motion, r, p, rotation, position);
+}
+#endif
 
 // Rotation matrices of quaternions of any length but 0, lane by lane.
 static void nsvcd__v_matrix(const nsvcd__v *q, nsvcd__v *m) {
@@ -4333,20 +4351,6 @@ static void nsvcd__v_to_fixed(const nsvcd__motion *motion, const nsvcd__v *q, co
   for (size_t k = 0; k < 9; k++) m[k] = nsvcd__v_set(motion->to_fixed[k]);
   nsvcd__v_quat_mul(turn, q, fixed_q);
   nsvcd__v_mul33_vec(m, p, fixed_p);
-}
-
-// Pose of the moving body in the fixed body's frame at time t, clamped to [0,1]: x_fixed = rotation x + position.
-static void nsvcd__motion_pose(const nsvcd__motion *motion, float t, float *rotation, float *position) {
-  size_t k = 0;
-  float u = 0, r[9], p[3];
-  if (motion->count > 1) {
-    size_t last = motion->count - 2;
-    u = (t < 0 ? 0 : t > 1 ? 1 : t) * (float)(last + 1);
-    k = (size_t)u < last ? (size_t)u : last;
-    u -= (float)k;
-  }
-  nsvcd__motion_between(motion, k, u, r, p);
-  nsvcd__motion_to_fixed(motion, r, p, rotation, position);
 }
 
 // ------------------------------------------------------------------------------------------------ broad phase
@@ -5476,7 +5480,7 @@ NSVCD__INLINE nsvcd__reach_along nsvcd__disc_along(nsvcd__v low, nsvcd__v high, 
 }
 
 // A matrix's columns, as values: the matrix back, times a.
-static nsvcd__f3 nsvcd__f3_rotate_back(const float *m, nsvcd__f3 a) {
+static inline nsvcd__f3 nsvcd__f3_rotate_back(const float *m, nsvcd__f3 a) {
   return nsvcd__f3_of(m[0] * a.x + m[3] * a.y + m[6] * a.z, m[1] * a.x + m[4] * a.y + m[7] * a.z,
                       m[2] * a.x + m[5] * a.y + m[8] * a.z);
 }

@@ -62,9 +62,16 @@ if test "$(uname -m)" = x86_64; then
   compile "${CXX:-c++}" cc c++11 "-mavx512f -O0"
 fi
 compile "${CC:-cc}" c c99 "-DNSVCD_STATIC -Wno-unused-function -O0"
-for without in ENCODER OBJ SMALL BASE INT8 FLOAT GRADIENT OPTIMIZER "GRADIENT OPTIMIZER" "SMALL BASE" "ENCODER SMALL BASE FLOAT STDIO"; do
+for without in PROOF NETWORK "NETWORK ENCODER" "PROOF ENCODER" ENCODER OBJ SMALL BASE INT8 FLOAT GRADIENT OPTIMIZER "GRADIENT OPTIMIZER" "SMALL BASE" "ENCODER SMALL BASE FLOAT STDIO"; do
   compile "${CC:-cc}" c c99 "$(printf ' -DNSVCD_NO_%s' $without) -O0"
 done
+
+# The proof alone needs no weights.h.
+mkdir "$dir/alone"
+cp "$here/neuralsvcd.h" "$dir/alone/"
+printf '#define NEURALSVCD_IMPLEMENTATION\n#define NSVCD_NO_NETWORK\n#include "neuralsvcd.h"\n' >"$dir/alone/proof.c"
+"${CC:-cc}" -std=c99 $strict -O0 -c "$dir/alone/proof.c" -o "$dir/alone/proof.o" || fail "NSVCD_NO_NETWORK without weights.h"
+echo "header: NSVCD_NO_NETWORK without weights.h"
 
 # -fno-pic: else tables of constant pointers count as data, for the loader relocates them.
 for object in "$dir"/kept_*.o; do
