@@ -370,7 +370,8 @@ typedef struct nsvcd_body_pair {
 } nsvcd_body_pair;
 
 typedef enum nsvcd_plan_status {
-  NSVCD_PLAN_CONVERGED = 0,  // the trajectory is within the limits and free of collision, as far as the network knows
+  NSVCD_PLAN_CONVERGED = 0,  // the trajectory is within the limits and free of collision: certified where bodies have
+                             // triangles, else as far as the network knows
   NSVCD_PLAN_LIMIT,          // the iterations ended before one was found; this is the best
   NSVCD_PLAN_CANCELLED,      // by the progress callback; this is the best so far
   NSVCD_PLAN_START,          // the start is out of the limits or in collision: control is the smoothest way to the goal
@@ -436,7 +437,8 @@ typedef struct nsvcd_plan_options {
   float bundle;                        // of L-BFGS's gradients: 0.01
   int discrete;                        // poses instead of sweeps
   size_t check;                        // segments of the last check; 4 times the finest stage
-  nsvcd_sweep_options sweep;           // of all queries; recall = 0.999f keeps more distance
+  nsvcd_sweep_options sweep;           // of all queries; recall = 0.999f keeps more distance. The search asks the
+                                       // network; `method` is that of start, goal and the last check
 } nsvcd_plan_options;
 
 typedef struct nsvcd_plan_answer {
@@ -456,8 +458,11 @@ typedef struct nsvcd_plan_answer {
 // Finds a smooth trajectory from start to goal on which no pair meets. control: (M + 2, F) with the M of options.refine
 // (of explore, if that is left out), always written; NSVCD_MAX_VIA_POINTS + 2 rows are always enough. options: NULL for
 // the defaults. workspace: nsvcd_plan_workspace_size(problem, options) bytes, aligned to NSVCD_ALIGNMENT; 0 if problem
-// or options are refused. Allocates nothing; deterministic; ends within seeds * (iterations of both stages) iterations,
-// of `samples` trajectories each, and for L-BFGS 5 more. Errors: ARGUMENT (sizes, options, NULL), NUMBER (limits, start
+// or options are refused. Start, goal and the trajectory at the end are proven free, where bodies have triangles: for the
+// motion of each pair as seen from b between the poses of the check's segments, position linear and rotation slerp. Where
+// the proof finds a hit, the refinement goes on from there with twice the margin, three times at most. Allocates nothing;
+// deterministic; ends within seeds * (iterations of MPPI + 4 times those of L-BFGS) iterations, of `samples` trajectories
+// each, and for L-BFGS 5 more. Errors: ARGUMENT (sizes, options, NULL), NUMBER (limits, start
 // or goal not finite or beyond NSVCD_MAX_COORDINATE; a cost beyond the range of float), POSE (from `place`), WORKSPACE;
 // then control and answer are not written. Source: MPPI (Williams et al. 2017), then L-BFGS with bundled gradients (Suh
 // et al. 2022); NeuralSVCD, appendix D.
@@ -8226,6 +8231,7 @@ static void nsvcd__solve_upper(const double *l, size_t n, double *x) {  // x = L
 #define NSVCD__RUN 8                // segments asked about at once, at first
 #define NSVCD__HISTORY 8            // L-BFGS: steps remembered
 #define NSVCD__STEPS 5              // step lengths tried
+#define NSVCD__PUSHES 3             // refinements more, where the proof finds a hit
 
 // What culling knows of a body at each sample: TRACK arrays of (samples).
 enum { NSVCD__CENTRE = 0, NSVCD__ORIGIN = 3, NSVCD__AXES = 6, NSVCD__BEND = 15, NSVCD__TRACK = 16 };
@@ -8493,7 +8499,7 @@ static void nsvcd__meet_box(nsvcd__planner *p, size_t a, size_t b, int resting, 
     for (size_t k = 0; k < 3; k++) way += fabsf(x[k * samples + s + stride] - x[k * samples + s]);
     const float reaches = x[3 * samples + s] + x[3 * samples + s + stride];
     const float leaves = resting ? (3.75f * bend * reaches + 0.8f * way) * bend : arm * bend * bend;
-    const float reach = radius + (float)stride * leaves;
+    const float reach = radius + (float)stride * leaves + NSVCD__ROUNDING * reaches;
     int apart = 0;
     for (size_t k = 0; k < 3; k++) {
       const float u = x[k * samples + s], v = x[k * samples + s + stride];
@@ -8536,11 +8542,13 @@ static void nsvcd__add_wrench(const nsvcd_body_pair *pair, const nsvcd_pose *pos
 typedef struct nsvcd__worst {
   float logit, time;
   size_t pair;
+  int proven;  // a proof has found it
 } nsvcd__worst;
 
-// What the network says of pair k from sample `first` on, over `segments` of them. gradient: (segments + 1, 6), or
-// NULL.
-static nsvcd_answer nsvcd__ask(nsvcd__planner *p, uint32_t k, size_t first, size_t segments, float *gradient) {
+// What is to be said of pair k from sample `first` on, over `segments` of them: by the network, or, at the end, by the
+// method of the options. gradient: (segments + 1, 6), or NULL.
+static nsvcd_answer nsvcd__ask(nsvcd__planner *p, uint32_t k, size_t first, size_t segments, int at_end,
+                               float *gradient) {
   const nsvcd_body_pair *pair = &p->problem->pairs[k];
   const nsvcd_body *a = p->problem->bodies[pair->a], *b = p->problem->bodies[pair->b];
   const nsvcd_pose origin = {{0, 0, 0}, {0, 0, 0, 1}};
@@ -8550,9 +8558,11 @@ static nsvcd_answer nsvcd__ask(nsvcd__planner *p, uint32_t k, size_t first, size
     const nsvcd_pose *row = p->poses + (first + n) * p->problem->body_count;
     nsvcd__relative_pose(&row[pair->a], &row[pair->b], &motion[n]);
   }
-  const nsvcd_result error = gradient ? nsvcd_sweep_gradient(a, motion, segments + 1, b, &origin, &p->options.sweep,
-                                                             p->query, sizeof *p->query, &answer, gradient)
-                                      : nsvcd_sweep(a, motion, segments + 1, b, &origin, &p->options.sweep, p->query,
+  nsvcd_sweep_options options = p->options.sweep;
+  if (!at_end) options.method = NSVCD_METHOD_NETWORK;
+  const nsvcd_result error = gradient ? nsvcd_sweep_gradient(a, motion, segments + 1, b, &origin, &options, p->query,
+                                                             sizeof *p->query, &answer, gradient)
+                                      : nsvcd_sweep(a, motion, segments + 1, b, &origin, &options, p->query,
                                                     sizeof *p->query, &answer);
   if (error) p->error = error;
   p->sweeps++;
@@ -8578,14 +8588,15 @@ static float nsvcd__network_cost(nsvcd__planner *p, size_t samples, float limit,
         size_t run = 1;
         while (run < NSVCD__RUN && s + run + 1 < samples && p->meets[s + run]) run++;
         checked = s + run;
-        if (run > 1 && nsvcd__ask(p, k, s, run, NULL).logit <= -p->options.margin) {
+        if (run > 1 && nsvcd__ask(p, k, s, run, 0, NULL).logit <= -p->options.margin) {
           s += run - 1;
           continue;
         }
       }
-      const nsvcd_answer answer = nsvcd__ask(p, k, s, stride, wrenches ? gradient : NULL);
+      const nsvcd_answer answer = nsvcd__ask(p, k, s, stride, worst != NULL, wrenches ? gradient : NULL);
       if (worst && answer.logit > worst->logit) {
         worst->logit = answer.logit, worst->pair = k;
+        worst->proven = answer.collides && answer.status >= NSVCD_STATUS_WITNESS;
         worst->time = samples > 1 ? ((float)s + (float)stride * answer.time) / (float)(samples - 1) : 0;
       }
       *collides |= answer.collides;
@@ -8976,7 +8987,7 @@ static void nsvcd__resample(nsvcd__planner *p, size_t from, size_t to) {
 // Are the joints within the limits, and free of collision? Fills in the answer's facts if not.
 static int nsvcd__is_good(nsvcd__planner *p, const float *joints, nsvcd_plan_answer *answer) {
   const nsvcd_plan_problem *problem = p->problem;
-  nsvcd__worst worst = {-NSVCD_LOGIT_CERTAIN, 0, NSVCD_NONE};
+  nsvcd__worst worst = {-NSVCD_LOGIT_CERTAIN, 0, NSVCD_NONE, 0};
   for (size_t j = 0; j < problem->joints; j++) {
     if (joints[j] < problem->low[j] || joints[j] > problem->high[j]) answer->joint = j;
   }
@@ -9044,7 +9055,8 @@ NSVCDDEF nsvcd_result nsvcd_plan(const nsvcd_plan_problem *problem, const nsvcd_
   }
   nsvcd__smoothest(p, &p->refine, p->best);
   for (int more = found.status == NSVCD_PLAN_CONVERGED; more && !p->error;) {
-    nsvcd__worst worst = {-NSVCD_LOGIT_CERTAIN, 0, NSVCD_NONE};
+    const nsvcd__worst nowhere = {-NSVCD_LOGIT_CERTAIN, 0, NSVCD_NONE, 0};
+    nsvcd__worst worst = nowhere;
     nsvcd__smoothest(p, &p->explore, p->control);
     if (found.seeds > 0) {  // another start
       float deviations[NSVCD_MAX_JOINTS];
@@ -9055,9 +9067,18 @@ NSVCDDEF nsvcd_result nsvcd_plan(const nsvcd_plan_problem *problem, const nsvcd_
     }
     nsvcd__explore(p, found.seeds, &found, &cancelled);
     nsvcd__resample(p, p->explore.via, p->refine.via);
-    nsvcd__refine(p, found.seeds, &found, &cancelled);
-    const nsvcd__cost cost = nsvcd__cost_of(p, &p->check, p->best, INFINITY, NULL, &worst);
-    const int good = nsvcd__is_free(&cost);
+    const float margin = p->options.margin;
+    nsvcd__cost cost;
+    int good = 0;
+    for (size_t push = 0; push <= NSVCD__PUSHES && (push == 0 || worst.proven); push++) {
+      worst = nowhere;
+      nsvcd__refine(p, found.seeds, &found, &cancelled);
+      cost = nsvcd__cost_of(p, &p->check, p->best, INFINITY, NULL, &worst);
+      good = nsvcd__is_free(&cost);
+      if (good || cancelled || p->error) break;
+      p->options.margin = 2 * p->options.margin + 0.5f;
+    }
+    p->options.margin = margin;
     if (found.seeds == 0 || good || cost.total < found.cost) {
       memcpy(p->result, p->best, point);
       found.cost = cost.total, found.smoothness = cost.smoothness;

@@ -67,8 +67,7 @@ int main(int argc, char **argv) {
   // Once: every body is encoded as it is, the dishes by themselves. A dish that is grasped, carried and let go is the
   // same body all along: planner_place moves it with the hand, or not, and nothing is encoded again.
   double begin = planner_seconds();
-  void *memory = planner_encode(&scene, bodies);
-  if (!memory) return 1;
+  if (!planner_encode(&scene, bodies)) return 1;
   printf("%s, seed %llu: %d bodies encoded in %.2f s\n", scene.name, (unsigned long long)seed, scene.body_count,
          planner_seconds() - begin);
 
@@ -87,6 +86,6 @@ int main(int argc, char **argv) {
   }
   printf("%d of %d motions are free by the oracle and reach their goal; see %s\n", good, scene.problem_count, picture);
   int all = draw_close(svg) && good == scene.problem_count;
-  free(memory), task_free(&scene);
+  planner_free(&scene, bodies), task_free(&scene);
   return !all;
 }

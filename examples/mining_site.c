@@ -53,8 +53,7 @@ int main(int argc, char **argv) {
                         PLANNER_LEGEND ". Strong: the base; pale: the pickaxe");
   if (!svg) return 1;
   double begin = planner_seconds();
-  void *memory = planner_encode(&scene, bodies);
-  if (!memory) return 1;
+  if (!planner_encode(&scene, bodies)) return 1;
   printf("%s, seed %llu: %d bodies encoded in %.2f s, %d pairs that can meet\n", scene.name, (unsigned long long)seed,
          scene.body_count, planner_seconds() - begin, scene.pair_count);
 
@@ -70,6 +69,6 @@ int main(int argc, char **argv) {
   draw_motion(svg, &scene, &motion);
   if (!draw_close(svg)) return 1;
   printf("see %s\n", picture);
-  free(memory), task_free(&scene);
+  planner_free(&scene, bodies), task_free(&scene);
   return !motion.good;
 }

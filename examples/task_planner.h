@@ -40,19 +40,22 @@ PLANNER_DEF double planner_seconds(void) {
 
 // ------------------------------------------------------------------------------------------------------------ encode
 
-// Encodes all bodies into one block of memory, which it returns: free it. NULL, with a message, if that fails.
-PLANNER_DEF void *planner_encode(const task_scene *scene, const nsvcd_body **bodies) {
+// Encodes all bodies; planner_free gives them back. 0, with a message, if that fails.
+PLANNER_DEF void planner_free(const task_scene *scene, const nsvcd_body **bodies) {
+  for (int i = 0; i < scene->body_count; i++) nsvcd_body_free(bodies[i], NULL);
+}
+PLANNER_DEF int planner_encode(const task_scene *scene, const nsvcd_body **bodies) {
   nsvcd_encode_options options;
+  nsvcd_result result = NSVCD_OK;
   memset(&options, 0, sizeof options);
   options.points = PLANNER_POINTS;
-  size_t size = (nsvcd_body_size(options.points) + NSVCD_ALIGNMENT - 1) / NSVCD_ALIGNMENT * NSVCD_ALIGNMENT;
-  char *memory = (char *)malloc((size_t)scene->body_count * size);
-  nsvcd_result result = memory ? NSVCD_OK : NSVCD_ERROR_MEMORY;
+  for (int i = 0; i < scene->body_count; i++) bodies[i] = NULL;
   for (int i = 0; i < scene->body_count && !result; i++)
-    result = nsvcd_encode(&scene->bodies[i].mesh, &options, NULL, memory + (size_t)i * size, size, &bodies[i]);
-  if (!result) return memory;
+    result = nsvcd_encode(&scene->bodies[i].mesh, &options, NULL, NULL, 0, &bodies[i]);
+  if (!result) return 1;
   fprintf(stderr, "encode: %s\n", nsvcd_result_string(result));
-  return free(memory), (void *)NULL;
+  planner_free(scene, bodies);
+  return 0;
 }
 
 // -------------------------------------------------------------------------------------------------------------- plan

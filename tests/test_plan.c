@@ -509,7 +509,7 @@ static uint64_t plan_decisive(nsvcd__planner *p, const nsvcd__stage *stage, cons
   nsvcd__cost_of(p, stage, control, INFINITY, NULL, NULL);  // p->poses
   for (uint32_t k = 0; k < p->problem->pair_count; k++) {
     for (size_t s = 0; s + 1 < stage->samples; s++) {
-      const nsvcd_answer answer = nsvcd__ask(p, k, s, 1, NULL);
+      const nsvcd_answer answer = nsvcd__ask(p, k, s, 1, 0, NULL);
       if (answer.logit <= -p->options.margin) continue;
       hash = (hash ^ (k * 4096 + s)) * 1099511628211u;
       hash = (hash ^ (answer.moving_patch * 512 + answer.fixed_patch)) * 1099511628211u;
@@ -747,7 +747,7 @@ static void plan_culling_misses_nothing(void) {
       for (size_t stride = 0; stride < 2; stride++) {
         nsvcd__find_meetings(p, &s.problem.pairs[k], samples, stride);
         for (size_t i = 0; i + stride < samples; i++) {
-          const nsvcd_answer answer = nsvcd__ask(p, k, i, stride, NULL);
+          const nsvcd_answer answer = nsvcd__ask(p, k, i, stride, 0, NULL);
           const int certain = answer.status == NSVCD_STATUS_CERTIFIED_FREE;
           segments++, uncertain += !certain, culled += !p->meets[i];
           missed += !certain && !p->meets[i], missed_by_network += answer.logit > -2 && !p->meets[i];
@@ -795,11 +795,11 @@ static void plan_cost_is_the_sum_over_segments(void) {
       for (size_t i = 0; i + 1 < stage->samples;) {  // which runs are clear
         size_t length = 0;
         while (length < 8 && i + length + 1 < stage->samples && meets[i + length]) length++;
-        if (length > 1 && nsvcd__ask(p, k, i, length, NULL).logit <= -p->options.margin) memset(runs + i, 1, length);
+        if (length > 1 && nsvcd__ask(p, k, i, length, 0, NULL).logit <= -p->options.margin) memset(runs + i, 1, length);
         i += length ? length : 1;
       }
       for (size_t i = 0; i + 1 < stage->samples; i++) {
-        const nsvcd_answer answer = nsvcd__ask(p, k, i, 1, NULL);
+        const nsvcd_answer answer = nsvcd__ask(p, k, i, 1, 0, NULL);
         const double share = (double)nsvcd__cost_of_logit(answer.logit, p->options.margin, &slope);
         sum += share, collides_at_all |= answer.collides, costly += share > 0;
         if (!meets[i]) CHECK_EQ(share, 0);
