@@ -130,15 +130,15 @@ PLANNER_DEF void planner_report(const task_scene *scene, const planner_motion *m
   const nsvcd_plan_answer *answer = &motion->answer;
   const task_verdict *v = &motion->verdict;
   const task_body *bodies = scene->bodies;
-  const int *pair = scene->pairs[answer->pair];  // the problem's pairs are in the same order
   // What was cancelled may be free all the same; what ran into its limit of iterations is not.
   int claims = answer->status == NSVCD_PLAN_CONVERGED || (answer->status == NSVCD_PLAN_CANCELLED && answer->logit < 0);
-  printf("%s: %s in %.2f s (%zu trajectories, %zu sweeps), moves %.2f m\n  the network: %s",
+  printf("%s: %s in %.2f s (%zu trajectories, %zu sweeps), moves %.2f m\n  the proof:   %s",
          bodies[scene->held[scene->selected]].name, nsvcd_plan_status_string(answer->status), motion->seconds,
          answer->trajectories, answer->sweeps, motion->metres[PLANNER_SAMPLES - 1], claims ? "free" : "not free");
-  if (answer->seeds)  // else start or goal were refused, and nothing was planned
-    printf(", logit at most %.1f (%s and %s at t = %.2f)", (double)answer->logit, bodies[pair[1]].name,
-           bodies[pair[0]].name, (double)answer->time);
+  if (answer->seeds && answer->pair != NSVCD_NONE) {  // else nothing was planned, or nothing met
+    const int *pair = scene->pairs[answer->pair];     // the problem's pairs are in the same order
+    printf(" (%s and %s at t = %.2f)", bodies[pair[1]].name, bodies[pair[0]].name, (double)answer->time);
+  }
   printf("\n  the oracle:  ");
   if (motion->good)
     printf("free, within the limits, at the goal");
