@@ -1,0 +1,647 @@
+// The proof, attacked: every certificate replayed in double at other times and points than it was made from, poses at
+// which triangles cross, witnesses, containment, limits, forged bodies, and scenes that are hard to get right.
+// TEST_ALONE: with a main of its own. PROOF_MANY=10 in the environment: as many times more crossings.
+#define NSVCD_STATIC
+#define NEURALSVCD_IMPLEMENTATION
+#include <stddef.h>
+static void proof_certified(int kind, size_t i, size_t j, size_t a, size_t b, double start, double end,
+                            const float *normal);
+#define NSVCD__CERTIFY(kind, moving, fixed, moving_listing, fixed_listing, t_start, t_end, normal) \
+  proof_certified(kind, moving, fixed, moving_listing, fixed_listing, t_start, t_end, normal)
+#include "../neuralsvcd.h"
+
+#include "check.h"
+#include "proof_scene.h"
+
+#include <time.h>
+
+void test_proof(void);
+
+#define CERTIFICATES 300000  // kept of one query
+
+// A question, and what came of it.
+typedef struct attack {
+  const proof_body *moving, *fixed;
+  proof_motion motion;
+  nsvcd_answer answer;
+} attack;
+
+static struct {
+  int deaf;
+  proof_record *items;
+  size_t count, left_out;
+} heard;
+
+static void proof_certified(int kind, size_t i, size_t j, size_t a, size_t b, double start, double end,
+                            const float *normal) {
+  if (heard.deaf) return;
+  if (!heard.items) heard.items = (proof_record *)malloc(CERTIFICATES * sizeof *heard.items);
+  if (!heard.items) exit(1);
+  if (heard.count == CERTIFICATES) {
+    heard.left_out++;
+    return;
+  }
+  proof_record *r = &heard.items[heard.count++];
+  r->kind = kind;
+  r->i = i;
+  r->j = j;
+  r->a = a;
+  r->b = b;
+  r->start = start;
+  r->end = end;
+  for (int k = 0; k < 3; k++) r->normal[k] = (double)normal[k];
+}
+
+static void *proof_workspace(void) {
+  static void *memory;
+  if (!memory) memory = malloc(nsvcd_sweep_workspace_size());
+  if (!memory) exit(1);
+  return memory;
+}
+
+static nsvcd_sweep_options proof_options(void) {
+  nsvcd_sweep_options options;
+  memset(&options, 0, sizeof options);
+  options.method = NSVCD_METHOD_PROOF;
+  return options;
+}
+
+static nsvcd_result proof_ask_with(attack *a, const nsvcd_sweep_options *options) {
+  heard.count = heard.left_out = 0;
+  return nsvcd_sweep(a->moving->body, a->motion.raw, a->motion.count, a->fixed->body, &a->motion.raw_fixed, options,
+                     proof_workspace(), nsvcd_sweep_workspace_size(), &a->answer);
+}
+static void proof_ask(attack *a) {
+  const nsvcd_sweep_options options = proof_options();
+  CHECK_EQ(proof_ask_with(a, &options), NSVCD_OK);
+}
+
+// ------------------------------------------------------------------------------------------------------------ bodies
+
+enum { SOLID, HOLLOW, BOX, BLOCK, PLATE, SHEET, SHELL, NEEDLE, TRIANGLE, BALL, KINDS };
+
+// A wavy sheet, open.
+static void proof_sheet(shapes_mesh *mesh, double size, int cuts) {
+  for (int i = 0; i <= cuts; i++) {
+    for (int j = 0; j <= cuts; j++) {
+      const double x = size * ((double)i / cuts - 0.5);
+      const double y = size * ((double)j / cuts - 0.5);
+      shapes_vertex(mesh, x, y, 0.05 * size * sin(9 * x / size) * cos(7 * y / size));
+    }
+  }
+  for (int i = 0; i < cuts; i++) {
+    for (int j = 0; j < cuts; j++) {
+      const uint32_t at = (uint32_t)(i * (cuts + 1) + j);
+      shapes_quad(mesh, at, at + (uint32_t)cuts + 1, at + (uint32_t)cuts + 2, at + 1);
+    }
+  }
+}
+
+static void proof_shape(int kind, uint64_t seed, shapes_mesh *mesh) {
+  shapes_rng rng = {seed};
+  memset(mesh, 0, sizeof *mesh);
+  if (kind == SOLID) shapes_random_solid(mesh, &rng, shapes_uniform(&rng, 0.1, 0.4));
+  if (kind == HOLLOW) shapes_random_hollow(mesh, &rng, (int)(seed % SHAPES_HOLLOWS), 0.4);
+  if (kind == BOX) shapes_box(mesh, 0.2, 0.15, 0.1, 4);
+  if (kind == BLOCK) shapes_box(mesh, 0.3, 0.3, 0.1, 1);  // two triangles a side: listed in parts
+  if (kind == PLATE) shapes_box(mesh, 0.3, 0.2, 0.001, 3);
+  if (kind == SHEET) proof_sheet(mesh, 0.3, 8);
+  if (kind == SHELL) shapes_shell(mesh, 0.4, 0.35, 0.3, 0.02, (int)(seed % 2), 20);
+  if (kind == NEEDLE) shapes_box(mesh, 0.5, 5e-5, 5e-5, 2);
+  if (kind == BALL) shapes_ellipsoid(mesh, 0.11, 0.09, 0.07, 24);
+  if (kind != TRIANGLE) return;
+  const uint32_t a = shapes_vertex(mesh, 0.1, 0, 0);
+  const uint32_t b = shapes_vertex(mesh, -0.05, 0.1, 0.01);
+  shapes_triangle(mesh, a, b, shapes_vertex(mesh, -0.04, -0.1, -0.02));
+}
+
+static proof_body proof_make(int kind, uint64_t seed, size_t points, double scale) {
+  shapes_mesh shape;
+  nsvcd_result result;
+  const nsvcd_encode_options options = {points, 0, kind == SHEET || kind == TRIANGLE, 0};
+  proof_shape(kind, seed, &shape);
+  const proof_body out = proof_encode(&shape, scale, &options, &result);
+  shapes_free(&shape);
+  CHECK_EQ(result, NSVCD_OK);
+  if (result) exit(1);
+  return out;
+}
+
+// Bodies of one scale, shared by the tests; made once.
+#define SCALES 6
+#define MAKES 18
+static const double proof_scales[SCALES] = {1, 1e-10, 1e-6, 1e3, 3e5, 3e-11};
+
+static const proof_body *proof_shared(size_t scale, size_t n) {
+  static const struct {
+    int kind;
+    uint64_t seed;
+    size_t points;
+  } makes[MAKES] = {{SOLID, 1, 64},   {SOLID, 2, 16},   {SOLID, 3, 128}, {HOLLOW, 4, 64},  {HOLLOW, 12, 128}, {BOX, 6, 32},
+                    {BLOCK, 7, 48},   {PLATE, 8, 40},   {SHEET, 9, 32},  {SHELL, 10, 64},  {NEEDLE, 11, 24},  {TRIANGLE, 12, 1},
+                    {BALL, 13, 100},  {SOLID, 14, 256}, {BLOCK, 15, 3},  {HOLLOW, 21, 96}, {SOLID, 17, 1},    {BALL, 18, 4}};
+  static proof_body bodies[SCALES][MAKES];
+  proof_body *b = &bodies[scale][n];
+  if (!b->body) *b = proof_make(makes[n].kind, makes[n].seed, makes[n].points, proof_scales[scale]);
+  return b;
+}
+
+// ------------------------------------------------------------------------------------------------------------ scenes
+
+static void proof_turned(const double *turn, const oracle_pose *pose, const double *pivot, oracle_pose *out) {
+  double m[9], d[3];
+  oracle_matrix(turn, m);
+  oracle_sub(pose->position, pivot, d);
+  oracle_rotate(m, d, out->position);
+  for (int k = 0; k < 3; k++) out->position[k] += pivot[k];
+  oracle_quat_mul(turn, pose->rotation, out->rotation);
+  oracle_quat_normalize(out->rotation);
+}
+
+static void proof_random_rotation(shapes_rng *rng, int aligned, double *q) {
+  const double half = sqrt(0.5);
+  shapes_quaternion(rng, q);
+  if (!aligned) return;
+  const int axis = shapes_pick(rng, 4);
+  for (int k = 0; k < 4; k++) q[k] = 0;
+  q[3] = axis == 3 ? 1 : half;
+  if (axis < 3) q[axis] = half;
+}
+
+// A pose of the moving body with its surface `gap` from the fixed one's; `point`: where, `away`: the way out. 0 if none
+// is found.
+static int proof_near_contact(shapes_rng *rng, const attack *a, const oracle_pose *fixed, double gap, oracle_pose *pose,
+                              double *point, double *away) {
+  const double reach = a->moving->size + a->fixed->size;
+  double q[4], on_moving[3], on_fixed[3], d[3];
+  proof_random_rotation(rng, shapes_pick(rng, 2), q);
+  oracle_quat_mul(fixed->rotation, q, pose->rotation);
+  for (int trial = 0; trial < 10; trial++) {
+    const double far = shapes_uniform(rng, 0, 1.2) * reach;
+    shapes_direction(rng, d);
+    for (int k = 0; k < 3; k++) pose->position[k] = fixed->position[k] + far * d[k];
+    const double distance = oracle_distance(&a->moving->oracle, pose, &a->fixed->oracle, fixed, on_moving, on_fixed);
+    if (distance <= 1e-6 * reach) continue;
+    for (int k = 0; k < 3; k++) {
+      away[k] = (on_moving[k] - on_fixed[k]) / distance;
+      pose->position[k] -= (distance - gap) * away[k];
+      point[k] = on_fixed[k];
+    }
+    return 1;
+  }
+  return 0;
+}
+
+// A motion that passes the pose at some time.
+static void proof_motion_past(shapes_rng *rng, const oracle_pose *pose, const double *point, const double *away,
+                              double size, double angle, size_t count, oracle_pose *poses) {
+  const double when = shapes_uniform(rng, 0.1, 0.9);
+  const double lift = shapes_pick(rng, 2) ? 0 : shapes_uniform(rng, 0, 1) * size;
+  const double slide = shapes_pick(rng, 2) ? 0 : shapes_uniform(rng, 0, 1.5) * size;
+  const int about_contact = shapes_pick(rng, 2);
+  double axis[3], along[3], turn[4];
+  shapes_direction(rng, axis);
+  shapes_direction(rng, along);
+  if (shapes_pick(rng, 2)) memcpy(axis, away, sizeof axis);
+  const double inwards = oracle_dot(along, away);
+  for (int k = 0; k < 3; k++) along[k] -= inwards * away[k];
+  for (size_t n = 0; n < count; n++) {
+    const double s = count > 1 ? (double)n / (double)(count - 1) - when : 0;
+    oracle_axis_angle(axis, angle * s, turn);
+    proof_turned(turn, pose, about_contact ? point : pose->position, &poses[n]);
+    for (int k = 0; k < 3; k++) poses[n].position[k] += fabs(s) * lift * away[k] + s * slide * along[k];
+  }
+}
+
+// A scene near contact. gap: of the sum of both sizes.
+static int proof_scene(shapes_rng *rng, attack *a, double gap, double offset) {
+  static const size_t counts[6] = {1, 2, 2, 17, 33, 65};
+  static const double angles[8] = {0, 0.02, 0.2, 1, 2.5, 2 * SHAPES_PI, 3 * SHAPES_PI, 4 * SHAPES_PI};
+  const double size = a->moving->size + a->fixed->size;
+  const size_t count = counts[shapes_pick(rng, 6)];
+  const double angle = angles[shapes_pick(rng, count > 5 ? 8 : 5)];
+  oracle_pose fixed, pose, poses[PROOF_POSES];
+  double point[3], away[3];
+  shapes_quaternion(rng, fixed.rotation);
+  if (shapes_pick(rng, 3) == 0) proof_random_rotation(rng, 1, fixed.rotation);
+  for (int k = 0; k < 3; k++) fixed.position[k] = shapes_uniform(rng, -1, 1) * offset * size;
+  if (!proof_near_contact(rng, a, &fixed, gap * size, &pose, point, away)) return 0;
+  proof_motion_past(rng, &pose, point, away, size, angle, count, poses);
+  proof_motion_set(&a->motion, poses, count, &fixed);
+  return 1;
+}
+
+// ------------------------------------------------------------------------------------- certificates, replayed
+
+typedef struct replay {
+  size_t records, evaluations, wrong;
+  size_t pairs, bare, nearest;  // coverage: pairs of patches at a time; those that nothing covers
+  size_t verdicts[6];
+  double worst;  // gap over what is allowed, where wrong
+} replay;
+
+// normal . (x(t) - y), least over the points of both sides.
+static double proof_gap(const double *normal, const proof_place *at, const double (*x)[3], size_t xs,
+                        const double (*y)[3], size_t ys) {
+  double turned[3], lowest = DBL_MAX, highest = -DBL_MAX;
+  oracle_rotate_back(at->matrix, normal, turned);
+  for (size_t i = 0; i < xs; i++) lowest = fmin(lowest, oracle_dot(turned, x[i]));
+  for (size_t i = 0; i < ys; i++) highest = fmax(highest, oracle_dot(normal, y[i]));
+  return lowest + oracle_dot(normal, at->position) - highest;
+}
+
+// Does what the certificate says hold at t? A plane between patches has to part all that they hold. One between pairs of
+// triangles has been rounded to float on its way to us: that much is allowed.
+static int proof_is_true(const attack *a, const proof_record *r, double t, replay *sum) {
+  const proof_patch *p = &a->moving->patches[r->i];
+  const proof_patch *q = &a->fixed->patches[r->j];
+  const proof_place at = proof_place_at(&a->motion, t);
+  const double scale = oracle_length(r->normal);
+  double gap, allowed = 0;
+  if (r->kind == NSVCD__BY_TRIANGLES) {
+    const proof_listing *x = &a->moving->listings[r->a];
+    const proof_listing *y = &a->fixed->listings[r->b];
+    double d[3], place[3];
+    proof_apply(&at, x->corners[0], place);
+    oracle_sub(place, y->corners[0], d);
+    gap = proof_gap(r->normal, &at, (const double (*)[3])x->corners, 3, (const double (*)[3])y->corners, 3);
+    for (int k = 0; k < 3; k++) {
+      double edge[3], other[3];
+      oracle_sub(x->corners[k], x->corners[0], edge);
+      oracle_sub(y->corners[k], y->corners[0], other);
+      allowed = fmax(allowed, oracle_length(edge) + oracle_length(other));
+    }
+    allowed = 1e-7 * scale * (allowed + oracle_length(d));
+  } else {
+    if (!p->pool_count || !q->pool_count) return 1;
+    gap = proof_gap(r->normal, &at, (const double (*)[3])p->pool, p->pool_count, (const double (*)[3])q->pool,
+                    q->pool_count);
+  }
+  sum->evaluations++;
+  if (gap > -allowed) return 1;
+  sum->worst = fmin(sum->worst, gap / scale / (a->moving->size + a->fixed->size));
+  return 0;
+}
+
+static void proof_replay_records(const attack *a, shapes_rng *rng, replay *sum) {
+  const size_t most = 20000;
+  const size_t stride = heard.count / most + 1;
+  sum->records += heard.count;
+  for (size_t n = shapes_next(rng) % stride; n < heard.count; n += stride) {
+    const proof_record *r = &heard.items[n];
+    const double random = shapes_uniform(rng, 0, 1);
+    const double shares[4] = {0.5, random, 0, 1};
+    const int times = r->kind == NSVCD__BY_TRIANGLES ? 2 : 4;
+    for (int k = 0; k < times; k++) {
+      const double t = r->start + shares[k] * (r->end - r->start);
+      if (proof_is_true(a, r, t, sum)) continue;
+      sum->wrong++;
+    }
+  }
+}
+
+// Where the certificates of pair (i, j) begin, in order: (patches, patches) + 1.
+static const size_t *proof_index(const attack *a) {
+  static size_t *first, room;
+  const size_t pairs = a->moving->count * a->fixed->count;
+  proof_sorted(heard.items, heard.count);
+  if (room < pairs + 1) {
+    free(first);
+    first = (size_t *)malloc((pairs + 1) * sizeof *first);
+    room = pairs + 1;
+  }
+  if (!first) exit(1);
+  size_t n = 0;
+  for (size_t pair = 0; pair <= pairs; pair++) {
+    while (n < heard.count && heard.items[n].i * a->fixed->count + heard.items[n].j < pair) n++;
+    first[pair] = n;
+  }
+  return first;
+}
+
+// Are all pairs of listed triangles of two patches covered at t?
+static int proof_triangles_covered(const attack *a, size_t i, size_t j, const proof_record *records, size_t count,
+                                   double t) {
+  const proof_patch *p = &a->moving->patches[i];
+  const proof_patch *q = &a->fixed->patches[j];
+  const size_t wide = q->end - q->first;
+  const size_t all = (p->end - p->first) * wide;
+  size_t covered = 0;
+  unsigned char *seen = (unsigned char *)calloc(all + 1, 1);
+  if (!seen) exit(1);
+  for (size_t n = 0; n < count; n++) {
+    const proof_record *r = &records[n];
+    if (r->kind != NSVCD__BY_TRIANGLES || t < r->start || t > r->end) continue;
+    unsigned char *mark = &seen[(r->a - p->first) * wide + (r->b - q->first)];
+    covered += !*mark;
+    *mark = 1;
+  }
+  free(seen);
+  return covered == all;
+}
+
+static int proof_is_covered(const attack *a, const size_t *first, size_t i, size_t j, double t) {
+  const size_t pair = i * a->fixed->count + j;
+  const proof_record *records = heard.items + first[pair];
+  const size_t count = first[pair + 1] - first[pair];
+  for (size_t n = 0; n < count; n++) {
+    const proof_record *r = &records[n];
+    if (r->kind != NSVCD__BY_TRIANGLES && t >= r->start && t <= r->end) return 1;
+  }
+  return proof_triangles_covered(a, i, j, records, count, t);
+}
+
+// All pairs of patches whose balls overlap at t.
+static void proof_cover_at(const attack *a, const size_t *first, double t, replay *sum) {
+  const proof_place at = proof_place_at(&a->motion, t);
+  for (size_t i = 0; i < a->moving->count; i++) {
+    const proof_patch *p = &a->moving->patches[i];
+    double centre[3];
+    proof_apply(&at, p->centre, centre);
+    for (size_t j = 0; j < a->fixed->count && p->hull_count; j++) {
+      const proof_patch *q = &a->fixed->patches[j];
+      const double reach = (p->radius + q->radius) * (1 - 1e-9);
+      double d[3];
+      oracle_sub(centre, q->centre, d);
+      if (!q->hull_count || oracle_dot(d, d) >= reach * reach) continue;
+      sum->pairs++;
+      sum->bare += !proof_is_covered(a, first, i, j, t);
+    }
+  }
+}
+
+// The points of both surfaces that are nearest to each other at t: they are apart, and so says each plane on them.
+static void proof_nearest_at(const attack *a, const size_t *first, double t, replay *sum) {
+  const proof_place at = proof_place_at(&a->motion, t);
+  const oracle_pose pose = oracle_pose_at(a->motion.poses, a->motion.count, t);
+  oracle_search s;
+  double x[3], d[3];
+  oracle_search_begin(&s, &a->fixed->oracle, &a->moving->oracle);
+  const double distance = oracle_search_run(&s, &a->motion.fixed, &pose, DBL_MAX);
+  CHECK_GE(distance, 1e-300);
+  oracle_sub(s.on_b, at.position, d);
+  oracle_rotate_back(at.matrix, d, x);
+  for (size_t i = 0; i < a->moving->count; i++) {
+    if (!a->moving->patches[i].hull_count || proof_holds(&a->moving->patches[i], x) != 1) continue;
+    for (size_t j = 0; j < a->fixed->count; j++) {
+      if (!a->fixed->patches[j].hull_count || proof_holds(&a->fixed->patches[j], s.on_a) != 1) continue;
+      const size_t pair = i * a->fixed->count + j;
+      sum->nearest++;
+      for (size_t n = first[pair]; n < first[pair + 1]; n++) {
+        const proof_record *r = &heard.items[n];
+        if (r->kind == NSVCD__BY_TRIANGLES || t < r->start || t > r->end) continue;
+        const double gap = proof_gap(r->normal, &at, (const double (*)[3])x, 1, (const double (*)[3])s.on_a, 1);
+        sum->wrong += !(gap > 0);
+      }
+    }
+  }
+}
+
+static void proof_check_witness(const attack *a);
+
+static void proof_replay(attack *a, shapes_rng *rng, replay *sum) {
+  proof_ask(a);
+  sum->verdicts[a->answer.status]++;
+  proof_replay_records(a, rng, sum);
+  if (a->answer.status == NSVCD_STATUS_WITNESS) proof_check_witness(a);
+  if (a->answer.status != NSVCD_STATUS_CERTIFIED_FREE || heard.left_out) return;
+  const size_t *first = proof_index(a);
+  const double arcs = a->motion.count > 1 ? (double)(a->motion.count - 1) : 1;
+  for (int k = 0; k < 6; k++) {
+    double t = shapes_uniform(rng, 0, 1);
+    if (k == 0) t = 0;
+    if (k == 1) t = 1;
+    if (k == 2) t = floor(t * arcs) / arcs;
+    if (k == 3 && heard.count) t = heard.items[shapes_next(rng) % heard.count].end;
+    proof_cover_at(a, first, t, sum);
+    proof_nearest_at(a, first, t, sum);
+  }
+}
+
+static void proof_report(const char *name, const replay *sum) {
+  printf("  %s: free %zu, inside %zu, witness %zu, undecided %zu; %zu certificates, %zu looked at, %zu wrong (%.3g); "
+         "%zu pairs of patches, %zu bare; %zu nearest\n",
+         name, sum->verdicts[NSVCD_STATUS_CERTIFIED_FREE], sum->verdicts[NSVCD_STATUS_INSIDE],
+         sum->verdicts[NSVCD_STATUS_WITNESS], sum->verdicts[NSVCD_STATUS_UNDECIDED], sum->records, sum->evaluations,
+         sum->wrong, sum->worst, sum->pairs, sum->bare, sum->nearest);
+  CHECK_EQ(sum->wrong, 0);
+  CHECK_EQ(sum->bare, 0);
+}
+
+// ---------------------------------------------------------------------------------------------------------- witnesses
+
+static struct {
+  size_t count;
+  double worst_gap, worst_normal;  // over what is allowed
+} witnesses;
+
+// No point of the moving body moves by more than this in an interval of time about t.
+static double proof_speed_bound(const attack *a, double t, double interval) {
+  const proof_motion *m = &a->motion;
+  if (m->count < 2) return 0;
+  const double arcs = (double)(m->count - 1);
+  double fastest = 0;
+  for (int side = -1; side <= 1; side++) {
+    const double at = t * arcs + side * interval * arcs;
+    const size_t k = at <= 0 ? 0 : at >= arcs - 1 ? m->count - 2 : (size_t)at;
+    double moved[3], axis[3];
+    oracle_sub(m->poses[k + 1].position, m->poses[k].position, moved);
+    const double turn = oracle_quat_arc(m->poses[k].rotation, m->poses[k + 1].rotation, axis);
+    fastest = fmax(fastest, oracle_length(moved) + turn * a->moving->size);
+  }
+  return fastest * arcs * interval;
+}
+
+static oracle_triangle proof_world_triangle(const proof_body *b, size_t triangle, const oracle_pose *pose) {
+  oracle_triangle out;
+  double corners[3][3];
+  proof_corners(b, triangle, corners);
+  for (int k = 0; k < 3; k++) oracle_transform(pose, corners[k], out.v[k]);
+  oracle_triangle_normal(&out);
+  return out;
+}
+static oracle_triangle proof_point_triangle(const float *point) {
+  oracle_triangle out;
+  for (int k = 0; k < 3; k++) {
+    for (int i = 0; i < 3; i++) out.v[k][i] = (double)point[i];
+    out.normal[k] = 0;
+  }
+  return out;
+}
+static double proof_triangle_distance(const oracle_triangle *a, const oracle_triangle *b) {
+  double x[3], y[3];
+  return sqrt(oracle_triangles(a, b, DBL_MAX, x, y));
+}
+
+// How far the normal of a stored triangle can be from that of the mesh's, radians: corners are off by the quantum.
+static double proof_normal_error(const oracle_triangle *t, double quantum) {
+  double longest = 0, e0[3], e1[3], n[3];
+  for (int k = 0; k < 3; k++) {
+    double e[3];
+    oracle_sub(t->v[(k + 1) % 3], t->v[k], e);
+    longest = fmax(longest, oracle_length(e));
+  }
+  oracle_sub(t->v[1], t->v[0], e0);
+  oracle_sub(t->v[2], t->v[0], e1);
+  oracle_cross(e0, e1, n);
+  return 4 * quantum * longest / fmax(oracle_length(n), 1e-300);
+}
+
+static void proof_check_witness(const attack *a) {
+  const nsvcd_answer *w = &a->answer;
+  CHECK(w->moving_triangle < a->moving->triangles && w->fixed_triangle < a->fixed->triangles);
+  CHECK(w->time >= 0 && w->time <= 1 && w->collides == 1);
+  if (w->moving_triangle >= a->moving->triangles || w->fixed_triangle >= a->fixed->triangles) return;
+  const oracle_pose pose = oracle_pose_at(a->motion.poses, a->motion.count, (double)w->time);
+  const oracle_triangle x = proof_world_triangle(a->moving, w->moving_triangle, &pose);
+  const oracle_triangle y = proof_world_triangle(a->fixed, w->fixed_triangle, &a->motion.fixed);
+  const oracle_triangle point = proof_point_triangle(w->point);
+  const double far = oracle_length(a->motion.fixed.position) + oracle_length(pose.position);
+  const double size = a->moving->size + a->fixed->size;
+  const double quantum_x = (double)nsvcd_body_describe(a->moving->body).quantum;
+  const double quantum_y = (double)nsvcd_body_describe(a->fixed->body).quantum;
+  // Half a unit in the last place of a float in [0.5, 1].
+  const double moved = proof_speed_bound(a, (double)w->time, 3e-8) + 1e-12 * (size + far);
+  const double rounded = 6e-8 * (oracle_length(point.v[0])) + 1e-30;
+  const double allowed = quantum_x + quantum_y + moved;
+  const double gap = proof_triangle_distance(&x, &y);
+  CHECK_LE(gap, allowed);
+  CHECK_LE(proof_triangle_distance(&x, &point), quantum_x + moved + rounded);
+  CHECK_LE(proof_triangle_distance(&y, &point), quantum_y + rounded + 1e-12 * (size + far));
+  witnesses.count++;
+  witnesses.worst_gap = fmax(witnesses.worst_gap, gap / allowed);
+
+  const double normal[3] = {(double)w->normal[0], (double)w->normal[1], (double)w->normal[2]};
+  double off[3];
+  oracle_sub(normal, y.normal, off);
+  CHECK_NEAR(oracle_length(normal), 1, 1e-6);
+  if (oracle_length(y.normal) < 0.5) return;
+  const double tolerance = proof_normal_error(&y, quantum_y) + 1e-6;
+  witnesses.worst_normal = fmax(witnesses.worst_normal, oracle_length(off) / tolerance);
+}
+
+// ------------------------------------------------------------------------------------------------------------- tests
+
+static void proof_certificates_hold(void) {
+  shapes_rng rng = {2024};
+  replay sum;
+  attack a;
+  memset(&sum, 0, sizeof sum);
+  for (size_t trial = 0; trial < 700; trial++) {
+    const double gap = pow(10, shapes_uniform(&rng, -4, -1.3));
+    a.moving = proof_shared(0, (size_t)shapes_pick(&rng, MAKES));
+    a.fixed = proof_shared(0, (size_t)shapes_pick(&rng, MAKES));
+    if (!proof_scene(&rng, &a, gap, trial % 7 ? 1 : 0)) continue;
+    proof_replay(&a, &rng, &sum);
+  }
+  proof_report("near", &sum);
+  CHECK_GE(sum.verdicts[NSVCD_STATUS_CERTIFIED_FREE], 100);
+}
+
+static void proof_certificates_hold_at_a_hair(void) {
+  shapes_rng rng = {77};
+  replay sum;
+  attack a;
+  memset(&sum, 0, sizeof sum);
+  for (size_t trial = 0; trial < 700; trial++) {
+    const double gap = pow(10, shapes_uniform(&rng, -7.5, -4));
+    a.moving = proof_shared(0, (size_t)shapes_pick(&rng, MAKES));
+    a.fixed = proof_shared(0, (size_t)shapes_pick(&rng, MAKES));
+    if (!proof_scene(&rng, &a, gap, trial % 7 ? 0.1 : 0)) continue;
+    proof_replay(&a, &rng, &sum);
+  }
+  proof_report("hair", &sum);
+}
+
+static void proof_certificates_hold_at_every_scale(void) {
+  shapes_rng rng = {99};
+  for (size_t scale = 1; scale < SCALES; scale++) {
+    replay sum;
+    attack a;
+    char name[32];
+    memset(&sum, 0, sizeof sum);
+    for (size_t trial = 0; trial < 150; trial++) {
+      const double gap = pow(10, shapes_uniform(&rng, -6, -1.3));
+      a.moving = proof_shared(scale, (size_t)shapes_pick(&rng, 8));
+      a.fixed = proof_shared(scale, (size_t)shapes_pick(&rng, 8));
+      if (!proof_scene(&rng, &a, gap, 1)) continue;
+      proof_replay(&a, &rng, &sum);
+    }
+    snprintf(name, sizeof name, "scale %g", proof_scales[scale]);
+    proof_report(name, &sum);
+  }
+}
+
+// A tip that swings over a box, about a pivot above it, and dips into it only while it is under the pivot: at the ends of
+// the swing it is clear of the box. depth: of the tip's radius; negative: it stays above.
+static nsvcd_status proof_swing(double scale, double angle, double depth, size_t count) {
+  static const double down[3][3] = {{0, 0, -0.25}, {0.02, 0, 0.2}, {-0.02, 0.02, 0.2}};
+  const nsvcd_encode_options options = {1, 0, 1, 0};
+  const double axis[3] = {0, 1, 0};
+  const double still[4] = {0, 0, 0, 1};
+  shapes_mesh shape;
+  nsvcd_result result;
+  oracle_pose poses[PROOF_POSES], fixed;
+  attack a;
+  memset(&shape, 0, sizeof shape);
+  for (int k = 0; k < 3; k++) shapes_vertex(&shape, down[k][0], down[k][1], down[k][2]);
+  shapes_triangle(&shape, 0, 1, 2);
+  proof_body tip = proof_encode(&shape, scale, &options, &result);
+  shapes_free(&shape);
+  proof_body box = proof_make(BOX, 6, 32, scale);
+  memset(&fixed, 0, sizeof fixed);
+  memcpy(fixed.rotation, still, sizeof still);
+  for (size_t n = 0; n < count; n++) {
+    const double share = count > 1 ? (double)n / (double)(count - 1) - 0.5 : 0;
+    poses[n] = fixed;
+    oracle_axis_angle(axis, angle * share, poses[n].rotation);
+    poses[n].position[0] = 0.013 * scale;
+    poses[n].position[1] = 0.007 * scale;
+    poses[n].position[2] = (0.05 + 0.25 * (1 - depth)) * scale;
+  }
+  a.moving = &tip;
+  a.fixed = &box;
+  proof_motion_set(&a.motion, poses, count, &fixed);
+  proof_ask(&a);
+  shapes_rng rng = {5};
+  replay sum;
+  memset(&sum, 0, sizeof sum);
+  proof_replay_records(&a, &rng, &sum);
+  CHECK_EQ(sum.wrong, 0);
+  proof_free(&tip);
+  proof_free(&box);
+  return a.answer.status;
+}
+
+static void proof_sees_a_swing(void) {
+  for (size_t scale = 0; scale < SCALES; scale++) {
+    for (int trial = 0; trial < 12; trial++) {
+      const double angle = 0.125 * (1 + trial / 3);
+      const double sagitta = 1 - cos(angle / 2);
+      const double depth = sagitta * (0.2 + 0.3 * (trial % 3));
+      const nsvcd_status status = proof_swing(proof_scales[scale], angle, depth, 2);
+      if (status == NSVCD_STATUS_CERTIFIED_FREE) printf("  scale %g angle %g: free\n", proof_scales[scale], angle);
+      CHECK(status != NSVCD_STATUS_CERTIFIED_FREE);
+      CHECK_EQ(proof_swing(proof_scales[scale], angle, -0.01, 2), NSVCD_STATUS_CERTIFIED_FREE);
+    }
+  }
+}
+
+void test_proof(void) {
+  RUN(proof_sees_a_swing);
+  RUN(proof_certificates_hold);
+  RUN(proof_certificates_hold_at_a_hair);
+  RUN(proof_certificates_hold_at_every_scale);
+  printf("  %zu witnesses, gap at most %.3g of what is allowed, normal %.3g\n", witnesses.count, witnesses.worst_gap,
+         witnesses.worst_normal);
+}
+
+#ifdef TEST_ALONE
+check_state check;
+int main(int argc, char **argv) {
+  check.filter = argc > 1 ? argv[1] : NULL;
+  test_proof();
+  printf("%d passed, %d failed\n", check.passed, check.failed);
+  return check.failed > 0;
+}
+#endif
