@@ -5638,6 +5638,13 @@ static uint32_t nsvcd__boxes_meet(const nsvcd__proof *p, size_t l, float margin)
   return met;
 }
 
+// A margin along normals of any length. Where their squares underflow it is so large that nothing is beyond it.
+static nsvcd__v nsvcd__margin_along(nsvcd__v3 n, float margin) {
+  const nsvcd__v square = nsvcd__v3_dot(n, n);
+  const nsvcd__v limit = nsvcd__v_mul(nsvcd__v_set(margin), nsvcd__v_sqrt(square));
+  return nsvcd__v_pick(square, nsvcd__v_set(1e-30f), nsvcd__v_set(1e30f), limit);
+}
+
 // Lanes of the fixed block whose planes have the lane l of the moving one, at `ends` poses, on one side by more than
 // `margin`; and the same with the plane of the moving one, at one pose.
 static uint32_t nsvcd__planes_part(nsvcd__proof *p, size_t l, size_t ends, float margin, nsvcd__v3 *plane,
@@ -5646,7 +5653,7 @@ static uint32_t nsvcd__planes_part(nsvcd__proof *p, size_t l, size_t ends, float
   const nsvcd__v3 b1 = nsvcd__v3_load(p->fixed_block.corners[1]);
   const nsvcd__v3 b2 = nsvcd__v3_load(p->fixed_block.corners[2]);
   const nsvcd__v3 n = nsvcd__v3_cross(nsvcd__v3_sub(b1, b0), nsvcd__v3_sub(b2, b0));
-  const nsvcd__v limit = nsvcd__v_mul(nsvcd__v_set(margin), nsvcd__v3_length(n));
+  const nsvcd__v limit = nsvcd__margin_along(n, margin);
   nsvcd__v lowest = nsvcd__v_set(HUGE_VALF), highest = nsvcd__v_set(-HUGE_VALF);
   for (size_t k = 0; k < 3 * ends; k++) {
     const nsvcd__v3 a = nsvcd__v3_set(nsvcd__lane_of(p->posed[k / 3][k % 3], l));
@@ -5672,7 +5679,7 @@ static uint32_t nsvcd__moving_plane_parts(nsvcd__proof *p, size_t l, float margi
   const nsvcd__v3 u = nsvcd__v3_sub(nsvcd__v3_set(nsvcd__lane_of(p->posed[0][1], l)), a);
   const nsvcd__v3 v = nsvcd__v3_sub(nsvcd__v3_set(nsvcd__lane_of(p->posed[0][2], l)), a);
   const nsvcd__v3 n = nsvcd__v3_cross(u, v);
-  const nsvcd__v limit = nsvcd__v_mul(nsvcd__v_set(margin), nsvcd__v3_length(n));
+  const nsvcd__v limit = nsvcd__margin_along(n, margin);
   nsvcd__v lowest = nsvcd__v_set(HUGE_VALF), highest = nsvcd__v_set(-HUGE_VALF);
   for (size_t k = 0; k < 3; k++) {
     const nsvcd__v height = nsvcd__v3_dot(n, nsvcd__v3_sub(nsvcd__v3_load(p->fixed_block.corners[k]), a));
