@@ -433,6 +433,7 @@ static void proof_report(const char *name, const replay *sum) {
 static struct {
   size_t count;
   double worst_gap, worst_normal;  // over what is allowed
+  size_t no_normal, off[3];        // normals that are 0, or off by more than 0.001, 0.01, 0.1 radians
 } witnesses;
 
 // No point of the moving body moves by more than this in an interval of time about t.
@@ -487,6 +488,32 @@ static double proof_normal_error(const oracle_triangle *t, double quantum) {
   return 4 * quantum * longest / fmax(oracle_length(n), 1e-300);
 }
 
+// The normal is that of a stored triangle, or part of one, of the fixed patch: corners off by the quantum turn it, and may
+// leave nothing of the area of a needle.
+static void proof_check_normal(const attack *a, const oracle_triangle *y) {
+  const nsvcd_answer *w = &a->answer;
+  const double normal[3] = {(double)w->normal[0], (double)w->normal[1], (double)w->normal[2]};
+  const double length = oracle_length(normal);
+  const proof_patch *patch = &a->fixed->patches[w->fixed_patch];
+  double off[3], tolerance = 0;
+  CHECK(length < 1e-6 || fabs(length - 1) < 1e-6);
+  if (oracle_length(y->normal) < 0.5) return;
+  for (size_t n = patch->first; n < patch->end; n++) {
+    oracle_triangle stored;
+    if (a->fixed->listings[n].triangle != w->fixed_triangle) continue;
+    memcpy(stored.v, a->fixed->listings[n].stored, sizeof stored.v);
+    tolerance = fmax(tolerance, proof_normal_error(&stored, patch->quantum) + 1e-6);
+  }
+  oracle_sub(normal, y->normal, off);
+  const double error = oracle_length(off);
+  witnesses.no_normal += length < 0.5;
+  witnesses.off[0] += length > 0.5 && error > 0.001;
+  witnesses.off[1] += length > 0.5 && error > 0.01;
+  witnesses.off[2] += length > 0.5 && error > 0.1;
+  witnesses.worst_normal = fmax(witnesses.worst_normal, error / tolerance);
+  CHECK_LE(error, tolerance);
+}
+
 static void proof_check_witness(const attack *a) {
   const nsvcd_answer *w = &a->answer;
   CHECK(w->moving_triangle < a->moving->triangles && w->fixed_triangle < a->fixed->triangles);
@@ -511,13 +538,208 @@ static void proof_check_witness(const attack *a) {
   witnesses.count++;
   witnesses.worst_gap = fmax(witnesses.worst_gap, gap / allowed);
 
-  const double normal[3] = {(double)w->normal[0], (double)w->normal[1], (double)w->normal[2]};
-  double off[3];
-  oracle_sub(normal, y.normal, off);
-  CHECK_NEAR(oracle_length(normal), 1, 1e-6);
-  if (oracle_length(y.normal) < 0.5) return;
-  const double tolerance = proof_normal_error(&y, quantum_y) + 1e-6;
-  witnesses.worst_normal = fmax(witnesses.worst_normal, oracle_length(off) / tolerance);
+  proof_check_normal(a, &y);
+}
+
+// ---------------------------------------------------------------------------------------------------------- crossings
+
+// Where an edge of triangle a passes through the inside of b, clear of its edges and with both ends clear of its plane.
+static int proof_edge_crosses(double a[3][3], double b[3][3], double clear, double *point) {
+  double e0[3], e1[3], n[3];
+  oracle_sub(b[1], b[0], e0);
+  oracle_sub(b[2], b[0], e1);
+  oracle_cross(e0, e1, n);
+  const double length = oracle_length(n);
+  if (!(length > 0)) return 0;
+  for (int k = 0; k < 3; k++) {
+    double from[3], to[3], least = DBL_MAX;
+    oracle_sub(a[k], b[0], from);
+    oracle_sub(a[(k + 1) % 3], b[0], to);
+    const double h0 = oracle_dot(n, from) / length;
+    const double h1 = oracle_dot(n, to) / length;
+    if (h0 * h1 >= 0 || fabs(h0) < clear || fabs(h1) < clear) continue;
+    for (int i = 0; i < 3; i++) point[i] = a[k][i] + h0 / (h0 - h1) * (a[(k + 1) % 3][i] - a[k][i]);
+    for (int i = 0; i < 3; i++) {
+      double edge[3], d[3], c[3];
+      oracle_sub(b[(i + 1) % 3], b[i], edge);
+      oracle_sub(point, b[i], d);
+      oracle_cross(edge, d, c);
+      least = fmin(least, oracle_dot(n, c) / length / fmax(oracle_length(edge), 1e-300));
+    }
+    if (least >= clear) return 1;
+  }
+  return 0;
+}
+
+// Do the triangles cross properly at this time? Then point is where, fixed frame.
+static int proof_cross_at(const attack *a, size_t x, size_t y, double t, double *point) {
+  const proof_place at = proof_place_at(&a->motion, t);
+  const double clear = 1e-11 * (a->moving->size + a->fixed->size);
+  double corners[3][3], posed[3][3], other[3][3];
+  proof_corners(a->moving, x, corners);
+  proof_corners(a->fixed, y, other);
+  for (int k = 0; k < 3; k++) proof_apply(&at, corners[k], posed[k]);
+  return proof_edge_crosses(posed, other, clear, point) || proof_edge_crosses(other, posed, clear, point);
+}
+
+// A pose of the moving body, seen from the fixed one, at which triangle a meets b: a corner of a is `depth` beyond a point
+// of b, on the side on which a's other corners are not. 0 if there is no such thing.
+static int proof_corner_through(shapes_rng *rng, double a[3][3], double b[3][3], double depth, oracle_pose *pose) {
+  const int corner = shapes_pick(rng, 3);
+  double m[9], e0[3], e1[3], n[3], x[3], y[3], turned[3];
+  shapes_quaternion(rng, pose->rotation);
+  oracle_matrix(pose->rotation, m);
+  oracle_sub(b[1], b[0], e0);
+  oracle_sub(b[2], b[0], e1);
+  oracle_cross(e0, e1, n);
+  const double length = oracle_length(n);
+  if (!(length > 0)) return 0;
+  memcpy(x, a[corner], sizeof x);
+  oracle_sub(a[(corner + 1) % 3], x, e0);
+  oracle_rotate(m, e0, turned);
+  const double side = oracle_dot(n, turned) > 0 ? 1 : -1;
+  proof_point_in(rng, b, y);
+  oracle_rotate(m, x, turned);
+  for (int k = 0; k < 3; k++) pose->position[k] = y[k] - side * depth * n[k] / length - turned[k];
+  return 1;
+}
+
+// The same with points within both triangles: of a anywhere, of b as close to an edge as `depth`.
+static int proof_middles_meet(shapes_rng *rng, double a[3][3], double b[3][3], double depth, oracle_pose *pose) {
+  const int edge = shapes_pick(rng, 3);
+  const double share = shapes_uniform(rng, 0, 1);
+  double m[9], x[3], y[3], turned[3], inwards[3];
+  shapes_quaternion(rng, pose->rotation);
+  oracle_matrix(pose->rotation, m);
+  proof_point_in(rng, a, x);
+  for (int k = 0; k < 3; k++) y[k] = b[edge][k] + share * (b[(edge + 1) % 3][k] - b[edge][k]);
+  oracle_sub(b[(edge + 2) % 3], y, inwards);
+  const double length = oracle_length(inwards);
+  if (!(length > 0)) return 0;
+  for (int k = 0; k < 3; k++) y[k] += fmin(depth / length, 0.5) * inwards[k];
+  oracle_rotate(m, x, turned);
+  for (int k = 0; k < 3; k++) pose->position[k] = y[k] - turned[k];
+  return 1;
+}
+
+// From the fixed body's frame to the world.
+static oracle_pose proof_in_world(const oracle_pose *fixed, const oracle_pose *pose) {
+  oracle_pose out;
+  oracle_transform(fixed, pose->position, out.position);
+  oracle_quat_mul(fixed->rotation, pose->rotation, out.rotation);
+  oracle_quat_normalize(out.rotation);
+  return out;
+}
+
+typedef struct crossing_sum {
+  size_t tried, asked[2], free[2], witness[2], inside[2], undecided[2], records;
+} crossing_sum;
+
+// No certificate may cover the pair of patches that hold the point at t.
+static void proof_none_covers(const attack *a, size_t x, size_t y, const double *point, double t, crossing_sum *sum) {
+  const proof_place at = proof_place_at(&a->motion, t);
+  double d[3], seen[3];
+  oracle_sub(point, at.position, d);
+  oracle_rotate_back(at.matrix, d, seen);
+  for (size_t n = 0; n < heard.count; n++) {
+    const proof_record *r = &heard.items[n];
+    if (t < r->start || t > r->end) continue;
+    if (r->kind == NSVCD__BY_TRIANGLES) {
+      const proof_listing *one = &a->moving->listings[r->a];
+      const proof_listing *other = &a->fixed->listings[r->b];
+      sum->records += one->triangle == x && other->triangle == y && one->whole && other->whole;
+      continue;
+    }
+    if (!proof_lists(a->moving, r->i, x) || !proof_lists(a->fixed, r->j, y)) continue;
+    if (proof_holds(&a->moving->patches[r->i], seen) != 1) continue;
+    sum->records += proof_holds(&a->fixed->patches[r->j], point) == 1;
+  }
+}
+
+static void proof_ask_crossing(attack *a, size_t x, size_t y, double t, int moves, crossing_sum *sum) {
+  double point[3];
+  for (size_t n = 0; n < a->motion.count; n++) {
+    if (oracle_length(a->motion.poses[n].position) > 1e6) return;  // NSVCD_MAX_COORDINATE
+  }
+  if (!proof_cross_at(a, x, y, t, point)) return;
+  proof_ask(a);
+  sum->asked[moves]++;
+  sum->free[moves] += a->answer.status == NSVCD_STATUS_CERTIFIED_FREE;
+  sum->witness[moves] += a->answer.status == NSVCD_STATUS_WITNESS;
+  sum->inside[moves] += a->answer.status == NSVCD_STATUS_INSIDE;
+  sum->undecided[moves] += a->answer.status == NSVCD_STATUS_UNDECIDED;
+  proof_none_covers(a, x, y, point, t, sum);
+  if (a->answer.status == NSVCD_STATUS_WITNESS) proof_check_witness(a);
+}
+
+// A motion that is at the pose at time t, and elsewhere before and after.
+static void proof_motion_through(shapes_rng *rng, const attack *a, const oracle_pose *pose, double t, size_t count,
+                                 oracle_pose *poses) {
+  const double size = a->moving->size + a->fixed->size;
+  const double angle = shapes_uniform(rng, 0, 1) * (count == 2 ? 3 : 6);
+  const double way = shapes_pick(rng, 4) ? shapes_uniform(rng, 0, 2) * size : 100 * size;
+  double axis[3], along[3], turn[4];
+  shapes_direction(rng, axis);
+  shapes_direction(rng, along);
+  for (size_t n = 0; n < count; n++) {
+    const double s = (double)n / (double)(count - 1) - t;
+    oracle_axis_angle(axis, angle * s, turn);
+    proof_turned(turn, pose, pose->position, &poses[n]);
+    for (int k = 0; k < 3; k++) poses[n].position[k] += s * way * along[k];
+  }
+}
+
+static void proof_cross_once(attack *a, shapes_rng *rng, crossing_sum *sum) {
+  static const size_t counts[4] = {2, 3, 5, 17};
+  const size_t x = shapes_next(rng) % a->moving->triangles;
+  const size_t y = shapes_next(rng) % a->fixed->triangles;
+  const double size = a->moving->size + a->fixed->size;
+  const double depth = size * pow(10, shapes_uniform(rng, -6.5, -1));
+  const size_t count = counts[shapes_pick(rng, 4)];
+  const int on_sample = count % 2 && shapes_pick(rng, 2);
+  const double t = on_sample ? 0.5 : shapes_uniform(rng, 0.02, 0.98);
+  double corners[3][3], other[3][3];
+  oracle_pose seen, pose, fixed, poses[PROOF_POSES];
+  proof_corners(a->moving, x, corners);
+  proof_corners(a->fixed, y, other);
+  sum->tried++;
+  if (shapes_pick(rng, 2) ? !proof_corner_through(rng, corners, other, depth, &seen)
+                          : !proof_middles_meet(rng, corners, other, depth, &seen))
+    return;
+  shapes_quaternion(rng, fixed.rotation);
+  for (int k = 0; k < 3; k++) fixed.position[k] = shapes_uniform(rng, -1, 1) * size;
+  pose = proof_in_world(&fixed, &seen);
+  proof_motion_set(&a->motion, &pose, 1, &fixed);
+  proof_ask_crossing(a, x, y, 0, 0, sum);
+  proof_motion_through(rng, a, &pose, t, count, poses);
+  proof_motion_set(&a->motion, poses, count, &fixed);
+  proof_ask_crossing(a, x, y, t, 1, sum);
+}
+
+static double proof_many(void) {
+  const char *many = getenv("PROOF_MANY");
+  return many ? atof(many) : 1;
+}
+
+static void proof_crossings_are_never_free(void) {
+  const size_t wanted = (size_t)(100000 * proof_many());
+  shapes_rng rng = {31};
+  crossing_sum sum;
+  attack a;
+  memset(&sum, 0, sizeof sum);
+  while (sum.asked[0] + sum.asked[1] < wanted && sum.tried < 4 * wanted) {
+    const size_t scale = shapes_pick(&rng, 4) ? 0 : (size_t)shapes_pick(&rng, SCALES);
+    a.moving = proof_shared(scale, (size_t)shapes_pick(&rng, scale ? 8 : MAKES));
+    a.fixed = proof_shared(scale, (size_t)shapes_pick(&rng, scale ? 8 : MAKES));
+    for (int k = 0; k < 20; k++) proof_cross_once(&a, &rng, &sum);
+  }
+  for (int k = 0; k < 2; k++) {
+    printf("  %s: %zu crossings: witness %zu, inside %zu, undecided %zu, free %zu\n", k ? "motions" : "poses",
+           sum.asked[k], sum.witness[k], sum.inside[k], sum.undecided[k], sum.free[k]);
+    CHECK_EQ(sum.free[k], 0);
+  }
+  CHECK_EQ(sum.records, 0);
+  CHECK_GE(sum.asked[0] + sum.asked[1], wanted);
 }
 
 // ------------------------------------------------------------------------------------------------------------- tests
@@ -632,8 +854,11 @@ void test_proof(void) {
   RUN(proof_certificates_hold);
   RUN(proof_certificates_hold_at_a_hair);
   RUN(proof_certificates_hold_at_every_scale);
-  printf("  %zu witnesses, gap at most %.3g of what is allowed, normal %.3g\n", witnesses.count, witnesses.worst_gap,
-         witnesses.worst_normal);
+  RUN(proof_crossings_are_never_free);
+  printf("  %zu witnesses, gap at most %.3g of what is allowed, normal %.3g; off by 0.001, 0.01, 0.1: %zu, %zu, %zu; "
+         "none: %zu\n",
+         witnesses.count, witnesses.worst_gap, witnesses.worst_normal, witnesses.off[0], witnesses.off[1],
+         witnesses.off[2], witnesses.no_normal);
 }
 
 #ifdef TEST_ALONE
