@@ -4380,11 +4380,13 @@ static nsvcd__samples nsvcd__samples_of(const nsvcd__motion *motion, size_t per_
   memset(samples.origin, 0, sizeof samples.origin);
   for (size_t i = 0; i <= samples.last; i++) {
     const size_t k = i == samples.last ? motion->count - 2 : i / per_arc;
-    const float u = (float)(i - k * per_arc) / (float)per_arc;
+    const double share = (double)(i - k * per_arc) / (double)per_arc;
     const nsvcd_pose *a = &motion->poses[k], *b = a + 1;
-    nsvcd__slerp(a->rotation, b->rotation, u, between[i].rotation);
+    nsvcd__slerp(a->rotation, b->rotation, (float)share, between[i].rotation);
     for (size_t n = 0; n < 3; n++) {
-      between[i].position[n] = (a->position[n] - motion->fixed_position[n]) + u * (b->position[n] - a->position[n]);
+      // In double: on a long way past the fixed body, roundings of its ends would be large beside what is near.
+      const double from = (double)a->position[n] - (double)motion->fixed_position[n];
+      between[i].position[n] = (float)(from + share * ((double)b->position[n] - (double)a->position[n]));
     }
   }
   return samples;
@@ -5504,6 +5506,7 @@ static nsvcd__pair nsvcd__pair_of(const nsvcd__proof *p, size_t i, size_t j, siz
   }
   pair.rounding = NSVCD__SAME_PLACE * ((double)p->lengths + nsvcd__d3_length(p->arc.from));
   pair.slack = (double)p->moving.quanta[i] + (double)p->fixed.quanta[j] + pair.rounding;
+  pair.slack += NSVCD__SAME_PLACE * nsvcd__d3_length(p->arc.moved);
   return pair;
 }
 
