@@ -824,6 +824,209 @@ static void proof_spans_hold_the_motion(void) {
   CHECK_LE(worst[1], 1);
 }
 
+// -------------------------------------------------------------------------------------------------------- containment
+
+typedef struct within_sum {
+  size_t asked, inside, free, undecided, witness, wrong, far_undecided;
+} within_sum;
+
+// One placement, against winding numbers. `encloses`: by their makers' word neither body is open.
+static void proof_place_within(attack *a, shapes_rng *rng, double gap, int moving_open, int fixed_open,
+                               within_sum *sum) {
+  const double size = a->moving->size + a->fixed->size;
+  oracle_pose fixed, pose;
+  double point[3], away[3];
+  shapes_quaternion(rng, fixed.rotation);
+  for (int k = 0; k < 3; k++) fixed.position[k] = shapes_uniform(rng, -1, 1) * size;
+  if (!proof_near_contact(rng, a, &fixed, gap * size, &pose, point, away)) return;
+  proof_motion_set(&a->motion, &pose, 1, &fixed);
+  const oracle_pose *at = &a->motion.poses[0];
+  const oracle_mesh *x = &a->moving->oracle, *y = &a->fixed->oracle;
+  const double distance = oracle_distance(x, at, y, &a->motion.fixed, NULL, NULL);
+  if (distance < 1e-9 * size) return;
+  const double moving_within = fixed_open ? 0 : oracle_inside(x, at, y, &a->motion.fixed);
+  const double fixed_within = moving_open ? 0 : oracle_inside(y, &a->motion.fixed, x, at);
+  const int within = fmax(moving_within, fixed_within) > 0.5;
+  proof_ask(a);
+  const nsvcd_status status = a->answer.status;
+  sum->asked++;
+  sum->inside += status == NSVCD_STATUS_INSIDE;
+  sum->free += status == NSVCD_STATUS_CERTIFIED_FREE;
+  sum->undecided += status == NSVCD_STATUS_UNDECIDED;
+  sum->witness += status == NSVCD_STATUS_WITNESS;
+  sum->wrong += status == NSVCD_STATUS_INSIDE && !within;
+  sum->wrong += status == NSVCD_STATUS_CERTIFIED_FREE && within;
+  sum->far_undecided += status != NSVCD_STATUS_INSIDE && status != NSVCD_STATUS_CERTIFIED_FREE && distance > 1e-4 * size;
+  if (status == NSVCD_STATUS_WITNESS) proof_check_witness(a);
+}
+
+static proof_body proof_of_shape(shapes_mesh *shape, double scale, size_t points) {
+  const nsvcd_encode_options options = {points, 0, 0, 0};
+  nsvcd_result result;
+  const proof_body out = proof_encode(shape, scale, &options, &result);
+  CHECK_EQ(result, NSVCD_OK);
+  if (result) exit(1);
+  shapes_free(shape);
+  return out;
+}
+
+// Two boxes apart from each other: of one body a part can be within.
+static proof_body proof_two_boxes(double edge, double apart, size_t points) {
+  shapes_mesh shape;
+  memset(&shape, 0, sizeof shape);
+  shapes_box_at(&shape, -apart / 2, 0, 0, edge, edge, edge);
+  shapes_box_at(&shape, apart / 2, 0, 0, edge, 0.8 * edge, 0.7 * edge);
+  return proof_of_shape(&shape, 1, points);
+}
+
+// A ball inside out: by its winding number -1 it encloses as well.
+static proof_body proof_inverted_ball(void) {
+  shapes_mesh shape;
+  memset(&shape, 0, sizeof shape);
+  shapes_ellipsoid(&shape, 0.2, 0.2, 0.2, 12);
+  shapes_flip(&shape, 0);
+  return proof_of_shape(&shape, 1, 20);
+}
+
+static void proof_knows_what_is_within(void) {
+  enum { OUTER = 10, INNER = 6 };
+  proof_body inner[INNER], outer[3];
+  shapes_rng rng = {8};
+  const proof_body *outers[OUTER];
+  within_sum near = {0, 0, 0, 0, 0, 0, 0}, any = near;
+  inner[0] = proof_make(BOX, 1, 8, 0.05);
+  inner[1] = proof_make(SOLID, 5, 16, 0.1);
+  inner[2] = proof_make(TRIANGLE, 1, 1, 0.01);
+  inner[3] = proof_two_boxes(0.01, 0.3, 12);
+  inner[4] = proof_make(BALL, 1, 12, 0.02);
+  inner[5] = proof_make(SHELL, 2, 30, 0.3);
+  outer[0] = proof_two_boxes(0.3, 0.5, 40);
+  outer[1] = proof_inverted_ball();
+  outer[2] = proof_make(SHEET, 1, 20, 2);
+  for (int k = 0; k < 3; k++) outers[k] = &outer[k];
+  for (int k = 3; k < OUTER; k++) {
+    static const size_t shared[OUTER - 3] = {0, 2, 4, 9, 6, 13, 17};
+    outers[k] = proof_shared(0, shared[k - 3]);
+  }
+  for (size_t trial = 0; trial < 20000; trial++) {
+    attack a;
+    const int i = shapes_pick(&rng, INNER);
+    const int o = shapes_pick(&rng, OUTER);
+    const int swapped = shapes_pick(&rng, 2);
+    const int close = shapes_pick(&rng, 2);
+    const double gap = close ? pow(10, shapes_uniform(&rng, -7, -4)) : pow(10, shapes_uniform(&rng, -4, -1));
+    a.moving = swapped ? outers[o] : &inner[i];
+    a.fixed = swapped ? &inner[i] : outers[o];
+    proof_place_within(&a, &rng, gap, swapped ? o == 2 : i == 2, swapped ? i == 2 : o == 2, close ? &near : &any);
+  }
+  for (int k = 0; k < 2; k++) {
+    const within_sum *sum = k ? &near : &any;
+    printf("  %s: %zu placements: inside %zu, free %zu, undecided %zu (%zu of them far), witness %zu, wrong %zu\n",
+           k ? "within a hair" : "anywhere", sum->asked, sum->inside, sum->free, sum->undecided, sum->far_undecided,
+           sum->witness, sum->wrong);
+    CHECK_EQ(sum->wrong, 0);
+    CHECK_GE(sum->inside, 500);
+  }
+  CHECK_EQ(any.far_undecided, 0);
+  for (int k = 0; k < INNER; k++) proof_free(&inner[k]);
+  for (int k = 0; k < 3; k++) proof_free(&outer[k]);
+}
+
+// -------------------------------------------------------------------------------------------------------- limits, options
+
+static int proof_same_answer(const nsvcd_answer *a, const nsvcd_answer *b) {
+  return a->status == b->status && a->collides == b->collides && a->work == b->work &&
+         memcmp(&a->time, &b->time, sizeof a->time) == 0 && memcmp(a->point, b->point, sizeof a->point) == 0 &&
+         memcmp(a->normal, b->normal, sizeof a->normal) == 0 && memcmp(&a->logit, &b->logit, sizeof a->logit) == 0 &&
+         a->moving_triangle == b->moving_triangle && a->fixed_triangle == b->fixed_triangle &&
+         a->moving_patch == b->moving_patch && a->fixed_patch == b->fixed_patch;
+}
+
+static void proof_answers_are_the_same_again(void) {
+  shapes_rng rng = {21};
+  attack a;
+  for (size_t trial = 0; trial < 300; trial++) {
+    a.moving = proof_shared(0, (size_t)shapes_pick(&rng, MAKES));
+    a.fixed = proof_shared(0, (size_t)shapes_pick(&rng, MAKES));
+    if (!proof_scene(&rng, &a, pow(10, shapes_uniform(&rng, -7, -1)), 1)) continue;
+    memset(proof_workspace(), 0xff, nsvcd_sweep_workspace_size());
+    proof_ask(&a);
+    const nsvcd_answer first = a.answer;
+    memset(proof_workspace(), 0, nsvcd_sweep_workspace_size());
+    memset(&a.answer, 0x33, sizeof a.answer);
+    proof_ask(&a);
+    CHECK(proof_same_answer(&first, &a.answer));
+  }
+}
+
+// With any limit: what is said is what is said without one, or nothing; and the limit is not passed by much.
+static void proof_keeps_its_limit(void) {
+  shapes_rng rng = {22};
+  attack a;
+  size_t asked = 0, undecided = 0, most = 0, other = 0;
+  for (size_t trial = 0; trial < 150; trial++) {
+    nsvcd_sweep_options options = proof_options();
+    a.moving = proof_shared(0, (size_t)shapes_pick(&rng, MAKES));
+    a.fixed = proof_shared(0, (size_t)shapes_pick(&rng, MAKES));
+    if (!proof_scene(&rng, &a, pow(10, shapes_uniform(&rng, -6, -1)), 1)) continue;
+    options.work = 100000000;
+    CHECK_EQ(proof_ask_with(&a, &options), NSVCD_OK);
+    const nsvcd_answer full = a.answer;
+    for (options.work = 1; options.work < 100000; options.work += 1 + options.work / 2) {
+      CHECK_EQ(proof_ask_with(&a, &options), NSVCD_OK);
+      const size_t over = a.answer.work > options.work ? a.answer.work - options.work : 0;
+      asked++;
+      most = over > most ? over : most;
+      undecided += a.answer.status == NSVCD_STATUS_UNDECIDED;
+      other += a.answer.status != NSVCD_STATUS_UNDECIDED && a.answer.status != full.status;
+      CHECK(a.answer.status != NSVCD_STATUS_CERTIFIED_FREE || full.status == NSVCD_STATUS_CERTIFIED_FREE);
+      CHECK(a.answer.status != NSVCD_STATUS_CERTIFIED_FREE || over == 0);
+    }
+  }
+  printf("  %zu limits: undecided %zu, another verdict %zu; at most %zu units beyond the limit\n", asked, undecided, other,
+         most);
+  CHECK_EQ(other, 0);
+  CHECK_LE(most, 10000);
+}
+
+static void proof_refuses(void) {
+  attack a;
+  nsvcd_sweep_options options = proof_options();
+  shapes_rng rng = {23};
+  shapes_mesh shape;
+  a.moving = proof_shared(0, 0);
+  a.fixed = proof_shared(0, 5);
+  CHECK(proof_scene(&rng, &a, 0.01, 0));
+  const float bad[4] = {-1, -1e-30f, NAN, INFINITY};
+  for (int k = 0; k < 4; k++) {
+    options.tolerance = bad[k];
+    CHECK_EQ(proof_ask_with(&a, &options), NSVCD_ERROR_ARGUMENT);
+  }
+  options = proof_options();
+  options.method = (nsvcd_method)3;
+  CHECK_EQ(proof_ask_with(&a, &options), NSVCD_ERROR_ARGUMENT);
+  options.method = (nsvcd_method)-1;
+  CHECK_EQ(proof_ask_with(&a, &options), NSVCD_ERROR_ARGUMENT);
+
+  const nsvcd_encode_options bare = {8, 0, 0, 1};
+  proof_shape(BOX, 1, &shape);
+  float positions[3 * 200];
+  nsvcd_mesh mesh = {positions, shape.indices, shape.vertices, shape.triangles};
+  CHECK_LE(3 * shape.vertices, 600);
+  for (size_t i = 0; i < 3 * shape.vertices && i < 600; i++) positions[i] = (float)shape.positions[i];
+  const nsvcd_body *body = NULL;
+  CHECK_EQ(nsvcd_encode(&mesh, &bare, NULL, NULL, 0, &body), NSVCD_OK);
+  options = proof_options();
+  CHECK_EQ(nsvcd_sweep(body, a.motion.raw, 1, a.fixed->body, &a.motion.raw_fixed, &options, proof_workspace(),
+                       nsvcd_sweep_workspace_size(), &a.answer),
+           NSVCD_ERROR_BODY);
+  CHECK_EQ(nsvcd_sweep(a.fixed->body, a.motion.raw, 1, body, &a.motion.raw_fixed, &options, proof_workspace(),
+                       nsvcd_sweep_workspace_size(), &a.answer),
+           NSVCD_ERROR_BODY);
+  nsvcd_body_free(body, NULL);
+  shapes_free(&shape);
+}
+
 // ------------------------------------------------------------------------------------------------------------- tests
 
 static void proof_certificates_hold(void) {
@@ -938,6 +1141,10 @@ void test_proof(void) {
   RUN(proof_certificates_hold_at_every_scale);
   RUN(proof_crossings_are_never_free);
   RUN(proof_spans_hold_the_motion);
+  RUN(proof_knows_what_is_within);
+  RUN(proof_answers_are_the_same_again);
+  RUN(proof_keeps_its_limit);
+  RUN(proof_refuses);
   printf("  %zu witnesses, gap at most %.3g of what is allowed, normal %.3g; off by 0.001, 0.01, 0.1: %zu, %zu, %zu; "
          "none: %zu\n",
          witnesses.count, witnesses.worst_gap, witnesses.worst_normal, witnesses.off[0], witnesses.off[1],
