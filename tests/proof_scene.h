@@ -385,8 +385,34 @@ static proof_place proof_relative(const oracle_pose *pose, const oracle_pose *fi
   }
   return out;
 }
+
+// The pose at t. As oracle_pose_at, but where samples are exactly half a turn apart and both arcs are as short: there the
+// sign is that of the floats' own product, and 0 leaves them as they are.
+static oracle_pose proof_pose_at(const proof_motion *m, double t) {
+  if (m->count == 1) return m->poses[0];
+  const double at = t * (double)(m->count - 1);
+  const size_t last = m->count - 2;
+  const size_t k = at <= 0 ? 0 : (size_t)at < last ? (size_t)at : last;
+  const oracle_pose *a = &m->poses[k], *b = a + 1;
+  const double f = at - (double)k;
+  double product = 0, apart = 0, together = 0, q[4];
+  for (int i = 0; i < 4; i++) product += (double)m->raw[k].rotation[i] * (double)m->raw[k + 1].rotation[i];
+  for (int i = 0; i < 4; i++) {
+    q[i] = product < 0 ? -b->rotation[i] : b->rotation[i];
+    apart += (q[i] - a->rotation[i]) * (q[i] - a->rotation[i]);
+    together += (q[i] + a->rotation[i]) * (q[i] + a->rotation[i]);
+  }
+  const double half = 2 * atan2(sqrt(apart), sqrt(together));
+  const double before = half > 1e-9 ? sin((1 - f) * half) / sin(half) : 1 - f;
+  const double after = half > 1e-9 ? sin(f * half) / sin(half) : f;
+  oracle_pose out;
+  for (int i = 0; i < 4; i++) out.rotation[i] = before * a->rotation[i] + after * q[i];
+  for (int i = 0; i < 3; i++) out.position[i] = a->position[i] + f * (b->position[i] - a->position[i]);
+  oracle_quat_normalize(out.rotation);
+  return out;
+}
 static proof_place proof_place_at(const proof_motion *m, double t) {
-  const oracle_pose pose = oracle_pose_at(m->poses, m->count, t);
+  const oracle_pose pose = proof_pose_at(m, t);
   return proof_relative(&pose, &m->fixed);
 }
 static void proof_apply(const proof_place *at, const double *x, double *out) {

@@ -373,7 +373,7 @@ static void proof_cover_at(const attack *a, const size_t *first, double t, repla
 // The points of both surfaces that are nearest to each other at t: they are apart, and so says each plane on them.
 static void proof_nearest_at(const attack *a, const size_t *first, double t, replay *sum) {
   const proof_place at = proof_place_at(&a->motion, t);
-  const oracle_pose pose = oracle_pose_at(a->motion.poses, a->motion.count, t);
+  const oracle_pose pose = proof_pose_at(&a->motion, t);
   oracle_search s;
   double x[3], d[3];
   oracle_search_begin(&s, &a->fixed->oracle, &a->moving->oracle);
@@ -519,7 +519,7 @@ static void proof_check_witness(const attack *a) {
   CHECK(w->moving_triangle < a->moving->triangles && w->fixed_triangle < a->fixed->triangles);
   CHECK(w->time >= 0 && w->time <= 1 && w->collides == 1);
   if (w->moving_triangle >= a->moving->triangles || w->fixed_triangle >= a->fixed->triangles) return;
-  const oracle_pose pose = oracle_pose_at(a->motion.poses, a->motion.count, (double)w->time);
+  const oracle_pose pose = proof_pose_at(&a->motion, (double)w->time);
   const oracle_triangle x = proof_world_triangle(a->moving, w->moving_triangle, &pose);
   const oracle_triangle y = proof_world_triangle(a->fixed, w->fixed_triangle, &a->motion.fixed);
   const oracle_triangle point = proof_point_triangle(w->point);
@@ -1027,6 +1027,293 @@ static void proof_refuses(void) {
   shapes_free(&shape);
 }
 
+// ---------------------------------------------------------------------------------------------------- special scenes
+
+static nsvcd_status proof_ask_place(attack *a, const oracle_pose *pose, const oracle_pose *fixed) {
+  proof_motion_set(&a->motion, pose, 1, fixed);
+  proof_ask(a);
+  return a->answer.status;
+}
+
+// A body on itself: all surfaces meet. A little off, they cross.
+static void proof_bodies_on_themselves(void) {
+  shapes_rng rng = {61};
+  size_t verdicts[6] = {0, 0, 0, 0, 0, 0}, off[6] = {0, 0, 0, 0, 0, 0};
+  for (size_t n = 0; n < MAKES; n++) {
+    attack a;
+    oracle_pose pose, moved;
+    a.moving = a.fixed = proof_shared(0, n);
+    for (int trial = 0; trial < 20; trial++) {
+      const double shift = a.moving->size * pow(10, shapes_uniform(&rng, -8, -2));
+      double d[3];
+      proof_random_rotation(&rng, trial % 2, pose.rotation);
+      shapes_direction(&rng, d);
+      for (int k = 0; k < 3; k++) pose.position[k] = (double)(trial % 3) * d[k];
+      verdicts[proof_ask_place(&a, &pose, &pose)]++;
+      moved = pose;
+      for (int k = 0; k < 3; k++) moved.position[k] += shift * d[(k + 1) % 3];
+      proof_ask_place(&a, &moved, &pose);
+      if (oracle_distance(&a.moving->oracle, &a.motion.poses[0], &a.fixed->oracle, &a.motion.fixed, NULL, NULL) > 0)
+        continue;
+      off[a.answer.status]++;
+    }
+  }
+  printf("  in place: witness %zu, inside %zu, undecided %zu, free %zu; off: witness %zu, inside %zu, undecided %zu, "
+         "free %zu\n",
+         verdicts[NSVCD_STATUS_WITNESS], verdicts[NSVCD_STATUS_INSIDE], verdicts[NSVCD_STATUS_UNDECIDED],
+         verdicts[NSVCD_STATUS_CERTIFIED_FREE], off[NSVCD_STATUS_WITNESS], off[NSVCD_STATUS_INSIDE],
+         off[NSVCD_STATUS_UNDECIDED], off[NSVCD_STATUS_CERTIFIED_FREE]);
+  CHECK_EQ(verdicts[NSVCD_STATUS_CERTIFIED_FREE], 0);
+  CHECK_EQ(off[NSVCD_STATUS_CERTIFIED_FREE], 0);
+}
+
+// Box on box, face on face: with no gap, with one, and pressed into each other.
+static void proof_flat_on_flat(void) {
+  static const double gaps[7] = {0, 1e-3, 1e-4, 1e-5, -1e-5, -1e-4, -1e-3};
+  static const double still[4] = {0, 0, 0, 1};
+  shapes_mesh shape;
+  memset(&shape, 0, sizeof shape);
+  shapes_box(&shape, 0.5, 0.5, 0.5, 2);
+  proof_body lower = proof_of_shape(&shape, 1, 20);
+  memset(&shape, 0, sizeof shape);
+  shapes_box(&shape, 0.25, 0.125, 0.25, 1);
+  proof_body upper = proof_of_shape(&shape, 1, 12);
+  for (int k = 0; k < 7; k++) {
+    for (int slides = 0; slides < 2; slides++) {
+      attack a;
+      oracle_pose fixed = {{0, 0, 0}, {0, 0, 0, 1}}, poses[2] = {fixed, fixed};
+      memcpy(fixed.rotation, still, sizeof still);
+      poses[0].position[2] = poses[1].position[2] = 0.375 + gaps[k];
+      poses[0].position[0] = -0.125;
+      poses[1].position[0] = 0.0625;
+      a.moving = &upper;
+      a.fixed = &lower;
+      proof_motion_set(&a.motion, poses, slides ? 2 : 1, &fixed);
+      proof_ask(&a);
+      printf("  gap %g%s: %s\n", gaps[k], slides ? ", sliding" : "", nsvcd_status_string(a.answer.status));
+      CHECK(gaps[k] > 0 || a.answer.status != NSVCD_STATUS_CERTIFIED_FREE);
+      CHECK(gaps[k] < 1e-4 || a.answer.status == NSVCD_STATUS_CERTIFIED_FREE);
+    }
+  }
+  proof_free(&lower);
+  proof_free(&upper);
+}
+
+// Every triangle twice, and some without area.
+static void proof_triangles_listed_twice(void) {
+  shapes_mesh shape;
+  shapes_rng rng = {62};
+  replay sum;
+  within_sum within = {0, 0, 0, 0, 0, 0, 0};
+  memset(&sum, 0, sizeof sum);
+  proof_shape(BOX, 1, &shape);
+  const size_t triangles = shape.triangles;
+  for (size_t t = 0; t < triangles; t++) {
+    const uint32_t *at = shape.indices + 3 * t;
+    const uint32_t corners[3] = {at[0], at[1], at[2]};
+    shapes_triangle(&shape, corners[0], corners[1], corners[2]);
+    if (t % 8 == 0) shapes_triangle(&shape, corners[0], corners[1], corners[1]);
+  }
+  proof_body twice = proof_of_shape(&shape, 1, 24);
+  proof_body small = proof_make(BALL, 1, 12, 0.2);
+  attack a;
+  a.fixed = &twice;
+  for (size_t trial = 0; trial < 200; trial++) {
+    a.moving = trial % 2 ? &twice : &small;
+    if (!proof_scene(&rng, &a, pow(10, shapes_uniform(&rng, -6, -1)), 1)) continue;
+    proof_replay(&a, &rng, &sum);
+    a.moving = &small;
+    proof_place_within(&a, &rng, 0.01, 0, 0, &within);
+  }
+  proof_report("twice", &sum);
+  CHECK_EQ(within.wrong, 0);
+  CHECK_GE(within.inside, 10);
+  proof_free(&twice);
+  proof_free(&small);
+}
+
+// Samples half a turn apart: both arcs are the shorter one, to rounding, and all parts of the proof have to take the same.
+static void proof_half_turns(void) {
+  shapes_rng rng = {63};
+  replay sum;
+  memset(&sum, 0, sizeof sum);
+  for (size_t trial = 0; trial < 400; trial++) {
+    attack a;
+    oracle_pose fixed, pose, poses[PROOF_POSES];
+    double point[3], away[3];
+    const size_t count = 2 + (size_t)shapes_pick(&rng, 3);
+    a.moving = proof_shared(0, (size_t)shapes_pick(&rng, MAKES));
+    a.fixed = proof_shared(0, (size_t)shapes_pick(&rng, MAKES));
+    const double size = a.moving->size + a.fixed->size;
+    shapes_quaternion(&rng, fixed.rotation);
+    for (int k = 0; k < 3; k++) fixed.position[k] = 0;
+    const double gap = size * pow(10, shapes_uniform(&rng, -3, 0));
+    if (!proof_near_contact(&rng, &a, &fixed, gap, &pose, point, away)) continue;
+    if (trial % 4 == 0) proof_random_rotation(&rng, 1, pose.rotation);
+    proof_motion_past(&rng, &pose, point, away, size, SHAPES_PI * (double)(count - 1), count, poses);
+    for (size_t n = 0; n < count && trial % 4 == 0; n++) {  // dots of exactly 0, of either sign
+      static const double turns[4][4] = {{0, 0, 0, 1}, {1, 0, 0, 0}, {0, 0, 1, 0}, {0, -1, 0, 0}};
+      memcpy(poses[n].rotation, turns[(n + trial / 4) % 4], sizeof turns[0]);
+    }
+    proof_motion_set(&a.motion, poses, count, &fixed);
+    proof_replay(&a, &rng, &sum);
+  }
+  proof_report("half turns", &sum);
+  CHECK_GE(sum.verdicts[NSVCD_STATUS_CERTIFIED_FREE], 50);
+}
+
+// ------------------------------------------------------------------------------------------------------- forged blobs
+
+typedef struct forgery {
+  size_t size;
+  void *memory;
+  struct nsvcd_body *body, *inner;  // of triangles
+} forgery;
+
+static forgery proof_forge(const nsvcd_body *body) {
+  forgery f;
+  f.size = body->size;
+  f.memory = malloc(f.size);
+  if (!f.memory) exit(1);
+  memcpy(f.memory, body, f.size);
+  f.body = (struct nsvcd_body *)f.memory;
+  f.inner = f.body->weights_id ? (struct nsvcd_body *)(void *)((char *)f.memory + f.body->inner) : f.body;
+  return f;
+}
+
+// Loads what has been forged, its checksums put right.
+static nsvcd_result proof_load(forgery *f) {
+  const nsvcd_body *body = NULL;
+  if ((size_t)((char *)f->inner - (char *)f->memory) + f->inner->size <= f->size) {
+    f->inner->checksum = nsvcd__body_checksum(f->inner);
+  }
+  if (f->body->size <= f->size) f->body->checksum = nsvcd__body_checksum(f->body);
+  return nsvcd_body_load(f->memory, f->size, &body);
+}
+
+static void proof_expect_refusal(const nsvcd_body *body, size_t offset, const void *value, size_t bytes) {
+  forgery f = proof_forge(body);
+  memcpy((char *)f.inner + offset, value, bytes);
+  CHECK_EQ(proof_load(&f), NSVCD_ERROR_BODY);
+  free(f.memory);
+}
+
+static size_t proof_offset(const nsvcd__facets *f, const void *at) {
+  return (size_t)((const char *)at - (const char *)f->body);
+}
+
+static void proof_forge_floats(const nsvcd_body *body, const nsvcd__facets *f) {
+  const float bad[3] = {NAN, INFINITY, -1e30f};
+  const size_t padded = f->body->padded;
+  const float *arrays[5] = {f->discs, f->steps, f->slacks, f->quanta, f->seeds};
+  const size_t counts[5] = {6 * padded, padded, padded, padded, 3 * f->components};
+  for (int k = 0; k < 5; k++) {
+    for (size_t n = 0; n < counts[k]; n += 1 + counts[k] / 40) {
+      for (int b = 0; b < 3; b++) proof_expect_refusal(body, proof_offset(f, arrays[k] + n), &bad[b], 4);
+    }
+  }
+  const float negative = -1e-6f;
+  for (int k = 1; k < 4; k++) proof_expect_refusal(body, proof_offset(f, arrays[k]), &negative, 4);
+  proof_expect_refusal(body, proof_offset(f, f->discs + 5 * padded), &negative, 4);
+}
+
+static void proof_forge_counts(const nsvcd_body *body, const nsvcd__facets *f) {
+  const size_t counts = nsvcd__spheres_size(f->body->padded);
+  for (size_t k = 0; k < NSVCD__FACET_COUNTS; k++) {
+    uint32_t value;
+    memcpy(&value, (const char *)f->body + counts + 4 * k, 4);
+    const uint32_t bad[6] = {value + 1, value - 1, 0xffffffffu, 0x80000000u, 0x55555556u, value ^ 0x10000u};
+    for (int n = 0; n < 6; n++) proof_expect_refusal(body, counts + 4 * k, &bad[n], 4);
+  }
+  for (size_t i = 0; i <= f->body->points; i++) {
+    const uint32_t *firsts[2] = {f->first_vertex + i, f->first_triangle + i};
+    const uint32_t bad[3] = {0xffffffffu, 0x7fffffffu, i == 0 ? 1u : *firsts[0] - 70000u};
+    for (int k = 0; k < 2; k++) {
+      for (int n = 0; n < 3; n++) proof_expect_refusal(body, proof_offset(f, firsts[k]), &bad[n], 4);
+    }
+  }
+  for (size_t i = 0; i < f->body->points; i++) {
+    const uint8_t bad[2] = {NSVCD__HULL + 1, f->hull_counts[i] ? 0 : 1};
+    for (int n = 0; n < 2; n++) proof_expect_refusal(body, proof_offset(f, f->hull_counts + i), &bad[n], 1);
+  }
+  const unsigned char far[4] = {0xff, 0x7f, 0xff, 0x7f};
+  for (size_t n = 0; n < f->listed; n += 1 + f->listed / 50) {
+    proof_expect_refusal(body, proof_offset(f, f->numbers + f->number_bytes * n), far, f->number_bytes);
+  }
+}
+
+static void proof_forge_header(const nsvcd_body *body, const nsvcd__facets *f) {
+  const uint32_t bad[4] = {0, 1, 0x7fffffffu, 0xfffffff8u};
+  const size_t fields[6] = {offsetof(struct nsvcd_body, size),   offsetof(struct nsvcd_body, weights_id),
+                            offsetof(struct nsvcd_body, points), offsetof(struct nsvcd_body, padded),
+                            offsetof(struct nsvcd_body, inner),  offsetof(struct nsvcd_body, triangles)};
+  for (int k = 0; k < 6; k++) {
+    for (int n = 0; n < 4; n++) {
+      uint32_t value;
+      memcpy(&value, (const char *)f->body + fields[k], 4);
+      if (value == bad[n]) continue;
+      if (k == 5 && f->body == body && bad[n] > value) continue;  // a count of triangles too large is harmless
+      proof_expect_refusal(body, fields[k], &bad[n], 4);
+    }
+  }
+}
+
+// A blob whose last words are any: either it is refused, or questions about it end, and read nothing that is not there.
+static void proof_forge_anything(const nsvcd_body *body, shapes_rng *rng, size_t *accepted) {
+  forgery f = proof_forge(body);
+  nsvcd_sweep_options options = proof_options();
+  const size_t from = (size_t)((char *)f.inner - (char *)f.memory) + sizeof(struct nsvcd_body);
+  const int changes = 1 + shapes_pick(rng, 4);
+  for (int k = 0; k < changes; k++) {
+    const size_t at = from + shapes_next(rng) % (f.size - from);
+    ((unsigned char *)f.memory)[at] = (unsigned char)(shapes_next(rng) >> 40);
+  }
+  options.work = 3000;
+  if (!proof_load(&f)) {
+    const proof_body *other = proof_shared(0, (size_t)shapes_pick(rng, MAKES));
+    nsvcd_pose poses[3], fixed = {{0, 0, 0}, {0, 0, 0, 1}};
+    nsvcd_answer answer;
+    for (int n = 0; n < 3; n++) {
+      double q[4];
+      shapes_quaternion(rng, q);
+      for (int k = 0; k < 4; k++) poses[n].rotation[k] = (float)q[k];
+      for (int k = 0; k < 3; k++) poses[n].position[k] = (float)shapes_uniform(rng, -0.2, 0.2);
+    }
+    (*accepted)++;
+    CHECK_EQ(nsvcd_sweep(f.body, poses, 3, other->body, &fixed, &options, proof_workspace(),
+                         nsvcd_sweep_workspace_size(), &answer),
+             NSVCD_OK);
+    CHECK_EQ(nsvcd_sweep(other->body, poses, 3, f.body, &fixed, &options, proof_workspace(),
+                         nsvcd_sweep_workspace_size(), &answer),
+             NSVCD_OK);
+  }
+  free(f.memory);
+}
+
+static void proof_forged_blobs(void) {
+  static const size_t makes[4] = {1, 5, 6, 11};
+  shapes_rng rng = {64};
+  size_t accepted = 0;
+  for (int k = 0; k < 4; k++) {
+    const nsvcd_body *body = proof_shared(0, makes[k])->body;
+    forgery f = proof_forge(body);
+    CHECK_EQ(proof_load(&f), NSVCD_OK);
+    const nsvcd__facets facets = nsvcd__facets_of(nsvcd__triangles_of(body));
+    proof_forge_floats(body, &facets);
+    proof_forge_counts(body, &facets);
+    proof_forge_header(body, &facets);
+    heard.deaf = 1;
+    for (int n = 0; n < 400; n++) proof_forge_anything(body, &rng, &accepted);
+    // The body of triangles by itself is a body as well.
+    proof_forge_floats(facets.body, &facets);
+    proof_forge_counts(facets.body, &facets);
+    for (int n = 0; n < 400; n++) proof_forge_anything(facets.body, &rng, &accepted);
+    heard.deaf = 0;
+    free(f.memory);
+  }
+  printf("  of 3200 blobs with random bytes %zu were accepted, and asked\n", accepted);
+}
+
 // ------------------------------------------------------------------------------------------------------------- tests
 
 static void proof_certificates_hold(void) {
@@ -1145,6 +1432,11 @@ void test_proof(void) {
   RUN(proof_answers_are_the_same_again);
   RUN(proof_keeps_its_limit);
   RUN(proof_refuses);
+  RUN(proof_bodies_on_themselves);
+  RUN(proof_flat_on_flat);
+  RUN(proof_triangles_listed_twice);
+  RUN(proof_half_turns);
+  RUN(proof_forged_blobs);
   printf("  %zu witnesses, gap at most %.3g of what is allowed, normal %.3g; off by 0.001, 0.01, 0.1: %zu, %zu, %zu; "
          "none: %zu\n",
          witnesses.count, witnesses.worst_gap, witnesses.worst_normal, witnesses.off[0], witnesses.off[1],
