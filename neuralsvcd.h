@@ -5710,6 +5710,7 @@ static int nsvcd__find_witness(nsvcd__proof *p, size_t i, size_t j, size_t k, do
     for (size_t b = p->fixed.first_triangle[j]; b < fixed_end; b += NSVCD__LANES) {
       nsvcd__block_load(&p->fixed, j, b, fixed_end - b < NSVCD__LANES ? fixed_end - b : NSVCD__LANES, &p->fixed_block);
       p->work++;
+      if (p->work > p->limit) return 0;
       for (size_t l = 0; l < p->moving_block.count; l++) {
         uint32_t met = nsvcd__boxes_meet(p, l, margin);
         nsvcd__v3 plane;
@@ -6084,6 +6085,10 @@ static int nsvcd__starts_within(nsvcd__proof *p) {
     if (outer->body->open) continue;
     if (inner->components == 1 && nsvcd__sticks_out(inner, &rounded, outer->body)) continue;
     for (size_t n = 0; n < inner->components; n++) {
+      if (p->work > p->limit) {
+        p->undecided = 1;
+        return 0;
+      }
       const nsvcd__d3 seed = nsvcd__d3_load(inner->seeds + 3 * n);
       const nsvcd__d3 seen = nsvcd__place_point(start, seed);
       if (!nsvcd__is_enclosed(p, outer, seen)) continue;
