@@ -989,6 +989,37 @@ static void proof_keeps_its_limit(void) {
   CHECK_LE(most, 10000);
 }
 
+// Many triangles in one patch, and many components: what a limit has to hold back. A ray looks at all of a body.
+static void proof_keeps_its_limit_in_large_patches(void) {
+  shapes_rng rng = {24};
+  shapes_mesh shape;
+  size_t most = 0;
+  memset(&shape, 0, sizeof shape);
+  shapes_ellipsoid(&shape, 0.11, 0.1, 0.1, 80);
+  proof_body ball = proof_of_shape(&shape, 1, 1);
+  memset(&shape, 0, sizeof shape);
+  for (int k = 0; k < 300; k++) {
+    double d[3];
+    shapes_direction(&rng, d);
+    shapes_box_at(&shape, 0.02 * d[0], 0.02 * d[1], 0.02 * d[2], 0.001, 0.001, 0.001);
+  }
+  proof_body crumbs = proof_of_shape(&shape, 1, 16);
+  nsvcd_sweep_options options = proof_options();
+  options.work = 1000;
+  for (int trial = 0; trial < 40; trial++) {
+    attack a;
+    a.moving = trial % 2 ? &ball : &crumbs;
+    a.fixed = &ball;
+    if (!proof_scene(&rng, &a, 1e-3, 0)) continue;
+    CHECK_EQ(proof_ask_with(&a, &options), NSVCD_OK);
+    most = a.answer.work > most ? a.answer.work : most;
+  }
+  printf("  %zu triangles in a patch, 300 components: at most %zu units, of 1000\n", ball.triangles, most);
+  CHECK_LE(most, options.work + 2 * (ball.listed + crumbs.listed));
+  proof_free(&ball);
+  proof_free(&crumbs);
+}
+
 static void proof_refuses(void) {
   attack a;
   nsvcd_sweep_options options = proof_options();
@@ -1431,6 +1462,7 @@ void test_proof(void) {
   RUN(proof_knows_what_is_within);
   RUN(proof_answers_are_the_same_again);
   RUN(proof_keeps_its_limit);
+  RUN(proof_keeps_its_limit_in_large_patches);
   RUN(proof_refuses);
   RUN(proof_bodies_on_themselves);
   RUN(proof_flat_on_flat);
