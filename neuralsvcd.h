@@ -4521,11 +4521,13 @@ static nsvcd__samples nsvcd__samples_of(const nsvcd__motion *motion, size_t per_
   memset(samples.origin, 0, sizeof samples.origin);
   for (size_t i = 0; i <= samples.last; i++) {
     const size_t k = i == samples.last ? motion->count - 2 : i / per_arc;
-    const float u = (float)(i - k * per_arc) / (float)per_arc;
+    const double share = (double)(i - k * per_arc) / (double)per_arc;
     const nsvcd_pose *a = &motion->poses[k], *b = a + 1;
-    nsvcd__slerp(a->rotation, b->rotation, u, between[i].rotation);
+    nsvcd__slerp(a->rotation, b->rotation, (float)share, between[i].rotation);
     for (size_t n = 0; n < 3; n++) {
-      between[i].position[n] = (a->position[n] - motion->fixed_position[n]) + u * (b->position[n] - a->position[n]);
+      // In double: on a long way past the fixed body, roundings of its ends would be large beside what is near.
+      const double from = (double)a->position[n] - (double)motion->fixed_position[n];
+      between[i].position[n] = (float)(from + share * ((double)b->position[n] - (double)a->position[n]));
     }
   }
   return samples;
@@ -5922,6 +5924,7 @@ static nsvcd__pair nsvcd__pair_of(const nsvcd__proof *p, size_t i, size_t j, siz
   }
   pair.rounding = NSVCD__SAME_PLACE * ((double)p->lengths + nsvcd__d3_length(p->arc.from));
   pair.slack = (double)p->moving.quanta[i] + (double)p->fixed.quanta[j] + pair.rounding;
+  pair.slack += NSVCD__SAME_PLACE * nsvcd__d3_length(p->arc.moved);
   return pair;
 }
 
@@ -6057,6 +6060,13 @@ static uint32_t nsvcd__boxes_meet(const nsvcd__proof *p, size_t l, float margin)
   return met;
 }
 
+// A margin along normals of any length. Where their squares underflow it is so large that nothing is beyond it.
+static nsvcd__v nsvcd__margin_along(nsvcd__v3 n, float margin) {
+  const nsvcd__v square = nsvcd__v3_dot(n, n);
+  const nsvcd__v limit = nsvcd__v_mul(nsvcd__v_set(margin), nsvcd__v_sqrt(square));
+  return nsvcd__v_pick(square, nsvcd__v_set(1e-30f), nsvcd__v_set(1e30f), limit);
+}
+
 // Lanes of the fixed block whose planes have the lane l of the moving one, at `ends` poses, on one side by more than
 // `margin`; and the same with the plane of the moving one, at one pose.
 static uint32_t nsvcd__planes_part(nsvcd__proof *p, size_t l, size_t ends, float margin, nsvcd__v3 *plane,
@@ -6065,7 +6075,7 @@ static uint32_t nsvcd__planes_part(nsvcd__proof *p, size_t l, size_t ends, float
   const nsvcd__v3 b1 = nsvcd__v3_load(p->fixed_block.corners[1]);
   const nsvcd__v3 b2 = nsvcd__v3_load(p->fixed_block.corners[2]);
   const nsvcd__v3 n = nsvcd__v3_cross(nsvcd__v3_sub(b1, b0), nsvcd__v3_sub(b2, b0));
-  const nsvcd__v limit = nsvcd__v_mul(nsvcd__v_set(margin), nsvcd__v3_length(n));
+  const nsvcd__v limit = nsvcd__margin_along(n, margin);
   nsvcd__v lowest = nsvcd__v_set(HUGE_VALF), highest = nsvcd__v_set(-HUGE_VALF);
   for (size_t k = 0; k < 3 * ends; k++) {
     const nsvcd__v3 a = nsvcd__v3_set(nsvcd__lane_of(p->posed[k / 3][k % 3], l));
@@ -6091,7 +6101,7 @@ static uint32_t nsvcd__moving_plane_parts(nsvcd__proof *p, size_t l, float margi
   const nsvcd__v3 u = nsvcd__v3_sub(nsvcd__v3_set(nsvcd__lane_of(p->posed[0][1], l)), a);
   const nsvcd__v3 v = nsvcd__v3_sub(nsvcd__v3_set(nsvcd__lane_of(p->posed[0][2], l)), a);
   const nsvcd__v3 n = nsvcd__v3_cross(u, v);
-  const nsvcd__v limit = nsvcd__v_mul(nsvcd__v_set(margin), nsvcd__v3_length(n));
+  const nsvcd__v limit = nsvcd__margin_along(n, margin);
   nsvcd__v lowest = nsvcd__v_set(HUGE_VALF), highest = nsvcd__v_set(-HUGE_VALF);
   for (size_t k = 0; k < 3; k++) {
     const nsvcd__v height = nsvcd__v3_dot(n, nsvcd__v3_sub(nsvcd__v3_load(p->fixed_block.corners[k]), a));
@@ -6119,6 +6129,7 @@ static int nsvcd__find_witness(nsvcd__proof *p, size_t i, size_t j, size_t k, do
     for (size_t b = p->fixed.first_triangle[j]; b < fixed_end; b += NSVCD__LANES) {
       nsvcd__block_load(&p->fixed, j, b, fixed_end - b < NSVCD__LANES ? fixed_end - b : NSVCD__LANES, &p->fixed_block);
       p->work++;
+      if (p->work > p->limit) return 0;
       for (size_t l = 0; l < p->moving_block.count; l++) {
         uint32_t met = nsvcd__boxes_meet(p, l, margin);
         nsvcd__v3 plane;
@@ -6489,6 +6500,10 @@ static int nsvcd__starts_within(nsvcd__proof *p) {
     if (outer->body->open) continue;
     if (inner->components == 1 && nsvcd__sticks_out(inner, &rounded, outer->body)) continue;
     for (size_t n = 0; n < inner->components; n++) {
+      if (p->work > p->limit) {
+        p->undecided = 1;
+        return 0;
+      }
       const nsvcd__d3 seed = nsvcd__d3_load(inner->seeds + 3 * n);
       const nsvcd__d3 seen = nsvcd__place_point(start, seed);
       if (!nsvcd__is_enclosed(p, outer, seen)) continue;

@@ -1,0 +1,60 @@
+#!/bin/sh
+# Are the tests of the proof worth anything? Each mutant is the header with one mistake in it; tests/test_proof.c has to
+# fail on it. Prints a line for each, and exits with 1 if one survives. An argument runs only the mutants whose name
+# contains it. About 20 seconds each.
+set -u
+CC=${CC:-cc}
+cd "$(dirname "$0")/.." || exit 1
+work=build/mutants
+mkdir -p $work/tests $work/examples
+cp weights.h $work/
+cp tests/test_proof.c tests/proof_scene.h tests/check.h tests/oracle.h $work/tests/
+cp examples/shapes.h $work/examples/
+
+# name | text (occurs once) | what it becomes
+cat >$work/list <<'LIST'
+none|||
+hull without spread|slacks[j] + span->spread + span->bulge|slacks[j] + span->bulge
+hull without bulge| + span->spread + span->bulge * nsvcd__patch_reach(&p->moving, i);| + span->spread;
+hull without slack|p->moving.slacks[i] + p->fixed.slacks[j] + span->spread|span->spread
+hull at the start only|lowest_start < lowest_end ? lowest_start : lowest_end;|lowest_start + 0 * lowest_end;
+disc without across|nsvcd__v_mul(radius_across, across);|nsvcd__v_mul(nsvcd__v_set(0), nsvcd__v_mul(radius_across, across));
+disc without deviation|g, j, &span, span.spread + span.bulge * remote, met);|g, j, &span, 0 * remote, met);
+pair without quanta|pair.slack = (double)p->moving.quanta[i] + (double)p->fixed.quanta[j] + pair.rounding;|pair.slack = pair.rounding;
+pair without bulge|> pair->slack + angle * angle * 0.1250001 * pair->reach;|> pair->slack + 0 * angle;
+pair at the start only|lowest = fmin(lowest, nsvcd__d3_dot(normal, nsvcd__place_point(&end, pair->moving[k])));|(void)end;
+block without quanta|p->moving.quanta[i] + p->fixed.quanta[j] + span->spread + span->bulge * reach;|span->spread + span->bulge * reach;
+block without bulge|p->fixed.quanta[j] + span->spread + span->bulge * reach;|p->fixed.quanta[j] + span->spread + 0 * reach;
+block at the start only|nsvcd__planes_part(p, l, 2, margin, &plane, &below)|nsvcd__planes_part(p, l, 1, margin, &plane, &below)
+block's boxes at the start only|nsvcd__block_box(p, 2);|nsvcd__block_box(p, 1);
+last triangle skipped|const size_t moving_end = p->moving.first_triangle[i + 1], fixed_end = p->fixed.first_triangle[j + 1];\n  const float reach|const size_t moving_end = p->moving.first_triangle[i + 1] - 1, fixed_end = p->fixed.first_triangle[j + 1];\n  const float reach
+containment one way|way < 2; way++|way < 1; way++
+first arc only|for (double at = start; at < end;) {|for (double at = start; at < end \&\& at == start;) {
+a segment dropped|for (; wanted; wanted &= wanted - 1) {\n    const size_t s = nsvcd__lowest_bit(wanted);\n    const nsvcd__chords *c = &work->members[s];|for (wanted \&= wanted \& (wanted - 1) ? wanted - 1 : wanted; wanted; wanted \&= wanted - 1) {\n    const size_t s = nsvcd__lowest_bit(wanted);\n    const nsvcd__chords *c = \&work->members[s];
+margin of small normals|nsvcd__v_pick(square, nsvcd__v_set(1e-30f), nsvcd__v_set(1e30f), limit)|limit
+LIST
+
+survived=0
+while IFS= read -r line; do
+  name=${line%%|*}
+  case "$name" in *"${1:-}"*) ;; *) continue ;; esac
+  LINE="$line" python3 - <<'PYTHON' >$work/neuralsvcd.h || exit 1
+import os, sys
+name, old, new = os.environ['LINE'].split('|', 2)
+old, new = old.replace('\\n', '\n'), new.replace('\\n', '\n').replace('\\&', '&').rstrip('|')
+text = open('neuralsvcd.h').read()
+if old and text.count(old) != 1:
+    sys.exit(f'{name}: found {text.count(old)} times')
+sys.stdout.write(text.replace(old, new) if old else text)
+PYTHON
+  $CC -O2 -march=native -std=c99 -w -DTEST_ALONE -o $work/test $work/tests/test_proof.c -lm || exit 1
+  if timeout 100 $work/test >$work/out.txt 2>&1; then
+    if [ "$name" = none ]; then echo "the header itself passes"; continue; fi
+    echo "SURVIVES  $name"
+    survived=1
+  else
+    if [ "$name" = none ]; then echo "the header itself fails: see $work/out.txt"; exit 1; fi
+    echo "caught    $name: $(grep -c 'FAILED' $work/out.txt) tests, first $(grep -m 1 'FAILED' $work/out.txt | cut -d' ' -f1)"
+  fi
+done <$work/list
+exit $survived

@@ -1,0 +1,446 @@
+// What tests/test_proof.c tries the proof with: bodies whose stored surface is read and held against the mesh in double,
+// motions, and the certificates that queries issue. Independent of the header's arithmetic: from the header only the
+// layout of a body is taken. Include after neuralsvcd.h with its implementation.
+#ifndef PROOF_SCENE_H
+#define PROOF_SCENE_H
+
+#include "../examples/shapes.h"
+#include "oracle.h"
+
+#define PROOF_POOL 96    // points of the surface by which a patch is judged
+#define PROOF_POSES 80
+#define PROOF_HULL 16
+
+// ------------------------------------------------------------------------------------------------------------- hulls
+
+// Solves the symmetric system of n <= 3 rows; the answer replaces b. Returns 0 if it is singular.
+static int proof_solve(double a[3][3], double *b, int n) {
+  for (int i = 0; i < n; i++) {
+    if (!(fabs(a[i][i]) > 1e-300)) return 0;
+    for (int j = i + 1; j < n; j++) {
+      const double factor = a[j][i] / a[i][i];
+      for (int k = i; k < n; k++) a[j][k] -= factor * a[i][k];
+      b[j] -= factor * b[i];
+    }
+  }
+  for (int i = n - 1; i >= 0; i--) {
+    for (int j = i + 1; j < n; j++) b[i] -= a[i][j] * b[j];
+    b[i] /= a[i][i];
+  }
+  return 1;
+}
+
+// The point of the plane through these 1 to 4 points nearest to the origin, if it is between them.
+static int proof_foot(const double (*p)[3], const int *chosen, int count, double *foot) {
+  double edges[3][3], gram[3][3], weights[3], first = 1;
+  for (int i = 0; i + 1 < count; i++) oracle_sub(p[chosen[i + 1]], p[chosen[0]], edges[i]);
+  for (int i = 0; i + 1 < count; i++) {
+    for (int j = 0; j + 1 < count; j++) gram[i][j] = oracle_dot(edges[i], edges[j]);
+    weights[i] = -oracle_dot(edges[i], p[chosen[0]]);
+  }
+  if (!proof_solve(gram, weights, count - 1)) return 0;
+  memcpy(foot, p[chosen[0]], 3 * sizeof *foot);
+  for (int i = 0; i + 1 < count; i++) {
+    if (!(weights[i] >= 0)) return 0;
+    first -= weights[i];
+    for (int k = 0; k < 3; k++) foot[k] += weights[i] * edges[i][k];
+  }
+  return first >= 0;
+}
+
+// Keeps of up to 4 points those whose hull has the point nearest to the origin; that point goes to `nearest`.
+static void proof_reduce(double (*p)[3], int *count, double *nearest) {
+  double best = DBL_MAX;
+  unsigned kept = 1;
+  double out[4][3];
+  for (unsigned set = 1; set < 1u << *count; set++) {
+    int chosen[4], n = 0;
+    double foot[3];
+    for (int i = 0; i < *count; i++) {
+      if (set >> i & 1) chosen[n++] = i;
+    }
+    if (!proof_foot((const double (*)[3])p, chosen, n, foot)) continue;
+    if (oracle_dot(foot, foot) >= best) continue;
+    best = oracle_dot(foot, foot);
+    memcpy(nearest, foot, sizeof foot);
+    kept = set;
+  }
+  int n = 0;
+  for (int i = 0; i < *count; i++) {
+    if (kept >> i & 1) memcpy(out[n++], p[i], sizeof out[0]);
+  }
+  memcpy(p, out, (size_t)n * sizeof out[0]);
+  *count = n;
+}
+
+// Distance of x from the hull of some points, as a lower and an upper bound (Gilbert, Johnson and Keerthi 1988).
+static void proof_hull_distance(const double (*hull)[3], size_t count, const double *x, double *low,
+                                double *high) {
+  double simplex[4][3], nearest[3];
+  int size = 1;
+  oracle_sub(hull[0], x, simplex[0]);
+  memcpy(nearest, simplex[0], sizeof nearest);
+  *low = 0;
+  *high = oracle_length(nearest);
+  for (int step = 0; step < 60 && *high > *low * (1 + 1e-10) && *high > 0; step++) {
+    double least = DBL_MAX, support[3] = {0, 0, 0};
+    for (size_t i = 0; i < count; i++) {
+      double d[3];
+      oracle_sub(hull[i], x, d);
+      const double at = oracle_dot(d, nearest);
+      if (at >= least) continue;
+      least = at;
+      memcpy(support, d, sizeof d);
+    }
+    *low = fmax(*low, least / oracle_length(nearest));
+    if (size == 4) return;
+    memcpy(simplex[size++], support, sizeof support);
+    proof_reduce(simplex, &size, nearest);
+    if (oracle_length(nearest) >= *high) return;
+    *high = oracle_length(nearest);
+  }
+}
+
+// ------------------------------------------------------------------------------------------------------------ bodies
+
+typedef struct proof_patch {
+  double centre[3], radius;
+  double normal[3], low, high, across;
+  double slack, quantum;
+  double hull[PROOF_HULL][3];
+  size_t hull_count;
+  size_t first, end;            // listings
+  double pool[PROOF_POOL][3];  // points of the mesh that it holds for certain
+  size_t pool_count;
+} proof_patch;
+
+typedef struct proof_listing {
+  size_t patch, triangle;
+  int whole;              // else it is a part of the triangle
+  double corners[3][3];   // the mesh's where it is whole, else as stored
+  double stored[3][3];
+} proof_listing;
+
+typedef struct proof_body {
+  const nsvcd_body *body;
+  double *positions;  // of the mesh
+  uint32_t *indices;
+  size_t vertices, triangles;
+  oracle_mesh oracle;
+  proof_patch *patches;
+  size_t count, listed;
+  proof_listing *listings;
+  size_t *first_of, *of_triangle;  // listings by triangle
+  double size;                     // radius about the origin of the body
+} proof_body;
+
+static void proof_corners(const proof_body *b, size_t triangle, double corners[3][3]) {
+  for (size_t k = 0; k < 3; k++) {
+    memcpy(corners[k], b->positions + 3 * (size_t)b->indices[3 * triangle + k], 3 * sizeof(double));
+  }
+}
+
+static void proof_read_patch(const nsvcd__facets *f, size_t i, proof_patch *out) {
+  const size_t padded = f->body->padded;
+  const float *spheres = (const float *)(const void *)(f->body + 1);
+  const size_t all = f->first_vertex[i + 1] - f->first_vertex[i];
+  const int16_t *x = f->vertices + 3 * (size_t)f->first_vertex[i];
+  for (size_t k = 0; k < 3; k++) out->centre[k] = (double)spheres[k * padded + i];
+  for (size_t k = 0; k < 3; k++) out->normal[k] = (double)f->discs[k * padded + i];
+  out->radius = (double)spheres[3 * padded + i];
+  out->low = (double)f->discs[3 * padded + i];
+  out->high = (double)f->discs[4 * padded + i];
+  out->across = (double)f->discs[5 * padded + i];
+  out->slack = (double)f->slacks[i];
+  out->quantum = (double)f->quanta[i];
+  out->hull_count = f->hull_counts[i];
+  out->first = f->first_triangle[i];
+  out->end = f->first_triangle[i + 1];
+  out->pool_count = 0;
+  for (size_t n = 0; n < out->hull_count; n++) {
+    for (size_t k = 0; k < 3; k++) {
+      out->hull[n][k] = out->centre[k] + (double)f->steps[i] * x[k * all + n];
+    }
+  }
+}
+
+static size_t proof_stored_number(const unsigned char *at, size_t bytes) {
+  size_t number = 0;
+  for (size_t k = 0; k < bytes; k++) number |= (size_t)at[k] << 8 * k;
+  return number;
+}
+
+static void proof_read_listing(const proof_body *b, const nsvcd__facets *f, size_t i, size_t n,
+                               proof_listing *out) {
+  const size_t all = f->first_vertex[i + 1] - f->first_vertex[i];
+  const int16_t *x = f->vertices + 3 * (size_t)f->first_vertex[i];
+  const size_t top = (size_t)1 << (8 * f->number_bytes - 1);
+  out->patch = i;
+  out->triangle = proof_stored_number(f->numbers + f->number_bytes * n, f->number_bytes) & (top - 1);
+  proof_corners(b, out->triangle, out->corners);
+  out->whole = 1;
+  for (size_t c = 0; c < 3; c++) {
+    const unsigned char *at = f->corners + f->corner_bytes * (3 * n + c);
+    const size_t vertex = proof_stored_number(at, f->corner_bytes);
+    double off[3];
+    for (size_t k = 0; k < 3; k++) {
+      out->stored[c][k] = b->patches[i].centre[k] + (double)f->steps[i] * x[k * all + vertex];
+    }
+    oracle_sub(out->stored[c], out->corners[c], off);
+    if (oracle_length(off) > b->patches[i].quantum * (1 + 1e-9)) out->whole = 0;
+  }
+  if (!out->whole) memcpy(out->corners, out->stored, sizeof out->corners);
+}
+
+// Does the patch hold a point of one of its triangles: 1 for certain, 0 for certain not, -1 unknown (to rounding).
+static int proof_holds(const proof_patch *p, const double *x) {
+  double d[3], along[3], low, high;
+  oracle_sub(x, p->centre, d);
+  const double square = oracle_dot(p->normal, p->normal);
+  const double height = oracle_dot(p->normal, d);
+  const double rounding = 1e-12 * (oracle_length(p->centre) + p->radius);
+  for (int k = 0; k < 3; k++) along[k] = d[k] - p->normal[k] * height / square;
+  const double outside = fmax(fmax(oracle_length(d) - p->radius, oracle_length(along) - p->across),
+                              fmax(height - p->high, p->low - height));
+  if (outside > rounding) return 0;
+  proof_hull_distance((const double (*)[3])p->hull, p->hull_count, x, &low, &high);
+  if (low > p->slack + rounding) return 0;
+  return outside <= 0 && high <= p->slack ? 1 : -1;
+}
+
+static int proof_lists(const proof_body *b, size_t i, size_t triangle) {
+  for (size_t n = b->first_of[triangle]; n < b->first_of[triangle + 1]; n++) {
+    if (b->listings[b->of_triangle[n]].patch == i) return 1;
+  }
+  return 0;
+}
+
+static void proof_pool_add(proof_patch *p, const double *x) {
+  if (p->pool_count == PROOF_POOL || proof_holds(p, x) != 1) return;
+  memcpy(p->pool[p->pool_count++], x, 3 * sizeof *x);
+}
+
+static void proof_point_in(shapes_rng *rng, double corners[3][3], double *out) {
+  double u = shapes_uniform(rng, 0, 1);
+  double v = shapes_uniform(rng, 0, 1);
+  if (u + v > 1) {
+    u = 1 - u;
+    v = 1 - v;
+  }
+  for (int k = 0; k < 3; k++) {
+    out[k] = (1 - u - v) * corners[0][k] + u * corners[1][k] + v * corners[2][k];
+  }
+}
+
+// Between a point that is held and one that is not: about the last one that is.
+static void proof_pool_border(proof_patch *p, const double *inside, const double *outside) {
+  double in = 0, out = 1, x[3];
+  for (int step = 0; step < 24; step++) {
+    const double middle = 0.5 * (in + out);
+    for (int k = 0; k < 3; k++) x[k] = inside[k] + middle * (outside[k] - inside[k]);
+    if (proof_holds(p, x) == 1) in = middle;
+    if (proof_holds(p, x) != 1) out = middle;
+  }
+  for (int k = 0; k < 3; k++) x[k] = inside[k] + in * (outside[k] - inside[k]);
+  proof_pool_add(p, x);
+}
+
+// Fills a patch's pool: corners of its triangles, then random points, and where triangles leave what it holds.
+static void proof_fill_pool(proof_body *b, size_t i, shapes_rng *rng) {
+  proof_patch *p = &b->patches[i];
+  for (size_t n = p->first; n < p->end && p->pool_count < PROOF_POOL / 2; n++) {
+    double corners[3][3];
+    proof_corners(b, b->listings[n].triangle, corners);
+    for (int k = 0; k < 3; k++) proof_pool_add(p, corners[k]);
+  }
+  for (int trial = 0; trial < 2 * PROOF_POOL && p->end > p->first; trial++) {
+    const size_t n = p->first + (size_t)(shapes_next(rng) % (p->end - p->first));
+    double corners[3][3], x[3];
+    proof_corners(b, b->listings[n].triangle, corners);
+    proof_point_in(rng, corners, x);
+    if (proof_holds(p, x) == 1) {
+      proof_pool_add(p, x);
+      const double *corner = corners[trial % 3];
+      if (proof_holds(p, corner) == 0) proof_pool_border(p, x, corner);
+    }
+  }
+}
+
+static void proof_sort_listings(proof_body *b) {
+  size_t *first = (size_t *)calloc(b->triangles + 2, sizeof *first);
+  b->of_triangle = (size_t *)malloc((b->listed + 1) * sizeof *b->of_triangle);
+  if (!first || !b->of_triangle) exit(1);
+  for (size_t n = 0; n < b->listed; n++) first[b->listings[n].triangle + 2]++;
+  for (size_t t = 0; t < b->triangles; t++) first[t + 2] += first[t + 1];
+  for (size_t n = 0; n < b->listed; n++) b->of_triangle[first[b->listings[n].triangle + 1]++] = n;
+  b->first_of = first;
+}
+
+static void proof_read_body(proof_body *b) {
+  const nsvcd__facets f = nsvcd__facets_of(nsvcd__triangles_of(b->body));
+  shapes_rng rng = {b->triangles};
+  b->count = f.body->points;
+  b->listed = f.listed;
+  b->patches = (proof_patch *)calloc(b->count, sizeof *b->patches);
+  b->listings = (proof_listing *)calloc(b->listed + 1, sizeof *b->listings);
+  if (!b->patches || !b->listings) exit(1);
+  for (size_t i = 0; i < b->count; i++) {
+    proof_read_patch(&f, i, &b->patches[i]);
+    for (size_t n = b->patches[i].first; n < b->patches[i].end; n++) {
+      proof_read_listing(b, &f, i, n, &b->listings[n]);
+    }
+  }
+  proof_sort_listings(b);
+  for (size_t i = 0; i < b->count; i++) proof_fill_pool(b, i, &rng);
+}
+
+// Encodes a shape, multiplied by scale; what the encoder says goes to *result.
+static proof_body proof_encode(const shapes_mesh *shape, double scale,
+                               const nsvcd_encode_options *options, nsvcd_result *result) {
+  proof_body b;
+  nsvcd_mesh mesh;
+  memset(&b, 0, sizeof b);
+  b.vertices = mesh.vertex_count = shape->vertices;
+  b.triangles = mesh.triangle_count = shape->triangles;
+  mesh.positions = (float *)malloc(3 * b.vertices * sizeof(float));
+  b.positions = (double *)malloc(3 * b.vertices * sizeof(double));
+  b.indices = mesh.indices = (uint32_t *)malloc(3 * b.triangles * sizeof(uint32_t));
+  if (!mesh.positions || !b.positions || !b.indices) exit(1);
+  memcpy(b.indices, shape->indices, 3 * b.triangles * sizeof(uint32_t));
+  for (size_t i = 0; i < 3 * b.vertices; i++) {
+    mesh.positions[i] = (float)(shape->positions[i] * scale);
+    b.positions[i] = (double)mesh.positions[i];
+  }
+  *result = nsvcd_encode(&mesh, options, NULL, NULL, 0, &b.body);
+  free(mesh.positions);
+  if (*result) return b;
+  if (!oracle_mesh_init(&b.oracle, b.positions, b.vertices, b.indices, b.triangles, 1)) exit(1);
+  for (size_t i = 0; i < b.vertices; i++) b.size = fmax(b.size, oracle_length(b.positions + 3 * i));
+  proof_read_body(&b);
+  return b;
+}
+
+static void proof_free(proof_body *b) {
+  nsvcd_body_free(b->body, NULL);
+  oracle_mesh_free(&b->oracle);
+  free(b->positions);
+  free(b->indices);
+  free(b->patches);
+  free(b->listings);
+  free(b->first_of);
+  free(b->of_triangle);
+  memset(b, 0, sizeof *b);
+}
+
+// ----------------------------------------------------------------------------------------------------------- motions
+
+typedef struct proof_motion {
+  nsvcd_pose raw[PROOF_POSES], raw_fixed;  // as asked
+  oracle_pose poses[PROOF_POSES], fixed;   // the same in double, quaternions of unit length
+  size_t count;
+} proof_motion;
+
+// x -> matrix x + position: from the moving body's frame to the fixed one's.
+typedef struct proof_place {
+  double matrix[9], position[3];
+} proof_place;
+
+static nsvcd_pose proof_rounded(const oracle_pose *pose) {
+  nsvcd_pose out;
+  for (int k = 0; k < 3; k++) out.position[k] = (float)pose->position[k];
+  for (int k = 0; k < 4; k++) out.rotation[k] = (float)pose->rotation[k];
+  return out;
+}
+static oracle_pose proof_widened(const nsvcd_pose *pose) {
+  oracle_pose out;
+  for (int k = 0; k < 3; k++) out.position[k] = (double)pose->position[k];
+  for (int k = 0; k < 4; k++) out.rotation[k] = (double)pose->rotation[k];
+  oracle_quat_normalize(out.rotation);
+  return out;
+}
+
+// Rounds the poses to float, and takes them as they then are.
+static void proof_motion_set(proof_motion *m, const oracle_pose *poses, size_t count,
+                             const oracle_pose *fixed) {
+  m->count = count;
+  m->raw_fixed = proof_rounded(fixed);
+  m->fixed = proof_widened(&m->raw_fixed);
+  for (size_t i = 0; i < count; i++) {
+    m->raw[i] = proof_rounded(&poses[i]);
+    m->poses[i] = proof_widened(&m->raw[i]);
+  }
+}
+
+static proof_place proof_relative(const oracle_pose *pose, const oracle_pose *fixed) {
+  proof_place out;
+  double turn[9], base[9], d[3];
+  oracle_matrix(pose->rotation, turn);
+  oracle_matrix(fixed->rotation, base);
+  oracle_sub(pose->position, fixed->position, d);
+  oracle_rotate_back(base, d, out.position);
+  for (int i = 0; i < 3; i++) {
+    for (int j = 0; j < 3; j++) {
+      out.matrix[3 * i + j] = base[i] * turn[j] + base[3 + i] * turn[3 + j] + base[6 + i] * turn[6 + j];
+    }
+  }
+  return out;
+}
+
+// The pose at t. As oracle_pose_at, but where samples are exactly half a turn apart and both arcs are as short: there the
+// sign is that of the floats' own product, and 0 leaves them as they are.
+static oracle_pose proof_pose_at(const proof_motion *m, double t) {
+  if (m->count == 1) return m->poses[0];
+  const double at = t * (double)(m->count - 1);
+  const size_t last = m->count - 2;
+  const size_t k = at <= 0 ? 0 : (size_t)at < last ? (size_t)at : last;
+  const oracle_pose *a = &m->poses[k], *b = a + 1;
+  const double f = at - (double)k;
+  double product = 0, apart = 0, together = 0, q[4];
+  for (int i = 0; i < 4; i++) product += (double)m->raw[k].rotation[i] * (double)m->raw[k + 1].rotation[i];
+  for (int i = 0; i < 4; i++) {
+    q[i] = product < 0 ? -b->rotation[i] : b->rotation[i];
+    apart += (q[i] - a->rotation[i]) * (q[i] - a->rotation[i]);
+    together += (q[i] + a->rotation[i]) * (q[i] + a->rotation[i]);
+  }
+  const double half = 2 * atan2(sqrt(apart), sqrt(together));
+  const double before = half > 1e-9 ? sin((1 - f) * half) / sin(half) : 1 - f;
+  const double after = half > 1e-9 ? sin(f * half) / sin(half) : f;
+  oracle_pose out;
+  for (int i = 0; i < 4; i++) out.rotation[i] = before * a->rotation[i] + after * q[i];
+  for (int i = 0; i < 3; i++) out.position[i] = a->position[i] + f * (b->position[i] - a->position[i]);
+  oracle_quat_normalize(out.rotation);
+  return out;
+}
+static proof_place proof_place_at(const proof_motion *m, double t) {
+  const oracle_pose pose = proof_pose_at(m, t);
+  return proof_relative(&pose, &m->fixed);
+}
+static void proof_apply(const proof_place *at, const double *x, double *out) {
+  double turned[3];
+  oracle_rotate(at->matrix, x, turned);
+  for (int k = 0; k < 3; k++) out[k] = turned[k] + at->position[k];
+}
+
+// ------------------------------------------------------------------------------------------------------ certificates
+
+typedef struct proof_record {
+  int kind;
+  size_t i, j, a, b;
+  double start, end;
+  double normal[3];
+} proof_record;
+
+static proof_record *proof_sorted(proof_record *items, size_t count);
+
+static int proof_compare(const void *pa, const void *pb) {
+  const proof_record *a = (const proof_record *)pa, *b = (const proof_record *)pb;
+  if (a->i != b->i) return a->i < b->i ? -1 : 1;
+  if (a->j != b->j) return a->j < b->j ? -1 : 1;
+  return (a->kind > b->kind) - (a->kind < b->kind);
+}
+static proof_record *proof_sorted(proof_record *items, size_t count) {
+  qsort(items, count, sizeof *items, proof_compare);
+  return items;
+}
+
+#endif

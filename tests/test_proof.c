@@ -1,0 +1,1486 @@
+// The proof, attacked: every certificate replayed in double at other times and points than it was made from, poses at
+// which triangles cross, witnesses, containment, limits, forged bodies, and scenes that are hard to get right.
+// TEST_ALONE: with a main of its own. PROOF_MANY=10 in the environment: as many times more crossings.
+#define NSVCD_STATIC
+#define NEURALSVCD_IMPLEMENTATION
+#include <stddef.h>
+static void proof_certified(int kind, size_t i, size_t j, size_t a, size_t b, double start, double end,
+                            const float *normal);
+#define NSVCD__CERTIFY(kind, moving, fixed, moving_listing, fixed_listing, t_start, t_end, normal) \
+  proof_certified(kind, moving, fixed, moving_listing, fixed_listing, t_start, t_end, normal)
+#include "../neuralsvcd.h"
+
+#include "check.h"
+#include "proof_scene.h"
+
+#include <time.h>
+
+void test_proof(void);
+
+#define CERTIFICATES 300000  // kept of one query
+
+// A question, and what came of it.
+typedef struct attack {
+  const proof_body *moving, *fixed;
+  proof_motion motion;
+  nsvcd_answer answer;
+} attack;
+
+static struct {
+  int deaf;
+  proof_record *items;
+  size_t count, left_out;
+} heard;
+
+static void proof_certified(int kind, size_t i, size_t j, size_t a, size_t b, double start, double end,
+                            const float *normal) {
+  if (heard.deaf) return;
+  if (!heard.items) heard.items = (proof_record *)malloc(CERTIFICATES * sizeof *heard.items);
+  if (!heard.items) exit(1);
+  if (heard.count == CERTIFICATES) {
+    heard.left_out++;
+    return;
+  }
+  proof_record *r = &heard.items[heard.count++];
+  r->kind = kind;
+  r->i = i;
+  r->j = j;
+  r->a = a;
+  r->b = b;
+  r->start = start;
+  r->end = end;
+  for (int k = 0; k < 3; k++) r->normal[k] = (double)normal[k];
+}
+
+static void *proof_workspace(void) {
+  static void *memory;
+  if (!memory) memory = malloc(nsvcd_sweep_workspace_size());
+  if (!memory) exit(1);
+  return memory;
+}
+
+static nsvcd_sweep_options proof_options(void) {
+  nsvcd_sweep_options options;
+  memset(&options, 0, sizeof options);
+  options.method = NSVCD_METHOD_PROOF;
+  return options;
+}
+
+static nsvcd_result proof_ask_with(attack *a, const nsvcd_sweep_options *options) {
+  heard.count = heard.left_out = 0;
+  return nsvcd_sweep(a->moving->body, a->motion.raw, a->motion.count, a->fixed->body, &a->motion.raw_fixed, options,
+                     proof_workspace(), nsvcd_sweep_workspace_size(), &a->answer);
+}
+static void proof_ask(attack *a) {
+  const nsvcd_sweep_options options = proof_options();
+  CHECK_EQ(proof_ask_with(a, &options), NSVCD_OK);
+}
+
+// ------------------------------------------------------------------------------------------------------------ bodies
+
+enum { SOLID, HOLLOW, BOX, BLOCK, PLATE, SHEET, SHELL, NEEDLE, TRIANGLE, BALL, KINDS };
+
+// A wavy sheet, open.
+static void proof_sheet(shapes_mesh *mesh, double size, int cuts) {
+  for (int i = 0; i <= cuts; i++) {
+    for (int j = 0; j <= cuts; j++) {
+      const double x = size * ((double)i / cuts - 0.5);
+      const double y = size * ((double)j / cuts - 0.5);
+      shapes_vertex(mesh, x, y, 0.05 * size * sin(9 * x / size) * cos(7 * y / size));
+    }
+  }
+  for (int i = 0; i < cuts; i++) {
+    for (int j = 0; j < cuts; j++) {
+      const uint32_t at = (uint32_t)(i * (cuts + 1) + j);
+      shapes_quad(mesh, at, at + (uint32_t)cuts + 1, at + (uint32_t)cuts + 2, at + 1);
+    }
+  }
+}
+
+static void proof_shape(int kind, uint64_t seed, shapes_mesh *mesh) {
+  shapes_rng rng = {seed};
+  memset(mesh, 0, sizeof *mesh);
+  if (kind == SOLID) shapes_random_solid(mesh, &rng, shapes_uniform(&rng, 0.1, 0.4));
+  if (kind == HOLLOW) shapes_random_hollow(mesh, &rng, (int)(seed % SHAPES_HOLLOWS), 0.4);
+  if (kind == BOX) shapes_box(mesh, 0.2, 0.15, 0.1, 4);
+  if (kind == BLOCK) shapes_box(mesh, 0.3, 0.3, 0.1, 1);  // two triangles a side: listed in parts
+  if (kind == PLATE) shapes_box(mesh, 0.3, 0.2, 0.001, 3);
+  if (kind == SHEET) proof_sheet(mesh, 0.3, 8);
+  if (kind == SHELL) shapes_shell(mesh, 0.4, 0.35, 0.3, 0.02, (int)(seed % 2), 20);
+  if (kind == NEEDLE) shapes_box(mesh, 0.5, 5e-5, 5e-5, 2);
+  if (kind == BALL) shapes_ellipsoid(mesh, 0.11, 0.09, 0.07, 24);
+  if (kind != TRIANGLE) return;
+  const uint32_t a = shapes_vertex(mesh, 0.1, 0, 0);
+  const uint32_t b = shapes_vertex(mesh, -0.05, 0.1, 0.01);
+  shapes_triangle(mesh, a, b, shapes_vertex(mesh, -0.04, -0.1, -0.02));
+}
+
+static proof_body proof_make(int kind, uint64_t seed, size_t points, double scale) {
+  shapes_mesh shape;
+  nsvcd_result result;
+  const nsvcd_encode_options options = {points, 0, kind == SHEET || kind == TRIANGLE, 0};
+  proof_shape(kind, seed, &shape);
+  const proof_body out = proof_encode(&shape, scale, &options, &result);
+  shapes_free(&shape);
+  CHECK_EQ(result, NSVCD_OK);
+  if (result) exit(1);
+  return out;
+}
+
+// Bodies of one scale, shared by the tests; made once.
+#define SCALES 6
+#define MAKES 18
+static const double proof_scales[SCALES] = {1, 1e-10, 1e-6, 1e3, 3e5, 3e-11};
+
+static const proof_body *proof_shared(size_t scale, size_t n) {
+  static const struct {
+    int kind;
+    uint64_t seed;
+    size_t points;
+  } makes[MAKES] = {{SOLID, 1, 64},   {SOLID, 2, 16},   {SOLID, 3, 128}, {HOLLOW, 4, 64},  {HOLLOW, 12, 128}, {BOX, 6, 32},
+                    {BLOCK, 7, 48},   {PLATE, 8, 40},   {SHEET, 9, 32},  {SHELL, 10, 64},  {NEEDLE, 11, 24},  {TRIANGLE, 12, 1},
+                    {BALL, 13, 100},  {SOLID, 14, 256}, {BLOCK, 15, 3},  {HOLLOW, 21, 96}, {SOLID, 17, 1},    {BALL, 18, 4}};
+  static proof_body bodies[SCALES][MAKES];
+  proof_body *b = &bodies[scale][n];
+  if (!b->body) *b = proof_make(makes[n].kind, makes[n].seed, makes[n].points, proof_scales[scale]);
+  return b;
+}
+
+// ------------------------------------------------------------------------------------------------------------ scenes
+
+static void proof_turned(const double *turn, const oracle_pose *pose, const double *pivot, oracle_pose *out) {
+  double m[9], d[3];
+  oracle_matrix(turn, m);
+  oracle_sub(pose->position, pivot, d);
+  oracle_rotate(m, d, out->position);
+  for (int k = 0; k < 3; k++) out->position[k] += pivot[k];
+  oracle_quat_mul(turn, pose->rotation, out->rotation);
+  oracle_quat_normalize(out->rotation);
+}
+
+static void proof_random_rotation(shapes_rng *rng, int aligned, double *q) {
+  const double half = sqrt(0.5);
+  shapes_quaternion(rng, q);
+  if (!aligned) return;
+  const int axis = shapes_pick(rng, 4);
+  for (int k = 0; k < 4; k++) q[k] = 0;
+  q[3] = axis == 3 ? 1 : half;
+  if (axis < 3) q[axis] = half;
+}
+
+// A pose of the moving body with its surface `gap` from the fixed one's; `point`: where, `away`: the way out. 0 if none
+// is found.
+static int proof_near_contact(shapes_rng *rng, const attack *a, const oracle_pose *fixed, double gap, oracle_pose *pose,
+                              double *point, double *away) {
+  const double reach = a->moving->size + a->fixed->size;
+  double q[4], on_moving[3], on_fixed[3], d[3];
+  proof_random_rotation(rng, shapes_pick(rng, 2), q);
+  oracle_quat_mul(fixed->rotation, q, pose->rotation);
+  for (int trial = 0; trial < 10; trial++) {
+    const double far = shapes_uniform(rng, 0, 1.2) * reach;
+    shapes_direction(rng, d);
+    for (int k = 0; k < 3; k++) pose->position[k] = fixed->position[k] + far * d[k];
+    const double distance = oracle_distance(&a->moving->oracle, pose, &a->fixed->oracle, fixed, on_moving, on_fixed);
+    if (distance <= 1e-6 * reach) continue;
+    for (int k = 0; k < 3; k++) {
+      away[k] = (on_moving[k] - on_fixed[k]) / distance;
+      pose->position[k] -= (distance - gap) * away[k];
+      point[k] = on_fixed[k];
+    }
+    return 1;
+  }
+  return 0;
+}
+
+// A motion that passes the pose at some time.
+static void proof_motion_past(shapes_rng *rng, const oracle_pose *pose, const double *point, const double *away,
+                              double size, double angle, size_t count, oracle_pose *poses) {
+  const double when = shapes_uniform(rng, 0.1, 0.9);
+  const double lift = shapes_pick(rng, 2) ? 0 : shapes_uniform(rng, 0, 1) * size;
+  const double slide = shapes_pick(rng, 2) ? 0 : shapes_uniform(rng, 0, 1.5) * size;
+  const int about_contact = shapes_pick(rng, 2);
+  double axis[3], along[3], turn[4];
+  shapes_direction(rng, axis);
+  shapes_direction(rng, along);
+  if (shapes_pick(rng, 2)) memcpy(axis, away, sizeof axis);
+  const double inwards = oracle_dot(along, away);
+  for (int k = 0; k < 3; k++) along[k] -= inwards * away[k];
+  for (size_t n = 0; n < count; n++) {
+    const double s = count > 1 ? (double)n / (double)(count - 1) - when : 0;
+    oracle_axis_angle(axis, angle * s, turn);
+    proof_turned(turn, pose, about_contact ? point : pose->position, &poses[n]);
+    for (int k = 0; k < 3; k++) poses[n].position[k] += fabs(s) * lift * away[k] + s * slide * along[k];
+  }
+}
+
+// A scene near contact. gap: of the sum of both sizes.
+static int proof_scene(shapes_rng *rng, attack *a, double gap, double offset) {
+  static const size_t counts[6] = {1, 2, 2, 17, 33, 65};
+  static const double angles[8] = {0, 0.02, 0.2, 1, 2.5, 2 * SHAPES_PI, 3 * SHAPES_PI, 4 * SHAPES_PI};
+  const double size = a->moving->size + a->fixed->size;
+  const size_t count = counts[shapes_pick(rng, 6)];
+  const double angle = angles[shapes_pick(rng, count > 5 ? 8 : 5)];
+  oracle_pose fixed, pose, poses[PROOF_POSES];
+  double point[3], away[3];
+  shapes_quaternion(rng, fixed.rotation);
+  if (shapes_pick(rng, 3) == 0) proof_random_rotation(rng, 1, fixed.rotation);
+  for (int k = 0; k < 3; k++) fixed.position[k] = shapes_uniform(rng, -1, 1) * offset * size;
+  if (!proof_near_contact(rng, a, &fixed, gap * size, &pose, point, away)) return 0;
+  proof_motion_past(rng, &pose, point, away, size, angle, count, poses);
+  proof_motion_set(&a->motion, poses, count, &fixed);
+  return 1;
+}
+
+// ------------------------------------------------------------------------------------- certificates, replayed
+
+typedef struct replay {
+  size_t records, evaluations, wrong;
+  size_t pairs, bare, nearest;  // coverage: pairs of patches at a time; those that nothing covers
+  size_t verdicts[6];
+  double worst;  // gap over what is allowed, where wrong
+} replay;
+
+// normal . (x(t) - y), least over the points of both sides.
+static double proof_gap(const double *normal, const proof_place *at, const double (*x)[3], size_t xs,
+                        const double (*y)[3], size_t ys) {
+  double turned[3], lowest = DBL_MAX, highest = -DBL_MAX;
+  oracle_rotate_back(at->matrix, normal, turned);
+  for (size_t i = 0; i < xs; i++) lowest = fmin(lowest, oracle_dot(turned, x[i]));
+  for (size_t i = 0; i < ys; i++) highest = fmax(highest, oracle_dot(normal, y[i]));
+  return lowest + oracle_dot(normal, at->position) - highest;
+}
+
+// Does what the certificate says hold at t? A plane between patches has to part all that they hold. One between pairs of
+// triangles has been rounded to float on its way to us: that much is allowed.
+static int proof_is_true(const attack *a, const proof_record *r, double t, replay *sum) {
+  const proof_patch *p = &a->moving->patches[r->i];
+  const proof_patch *q = &a->fixed->patches[r->j];
+  const proof_place at = proof_place_at(&a->motion, t);
+  const double scale = oracle_length(r->normal);
+  double gap, allowed = 0;
+  if (r->kind == NSVCD__BY_TRIANGLES) {
+    const proof_listing *x = &a->moving->listings[r->a];
+    const proof_listing *y = &a->fixed->listings[r->b];
+    double d[3], place[3];
+    proof_apply(&at, x->corners[0], place);
+    oracle_sub(place, y->corners[0], d);
+    gap = proof_gap(r->normal, &at, (const double (*)[3])x->corners, 3, (const double (*)[3])y->corners, 3);
+    for (int k = 0; k < 3; k++) {
+      double edge[3], other[3];
+      oracle_sub(x->corners[k], x->corners[0], edge);
+      oracle_sub(y->corners[k], y->corners[0], other);
+      allowed = fmax(allowed, oracle_length(edge) + oracle_length(other));
+    }
+    allowed = 1e-7 * scale * (allowed + oracle_length(d));
+  } else {
+    if (!p->pool_count || !q->pool_count) return 1;
+    gap = proof_gap(r->normal, &at, (const double (*)[3])p->pool, p->pool_count, (const double (*)[3])q->pool,
+                    q->pool_count);
+  }
+  sum->evaluations++;
+  if (gap > -allowed) return 1;
+  sum->worst = fmin(sum->worst, gap / scale / (a->moving->size + a->fixed->size));
+  return 0;
+}
+
+static void proof_replay_records(const attack *a, shapes_rng *rng, replay *sum) {
+  const size_t most = 20000;
+  const size_t stride = heard.count / most + 1;
+  sum->records += heard.count;
+  for (size_t n = shapes_next(rng) % stride; n < heard.count; n += stride) {
+    const proof_record *r = &heard.items[n];
+    const double random = shapes_uniform(rng, 0, 1);
+    const double shares[4] = {0.5, random, 0, 1};
+    const int times = r->kind == NSVCD__BY_TRIANGLES ? 2 : 4;
+    for (int k = 0; k < times; k++) {
+      const double t = r->start + shares[k] * (r->end - r->start);
+      if (proof_is_true(a, r, t, sum)) continue;
+      sum->wrong++;
+    }
+  }
+}
+
+// Where the certificates of pair (i, j) begin, in order: (patches, patches) + 1.
+static const size_t *proof_index(const attack *a) {
+  static size_t *first, room;
+  const size_t pairs = a->moving->count * a->fixed->count;
+  proof_sorted(heard.items, heard.count);
+  if (room < pairs + 1) {
+    free(first);
+    first = (size_t *)malloc((pairs + 1) * sizeof *first);
+    room = pairs + 1;
+  }
+  if (!first) exit(1);
+  size_t n = 0;
+  for (size_t pair = 0; pair <= pairs; pair++) {
+    while (n < heard.count && heard.items[n].i * a->fixed->count + heard.items[n].j < pair) n++;
+    first[pair] = n;
+  }
+  return first;
+}
+
+// Are all pairs of listed triangles of two patches covered at t?
+static int proof_triangles_covered(const attack *a, size_t i, size_t j, const proof_record *records, size_t count,
+                                   double t) {
+  const proof_patch *p = &a->moving->patches[i];
+  const proof_patch *q = &a->fixed->patches[j];
+  const size_t wide = q->end - q->first;
+  const size_t all = (p->end - p->first) * wide;
+  size_t covered = 0;
+  unsigned char *seen = (unsigned char *)calloc(all + 1, 1);
+  if (!seen) exit(1);
+  for (size_t n = 0; n < count; n++) {
+    const proof_record *r = &records[n];
+    if (r->kind != NSVCD__BY_TRIANGLES || t < r->start || t > r->end) continue;
+    unsigned char *mark = &seen[(r->a - p->first) * wide + (r->b - q->first)];
+    covered += !*mark;
+    *mark = 1;
+  }
+  free(seen);
+  return covered == all;
+}
+
+static int proof_is_covered(const attack *a, const size_t *first, size_t i, size_t j, double t) {
+  const size_t pair = i * a->fixed->count + j;
+  const proof_record *records = heard.items + first[pair];
+  const size_t count = first[pair + 1] - first[pair];
+  for (size_t n = 0; n < count; n++) {
+    const proof_record *r = &records[n];
+    if (r->kind != NSVCD__BY_TRIANGLES && t >= r->start && t <= r->end) return 1;
+  }
+  return proof_triangles_covered(a, i, j, records, count, t);
+}
+
+// All pairs of patches whose balls overlap at t.
+static void proof_cover_at(const attack *a, const size_t *first, double t, replay *sum) {
+  const proof_place at = proof_place_at(&a->motion, t);
+  for (size_t i = 0; i < a->moving->count; i++) {
+    const proof_patch *p = &a->moving->patches[i];
+    double centre[3];
+    proof_apply(&at, p->centre, centre);
+    for (size_t j = 0; j < a->fixed->count && p->hull_count; j++) {
+      const proof_patch *q = &a->fixed->patches[j];
+      const double reach = (p->radius + q->radius) * (1 - 1e-9);
+      double d[3];
+      oracle_sub(centre, q->centre, d);
+      if (!q->hull_count || oracle_dot(d, d) >= reach * reach) continue;
+      sum->pairs++;
+      sum->bare += !proof_is_covered(a, first, i, j, t);
+    }
+  }
+}
+
+// The points of both surfaces that are nearest to each other at t: they are apart, and so says each plane on them.
+static void proof_nearest_at(const attack *a, const size_t *first, double t, replay *sum) {
+  const proof_place at = proof_place_at(&a->motion, t);
+  const oracle_pose pose = proof_pose_at(&a->motion, t);
+  oracle_search s;
+  double x[3], d[3];
+  oracle_search_begin(&s, &a->fixed->oracle, &a->moving->oracle);
+  const double distance = oracle_search_run(&s, &a->motion.fixed, &pose, DBL_MAX);
+  CHECK_GE(distance, 1e-300);
+  oracle_sub(s.on_b, at.position, d);
+  oracle_rotate_back(at.matrix, d, x);
+  for (size_t i = 0; i < a->moving->count; i++) {
+    if (!a->moving->patches[i].hull_count || proof_holds(&a->moving->patches[i], x) != 1) continue;
+    for (size_t j = 0; j < a->fixed->count; j++) {
+      if (!a->fixed->patches[j].hull_count || proof_holds(&a->fixed->patches[j], s.on_a) != 1) continue;
+      const size_t pair = i * a->fixed->count + j;
+      sum->nearest++;
+      for (size_t n = first[pair]; n < first[pair + 1]; n++) {
+        const proof_record *r = &heard.items[n];
+        if (r->kind == NSVCD__BY_TRIANGLES || t < r->start || t > r->end) continue;
+        const double gap = proof_gap(r->normal, &at, (const double (*)[3])x, 1, (const double (*)[3])s.on_a, 1);
+        sum->wrong += !(gap > 0);
+      }
+    }
+  }
+}
+
+static void proof_check_witness(const attack *a);
+
+static void proof_replay(attack *a, shapes_rng *rng, replay *sum) {
+  proof_ask(a);
+  sum->verdicts[a->answer.status]++;
+  proof_replay_records(a, rng, sum);
+  if (a->answer.status == NSVCD_STATUS_WITNESS) proof_check_witness(a);
+  if (a->answer.status != NSVCD_STATUS_CERTIFIED_FREE || heard.left_out) return;
+  const size_t *first = proof_index(a);
+  const double arcs = a->motion.count > 1 ? (double)(a->motion.count - 1) : 1;
+  for (int k = 0; k < 6; k++) {
+    double t = shapes_uniform(rng, 0, 1);
+    if (k == 0) t = 0;
+    if (k == 1) t = 1;
+    if (k == 2) t = floor(t * arcs) / arcs;
+    if (k == 3 && heard.count) t = heard.items[shapes_next(rng) % heard.count].end;
+    proof_cover_at(a, first, t, sum);
+    proof_nearest_at(a, first, t, sum);
+  }
+}
+
+static void proof_report(const char *name, const replay *sum) {
+  printf("  %s: free %zu, inside %zu, witness %zu, undecided %zu; %zu certificates, %zu looked at, %zu wrong (%.3g); "
+         "%zu pairs of patches, %zu bare; %zu nearest\n",
+         name, sum->verdicts[NSVCD_STATUS_CERTIFIED_FREE], sum->verdicts[NSVCD_STATUS_INSIDE],
+         sum->verdicts[NSVCD_STATUS_WITNESS], sum->verdicts[NSVCD_STATUS_UNDECIDED], sum->records, sum->evaluations,
+         sum->wrong, sum->worst, sum->pairs, sum->bare, sum->nearest);
+  CHECK_EQ(sum->wrong, 0);
+  CHECK_EQ(sum->bare, 0);
+}
+
+// ---------------------------------------------------------------------------------------------------------- witnesses
+
+static struct {
+  size_t count;
+  double worst_gap, worst_normal;  // over what is allowed
+  size_t no_normal, off[3];        // normals that are 0, or off by more than 0.001, 0.01, 0.1 radians
+} witnesses;
+
+// No point of the moving body moves by more than this in an interval of time about t.
+static double proof_speed_bound(const attack *a, double t, double interval) {
+  const proof_motion *m = &a->motion;
+  if (m->count < 2) return 0;
+  const double arcs = (double)(m->count - 1);
+  double fastest = 0;
+  for (int side = -1; side <= 1; side++) {
+    const double at = t * arcs + side * interval * arcs;
+    const size_t k = at <= 0 ? 0 : at >= arcs - 1 ? m->count - 2 : (size_t)at;
+    double moved[3], axis[3];
+    oracle_sub(m->poses[k + 1].position, m->poses[k].position, moved);
+    const double turn = oracle_quat_arc(m->poses[k].rotation, m->poses[k + 1].rotation, axis);
+    fastest = fmax(fastest, oracle_length(moved) + turn * a->moving->size);
+  }
+  return fastest * arcs * interval;
+}
+
+static oracle_triangle proof_world_triangle(const proof_body *b, size_t triangle, const oracle_pose *pose) {
+  oracle_triangle out;
+  double corners[3][3];
+  proof_corners(b, triangle, corners);
+  for (int k = 0; k < 3; k++) oracle_transform(pose, corners[k], out.v[k]);
+  oracle_triangle_normal(&out);
+  return out;
+}
+static oracle_triangle proof_point_triangle(const float *point) {
+  oracle_triangle out;
+  for (int k = 0; k < 3; k++) {
+    for (int i = 0; i < 3; i++) out.v[k][i] = (double)point[i];
+    out.normal[k] = 0;
+  }
+  return out;
+}
+static double proof_triangle_distance(const oracle_triangle *a, const oracle_triangle *b) {
+  double x[3], y[3];
+  return sqrt(oracle_triangles(a, b, DBL_MAX, x, y));
+}
+
+// How far the normal of a stored triangle can be from that of the mesh's, radians: corners are off by the quantum.
+static double proof_normal_error(const oracle_triangle *t, double quantum) {
+  double longest = 0, e0[3], e1[3], n[3];
+  for (int k = 0; k < 3; k++) {
+    double e[3];
+    oracle_sub(t->v[(k + 1) % 3], t->v[k], e);
+    longest = fmax(longest, oracle_length(e));
+  }
+  oracle_sub(t->v[1], t->v[0], e0);
+  oracle_sub(t->v[2], t->v[0], e1);
+  oracle_cross(e0, e1, n);
+  return 4 * quantum * longest / fmax(oracle_length(n), 1e-300);
+}
+
+// The normal is that of a stored triangle, or part of one, of the fixed patch: corners off by the quantum turn it, and may
+// leave nothing of the area of a needle.
+static void proof_check_normal(const attack *a, const oracle_triangle *y) {
+  const nsvcd_answer *w = &a->answer;
+  const double normal[3] = {(double)w->normal[0], (double)w->normal[1], (double)w->normal[2]};
+  const double length = oracle_length(normal);
+  const proof_patch *patch = &a->fixed->patches[w->fixed_patch];
+  double off[3], tolerance = 0;
+  CHECK(length < 1e-6 || fabs(length - 1) < 1e-6);
+  if (oracle_length(y->normal) < 0.5) return;
+  for (size_t n = patch->first; n < patch->end; n++) {
+    oracle_triangle stored;
+    if (a->fixed->listings[n].triangle != w->fixed_triangle) continue;
+    memcpy(stored.v, a->fixed->listings[n].stored, sizeof stored.v);
+    tolerance = fmax(tolerance, proof_normal_error(&stored, patch->quantum) + 1e-6);
+  }
+  oracle_sub(normal, y->normal, off);
+  const double error = oracle_length(off);
+  witnesses.no_normal += length < 0.5;
+  witnesses.off[0] += length > 0.5 && error > 0.001;
+  witnesses.off[1] += length > 0.5 && error > 0.01;
+  witnesses.off[2] += length > 0.5 && error > 0.1;
+  witnesses.worst_normal = fmax(witnesses.worst_normal, error / tolerance);
+  CHECK_LE(error, tolerance);
+}
+
+static void proof_check_witness(const attack *a) {
+  const nsvcd_answer *w = &a->answer;
+  CHECK(w->moving_triangle < a->moving->triangles && w->fixed_triangle < a->fixed->triangles);
+  CHECK(w->time >= 0 && w->time <= 1 && w->collides == 1);
+  if (w->moving_triangle >= a->moving->triangles || w->fixed_triangle >= a->fixed->triangles) return;
+  const oracle_pose pose = proof_pose_at(&a->motion, (double)w->time);
+  const oracle_triangle x = proof_world_triangle(a->moving, w->moving_triangle, &pose);
+  const oracle_triangle y = proof_world_triangle(a->fixed, w->fixed_triangle, &a->motion.fixed);
+  const oracle_triangle point = proof_point_triangle(w->point);
+  const double far = oracle_length(a->motion.fixed.position) + oracle_length(pose.position);
+  const double size = a->moving->size + a->fixed->size;
+  const double quantum_x = (double)nsvcd_body_describe(a->moving->body).quantum;
+  const double quantum_y = (double)nsvcd_body_describe(a->fixed->body).quantum;
+  // Half a unit in the last place of a float in [0.5, 1].
+  const double moved = proof_speed_bound(a, (double)w->time, 3e-8) + 1e-12 * (size + far);
+  const double rounded = 6e-8 * (oracle_length(point.v[0])) + 1e-30;
+  const double allowed = quantum_x + quantum_y + moved;
+  const double gap = proof_triangle_distance(&x, &y);
+  CHECK_LE(gap, allowed);
+  CHECK_LE(proof_triangle_distance(&x, &point), quantum_x + moved + rounded);
+  CHECK_LE(proof_triangle_distance(&y, &point), quantum_y + rounded + 1e-12 * (size + far));
+  witnesses.count++;
+  witnesses.worst_gap = fmax(witnesses.worst_gap, gap / allowed);
+
+  proof_check_normal(a, &y);
+}
+
+// ---------------------------------------------------------------------------------------------------------- crossings
+
+// Where an edge of triangle a passes through the inside of b, clear of its edges and with both ends clear of its plane.
+static int proof_edge_crosses(double a[3][3], double b[3][3], double clear, double *point) {
+  double e0[3], e1[3], n[3];
+  oracle_sub(b[1], b[0], e0);
+  oracle_sub(b[2], b[0], e1);
+  oracle_cross(e0, e1, n);
+  const double length = oracle_length(n);
+  if (!(length > 0)) return 0;
+  for (int k = 0; k < 3; k++) {
+    double from[3], to[3], least = DBL_MAX;
+    oracle_sub(a[k], b[0], from);
+    oracle_sub(a[(k + 1) % 3], b[0], to);
+    const double h0 = oracle_dot(n, from) / length;
+    const double h1 = oracle_dot(n, to) / length;
+    if (h0 * h1 >= 0 || fabs(h0) < clear || fabs(h1) < clear) continue;
+    for (int i = 0; i < 3; i++) point[i] = a[k][i] + h0 / (h0 - h1) * (a[(k + 1) % 3][i] - a[k][i]);
+    for (int i = 0; i < 3; i++) {
+      double edge[3], d[3], c[3];
+      oracle_sub(b[(i + 1) % 3], b[i], edge);
+      oracle_sub(point, b[i], d);
+      oracle_cross(edge, d, c);
+      least = fmin(least, oracle_dot(n, c) / length / fmax(oracle_length(edge), 1e-300));
+    }
+    if (least >= clear) return 1;
+  }
+  return 0;
+}
+
+// Do the triangles cross properly at this time? Then point is where, fixed frame.
+static int proof_cross_at(const attack *a, size_t x, size_t y, double t, double *point) {
+  const proof_place at = proof_place_at(&a->motion, t);
+  const double clear = 1e-11 * (a->moving->size + a->fixed->size);
+  double corners[3][3], posed[3][3], other[3][3];
+  proof_corners(a->moving, x, corners);
+  proof_corners(a->fixed, y, other);
+  for (int k = 0; k < 3; k++) proof_apply(&at, corners[k], posed[k]);
+  return proof_edge_crosses(posed, other, clear, point) || proof_edge_crosses(other, posed, clear, point);
+}
+
+// A pose of the moving body, seen from the fixed one, at which triangle a meets b: a corner of a is `depth` beyond a point
+// of b, on the side on which a's other corners are not. 0 if there is no such thing.
+static int proof_corner_through(shapes_rng *rng, double a[3][3], double b[3][3], double depth, oracle_pose *pose) {
+  const int corner = shapes_pick(rng, 3);
+  double m[9], e0[3], e1[3], n[3], x[3], y[3], turned[3];
+  shapes_quaternion(rng, pose->rotation);
+  oracle_matrix(pose->rotation, m);
+  oracle_sub(b[1], b[0], e0);
+  oracle_sub(b[2], b[0], e1);
+  oracle_cross(e0, e1, n);
+  const double length = oracle_length(n);
+  if (!(length > 0)) return 0;
+  memcpy(x, a[corner], sizeof x);
+  oracle_sub(a[(corner + 1) % 3], x, e0);
+  oracle_rotate(m, e0, turned);
+  const double side = oracle_dot(n, turned) > 0 ? 1 : -1;
+  proof_point_in(rng, b, y);
+  oracle_rotate(m, x, turned);
+  for (int k = 0; k < 3; k++) pose->position[k] = y[k] - side * depth * n[k] / length - turned[k];
+  return 1;
+}
+
+// The same with points within both triangles: of a anywhere, of b as close to an edge as `depth`.
+static int proof_middles_meet(shapes_rng *rng, double a[3][3], double b[3][3], double depth, oracle_pose *pose) {
+  const int edge = shapes_pick(rng, 3);
+  const double share = shapes_uniform(rng, 0, 1);
+  double m[9], x[3], y[3], turned[3], inwards[3];
+  shapes_quaternion(rng, pose->rotation);
+  oracle_matrix(pose->rotation, m);
+  proof_point_in(rng, a, x);
+  for (int k = 0; k < 3; k++) y[k] = b[edge][k] + share * (b[(edge + 1) % 3][k] - b[edge][k]);
+  oracle_sub(b[(edge + 2) % 3], y, inwards);
+  const double length = oracle_length(inwards);
+  if (!(length > 0)) return 0;
+  for (int k = 0; k < 3; k++) y[k] += fmin(depth / length, 0.5) * inwards[k];
+  oracle_rotate(m, x, turned);
+  for (int k = 0; k < 3; k++) pose->position[k] = y[k] - turned[k];
+  return 1;
+}
+
+// From the fixed body's frame to the world.
+static oracle_pose proof_in_world(const oracle_pose *fixed, const oracle_pose *pose) {
+  oracle_pose out;
+  oracle_transform(fixed, pose->position, out.position);
+  oracle_quat_mul(fixed->rotation, pose->rotation, out.rotation);
+  oracle_quat_normalize(out.rotation);
+  return out;
+}
+
+typedef struct crossing_sum {
+  size_t tried, asked[2], free[2], witness[2], inside[2], undecided[2], records;
+} crossing_sum;
+
+// No certificate may cover the pair of patches that hold the point at t.
+static void proof_none_covers(const attack *a, size_t x, size_t y, const double *point, double t, crossing_sum *sum) {
+  const proof_place at = proof_place_at(&a->motion, t);
+  double d[3], seen[3];
+  oracle_sub(point, at.position, d);
+  oracle_rotate_back(at.matrix, d, seen);
+  for (size_t n = 0; n < heard.count; n++) {
+    const proof_record *r = &heard.items[n];
+    if (t < r->start || t > r->end) continue;
+    if (r->kind == NSVCD__BY_TRIANGLES) {
+      const proof_listing *one = &a->moving->listings[r->a];
+      const proof_listing *other = &a->fixed->listings[r->b];
+      sum->records += one->triangle == x && other->triangle == y && one->whole && other->whole;
+      continue;
+    }
+    if (!proof_lists(a->moving, r->i, x) || !proof_lists(a->fixed, r->j, y)) continue;
+    if (proof_holds(&a->moving->patches[r->i], seen) != 1) continue;
+    sum->records += proof_holds(&a->fixed->patches[r->j], point) == 1;
+  }
+}
+
+static void proof_ask_crossing(attack *a, size_t x, size_t y, double t, int moves, crossing_sum *sum) {
+  double point[3];
+  for (size_t n = 0; n < a->motion.count; n++) {
+    if (oracle_length(a->motion.poses[n].position) > 1e6) return;  // NSVCD_MAX_COORDINATE
+  }
+  if (!proof_cross_at(a, x, y, t, point)) return;
+  proof_ask(a);
+  sum->asked[moves]++;
+  sum->free[moves] += a->answer.status == NSVCD_STATUS_CERTIFIED_FREE;
+  sum->witness[moves] += a->answer.status == NSVCD_STATUS_WITNESS;
+  sum->inside[moves] += a->answer.status == NSVCD_STATUS_INSIDE;
+  sum->undecided[moves] += a->answer.status == NSVCD_STATUS_UNDECIDED;
+  proof_none_covers(a, x, y, point, t, sum);
+  if (a->answer.status == NSVCD_STATUS_WITNESS) proof_check_witness(a);
+}
+
+// A motion that is at the pose at time t, and elsewhere before and after.
+static void proof_motion_through(shapes_rng *rng, const attack *a, const oracle_pose *pose, double t, size_t count,
+                                 oracle_pose *poses) {
+  const double size = a->moving->size + a->fixed->size;
+  const double angle = shapes_uniform(rng, 0, 1) * (count == 2 ? 3 : 6);
+  const double way = shapes_pick(rng, 4) ? shapes_uniform(rng, 0, 2) * size : 100 * size;
+  double axis[3], along[3], turn[4];
+  shapes_direction(rng, axis);
+  shapes_direction(rng, along);
+  for (size_t n = 0; n < count; n++) {
+    const double s = (double)n / (double)(count - 1) - t;
+    oracle_axis_angle(axis, angle * s, turn);
+    proof_turned(turn, pose, pose->position, &poses[n]);
+    for (int k = 0; k < 3; k++) poses[n].position[k] += s * way * along[k];
+  }
+}
+
+static void proof_cross_once(attack *a, shapes_rng *rng, crossing_sum *sum) {
+  static const size_t counts[4] = {2, 3, 5, 17};
+  const size_t x = shapes_next(rng) % a->moving->triangles;
+  const size_t y = shapes_next(rng) % a->fixed->triangles;
+  const double size = a->moving->size + a->fixed->size;
+  const double depth = size * pow(10, shapes_uniform(rng, -6.5, -1));
+  const size_t count = counts[shapes_pick(rng, 4)];
+  const int on_sample = count % 2 && shapes_pick(rng, 2);
+  const double t = on_sample ? 0.5 : shapes_uniform(rng, 0.02, 0.98);
+  double corners[3][3], other[3][3];
+  oracle_pose seen, pose, fixed, poses[PROOF_POSES];
+  proof_corners(a->moving, x, corners);
+  proof_corners(a->fixed, y, other);
+  sum->tried++;
+  if (shapes_pick(rng, 2) ? !proof_corner_through(rng, corners, other, depth, &seen)
+                          : !proof_middles_meet(rng, corners, other, depth, &seen))
+    return;
+  shapes_quaternion(rng, fixed.rotation);
+  for (int k = 0; k < 3; k++) fixed.position[k] = shapes_uniform(rng, -1, 1) * size;
+  pose = proof_in_world(&fixed, &seen);
+  proof_motion_set(&a->motion, &pose, 1, &fixed);
+  proof_ask_crossing(a, x, y, 0, 0, sum);
+  proof_motion_through(rng, a, &pose, t, count, poses);
+  proof_motion_set(&a->motion, poses, count, &fixed);
+  proof_ask_crossing(a, x, y, t, 1, sum);
+}
+
+static double proof_many(void) {
+  const char *many = getenv("PROOF_MANY");
+  return many ? atof(many) : 1;
+}
+
+static void proof_crossings_are_never_free(void) {
+  const size_t wanted = (size_t)(100000 * proof_many());
+  shapes_rng rng = {31};
+  crossing_sum sum;
+  attack a;
+  memset(&sum, 0, sizeof sum);
+  while (sum.asked[0] + sum.asked[1] < wanted && sum.tried < 4 * wanted) {
+    const size_t scale = shapes_pick(&rng, 4) ? 0 : (size_t)shapes_pick(&rng, SCALES);
+    a.moving = proof_shared(scale, (size_t)shapes_pick(&rng, scale ? 8 : MAKES));
+    a.fixed = proof_shared(scale, (size_t)shapes_pick(&rng, scale ? 8 : MAKES));
+    for (int k = 0; k < 20; k++) proof_cross_once(&a, &rng, &sum);
+  }
+  for (int k = 0; k < 2; k++) {
+    printf("  %s: %zu crossings: witness %zu, inside %zu, undecided %zu, free %zu\n", k ? "motions" : "poses",
+           sum.asked[k], sum.witness[k], sum.inside[k], sum.undecided[k], sum.free[k]);
+    CHECK_EQ(sum.free[k], 0);
+  }
+  CHECK_EQ(sum.records, 0);
+  CHECK_GE(sum.asked[0] + sum.asked[1], wanted);
+}
+
+// -------------------------------------------------------------------------------------------------------------- spans
+
+// How far points of the moving body are from their chord in one segment, less the bulge, over the spread; the worst found.
+static double proof_span_use(const proof_motion *m, const nsvcd__span *span, double reach, shapes_rng *rng) {
+  double worst = 0;
+  for (int k = 0; k < 6; k++) {
+    const double share = k == 0 ? 0 : k == 1 ? 1 : shapes_uniform(rng, 0, 1);
+    const double t = span->t_start + share * (span->t_end - span->t_start);
+    const proof_place at = proof_place_at(m, t);
+    double x[3], place[3], off[3];
+    shapes_direction(rng, x);
+    const double length = reach * shapes_pick(rng, 3) / 2;
+    for (int i = 0; i < 3; i++) x[i] *= length;
+    proof_apply(&at, x, place);
+    const float *p0 = &span->start.position.x;
+    const float *p1 = &span->end.position.x;
+    for (int i = 0; i < 3; i++) {
+      double start = (double)p0[i];
+      double end = (double)p1[i];
+      for (int j = 0; j < 3; j++) start += (double)span->start.rotation[3 * i + j] * x[j];
+      for (int j = 0; j < 3; j++) end += (double)span->end.rotation[3 * i + j] * x[j];
+      off[i] = place[i] - start - share * (end - start);
+    }
+    // At the ends there is no bulge: what is off there is rounding.
+    const double bulge = share > 0 && share < 1 ? (double)span->bulge * length : 0;
+    worst = fmax(worst, (oracle_length(off) - bulge) / (double)span->spread);
+  }
+  return worst;
+}
+
+// Long ways beside small bodies, in few samples or many, half turns among them.
+static void proof_any_motion(shapes_rng *rng, proof_motion *m) {
+  static const size_t counts[8] = {1, 2, 2, 2, 3, 5, 17, 40};
+  const size_t count = counts[shapes_pick(rng, 8)];
+  const double way = pow(10, shapes_uniform(rng, -2, 5.5));
+  const double offset = shapes_pick(rng, 2) ? 0 : shapes_uniform(rng, 0, 1) * way;
+  const double angle = shapes_pick(rng, 2) ? SHAPES_PI * (double)(count - 1) : shapes_uniform(rng, 0, 12);
+  double along[3], axis[3], turn[4];
+  oracle_pose fixed, base, poses[PROOF_POSES];
+  shapes_direction(rng, along);
+  shapes_direction(rng, axis);
+  shapes_quaternion(rng, fixed.rotation);
+  shapes_quaternion(rng, base.rotation);
+  for (int k = 0; k < 3; k++) fixed.position[k] = shapes_uniform(rng, -1, 1) * offset;
+  for (size_t n = 0; n < count; n++) {
+    const double s = count > 1 ? (double)n / (double)(count - 1) - 0.5 : 0;
+    oracle_axis_angle(axis, angle * s, turn);
+    oracle_quat_mul(turn, base.rotation, poses[n].rotation);
+    for (int k = 0; k < 3; k++) {
+      poses[n].position[k] = fixed.position[k] + s * way * along[k] + 0.01 * way * shapes_uniform(rng, -1, 1);
+    }
+  }
+  proof_motion_set(m, poses, count, &fixed);
+}
+
+// Part 3 of the theorem, by itself: between the ends of a segment every point is as near to its chord as the span says.
+static void proof_spans_hold_the_motion(void) {
+  static nsvcd__workspace work;
+  shapes_rng rng = {404};
+  double worst[2] = {0, 0};
+  size_t segments = 0;
+  for (size_t trial = 0; trial < 20000; trial++) {
+    const float lengths = (float)pow(10, shapes_uniform(&rng, -3, 1));
+    proof_motion m;
+    nsvcd__motion motion;
+    proof_any_motion(&rng, &m);
+    nsvcd__motion_init(m.raw, m.count, &m.raw_fixed, &motion);
+    nsvcd__cut_motion(&motion, lengths, &work);
+    for (size_t s = 0; s < work.segments; s++) {
+      const nsvcd__span span = nsvcd__span_of_segment(&motion, &work, s);
+      const double use = proof_span_use(&m, &span, (double)lengths, &rng);
+      const int has_samples = work.begin[s + 1] - work.begin[s] > 1;  // else the spread is for rounding alone
+      worst[has_samples] = fmax(worst[has_samples], use);
+      segments++;
+    }
+  }
+  printf("  %zu segments: at most %.3g of what they allow beyond the bulge, %.3g where they have samples\n", segments,
+         worst[0], worst[1]);
+  CHECK_LE(worst[0], 0.9);
+  CHECK_LE(worst[1], 1);
+}
+
+// -------------------------------------------------------------------------------------------------------- containment
+
+typedef struct within_sum {
+  size_t asked, inside, free, undecided, witness, wrong, far_undecided;
+} within_sum;
+
+// One placement, against winding numbers. `encloses`: by their makers' word neither body is open.
+static void proof_place_within(attack *a, shapes_rng *rng, double gap, int moving_open, int fixed_open,
+                               within_sum *sum) {
+  const double size = a->moving->size + a->fixed->size;
+  oracle_pose fixed, pose;
+  double point[3], away[3];
+  shapes_quaternion(rng, fixed.rotation);
+  for (int k = 0; k < 3; k++) fixed.position[k] = shapes_uniform(rng, -1, 1) * size;
+  if (!proof_near_contact(rng, a, &fixed, gap * size, &pose, point, away)) return;
+  proof_motion_set(&a->motion, &pose, 1, &fixed);
+  const oracle_pose *at = &a->motion.poses[0];
+  const oracle_mesh *x = &a->moving->oracle, *y = &a->fixed->oracle;
+  const double distance = oracle_distance(x, at, y, &a->motion.fixed, NULL, NULL);
+  if (distance < 1e-9 * size) return;
+  const double moving_within = fixed_open ? 0 : oracle_inside(x, at, y, &a->motion.fixed);
+  const double fixed_within = moving_open ? 0 : oracle_inside(y, &a->motion.fixed, x, at);
+  const int within = fmax(moving_within, fixed_within) > 0.5;
+  proof_ask(a);
+  const nsvcd_status status = a->answer.status;
+  sum->asked++;
+  sum->inside += status == NSVCD_STATUS_INSIDE;
+  sum->free += status == NSVCD_STATUS_CERTIFIED_FREE;
+  sum->undecided += status == NSVCD_STATUS_UNDECIDED;
+  sum->witness += status == NSVCD_STATUS_WITNESS;
+  sum->wrong += status == NSVCD_STATUS_INSIDE && !within;
+  sum->wrong += status == NSVCD_STATUS_CERTIFIED_FREE && within;
+  sum->far_undecided += status != NSVCD_STATUS_INSIDE && status != NSVCD_STATUS_CERTIFIED_FREE && distance > 1e-4 * size;
+  if (status == NSVCD_STATUS_WITNESS) proof_check_witness(a);
+}
+
+static proof_body proof_of_shape(shapes_mesh *shape, double scale, size_t points) {
+  const nsvcd_encode_options options = {points, 0, 0, 0};
+  nsvcd_result result;
+  const proof_body out = proof_encode(shape, scale, &options, &result);
+  CHECK_EQ(result, NSVCD_OK);
+  if (result) exit(1);
+  shapes_free(shape);
+  return out;
+}
+
+// Two boxes apart from each other: of one body a part can be within.
+static proof_body proof_two_boxes(double edge, double apart, size_t points) {
+  shapes_mesh shape;
+  memset(&shape, 0, sizeof shape);
+  shapes_box_at(&shape, -apart / 2, 0, 0, edge, edge, edge);
+  shapes_box_at(&shape, apart / 2, 0, 0, edge, 0.8 * edge, 0.7 * edge);
+  return proof_of_shape(&shape, 1, points);
+}
+
+// A ball inside out: by its winding number -1 it encloses as well.
+static proof_body proof_inverted_ball(void) {
+  shapes_mesh shape;
+  memset(&shape, 0, sizeof shape);
+  shapes_ellipsoid(&shape, 0.2, 0.2, 0.2, 12);
+  shapes_flip(&shape, 0);
+  return proof_of_shape(&shape, 1, 20);
+}
+
+static void proof_knows_what_is_within(void) {
+  enum { OUTER = 10, INNER = 6 };
+  proof_body inner[INNER], outer[3];
+  shapes_rng rng = {8};
+  const proof_body *outers[OUTER];
+  within_sum near = {0, 0, 0, 0, 0, 0, 0}, any = near;
+  inner[0] = proof_make(BOX, 1, 8, 0.05);
+  inner[1] = proof_make(SOLID, 5, 16, 0.1);
+  inner[2] = proof_make(TRIANGLE, 1, 1, 0.01);
+  inner[3] = proof_two_boxes(0.01, 0.3, 12);
+  inner[4] = proof_make(BALL, 1, 12, 0.02);
+  inner[5] = proof_make(SHELL, 2, 30, 0.3);
+  outer[0] = proof_two_boxes(0.3, 0.5, 40);
+  outer[1] = proof_inverted_ball();
+  outer[2] = proof_make(SHEET, 1, 20, 2);
+  for (int k = 0; k < 3; k++) outers[k] = &outer[k];
+  for (int k = 3; k < OUTER; k++) {
+    static const size_t shared[OUTER - 3] = {0, 2, 4, 9, 6, 13, 17};
+    outers[k] = proof_shared(0, shared[k - 3]);
+  }
+  for (size_t trial = 0; trial < 20000; trial++) {
+    attack a;
+    const int i = shapes_pick(&rng, INNER);
+    const int o = shapes_pick(&rng, OUTER);
+    const int swapped = shapes_pick(&rng, 2);
+    const int close = shapes_pick(&rng, 2);
+    const double gap = close ? pow(10, shapes_uniform(&rng, -7, -4)) : pow(10, shapes_uniform(&rng, -4, -1));
+    a.moving = swapped ? outers[o] : &inner[i];
+    a.fixed = swapped ? &inner[i] : outers[o];
+    proof_place_within(&a, &rng, gap, swapped ? o == 2 : i == 2, swapped ? i == 2 : o == 2, close ? &near : &any);
+  }
+  for (int k = 0; k < 2; k++) {
+    const within_sum *sum = k ? &near : &any;
+    printf("  %s: %zu placements: inside %zu, free %zu, undecided %zu (%zu of them far), witness %zu, wrong %zu\n",
+           k ? "within a hair" : "anywhere", sum->asked, sum->inside, sum->free, sum->undecided, sum->far_undecided,
+           sum->witness, sum->wrong);
+    CHECK_EQ(sum->wrong, 0);
+    CHECK_GE(sum->inside, 500);
+  }
+  CHECK_EQ(any.far_undecided, 0);
+  for (int k = 0; k < INNER; k++) proof_free(&inner[k]);
+  for (int k = 0; k < 3; k++) proof_free(&outer[k]);
+}
+
+// -------------------------------------------------------------------------------------------------------- limits, options
+
+static int proof_same_answer(const nsvcd_answer *a, const nsvcd_answer *b) {
+  return a->status == b->status && a->collides == b->collides && a->work == b->work &&
+         memcmp(&a->time, &b->time, sizeof a->time) == 0 && memcmp(a->point, b->point, sizeof a->point) == 0 &&
+         memcmp(a->normal, b->normal, sizeof a->normal) == 0 && memcmp(&a->logit, &b->logit, sizeof a->logit) == 0 &&
+         a->moving_triangle == b->moving_triangle && a->fixed_triangle == b->fixed_triangle &&
+         a->moving_patch == b->moving_patch && a->fixed_patch == b->fixed_patch;
+}
+
+static void proof_answers_are_the_same_again(void) {
+  shapes_rng rng = {21};
+  attack a;
+  for (size_t trial = 0; trial < 300; trial++) {
+    a.moving = proof_shared(0, (size_t)shapes_pick(&rng, MAKES));
+    a.fixed = proof_shared(0, (size_t)shapes_pick(&rng, MAKES));
+    if (!proof_scene(&rng, &a, pow(10, shapes_uniform(&rng, -7, -1)), 1)) continue;
+    memset(proof_workspace(), 0xff, nsvcd_sweep_workspace_size());
+    proof_ask(&a);
+    const nsvcd_answer first = a.answer;
+    memset(proof_workspace(), 0, nsvcd_sweep_workspace_size());
+    memset(&a.answer, 0x33, sizeof a.answer);
+    proof_ask(&a);
+    CHECK(proof_same_answer(&first, &a.answer));
+  }
+}
+
+// With any limit: what is said is what is said without one, or nothing; and the limit is not passed by much.
+static void proof_keeps_its_limit(void) {
+  shapes_rng rng = {22};
+  attack a;
+  size_t asked = 0, undecided = 0, most = 0, other = 0;
+  for (size_t trial = 0; trial < 150; trial++) {
+    nsvcd_sweep_options options = proof_options();
+    a.moving = proof_shared(0, (size_t)shapes_pick(&rng, MAKES));
+    a.fixed = proof_shared(0, (size_t)shapes_pick(&rng, MAKES));
+    if (!proof_scene(&rng, &a, pow(10, shapes_uniform(&rng, -6, -1)), 1)) continue;
+    options.work = 100000000;
+    CHECK_EQ(proof_ask_with(&a, &options), NSVCD_OK);
+    const nsvcd_answer full = a.answer;
+    for (options.work = 1; options.work < 100000; options.work += 1 + options.work / 2) {
+      CHECK_EQ(proof_ask_with(&a, &options), NSVCD_OK);
+      const size_t over = a.answer.work > options.work ? a.answer.work - options.work : 0;
+      asked++;
+      most = over > most ? over : most;
+      undecided += a.answer.status == NSVCD_STATUS_UNDECIDED;
+      other += a.answer.status != NSVCD_STATUS_UNDECIDED && a.answer.status != full.status;
+      CHECK(a.answer.status != NSVCD_STATUS_CERTIFIED_FREE || full.status == NSVCD_STATUS_CERTIFIED_FREE);
+      CHECK(a.answer.status != NSVCD_STATUS_CERTIFIED_FREE || over == 0);
+    }
+  }
+  printf("  %zu limits: undecided %zu, another verdict %zu; at most %zu units beyond the limit\n", asked, undecided, other,
+         most);
+  CHECK_EQ(other, 0);
+  CHECK_LE(most, 10000);
+}
+
+// Many triangles in one patch, and many components: what a limit has to hold back. A ray looks at all of a body.
+static void proof_keeps_its_limit_in_large_patches(void) {
+  shapes_rng rng = {24};
+  shapes_mesh shape;
+  size_t most = 0;
+  memset(&shape, 0, sizeof shape);
+  shapes_ellipsoid(&shape, 0.11, 0.1, 0.1, 80);
+  proof_body ball = proof_of_shape(&shape, 1, 1);
+  memset(&shape, 0, sizeof shape);
+  for (int k = 0; k < 300; k++) {
+    double d[3];
+    shapes_direction(&rng, d);
+    shapes_box_at(&shape, 0.02 * d[0], 0.02 * d[1], 0.02 * d[2], 0.001, 0.001, 0.001);
+  }
+  proof_body crumbs = proof_of_shape(&shape, 1, 16);
+  nsvcd_sweep_options options = proof_options();
+  options.work = 1000;
+  for (int trial = 0; trial < 40; trial++) {
+    attack a;
+    a.moving = trial % 2 ? &ball : &crumbs;
+    a.fixed = &ball;
+    if (!proof_scene(&rng, &a, 1e-3, 0)) continue;
+    CHECK_EQ(proof_ask_with(&a, &options), NSVCD_OK);
+    most = a.answer.work > most ? a.answer.work : most;
+  }
+  printf("  %zu triangles in a patch, 300 components: at most %zu units, of 1000\n", ball.triangles, most);
+  CHECK_LE(most, options.work + 2 * (ball.listed + crumbs.listed));
+  proof_free(&ball);
+  proof_free(&crumbs);
+}
+
+static void proof_refuses(void) {
+  attack a;
+  nsvcd_sweep_options options = proof_options();
+  shapes_rng rng = {23};
+  shapes_mesh shape;
+  a.moving = proof_shared(0, 0);
+  a.fixed = proof_shared(0, 5);
+  CHECK(proof_scene(&rng, &a, 0.01, 0));
+  const float bad[4] = {-1, -1e-30f, NAN, INFINITY};
+  for (int k = 0; k < 4; k++) {
+    options.tolerance = bad[k];
+    CHECK_EQ(proof_ask_with(&a, &options), NSVCD_ERROR_ARGUMENT);
+  }
+  options = proof_options();
+  options.method = (nsvcd_method)3;
+  CHECK_EQ(proof_ask_with(&a, &options), NSVCD_ERROR_ARGUMENT);
+  options.method = (nsvcd_method)-1;
+  CHECK_EQ(proof_ask_with(&a, &options), NSVCD_ERROR_ARGUMENT);
+
+  const nsvcd_encode_options bare = {8, 0, 0, 1};
+  proof_shape(BOX, 1, &shape);
+  float positions[3 * 200];
+  nsvcd_mesh mesh = {positions, shape.indices, shape.vertices, shape.triangles};
+  CHECK_LE(3 * shape.vertices, 600);
+  for (size_t i = 0; i < 3 * shape.vertices && i < 600; i++) positions[i] = (float)shape.positions[i];
+  const nsvcd_body *body = NULL;
+  CHECK_EQ(nsvcd_encode(&mesh, &bare, NULL, NULL, 0, &body), NSVCD_OK);
+  options = proof_options();
+  CHECK_EQ(nsvcd_sweep(body, a.motion.raw, 1, a.fixed->body, &a.motion.raw_fixed, &options, proof_workspace(),
+                       nsvcd_sweep_workspace_size(), &a.answer),
+           NSVCD_ERROR_BODY);
+  CHECK_EQ(nsvcd_sweep(a.fixed->body, a.motion.raw, 1, body, &a.motion.raw_fixed, &options, proof_workspace(),
+                       nsvcd_sweep_workspace_size(), &a.answer),
+           NSVCD_ERROR_BODY);
+  nsvcd_body_free(body, NULL);
+  shapes_free(&shape);
+}
+
+// ---------------------------------------------------------------------------------------------------- special scenes
+
+static nsvcd_status proof_ask_place(attack *a, const oracle_pose *pose, const oracle_pose *fixed) {
+  proof_motion_set(&a->motion, pose, 1, fixed);
+  proof_ask(a);
+  return a->answer.status;
+}
+
+// A body on itself: all surfaces meet. A little off, they cross.
+static void proof_bodies_on_themselves(void) {
+  shapes_rng rng = {61};
+  size_t verdicts[6] = {0, 0, 0, 0, 0, 0}, off[6] = {0, 0, 0, 0, 0, 0};
+  for (size_t n = 0; n < MAKES; n++) {
+    attack a;
+    oracle_pose pose, moved;
+    a.moving = a.fixed = proof_shared(0, n);
+    for (int trial = 0; trial < 20; trial++) {
+      const double shift = a.moving->size * pow(10, shapes_uniform(&rng, -8, -2));
+      double d[3];
+      proof_random_rotation(&rng, trial % 2, pose.rotation);
+      shapes_direction(&rng, d);
+      for (int k = 0; k < 3; k++) pose.position[k] = (double)(trial % 3) * d[k];
+      verdicts[proof_ask_place(&a, &pose, &pose)]++;
+      moved = pose;
+      for (int k = 0; k < 3; k++) moved.position[k] += shift * d[(k + 1) % 3];
+      proof_ask_place(&a, &moved, &pose);
+      if (oracle_distance(&a.moving->oracle, &a.motion.poses[0], &a.fixed->oracle, &a.motion.fixed, NULL, NULL) > 0)
+        continue;
+      off[a.answer.status]++;
+    }
+  }
+  printf("  in place: witness %zu, inside %zu, undecided %zu, free %zu; off: witness %zu, inside %zu, undecided %zu, "
+         "free %zu\n",
+         verdicts[NSVCD_STATUS_WITNESS], verdicts[NSVCD_STATUS_INSIDE], verdicts[NSVCD_STATUS_UNDECIDED],
+         verdicts[NSVCD_STATUS_CERTIFIED_FREE], off[NSVCD_STATUS_WITNESS], off[NSVCD_STATUS_INSIDE],
+         off[NSVCD_STATUS_UNDECIDED], off[NSVCD_STATUS_CERTIFIED_FREE]);
+  CHECK_EQ(verdicts[NSVCD_STATUS_CERTIFIED_FREE], 0);
+  CHECK_EQ(off[NSVCD_STATUS_CERTIFIED_FREE], 0);
+}
+
+// Box on box, face on face: with no gap, with one, and pressed into each other.
+static void proof_flat_on_flat(void) {
+  static const double gaps[7] = {0, 1e-3, 1e-4, 1e-5, -1e-5, -1e-4, -1e-3};
+  static const double still[4] = {0, 0, 0, 1};
+  shapes_mesh shape;
+  memset(&shape, 0, sizeof shape);
+  shapes_box(&shape, 0.5, 0.5, 0.5, 2);
+  proof_body lower = proof_of_shape(&shape, 1, 20);
+  memset(&shape, 0, sizeof shape);
+  shapes_box(&shape, 0.25, 0.125, 0.25, 1);
+  proof_body upper = proof_of_shape(&shape, 1, 12);
+  for (int k = 0; k < 7; k++) {
+    for (int slides = 0; slides < 2; slides++) {
+      attack a;
+      oracle_pose fixed = {{0, 0, 0}, {0, 0, 0, 1}}, poses[2] = {fixed, fixed};
+      memcpy(fixed.rotation, still, sizeof still);
+      poses[0].position[2] = poses[1].position[2] = 0.375 + gaps[k];
+      poses[0].position[0] = -0.125;
+      poses[1].position[0] = 0.0625;
+      a.moving = &upper;
+      a.fixed = &lower;
+      proof_motion_set(&a.motion, poses, slides ? 2 : 1, &fixed);
+      proof_ask(&a);
+      printf("  gap %g%s: %s\n", gaps[k], slides ? ", sliding" : "", nsvcd_status_string(a.answer.status));
+      CHECK(gaps[k] > 0 || a.answer.status != NSVCD_STATUS_CERTIFIED_FREE);
+      CHECK(gaps[k] < 1e-4 || a.answer.status == NSVCD_STATUS_CERTIFIED_FREE);
+    }
+  }
+  proof_free(&lower);
+  proof_free(&upper);
+}
+
+// Every triangle twice, and some without area.
+static void proof_triangles_listed_twice(void) {
+  shapes_mesh shape;
+  shapes_rng rng = {62};
+  replay sum;
+  within_sum within = {0, 0, 0, 0, 0, 0, 0};
+  memset(&sum, 0, sizeof sum);
+  proof_shape(BOX, 1, &shape);
+  const size_t triangles = shape.triangles;
+  for (size_t t = 0; t < triangles; t++) {
+    const uint32_t *at = shape.indices + 3 * t;
+    const uint32_t corners[3] = {at[0], at[1], at[2]};
+    shapes_triangle(&shape, corners[0], corners[1], corners[2]);
+    if (t % 8 == 0) shapes_triangle(&shape, corners[0], corners[1], corners[1]);
+  }
+  proof_body twice = proof_of_shape(&shape, 1, 24);
+  proof_body small = proof_make(BALL, 1, 12, 0.2);
+  attack a;
+  a.fixed = &twice;
+  for (size_t trial = 0; trial < 200; trial++) {
+    a.moving = trial % 2 ? &twice : &small;
+    if (!proof_scene(&rng, &a, pow(10, shapes_uniform(&rng, -6, -1)), 1)) continue;
+    proof_replay(&a, &rng, &sum);
+    a.moving = &small;
+    proof_place_within(&a, &rng, 0.01, 0, 0, &within);
+  }
+  proof_report("twice", &sum);
+  CHECK_EQ(within.wrong, 0);
+  CHECK_GE(within.inside, 10);
+  proof_free(&twice);
+  proof_free(&small);
+}
+
+// Samples half a turn apart: both arcs are the shorter one, to rounding, and all parts of the proof have to take the same.
+static void proof_half_turns(void) {
+  shapes_rng rng = {63};
+  replay sum;
+  memset(&sum, 0, sizeof sum);
+  for (size_t trial = 0; trial < 400; trial++) {
+    attack a;
+    oracle_pose fixed, pose, poses[PROOF_POSES];
+    double point[3], away[3];
+    const size_t count = 2 + (size_t)shapes_pick(&rng, 3);
+    a.moving = proof_shared(0, (size_t)shapes_pick(&rng, MAKES));
+    a.fixed = proof_shared(0, (size_t)shapes_pick(&rng, MAKES));
+    const double size = a.moving->size + a.fixed->size;
+    shapes_quaternion(&rng, fixed.rotation);
+    for (int k = 0; k < 3; k++) fixed.position[k] = 0;
+    const double gap = size * pow(10, shapes_uniform(&rng, -3, 0));
+    if (!proof_near_contact(&rng, &a, &fixed, gap, &pose, point, away)) continue;
+    if (trial % 4 == 0) proof_random_rotation(&rng, 1, pose.rotation);
+    proof_motion_past(&rng, &pose, point, away, size, SHAPES_PI * (double)(count - 1), count, poses);
+    for (size_t n = 0; n < count && trial % 4 == 0; n++) {  // dots of exactly 0, of either sign
+      static const double turns[4][4] = {{0, 0, 0, 1}, {1, 0, 0, 0}, {0, 0, 1, 0}, {0, -1, 0, 0}};
+      memcpy(poses[n].rotation, turns[(n + trial / 4) % 4], sizeof turns[0]);
+    }
+    proof_motion_set(&a.motion, poses, count, &fixed);
+    proof_replay(&a, &rng, &sum);
+  }
+  proof_report("half turns", &sum);
+  CHECK_GE(sum.verdicts[NSVCD_STATUS_CERTIFIED_FREE], 50);
+}
+
+// ------------------------------------------------------------------------------------------------------- forged blobs
+
+typedef struct forgery {
+  size_t size;
+  void *memory;
+  struct nsvcd_body *body, *inner;  // of triangles
+} forgery;
+
+static forgery proof_forge(const nsvcd_body *body) {
+  forgery f;
+  f.size = body->size;
+  f.memory = malloc(f.size);
+  if (!f.memory) exit(1);
+  memcpy(f.memory, body, f.size);
+  f.body = (struct nsvcd_body *)f.memory;
+  f.inner = f.body->weights_id ? (struct nsvcd_body *)(void *)((char *)f.memory + f.body->inner) : f.body;
+  return f;
+}
+
+// Loads what has been forged, its checksums put right.
+static nsvcd_result proof_load(forgery *f) {
+  const nsvcd_body *body = NULL;
+  if ((size_t)((char *)f->inner - (char *)f->memory) + f->inner->size <= f->size) {
+    f->inner->checksum = nsvcd__body_checksum(f->inner);
+  }
+  if (f->body->size <= f->size) f->body->checksum = nsvcd__body_checksum(f->body);
+  return nsvcd_body_load(f->memory, f->size, &body);
+}
+
+static void proof_expect_refusal(const nsvcd_body *body, size_t offset, const void *value, size_t bytes) {
+  forgery f = proof_forge(body);
+  memcpy((char *)f.inner + offset, value, bytes);
+  CHECK_EQ(proof_load(&f), NSVCD_ERROR_BODY);
+  free(f.memory);
+}
+
+static size_t proof_offset(const nsvcd__facets *f, const void *at) {
+  return (size_t)((const char *)at - (const char *)f->body);
+}
+
+static void proof_forge_floats(const nsvcd_body *body, const nsvcd__facets *f) {
+  const float bad[3] = {NAN, INFINITY, -1e30f};
+  const size_t padded = f->body->padded;
+  const float *arrays[5] = {f->discs, f->steps, f->slacks, f->quanta, f->seeds};
+  const size_t counts[5] = {6 * padded, padded, padded, padded, 3 * f->components};
+  for (int k = 0; k < 5; k++) {
+    for (size_t n = 0; n < counts[k]; n += 1 + counts[k] / 40) {
+      for (int b = 0; b < 3; b++) proof_expect_refusal(body, proof_offset(f, arrays[k] + n), &bad[b], 4);
+    }
+  }
+  const float negative = -1e-6f;
+  for (int k = 1; k < 4; k++) proof_expect_refusal(body, proof_offset(f, arrays[k]), &negative, 4);
+  proof_expect_refusal(body, proof_offset(f, f->discs + 5 * padded), &negative, 4);
+}
+
+static void proof_forge_counts(const nsvcd_body *body, const nsvcd__facets *f) {
+  const size_t counts = nsvcd__spheres_size(f->body->padded);
+  for (size_t k = 0; k < NSVCD__FACET_COUNTS; k++) {
+    uint32_t value;
+    memcpy(&value, (const char *)f->body + counts + 4 * k, 4);
+    const uint32_t bad[6] = {value + 1, value - 1, 0xffffffffu, 0x80000000u, 0x55555556u, value ^ 0x10000u};
+    for (int n = 0; n < 6; n++) proof_expect_refusal(body, counts + 4 * k, &bad[n], 4);
+  }
+  for (size_t i = 0; i <= f->body->points; i++) {
+    const uint32_t *firsts[2] = {f->first_vertex + i, f->first_triangle + i};
+    const uint32_t bad[3] = {0xffffffffu, 0x7fffffffu, i == 0 ? 1u : *firsts[0] - 70000u};
+    for (int k = 0; k < 2; k++) {
+      for (int n = 0; n < 3; n++) proof_expect_refusal(body, proof_offset(f, firsts[k]), &bad[n], 4);
+    }
+  }
+  for (size_t i = 0; i < f->body->points; i++) {
+    const uint8_t bad[2] = {NSVCD__HULL + 1, f->hull_counts[i] ? 0 : 1};
+    for (int n = 0; n < 2; n++) proof_expect_refusal(body, proof_offset(f, f->hull_counts + i), &bad[n], 1);
+  }
+  const unsigned char far[4] = {0xff, 0x7f, 0xff, 0x7f};
+  for (size_t n = 0; n < f->listed; n += 1 + f->listed / 50) {
+    proof_expect_refusal(body, proof_offset(f, f->numbers + f->number_bytes * n), far, f->number_bytes);
+  }
+}
+
+static void proof_forge_header(const nsvcd_body *body, const nsvcd__facets *f) {
+  const uint32_t bad[4] = {0, 1, 0x7fffffffu, 0xfffffff8u};
+  const size_t fields[6] = {offsetof(struct nsvcd_body, size),   offsetof(struct nsvcd_body, weights_id),
+                            offsetof(struct nsvcd_body, points), offsetof(struct nsvcd_body, padded),
+                            offsetof(struct nsvcd_body, inner),  offsetof(struct nsvcd_body, triangles)};
+  for (int k = 0; k < 6; k++) {
+    for (int n = 0; n < 4; n++) {
+      uint32_t value;
+      memcpy(&value, (const char *)f->body + fields[k], 4);
+      if (value == bad[n]) continue;
+      if (k == 5 && f->body == body && bad[n] > value) continue;  // a count of triangles too large is harmless
+      proof_expect_refusal(body, fields[k], &bad[n], 4);
+    }
+  }
+}
+
+// A blob whose last words are any: either it is refused, or questions about it end, and read nothing that is not there.
+static void proof_forge_anything(const nsvcd_body *body, shapes_rng *rng, size_t *accepted) {
+  forgery f = proof_forge(body);
+  nsvcd_sweep_options options = proof_options();
+  const size_t from = (size_t)((char *)f.inner - (char *)f.memory) + sizeof(struct nsvcd_body);
+  const int changes = 1 + shapes_pick(rng, 4);
+  for (int k = 0; k < changes; k++) {
+    const size_t at = from + shapes_next(rng) % (f.size - from);
+    ((unsigned char *)f.memory)[at] = (unsigned char)(shapes_next(rng) >> 40);
+  }
+  options.work = 3000;
+  if (!proof_load(&f)) {
+    const proof_body *other = proof_shared(0, (size_t)shapes_pick(rng, MAKES));
+    nsvcd_pose poses[3], fixed = {{0, 0, 0}, {0, 0, 0, 1}};
+    nsvcd_answer answer;
+    for (int n = 0; n < 3; n++) {
+      double q[4];
+      shapes_quaternion(rng, q);
+      for (int k = 0; k < 4; k++) poses[n].rotation[k] = (float)q[k];
+      for (int k = 0; k < 3; k++) poses[n].position[k] = (float)shapes_uniform(rng, -0.2, 0.2);
+    }
+    (*accepted)++;
+    CHECK_EQ(nsvcd_sweep(f.body, poses, 3, other->body, &fixed, &options, proof_workspace(),
+                         nsvcd_sweep_workspace_size(), &answer),
+             NSVCD_OK);
+    CHECK_EQ(nsvcd_sweep(other->body, poses, 3, f.body, &fixed, &options, proof_workspace(),
+                         nsvcd_sweep_workspace_size(), &answer),
+             NSVCD_OK);
+  }
+  free(f.memory);
+}
+
+static void proof_forged_blobs(void) {
+  static const size_t makes[4] = {1, 5, 6, 11};
+  shapes_rng rng = {64};
+  size_t accepted = 0;
+  for (int k = 0; k < 4; k++) {
+    const nsvcd_body *body = proof_shared(0, makes[k])->body;
+    forgery f = proof_forge(body);
+    CHECK_EQ(proof_load(&f), NSVCD_OK);
+    const nsvcd__facets facets = nsvcd__facets_of(nsvcd__triangles_of(body));
+    proof_forge_floats(body, &facets);
+    proof_forge_counts(body, &facets);
+    proof_forge_header(body, &facets);
+    heard.deaf = 1;
+    for (int n = 0; n < 400; n++) proof_forge_anything(body, &rng, &accepted);
+    // The body of triangles by itself is a body as well.
+    proof_forge_floats(facets.body, &facets);
+    proof_forge_counts(facets.body, &facets);
+    for (int n = 0; n < 400; n++) proof_forge_anything(facets.body, &rng, &accepted);
+    heard.deaf = 0;
+    free(f.memory);
+  }
+  printf("  of 3200 blobs with random bytes %zu were accepted, and asked\n", accepted);
+}
+
+// ------------------------------------------------------------------------------------------------------------- tests
+
+static void proof_certificates_hold(void) {
+  shapes_rng rng = {2024};
+  replay sum;
+  attack a;
+  memset(&sum, 0, sizeof sum);
+  for (size_t trial = 0; trial < 700; trial++) {
+    const double gap = pow(10, shapes_uniform(&rng, -4, -1.3));
+    a.moving = proof_shared(0, (size_t)shapes_pick(&rng, MAKES));
+    a.fixed = proof_shared(0, (size_t)shapes_pick(&rng, MAKES));
+    if (!proof_scene(&rng, &a, gap, trial % 7 ? 1 : 0)) continue;
+    proof_replay(&a, &rng, &sum);
+  }
+  proof_report("near", &sum);
+  CHECK_GE(sum.verdicts[NSVCD_STATUS_CERTIFIED_FREE], 100);
+}
+
+static void proof_certificates_hold_at_a_hair(void) {
+  shapes_rng rng = {77};
+  replay sum;
+  attack a;
+  memset(&sum, 0, sizeof sum);
+  for (size_t trial = 0; trial < 700; trial++) {
+    const double gap = pow(10, shapes_uniform(&rng, -7.5, -4));
+    a.moving = proof_shared(0, (size_t)shapes_pick(&rng, MAKES));
+    a.fixed = proof_shared(0, (size_t)shapes_pick(&rng, MAKES));
+    if (!proof_scene(&rng, &a, gap, trial % 7 ? 0.1 : 0)) continue;
+    proof_replay(&a, &rng, &sum);
+  }
+  proof_report("hair", &sum);
+}
+
+static void proof_certificates_hold_at_every_scale(void) {
+  shapes_rng rng = {99};
+  for (size_t scale = 1; scale < SCALES; scale++) {
+    replay sum;
+    attack a;
+    char name[32];
+    memset(&sum, 0, sizeof sum);
+    for (size_t trial = 0; trial < 150; trial++) {
+      const double gap = pow(10, shapes_uniform(&rng, -6, -1.3));
+      a.moving = proof_shared(scale, (size_t)shapes_pick(&rng, 8));
+      a.fixed = proof_shared(scale, (size_t)shapes_pick(&rng, 8));
+      if (!proof_scene(&rng, &a, gap, 1)) continue;
+      proof_replay(&a, &rng, &sum);
+    }
+    snprintf(name, sizeof name, "scale %g", proof_scales[scale]);
+    proof_report(name, &sum);
+  }
+}
+
+// A tip that swings over a box, about a pivot above it, and dips into it only while it is under the pivot: at the ends of
+// the swing it is clear of the box. depth: of the tip's radius; negative: it stays above.
+static nsvcd_status proof_swing(double scale, double angle, double depth, size_t count) {
+  static const double down[3][3] = {{0, 0, -0.25}, {0.02, 0, 0.2}, {-0.02, 0.02, 0.2}};
+  const nsvcd_encode_options options = {1, 0, 1, 0};
+  const double axis[3] = {0, 1, 0};
+  const double still[4] = {0, 0, 0, 1};
+  shapes_mesh shape;
+  nsvcd_result result;
+  oracle_pose poses[PROOF_POSES], fixed;
+  attack a;
+  memset(&shape, 0, sizeof shape);
+  for (int k = 0; k < 3; k++) shapes_vertex(&shape, down[k][0], down[k][1], down[k][2]);
+  shapes_triangle(&shape, 0, 1, 2);
+  proof_body tip = proof_encode(&shape, scale, &options, &result);
+  shapes_free(&shape);
+  proof_body box = proof_make(BOX, 6, 32, scale);
+  memset(&fixed, 0, sizeof fixed);
+  memcpy(fixed.rotation, still, sizeof still);
+  for (size_t n = 0; n < count; n++) {
+    const double share = count > 1 ? (double)n / (double)(count - 1) - 0.5 : 0;
+    poses[n] = fixed;
+    oracle_axis_angle(axis, angle * share, poses[n].rotation);
+    poses[n].position[0] = 0.013 * scale;
+    poses[n].position[1] = 0.007 * scale;
+    poses[n].position[2] = (0.05 + 0.25 * (1 - depth)) * scale;
+  }
+  a.moving = &tip;
+  a.fixed = &box;
+  proof_motion_set(&a.motion, poses, count, &fixed);
+  proof_ask(&a);
+  shapes_rng rng = {5};
+  replay sum;
+  memset(&sum, 0, sizeof sum);
+  proof_replay_records(&a, &rng, &sum);
+  CHECK_EQ(sum.wrong, 0);
+  proof_free(&tip);
+  proof_free(&box);
+  return a.answer.status;
+}
+
+static void proof_sees_a_swing(void) {
+  for (size_t scale = 0; scale < SCALES; scale++) {
+    for (int trial = 0; trial < 12; trial++) {
+      const double angle = 0.125 * (1 + trial / 3);
+      const double sagitta = 1 - cos(angle / 2);
+      const double depth = sagitta * (0.2 + 0.3 * (trial % 3));
+      const nsvcd_status status = proof_swing(proof_scales[scale], angle, depth, 2);
+      if (status == NSVCD_STATUS_CERTIFIED_FREE) printf("  scale %g angle %g: free\n", proof_scales[scale], angle);
+      CHECK(status != NSVCD_STATUS_CERTIFIED_FREE);
+      CHECK_EQ(proof_swing(proof_scales[scale], angle, -0.01, 2), NSVCD_STATUS_CERTIFIED_FREE);
+    }
+  }
+}
+
+void test_proof(void) {
+  RUN(proof_sees_a_swing);
+  RUN(proof_certificates_hold);
+  RUN(proof_certificates_hold_at_a_hair);
+  RUN(proof_certificates_hold_at_every_scale);
+  RUN(proof_crossings_are_never_free);
+  RUN(proof_spans_hold_the_motion);
+  RUN(proof_knows_what_is_within);
+  RUN(proof_answers_are_the_same_again);
+  RUN(proof_keeps_its_limit);
+  RUN(proof_keeps_its_limit_in_large_patches);
+  RUN(proof_refuses);
+  RUN(proof_bodies_on_themselves);
+  RUN(proof_flat_on_flat);
+  RUN(proof_triangles_listed_twice);
+  RUN(proof_half_turns);
+  RUN(proof_forged_blobs);
+  printf("  %zu witnesses, gap at most %.3g of what is allowed, normal %.3g; off by 0.001, 0.01, 0.1: %zu, %zu, %zu; "
+         "none: %zu\n",
+         witnesses.count, witnesses.worst_gap, witnesses.worst_normal, witnesses.off[0], witnesses.off[1],
+         witnesses.off[2], witnesses.no_normal);
+}
+
+#ifdef TEST_ALONE
+check_state check;
+int main(int argc, char **argv) {
+  check.filter = argc > 1 ? argv[1] : NULL;
+  test_proof();
+  printf("%d passed, %d failed\n", check.passed, check.failed);
+  return check.failed > 0;
+}
+#endif
