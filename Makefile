@@ -66,12 +66,12 @@ assets: build/make_assets  ## writes examples/assets/*.obj, which are in the rep
 
 # ------------------------------------------------------------------------------------------------------------- tests
 
-TESTS = main test_mesh test_surface test_network test_broad_phase test_oracle test_query test_gradient test_cost test_tasks test_plan_spheres test_plan
+TESTS = main test_mesh test_surface test_proof test_network test_broad_phase test_oracle test_query test_gradient test_cost test_tasks test_plan_spheres test_plan
 TEST_OBJECTS = $(TESTS:%=build/%.o)
 # Each test file holds its own copy of the header, and uses only a part of its private functions.
 TEST_WARNINGS = -Wall -Wextra -Werror -Wno-unused-function
 
-build/%.o: tests/%.c tests/check.h tests/oracle.h tests/query_scene.h tests/gradient_reference.h examples/shapes.h examples/tasks.h tests/plan_spheres.h tests/bench_spheres.h tests/bench_mesh.h tests/method.h $(wildcard tests/data/*.h) $(LIBRARY) | build
+build/%.o: tests/%.c tests/check.h tests/oracle.h tests/query_scene.h tests/proof_scene.h tests/gradient_reference.h examples/shapes.h examples/tasks.h tests/plan_spheres.h tests/bench_spheres.h tests/bench_mesh.h tests/method.h $(wildcard tests/data/*.h) $(LIBRARY) | build
 	$(CC) $(CFLAGS) -pthread -std=c99 $(TEST_WARNINGS) $(CCD_CFLAGS) -c -o $@ $<
 build/tests: $(TEST_OBJECTS)
 	$(CC) $(CFLAGS) -pthread -o $@ $(TEST_OBJECTS) $(CCD_LIBS) -lm

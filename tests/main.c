@@ -5,6 +5,7 @@ check_state check;
 
 void test_mesh(void);
 void test_surface(void);
+void test_proof(void);
 void test_network(void);
 void test_broad_phase(void);
 void test_oracle(void);
@@ -19,6 +20,7 @@ int main(int argc, char **argv) {
   check.filter = argc > 1 ? argv[1] : NULL;
   test_mesh();
   test_surface();
+  test_proof();
   test_network();
   test_broad_phase();
   test_oracle();
