@@ -5871,27 +5871,50 @@ static int nsvcd__foot_within(nsvcd__d3 x, const nsvcd__d3 *t, nsvcd__d3 *foot) 
   return 1;
 }
 
-// Where the edge p q passes through a triangle.
-static int nsvcd__edge_passes(nsvcd__d3 p, nsvcd__d3 q, const nsvcd__d3 *t, nsvcd__d3 *point) {
-  const nsvcd__d3 n = nsvcd__d3_cross(nsvcd__d3_sub(t[1], t[0]), nsvcd__d3_sub(t[2], t[0]));
-  const double a = nsvcd__d3_dot(n, nsvcd__d3_sub(p, t[0]));
-  const double b = nsvcd__d3_dot(n, nsvcd__d3_sub(q, t[0]));
-  if ((a > 0 && b > 0) || (a < 0 && b < 0) || !(fabs(a - b) > 0)) return 0;
-  const nsvcd__d3 x = nsvcd__d3_mix(p, q, a / (a - b));
-  return nsvcd__foot_within(x, t, point);
+// Corners of one triangle above the plane of another, in units of the length of its normal, which is not made unit.
+typedef struct nsvcd__heights {
+  nsvcd__d3 normal;
+  double of[3];
+} nsvcd__heights;
+
+static nsvcd__heights nsvcd__heights_over(const nsvcd__d3 *a, const nsvcd__d3 *b) {
+  nsvcd__heights out;
+  out.normal = nsvcd__d3_cross(nsvcd__d3_sub(b[1], b[0]), nsvcd__d3_sub(b[2], b[0]));
+  for (size_t k = 0; k < 3; k++) out.of[k] = nsvcd__d3_dot(out.normal, nsvcd__d3_sub(a[k], b[0]));
+  return out;
+}
+static int nsvcd__on_one_side(const double *h) {
+  return (h[0] > 0 && h[1] > 0 && h[2] > 0) || (h[0] < 0 && h[1] < 0 && h[2] < 0);
+}
+
+// Where an edge of a passes through b.
+static int nsvcd__edges_pass(const nsvcd__d3 *a, const nsvcd__d3 *b, const double *heights, nsvcd__d3 *point) {
+  for (size_t k = 0; k < 3; k++) {
+    const double h0 = heights[k], h1 = heights[(k + 1) % 3];
+    if ((h0 > 0 && h1 > 0) || (h0 < 0 && h1 < 0) || !(fabs(h0 - h1) > 0)) continue;
+    if (nsvcd__foot_within(nsvcd__d3_mix(a[k], a[(k + 1) % 3], h0 / (h0 - h1)), b, point)) return 1;
+  }
+  return 0;
+}
+
+// Do two triangles meet where an edge of one passes through the other?
+static int nsvcd__triangles_meet(const nsvcd__d3 *a, const nsvcd__d3 *b, nsvcd__d3 *point) {
+  const nsvcd__heights over_b = nsvcd__heights_over(a, b);
+  if (nsvcd__on_one_side(over_b.of)) return 0;
+  const nsvcd__heights over_a = nsvcd__heights_over(b, a);
+  if (nsvcd__on_one_side(over_a.of)) return 0;
+  return nsvcd__edges_pass(a, b, over_b.of, point) || nsvcd__edges_pass(b, a, over_a.of, point);
 }
 
 // The nearest points of two triangles; the distance is 0 where they meet.
 static nsvcd__nearest nsvcd__triangles_nearest(const nsvcd__d3 *a, const nsvcd__d3 *b) {
   nsvcd__nearest best = {HUGE_VAL, {0, 0, 0}, {0, 0, 0}};
   nsvcd__d3 point;
-  for (size_t k = 0; k < 3; k++) {
-    if (nsvcd__edge_passes(a[k], a[(k + 1) % 3], b, &point) || nsvcd__edge_passes(b[k], b[(k + 1) % 3], a, &point)) {
-      best.square = 0;
-      best.on_a = point;
-      best.on_b = point;
-      return best;
-    }
+  if (nsvcd__triangles_meet(a, b, &point)) {
+    best.square = 0;
+    best.on_a = point;
+    best.on_b = point;
+    return best;
   }
   for (size_t k = 0; k < 3; k++) {
     for (size_t n = 0; n < 3; n++) nsvcd__edges_nearest(a[k], a[(k + 1) % 3], b[n], b[(n + 1) % 3], &best);
@@ -6141,10 +6164,10 @@ static int nsvcd__find_witness(nsvcd__proof *p, size_t i, size_t j, size_t k, do
           const nsvcd__pair pair = nsvcd__pair_of(p, i, j, a + l, b + nsvcd__lowest_bit(met));
           nsvcd__d3 posed[3];
           nsvcd__place_triangle(&at, pair.moving, posed);
-          const nsvcd__nearest nearest = nsvcd__triangles_nearest(posed, pair.fixed);
+          nsvcd__d3 point;
           p->work++;
-          if (nearest.square > pair.rounding * pair.rounding) continue;
-          nsvcd__keep_contact(p, &pair, ((double)k + u) / nsvcd__arc_count(p->motion), nearest.on_a);
+          if (!nsvcd__triangles_meet(posed, pair.fixed, &point)) continue;
+          nsvcd__keep_contact(p, &pair, ((double)k + u) / nsvcd__arc_count(p->motion), point);
           return 1;
         }
       }
