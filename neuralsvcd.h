@@ -1867,7 +1867,7 @@ static nsvcd_result nsvcd__patches_build(const nsvcd_mesh *mesh, size_t points, 
 #define NSVCD__SURFACE_WHOLE 16.0     // the same: with a longer edge a triangle is listed in parts
 #define NSVCD__SURFACE_MARGIN 1e-13   // of the mesh's greatest coordinate
 #define NSVCD__SURFACE_TINY 1e-30     // metres, added to that: keeps off what float cannot hold
-#define NSVCD__HULL_SHARE 1e-4        // of the radius: a hull as near as this to all corners is good
+#define NSVCD__HULL_SHARE 3e-3        // of the radius: a hull as near as this to all corners is good
 #define NSVCD__FACET_CORNERS 16       // corners of a piece, at most
 #define NSVCD__FACET_STACK 64         // parts that wait for their turn (12 at most were seen)
 #define NSVCD__CUTS_PER_TRIANGLE 8    // these two bound the cuts: a fine mesh needs less than one,
@@ -3682,18 +3682,18 @@ static int nsvcd__spheres_fit(const nsvcd_body *body, float scale) {
 // ----------------------------------------------------------------------------------------------------- facets
 // The body of triangles: behind the spheres, which are the least about each patch's pieces of the surface, stand
 //
-//   counts          (8)      uint32 listed L, vertices V, components C, bytes of a corner, bytes of a number, zeros
+//   counts          (8)      uint32 listed L, vertices V, components C, bytes of all corners, bytes of a number, zeros
 //   discs           (6, P)   float unit normal n, low, high, across: a piece's points x have low <= n.(x - c) <= high,
 //                            and are no farther than `across` from the line along n; c: centre of the patch's sphere
 //   group discs     (6, G)   float the same over the members of each group; c: centre of the group's sphere
 //   steps           (P)      float metres per integer: a stored vertex is c + step (x, y, z)
 //   slacks          (P)      float pieces are within this of the hull of the patch's first vertices
 //   quanta          (P)      float corners of triangles are within this of their stored vertices
-//   first_vertex, first_triangle (2, N + 1) uint32
+//   first_vertex, first_triangle, first_corner (3, N + 1) uint32: the latter in bytes
 //   seeds           (C, 3)   float a point of each component
 //   numbers         (L)      uint16 or uint32: of the triangle in the caller's mesh; the top bit is NSVCD__ENCLOSES
 //   vertices        (3 V)    int16 patch by patch x, y, z; the hull's first
-//   corners         (L, 3)   uint8 or uint16: vertices within the patch
+//   corners         (L, 3)   uint8, or uint16 in patches of more than 256 vertices: vertices within the patch
 //   hull_counts     (N)      uint8 vertices of the hull, 16 at most; 0: the patch has no surface
 //
 // behind the vertices there are 16 more numbers, so that 16 can be read from any.
@@ -3703,12 +3703,12 @@ static int nsvcd__spheres_fit(const nsvcd_body *body, float scale) {
 typedef struct nsvcd__facets {
   const nsvcd_body *body;  // of triangles
   const float *discs, *group_discs, *steps, *slacks, *quanta;
-  const uint32_t *first_vertex, *first_triangle;
+  const uint32_t *first_vertex, *first_triangle, *first_corner;
   const float *seeds;
   const unsigned char *numbers, *corners;
   const int16_t *vertices;
   const uint8_t *hull_counts;
-  size_t listed, vertex_count, components, corner_bytes, number_bytes;
+  size_t listed, vertex_count, components, corners_size, number_bytes;
 } nsvcd__facets;
 
 // The same place of a body that is being written.
@@ -3725,12 +3725,12 @@ static const nsvcd_body *nsvcd__triangles_of(const nsvcd_body *body) {
 // Bytes of a body of triangles; 0 if they cannot be counted in 32 bits.
 static size_t nsvcd__facets_size(size_t points, const uint32_t *counts) {
   const size_t padded = nsvcd__round_up(points, NSVCD__GROUP);
-  uint64_t size = nsvcd__spheres_size(padded) + 4 * NSVCD__FACET_COUNTS + 8 * (points + 1);
+  uint64_t size = nsvcd__spheres_size(padded) + 4 * NSVCD__FACET_COUNTS + 12 * (points + 1);
   size += 36 * padded + 24 * nsvcd__group_slots(padded);
   size += (uint64_t)12 * counts[2];
   size += (uint64_t)counts[4] * counts[0];
   size += 2 * ((uint64_t)3 * counts[1] + NSVCD__LANES);
-  size += (uint64_t)3 * counts[3] * counts[0];
+  size += counts[3];
   size += points + NSVCD_ALIGNMENT;
   size -= size % NSVCD_ALIGNMENT;
   return size > 0xffffffffu ? 0 : (size_t)size;
@@ -3744,7 +3744,7 @@ static nsvcd__facets nsvcd__facets_of(const nsvcd_body *body) {
   f.listed = counts[0];
   f.vertex_count = counts[1];
   f.components = counts[2];
-  f.corner_bytes = counts[3];
+  f.corners_size = counts[3];
   f.number_bytes = counts[4];
   f.discs = (const float *)(const void *)(counts + NSVCD__FACET_COUNTS);
   f.group_discs = f.discs + 6 * padded;
@@ -3753,19 +3753,25 @@ static nsvcd__facets nsvcd__facets_of(const nsvcd_body *body) {
   f.quanta = f.slacks + padded;
   f.first_vertex = (const uint32_t *)(const void *)(f.quanta + padded);
   f.first_triangle = f.first_vertex + body->points + 1;
-  f.seeds = (const float *)(const void *)(f.first_triangle + body->points + 1);
+  f.first_corner = f.first_triangle + body->points + 1;
+  f.seeds = (const float *)(const void *)(f.first_corner + body->points + 1);
   f.numbers = (const unsigned char *)(f.seeds + 3 * f.components);
   f.vertices = (const int16_t *)(const void *)(f.numbers + f.number_bytes * f.listed);
   f.corners = (const unsigned char *)(f.vertices + 3 * f.vertex_count + NSVCD__LANES);
-  f.hull_counts = f.corners + 3 * f.corner_bytes * f.listed;
+  f.hull_counts = f.corners + f.corners_size;
   return f;
 }
 
-// The vertices of corners k of listing `n`: 0..2.
-static size_t nsvcd__facet_corner(const nsvcd__facets *f, size_t n, size_t k) {
-  if (f->corner_bytes == 1) return f->corners[3 * n + k];
+// Bytes of a corner in a patch of so many vertices.
+static size_t nsvcd__corner_bytes(size_t vertices) { return vertices <= 256 ? 1 : 2; }
+
+// The vertex, of its patch, of corner k (0..2) of listing n.
+static size_t nsvcd__facet_corner(const nsvcd__facets *f, size_t patch, size_t n, size_t k) {
+  const unsigned char *corners = f->corners + f->first_corner[patch];
+  const size_t at = 3 * (n - f->first_triangle[patch]) + k;
+  if (nsvcd__corner_bytes(f->first_vertex[patch + 1] - f->first_vertex[patch]) == 1) return corners[at];
   uint16_t corner;
-  memcpy(&corner, f->corners + 2 * (3 * n + k), sizeof corner);
+  memcpy(&corner, corners + 2 * at, sizeof corner);
   return corner;
 }
 
@@ -3812,7 +3818,7 @@ static void nsvcd__facet_triangle(const nsvcd__facets *f, size_t patch, size_t n
   const nsvcd__f3 centre = nsvcd__facet_centre(f, patch);
   const double step = (double)f->steps[patch];
   for (size_t k = 0; k < 3; k++) {
-    const size_t i = nsvcd__facet_corner(f, n, k);
+    const size_t i = nsvcd__facet_corner(f, patch, n, k);
     corners[k].x = (double)centre.x + step * x[i];
     corners[k].y = (double)centre.y + step * x[all + i];
     corners[k].z = (double)centre.z + step * x[2 * all + i];
@@ -3895,17 +3901,18 @@ static void nsvcd__facets_finish(nsvcd_body *body) {
 #ifndef NSVCD_NO_ENCODER
 // The counts of the body of triangles that a surface makes.
 static void nsvcd__facets_count(const nsvcd_mesh *mesh, const nsvcd__surface *surface, uint32_t *counts) {
-  uint32_t most = 0;
-  for (size_t i = 0; i < surface->count; i++) {
-    const uint32_t vertices = surface->first_vertex[i + 1] - surface->first_vertex[i];
-    most = vertices > most ? vertices : most;
-  }
   memset(counts, 0, NSVCD__FACET_COUNTS * sizeof *counts);
   counts[0] = (uint32_t)surface->listed;
   counts[1] = (uint32_t)surface->vertex_count;
   counts[2] = (uint32_t)surface->component_count;
-  counts[3] = most <= 256 ? 1 : 2;
   counts[4] = mesh->triangle_count <= 0x7fff ? 2 : 4;
+  uint64_t corners = 0;
+  for (size_t i = 0; i < surface->count; i++) {
+    const uint32_t vertices = surface->first_vertex[i + 1] - surface->first_vertex[i];
+    const uint32_t triangles = surface->first_triangle[i + 1] - surface->first_triangle[i];
+    corners += (uint64_t)3 * triangles * nsvcd__corner_bytes(vertices);
+  }
+  counts[3] = corners < 0xffffffffu ? (uint32_t)corners : 0xffffffffu;  // then the body is refused as too large
 }
 
 // Writes patch `to` of a body of triangles from patch `from` of a surface.
@@ -3934,7 +3941,10 @@ static void nsvcd__facets_write(const nsvcd__surface *surface, size_t from, nsvc
   uint32_t *first_triangle = (uint32_t *)nsvcd__writable(body, f.first_triangle);
   int16_t *coordinates = (int16_t *)nsvcd__writable(body, f.vertices);
   unsigned char *numbers = (unsigned char *)nsvcd__writable(body, f.numbers);
-  unsigned char *corners = (unsigned char *)nsvcd__writable(body, f.corners);
+  uint32_t *first_corner = (uint32_t *)nsvcd__writable(body, f.first_corner);
+  unsigned char *corners = (unsigned char *)nsvcd__writable(body, f.corners) + first_corner[to];
+  const size_t bytes = nsvcd__corner_bytes(vertices);
+  first_corner[to + 1] = first_corner[to] + (uint32_t)(3 * triangles * bytes);
   first_vertex[to + 1] = first_vertex[to] + (uint32_t)vertices;
   first_triangle[to + 1] = first_triangle[to] + (uint32_t)triangles;
   memcpy(coordinates + 3 * (size_t)first_vertex[to], surface->vertices + 3 * vertex, 6 * vertices);
@@ -3946,8 +3956,8 @@ static void nsvcd__facets_write(const nsvcd__surface *surface, size_t from, nsvc
     if (f.number_bytes == 4) memcpy(numbers + 4 * at, &number, 4);
     for (size_t k = 0; k < 3; k++) {
       const uint16_t corner = surface->corners[3 * (triangle + n) + k];
-      if (f.corner_bytes == 1) corners[3 * at + k] = (unsigned char)corner;
-      if (f.corner_bytes == 2) memcpy(corners + 2 * (3 * at + k), &corner, 2);
+      if (bytes == 1) corners[3 * n + k] = (unsigned char)corner;
+      if (bytes == 2) memcpy(corners + 2 * (3 * n + k), &corner, 2);
     }
   }
 }
@@ -3986,12 +3996,12 @@ static int nsvcd__facets_are_laid_out(const nsvcd_body *body, size_t size) {
   if (nsvcd__spheres_size(body->padded) + 4 * NSVCD__FACET_COUNTS > size) return 0;
   const void *at = (const char *)body + nsvcd__spheres_size(body->padded);
   const uint32_t *counts = (const uint32_t *)at;
-  if (counts[3] < 1 || counts[3] > 2 || (counts[4] != 2 && counts[4] != 4)) return 0;
+  if (counts[4] != 2 && counts[4] != 4) return 0;
   if (counts[5] || counts[6] || counts[7] || body->triangles == 0) return 0;
   if (body->size != nsvcd__facets_size(body->points, counts) || body->size > size) return 0;
 
   const nsvcd__facets f = nsvcd__facets_of(body);
-  if (f.first_vertex[0] != 0 || f.first_triangle[0] != 0) return 0;
+  if (f.first_vertex[0] != 0 || f.first_triangle[0] != 0 || f.first_corner[0] != 0) return 0;
   for (size_t i = 0; i < body->points; i++) {
     if (f.first_vertex[i + 1] < f.first_vertex[i] || f.first_triangle[i + 1] < f.first_triangle[i]) return 0;
     if (f.first_vertex[i + 1] > f.vertex_count || f.first_triangle[i + 1] > f.listed) return 0;
@@ -3999,14 +4009,17 @@ static int nsvcd__facets_are_laid_out(const nsvcd_body *body, size_t size) {
     const size_t triangles = f.first_triangle[i + 1] - f.first_triangle[i];
     if (f.hull_counts[i] > NSVCD__HULL || f.hull_counts[i] > vertices) return 0;
     if ((f.hull_counts[i] == 0) != (vertices == 0) || (vertices == 0) != (triangles == 0)) return 0;
+    const uint64_t corners_end = f.first_corner[i] + (uint64_t)3 * triangles * nsvcd__corner_bytes(vertices);
+    if (f.first_corner[i + 1] != corners_end || corners_end > f.corners_size) return 0;
     for (size_t n = 0; n < 3 * triangles; n++) {
-      if (nsvcd__facet_corner(&f, f.first_triangle[i] + n / 3, n % 3) >= vertices) return 0;
+      if (nsvcd__facet_corner(&f, i, f.first_triangle[i] + n / 3, n % 3) >= vertices) return 0;
     }
   }
   for (size_t n = 0; n < f.listed; n++) {
     int encloses;
     if (nsvcd__facet_number(&f, n, &encloses) >= body->triangles) return 0;
   }
+  if (f.first_corner[body->points] != f.corners_size) return 0;
   return f.first_vertex[body->points] == f.vertex_count && f.first_triangle[body->points] == f.listed;
 }
 
@@ -6039,7 +6052,7 @@ static void nsvcd__block_load(const nsvcd__facets *f, size_t patch, size_t first
   out->count = count;
   for (size_t k = 0; k < 3; k++) {
     for (size_t l = 0; l < NSVCD__LANES; l++) {
-      const size_t vertex = nsvcd__facet_corner(f, first + (l < count ? l : count - 1), k);
+      const size_t vertex = nsvcd__facet_corner(f, patch, first + (l < count ? l : count - 1), k);
       out->corners[k][0][l] = (float)x[vertex];
       out->corners[k][1][l] = (float)x[all + vertex];
       out->corners[k][2][l] = (float)x[2 * all + vertex];

@@ -180,8 +180,10 @@ static void proof_read_listing(const proof_body *b, const nsvcd__facets *f, size
   proof_corners(b, out->triangle, out->corners);
   out->whole = 1;
   for (size_t c = 0; c < 3; c++) {
-    const unsigned char *at = f->corners + f->corner_bytes * (3 * n + c);
-    const size_t vertex = proof_stored_number(at, f->corner_bytes);
+    const size_t bytes = all <= 256 ? 1 : 2;
+    const size_t corner = 3 * (n - f->first_triangle[i]) + c;
+    const unsigned char *at = f->corners + f->first_corner[i] + bytes * corner;
+    const size_t vertex = proof_stored_number(at, bytes);
     double off[3];
     for (size_t k = 0; k < 3; k++) {
       out->stored[c][k] = b->patches[i].centre[k] + (double)f->steps[i] * x[k * all + vertex];
