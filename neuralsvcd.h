@@ -2447,7 +2447,7 @@ static nsvcd__d3 nsvcd__ball_centre(const nsvcd__d3 *points, size_t count) {
     }
     if (most <= ball.squared * (1 + 1e-9)) break;
     border[border_count++] = points[farthest];
-    nsvcd__ball larger;
+    nsvcd__ball larger = ball;
     if (!nsvcd__ball_of_few(border, &border_count, &larger) || larger.squared <= ball.squared) break;
     ball = larger;
   }
