@@ -26,7 +26,7 @@ ifeq ($(BENCH),quick)
 COUNT ?= 200
 endif
 
-.PHONY: bench-plan preview profile instructions sizes bench check-extremes all demo test assets problems accuracy weights format clean help check-header check-examples check-problems check-gradient
+.PHONY: mutants bench-plan preview profile instructions sizes bench check-extremes all demo test assets problems accuracy weights format clean help check-header check-examples check-problems check-gradient
 .DELETE_ON_ERROR:
 
 PLANNERS = build/dish_insertion build/bimanual_insertion build/mining_site
@@ -66,12 +66,12 @@ assets: build/make_assets  ## writes examples/assets/*.obj, which are in the rep
 
 # ------------------------------------------------------------------------------------------------------------- tests
 
-TESTS = main test_mesh test_network test_broad_phase test_oracle test_query test_gradient test_cost test_tasks test_plan_spheres test_plan
+TESTS = main test_mesh test_network test_broad_phase test_oracle test_query test_proof test_gradient test_cost test_tasks test_plan_spheres test_plan
 TEST_OBJECTS = $(TESTS:%=build/%.o)
 # Each test file holds its own copy of the header, and uses only a part of its private functions.
 TEST_WARNINGS = -Wall -Wextra -Werror -Wno-unused-function
 
-build/%.o: tests/%.c tests/check.h tests/oracle.h tests/query_scene.h tests/gradient_reference.h examples/shapes.h examples/tasks.h tests/plan_spheres.h tests/bench_spheres.h tests/bench_mesh.h tests/method.h $(wildcard tests/data/*.h) $(LIBRARY) | build
+build/%.o: tests/%.c tests/check.h tests/oracle.h tests/query_scene.h tests/proof_scene.h tests/gradient_reference.h examples/shapes.h examples/tasks.h tests/plan_spheres.h tests/bench_spheres.h tests/bench_mesh.h tests/method.h $(wildcard tests/data/*.h) $(LIBRARY) | build
 	$(CC) $(CFLAGS) -pthread -std=c99 $(TEST_WARNINGS) $(CCD_CFLAGS) -c -o $@ $<
 build/tests: $(TEST_OBJECTS)
 	$(CC) $(CFLAGS) -pthread -o $@ $(TEST_OBJECTS) $(CCD_LIBS) -lm
@@ -89,6 +89,12 @@ build/gradient_%: tests/test_gradient.c tests/gradient_reference.h tests/query_s
 	$(CC) $(CFLAGS) -std=c99 $(TEST_WARNINGS) -DTEST_ALONE $(patsubst %,-DNSVCD_NO_%,$(subst $(comma), ,$*)) -o $@ $< -lm
 check-gradient: $(GRADIENT_SWITCHES:%=build/gradient_%)
 	@for test in $^; do echo $$test; $$test >$$test.txt || { cat $$test.txt; exit 1; }; tail -1 $$test.txt; done
+
+# The tests of the proof, alone; PROOF_MANY=10 in the environment: 10^6 crossings.
+build/test_proof: tests/test_proof.c tests/proof_scene.h tests/check.h tests/oracle.h examples/shapes.h $(LIBRARY) | build
+	$(CC) $(CFLAGS) -std=c99 $(TEST_WARNINGS) -DTEST_ALONE -o $@ $< -lm
+mutants:  ## the header with one mistake at a time: the tests of the proof must catch each; minutes
+	CC="$(CC)" tests/mutants.sh
 
 check-extremes: build/problems build/svcd  # tiny, huge, far, thin, spinning ...
 	tests/extremes.sh

@@ -13,8 +13,6 @@ static void proof_certified(int kind, size_t i, size_t j, size_t a, size_t b, do
 #include "check.h"
 #include "proof_scene.h"
 
-#include <time.h>
-
 void test_proof(void);
 
 #define CERTIFICATES 300000  // kept of one query
@@ -1378,6 +1376,48 @@ static void proof_certificates_hold_at_a_hair(void) {
   proof_report("hair", &sum);
 }
 
+// The body of another, multiplied by nsvcd_body_scale; its mesh is multiplied exactly.
+static proof_body proof_multiplied(const proof_body *from, float scale) {
+  proof_body b;
+  memset(&b, 0, sizeof b);
+  const size_t size = nsvcd_body_describe(from->body).size;
+  void *memory = malloc(size);
+  b.vertices = from->vertices;
+  b.triangles = from->triangles;
+  b.size = from->size * (double)scale;
+  b.positions = (double *)malloc(3 * b.vertices * sizeof(double));
+  b.indices = (uint32_t *)malloc(3 * b.triangles * sizeof(uint32_t));
+  if (!memory || !b.positions || !b.indices) exit(1);
+  for (size_t i = 0; i < 3 * b.vertices; i++) b.positions[i] = from->positions[i] * (double)scale;
+  memcpy(b.indices, from->indices, 3 * b.triangles * sizeof(uint32_t));
+  CHECK_EQ(nsvcd_body_scale(from->body, scale, memory, size, &b.body), NSVCD_OK);
+  if (!oracle_mesh_init(&b.oracle, b.positions, b.vertices, b.indices, b.triangles, 1)) exit(1);
+  proof_read_body(&b);
+  return b;
+}
+
+static void proof_certificates_hold_for_scaled_bodies(void) {
+  static const float scales[4] = {0.3f, 7.7f, 1.1e-5f, 13000.7f};
+  shapes_rng rng = {98};
+  replay sum;
+  memset(&sum, 0, sizeof sum);
+  for (size_t k = 0; k < 16; k++) {
+    const float scale = scales[k / 4];
+    proof_body moving = proof_multiplied(proof_shared(0, (size_t)shapes_pick(&rng, MAKES)), scale);
+    proof_body fixed = proof_multiplied(proof_shared(0, (size_t)shapes_pick(&rng, MAKES)), scale);
+    attack a;
+    a.moving = &moving;
+    a.fixed = &fixed;
+    for (size_t trial = 0; trial < 25; trial++) {
+      if (!proof_scene(&rng, &a, pow(10, shapes_uniform(&rng, -7, -2)), trial % 3 ? 0.3 : 0)) continue;
+      proof_replay(&a, &rng, &sum);
+    }
+    proof_free(&moving);
+    proof_free(&fixed);
+  }
+  proof_report("scaled", &sum);
+}
+
 static void proof_certificates_hold_at_every_scale(void) {
   shapes_rng rng = {99};
   for (size_t scale = 1; scale < SCALES; scale++) {
@@ -1457,6 +1497,7 @@ void test_proof(void) {
   RUN(proof_certificates_hold);
   RUN(proof_certificates_hold_at_a_hair);
   RUN(proof_certificates_hold_at_every_scale);
+  RUN(proof_certificates_hold_for_scaled_bodies);
   RUN(proof_crossings_are_never_free);
   RUN(proof_spans_hold_the_motion);
   RUN(proof_knows_what_is_within);
