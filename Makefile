@@ -26,7 +26,7 @@ ifeq ($(BENCH),quick)
 COUNT ?= 200
 endif
 
-.PHONY: bench-plan preview profile instructions sizes bench check-extremes all demo test assets problems accuracy weights format clean help check-header check-examples check-problems check-gradient
+.PHONY: mutants bench-plan preview profile instructions sizes bench check-extremes all demo test assets problems accuracy weights format clean help check-header check-examples check-problems check-gradient
 .DELETE_ON_ERROR:
 
 PLANNERS = build/dish_insertion build/bimanual_insertion build/mining_site
@@ -89,6 +89,12 @@ build/gradient_%: tests/test_gradient.c tests/gradient_reference.h tests/query_s
 	$(CC) $(CFLAGS) -std=c99 $(TEST_WARNINGS) -DTEST_ALONE $(patsubst %,-DNSVCD_NO_%,$(subst $(comma), ,$*)) -o $@ $< -lm
 check-gradient: $(GRADIENT_SWITCHES:%=build/gradient_%)
 	@for test in $^; do echo $$test; $$test >$$test.txt || { cat $$test.txt; exit 1; }; tail -1 $$test.txt; done
+
+# The tests of the proof, alone; PROOF_MANY=10 in the environment: 10^6 crossings.
+build/test_proof: tests/test_proof.c tests/proof_scene.h tests/check.h tests/oracle.h examples/shapes.h $(LIBRARY) | build
+	$(CC) $(CFLAGS) -std=c99 $(TEST_WARNINGS) -DTEST_ALONE -o $@ $< -lm
+mutants:  ## the header with one mistake at a time: the tests of the proof must catch each; minutes
+	CC="$(CC)" tests/mutants.sh
 
 check-extremes: build/problems build/svcd  # tiny, huge, far, thin, spinning ...
 	tests/extremes.sh

@@ -622,6 +622,7 @@ static inline nsvcd__v nsvcd__v_min(nsvcd__v a, nsvcd__v b) { return _mm512_min_
 static inline nsvcd__v nsvcd__v_max(nsvcd__v a, nsvcd__v b) { return _mm512_max_ps(a, b); }
 static inline nsvcd__v nsvcd__v_sqrt(nsvcd__v a) { return _mm512_sqrt_ps(a); }
 static inline uint32_t nsvcd__v_le(nsvcd__v a, nsvcd__v b) { return _mm512_cmp_ps_mask(a, b, _CMP_LE_OQ); }
+static inline uint32_t nsvcd__v_lt(nsvcd__v a, nsvcd__v b) { return _mm512_cmp_ps_mask(a, b, _CMP_LT_OQ); }
 static inline nsvcd__v nsvcd__v_pick(nsvcd__v a, nsvcd__v b, nsvcd__v x, nsvcd__v y) {
   return _mm512_mask_blend_ps(_mm512_cmp_ps_mask(a, b, _CMP_LE_OQ), y, x);
 }
@@ -649,6 +650,9 @@ static inline nsvcd__word nsvcd__w_max(nsvcd__word a, nsvcd__word b) { return _m
 static inline nsvcd__word nsvcd__w_sqrt(nsvcd__word a) { return _mm256_sqrt_ps(a); }
 static inline uint32_t nsvcd__w_le(nsvcd__word a, nsvcd__word b) {
   return (uint32_t)_mm256_movemask_ps(_mm256_cmp_ps(a, b, _CMP_LE_OQ));
+}
+static inline uint32_t nsvcd__w_lt(nsvcd__word a, nsvcd__word b) {
+  return (uint32_t)_mm256_movemask_ps(_mm256_cmp_ps(a, b, _CMP_LT_OQ));
 }
 static inline nsvcd__word nsvcd__w_pick(nsvcd__word a, nsvcd__word b, nsvcd__word x, nsvcd__word y) {
   return _mm256_blendv_ps(y, x, _mm256_cmp_ps(a, b, _CMP_LE_OQ));
@@ -682,6 +686,9 @@ static inline nsvcd__word nsvcd__w_sqrt(nsvcd__word a) { return _mm_sqrt_ps(a); 
 static inline uint32_t nsvcd__w_le(nsvcd__word a, nsvcd__word b) {
   return (uint32_t)_mm_movemask_ps(_mm_cmple_ps(a, b));
 }
+static inline uint32_t nsvcd__w_lt(nsvcd__word a, nsvcd__word b) {
+  return (uint32_t)_mm_movemask_ps(_mm_cmplt_ps(a, b));
+}
 static inline nsvcd__word nsvcd__w_pick(nsvcd__word a, nsvcd__word b, nsvcd__word x, nsvcd__word y) {
   const __m128 mask = _mm_cmple_ps(a, b);
   return _mm_or_ps(_mm_and_ps(mask, x), _mm_andnot_ps(mask, y));
@@ -709,10 +716,12 @@ static inline nsvcd__word nsvcd__w_fma(nsvcd__word a, nsvcd__word b, nsvcd__word
 static inline nsvcd__word nsvcd__w_min(nsvcd__word a, nsvcd__word b) { return vminq_f32(a, b); }
 static inline nsvcd__word nsvcd__w_max(nsvcd__word a, nsvcd__word b) { return vmaxq_f32(a, b); }
 static inline nsvcd__word nsvcd__w_sqrt(nsvcd__word a) { return vsqrtq_f32(a); }
-static inline uint32_t nsvcd__w_le(nsvcd__word a, nsvcd__word b) {
+static inline uint32_t nsvcd__w_bits(uint32x4_t lanes) {
   static const uint32_t bit[4] = {1, 2, 4, 8};
-  return vaddvq_u32(vandq_u32(vcleq_f32(a, b), vld1q_u32(bit)));
+  return vaddvq_u32(vandq_u32(lanes, vld1q_u32(bit)));
 }
+static inline uint32_t nsvcd__w_le(nsvcd__word a, nsvcd__word b) { return nsvcd__w_bits(vcleq_f32(a, b)); }
+static inline uint32_t nsvcd__w_lt(nsvcd__word a, nsvcd__word b) { return nsvcd__w_bits(vcltq_f32(a, b)); }
 static inline nsvcd__word nsvcd__w_pick(nsvcd__word a, nsvcd__word b, nsvcd__word x, nsvcd__word y) {
   return vbslq_f32(vcleq_f32(a, b), x, y);
 }
@@ -746,6 +755,11 @@ static inline nsvcd__v nsvcd__v_sqrt(nsvcd__v a) { NSVCD__EACH_WORD(nsvcd__w_sqr
 static inline uint32_t nsvcd__v_le(nsvcd__v a, nsvcd__v b) {
   uint32_t bits = 0;
   for (size_t i = 0; i < NSVCD__WORDS; i++) bits |= nsvcd__w_le(a.w[i], b.w[i]) << (NSVCD__LANES / NSVCD__WORDS * i);
+  return bits;
+}
+static inline uint32_t nsvcd__v_lt(nsvcd__v a, nsvcd__v b) {
+  uint32_t bits = 0;
+  for (size_t i = 0; i < NSVCD__WORDS; i++) bits |= nsvcd__w_lt(a.w[i], b.w[i]) << (NSVCD__LANES / NSVCD__WORDS * i);
   return bits;
 }
 static inline nsvcd__v nsvcd__v_pick(nsvcd__v a, nsvcd__v b, nsvcd__v x, nsvcd__v y) {
@@ -783,6 +797,12 @@ static inline nsvcd__v nsvcd__v_sqrt(nsvcd__v a) { NSVCD__EACH_LANE(sqrtf(a.f[i]
 static inline uint32_t nsvcd__v_le(nsvcd__v a, nsvcd__v b) {
   uint32_t bits = 0;
   for (size_t i = 0; i < NSVCD__LANES; i++) bits |= (uint32_t)(a.f[i] <= b.f[i]) << i;
+  return bits;
+}
+// Bit i is set where a < b.
+static inline uint32_t nsvcd__v_lt(nsvcd__v a, nsvcd__v b) {
+  uint32_t bits = 0;
+  for (size_t i = 0; i < NSVCD__LANES; i++) bits |= (uint32_t)(a.f[i] < b.f[i]) << i;
   return bits;
 }
 // a <= b ? x : y.
@@ -1867,7 +1887,7 @@ static nsvcd_result nsvcd__patches_build(const nsvcd_mesh *mesh, size_t points, 
 #define NSVCD__SURFACE_WHOLE 16.0     // the same: with a longer edge a triangle is listed in parts
 #define NSVCD__SURFACE_MARGIN 1e-13   // of the mesh's greatest coordinate
 #define NSVCD__SURFACE_TINY 1e-30     // metres, added to that: keeps off what float cannot hold
-#define NSVCD__HULL_SHARE 3e-3        // of the radius: a hull as near as this to all corners is good
+#define NSVCD__HULL_SHARE 1e-4        // of the radius: a hull as near as this to all corners is good
 #define NSVCD__FACET_CORNERS 16       // corners of a piece, at most
 #define NSVCD__FACET_STACK 64         // parts that wait for their turn (12 at most were seen)
 #define NSVCD__CUTS_PER_TRIANGLE 8    // these two bound the cuts: a fine mesh needs less than one,
@@ -5531,8 +5551,8 @@ static uint32_t nsvcd__apart_by_fixed_disc(const nsvcd__approach *a, const nsvcd
   const nsvcd__v lowest = nsvcd__v_min(nsvcd__v_add(height, start.low), nsvcd__v_add(height_end, end.low));
   const nsvcd__v highest = nsvcd__v_max(nsvcd__v_add(height, start.high), nsvcd__v_add(height_end, end.high));
   const float deviation = span->rounding + nsvcd__deviation(span, normal, a->reach);
-  *below = ~nsvcd__v_le(nsvcd__v_set(low - deviation), highest) & 0xffff;
-  return (~nsvcd__v_le(lowest, nsvcd__v_set(high + deviation)) & 0xffff) | *below;
+  *below = nsvcd__v_lt(highest, nsvcd__v_set(low - deviation));
+  return nsvcd__v_lt(nsvcd__v_set(high + deviation), lowest) | *below;
 }
 
 // The same with the plane normal to the mean w of the moving disc's normals m0 and m1 at both ends. |w| <= 1. These
@@ -5559,8 +5579,8 @@ static uint32_t nsvcd__apart_by_moving_disc(const nsvcd__approach *a, const nsvc
   const nsvcd__v lowest = nsvcd__v_add(nsvcd__v_min(height, height_end), moving.low);
   const nsvcd__v highest = nsvcd__v_add(nsvcd__v_max(height, height_end), moving.high);
   *plane = w;
-  *below = ~nsvcd__v_le(nsvcd__v_sub(fixed.low, deviation), highest) & 0xffff;
-  return (~nsvcd__v_le(lowest, nsvcd__v_add(fixed.high, deviation)) & 0xffff) | *below;
+  *below = nsvcd__v_lt(highest, nsvcd__v_sub(fixed.low, deviation));
+  return nsvcd__v_lt(nsvcd__v_add(fixed.high, deviation), lowest) | *below;
 }
 
 #ifdef NSVCD__CERTIFIES
@@ -5670,8 +5690,8 @@ static uint32_t nsvcd__groups_apart(nsvcd__segments *block, const nsvcd__chords 
   const nsvcd__v lowest = nsvcd__v_min(nsvcd__v_add(height, start.low), nsvcd__v_add(height_end, end.low));
   const nsvcd__v highest = nsvcd__v_max(nsvcd__v_add(height, start.high), nsvcd__v_add(height_end, end.high));
   const nsvcd__v deviation = nsvcd__v_add(spans.rounding, nsvcd__v_deviation(&spans, n, reach));
-  below[0] = ~nsvcd__v_le(nsvcd__v_sub(nsvcd__v_set(fixed->low), deviation), highest) & 0xffff;
-  const uint32_t by_fixed = (~nsvcd__v_le(lowest, nsvcd__v_add(nsvcd__v_set(fixed->high), deviation)) & 0xffff) | below[0];
+  below[0] = nsvcd__v_lt(highest, nsvcd__v_sub(nsvcd__v_set(fixed->low), deviation));
+  const uint32_t by_fixed = nsvcd__v_lt(nsvcd__v_add(nsvcd__v_set(fixed->high), deviation), lowest) | below[0];
 
   const nsvcd__v half = nsvcd__v_set(0.5f);
   const nsvcd__v3 turned = nsvcd__v3_scale(nsvcd__v3_turned(block->turned, moving->normal), half);
@@ -5684,10 +5704,10 @@ static uint32_t nsvcd__groups_apart(nsvcd__segments *block, const nsvcd__chords 
   const nsvcd__v stray = nsvcd__v_add(spans.rounding, nsvcd__v_deviation(&spans, w, reach));
   const nsvcd__v low = nsvcd__v_add(nsvcd__v_min(along, along_end), own.low);
   const nsvcd__v high = nsvcd__v_add(nsvcd__v_max(along, along_end), own.high);
-  below[1] = ~nsvcd__v_le(nsvcd__v_sub(other.low, stray), high) & 0xffff;
+  below[1] = nsvcd__v_lt(high, nsvcd__v_sub(other.low, stray));
   planes[0] = n;
   planes[1] = w;
-  const uint32_t by_moving = (~nsvcd__v_le(low, nsvcd__v_add(other.high, stray)) & 0xffff) | below[1];
+  const uint32_t by_moving = nsvcd__v_lt(nsvcd__v_add(other.high, stray), low) | below[1];
   below[2] = by_fixed;
   return by_fixed | by_moving;
 }
@@ -6126,8 +6146,8 @@ static uint32_t nsvcd__planes_part(nsvcd__proof *p, size_t l, size_t ends, float
   const nsvcd__v low = nsvcd__v_min(zero, nsvcd__v_min(height1, height2));
   const nsvcd__v high = nsvcd__v_max(zero, nsvcd__v_max(height1, height2));
   *plane = n;
-  *below = ~nsvcd__v_le(nsvcd__v_sub(low, limit), highest) & 0xffff;
-  return (~nsvcd__v_le(lowest, nsvcd__v_add(high, limit)) & 0xffff) | *below;
+  *below = nsvcd__v_lt(highest, nsvcd__v_sub(low, limit));
+  return nsvcd__v_lt(nsvcd__v_add(high, limit), lowest) | *below;
 }
 
 // Lanes of the fixed block on one side of the plane of lane l of the moving one, posed once.
@@ -6144,7 +6164,7 @@ static uint32_t nsvcd__moving_plane_parts(nsvcd__proof *p, size_t l, float margi
     lowest = nsvcd__v_min(lowest, height);
     highest = nsvcd__v_max(highest, height);
   }
-  return (~nsvcd__v_le(lowest, limit) | ~nsvcd__v_le(nsvcd__v_negate(limit), highest)) & 0xffff;
+  return (nsvcd__v_lt(limit, lowest) | nsvcd__v_lt(highest, nsvcd__v_negate(limit))) & 0xffff;
 }
 
 // ---- witnesses
@@ -6503,7 +6523,7 @@ static int nsvcd__sticks_out(const nsvcd__facets *inner, const nsvcd__transform 
     const nsvcd__v3 d = nsvcd__v3_sub(nsvcd__v3_transform(start, own), centre);
     const nsvcd__v r = nsvcd__v_load(nsvcd__body_r(b) + first);
     const nsvcd__v limit = nsvcd__v_add(radius, r);
-    uint32_t out = ~nsvcd__v_le(nsvcd__v3_dot(d, d), nsvcd__v_mul(limit, limit)) & 0xffff;
+    uint32_t out = nsvcd__v_lt(nsvcd__v_mul(limit, limit), nsvcd__v3_dot(d, d));
     for (; out; out &= out - 1) {
       const size_t i = first + nsvcd__lowest_bit(out);
       if (i < inner->body->points && inner->hull_counts[i]) return 1;

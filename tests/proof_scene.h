@@ -1,17 +1,19 @@
-// What tests/test_proof.c tries the proof with: bodies whose stored surface is read and held against the mesh in double,
-// motions, and the certificates that queries issue. Independent of the header's arithmetic: from the header only the
-// layout of a body is taken. Include after neuralsvcd.h with its implementation.
+// What tests/test_proof.c tries the proof with: bodies whose stored surface is read and held
+// against the mesh in double, motions, and the certificates that queries issue. Independent of the
+// header's arithmetic: from the header only the layout of a body is taken. Include after
+// neuralsvcd.h with its implementation.
 #ifndef PROOF_SCENE_H
 #define PROOF_SCENE_H
 
 #include "../examples/shapes.h"
 #include "oracle.h"
 
-#define PROOF_POOL 96    // points of the surface by which a patch is judged
+#define PROOF_POOL 96  // points of the surface by which a patch is judged
 #define PROOF_POSES 80
 #define PROOF_HULL 16
 
-// ------------------------------------------------------------------------------------------------------------- hulls
+// -------------------------------------------------------------------------------------------------
+// hulls
 
 // Solves the symmetric system of n <= 3 rows; the answer replaces b. Returns 0 if it is singular.
 static int proof_solve(double a[3][3], double *b, int n) {
@@ -48,7 +50,8 @@ static int proof_foot(const double (*p)[3], const int *chosen, int count, double
   return first >= 0;
 }
 
-// Keeps of up to 4 points those whose hull has the point nearest to the origin; that point goes to `nearest`.
+// Keeps of up to 4 points those whose hull has the point nearest to the origin; that point goes to
+// `nearest`.
 static void proof_reduce(double (*p)[3], int *count, double *nearest) {
   double best = DBL_MAX;
   unsigned kept = 1;
@@ -59,7 +62,7 @@ static void proof_reduce(double (*p)[3], int *count, double *nearest) {
     for (int i = 0; i < *count; i++) {
       if (set >> i & 1) chosen[n++] = i;
     }
-    if (!proof_foot((const double (*)[3])p, chosen, n, foot)) continue;
+    if (!proof_foot((const double(*)[3])p, chosen, n, foot)) continue;
     if (oracle_dot(foot, foot) >= best) continue;
     best = oracle_dot(foot, foot);
     memcpy(nearest, foot, sizeof foot);
@@ -73,7 +76,8 @@ static void proof_reduce(double (*p)[3], int *count, double *nearest) {
   *count = n;
 }
 
-// Distance of x from the hull of some points, as a lower and an upper bound (Gilbert, Johnson and Keerthi 1988).
+// Distance of x from the hull of some points, as a lower and an upper bound (Gilbert, Johnson and
+// Keerthi 1988).
 static void proof_hull_distance(const double (*hull)[3], size_t count, const double *x, double *low,
                                 double *high) {
   double simplex[4][3], nearest[3];
@@ -101,7 +105,8 @@ static void proof_hull_distance(const double (*hull)[3], size_t count, const dou
   }
 }
 
-// ------------------------------------------------------------------------------------------------------------ bodies
+// -------------------------------------------------------------------------------------------------
+// bodies
 
 typedef struct proof_patch {
   double centre[3], radius;
@@ -109,15 +114,15 @@ typedef struct proof_patch {
   double slack, quantum;
   double hull[PROOF_HULL][3];
   size_t hull_count;
-  size_t first, end;            // listings
+  size_t first, end;           // listings
   double pool[PROOF_POOL][3];  // points of the mesh that it holds for certain
   size_t pool_count;
 } proof_patch;
 
 typedef struct proof_listing {
   size_t patch, triangle;
-  int whole;              // else it is a part of the triangle
-  double corners[3][3];   // the mesh's where it is whole, else as stored
+  int whole;             // else it is a part of the triangle
+  double corners[3][3];  // the mesh's where it is whole, else as stored
   double stored[3][3];
 } proof_listing;
 
@@ -176,7 +181,8 @@ static void proof_read_listing(const proof_body *b, const nsvcd__facets *f, size
   const int16_t *x = f->vertices + 3 * (size_t)f->first_vertex[i];
   const size_t top = (size_t)1 << (8 * f->number_bytes - 1);
   out->patch = i;
-  out->triangle = proof_stored_number(f->numbers + f->number_bytes * n, f->number_bytes) & (top - 1);
+  out->triangle =
+      proof_stored_number(f->numbers + f->number_bytes * n, f->number_bytes) & (top - 1);
   proof_corners(b, out->triangle, out->corners);
   out->whole = 1;
   for (size_t c = 0; c < 3; c++) {
@@ -194,7 +200,8 @@ static void proof_read_listing(const proof_body *b, const nsvcd__facets *f, size
   if (!out->whole) memcpy(out->corners, out->stored, sizeof out->corners);
 }
 
-// Does the patch hold a point of one of its triangles: 1 for certain, 0 for certain not, -1 unknown (to rounding).
+// Does the patch hold a point of one of its triangles: 1 for certain, 0 for certain not, -1 unknown
+// (to rounding).
 static int proof_holds(const proof_patch *p, const double *x) {
   double d[3], along[3], low, high;
   oracle_sub(x, p->centre, d);
@@ -205,7 +212,7 @@ static int proof_holds(const proof_patch *p, const double *x) {
   const double outside = fmax(fmax(oracle_length(d) - p->radius, oracle_length(along) - p->across),
                               fmax(height - p->high, p->low - height));
   if (outside > rounding) return 0;
-  proof_hull_distance((const double (*)[3])p->hull, p->hull_count, x, &low, &high);
+  proof_hull_distance((const double(*)[3])p->hull, p->hull_count, x, &low, &high);
   if (low > p->slack + rounding) return 0;
   return outside <= 0 && high <= p->slack ? 1 : -1;
 }
@@ -247,7 +254,8 @@ static void proof_pool_border(proof_patch *p, const double *inside, const double
   proof_pool_add(p, x);
 }
 
-// Fills a patch's pool: corners of its triangles, then random points, and where triangles leave what it holds.
+// Fills a patch's pool: corners of its triangles, then random points, and where triangles leave
+// what it holds.
 static void proof_fill_pool(proof_body *b, size_t i, shapes_rng *rng) {
   proof_patch *p = &b->patches[i];
   for (size_t n = p->first; n < p->end && p->pool_count < PROOF_POOL / 2; n++) {
@@ -334,7 +342,8 @@ static void proof_free(proof_body *b) {
   memset(b, 0, sizeof *b);
 }
 
-// ----------------------------------------------------------------------------------------------------------- motions
+// -------------------------------------------------------------------------------------------------
+// motions
 
 typedef struct proof_motion {
   nsvcd_pose raw[PROOF_POSES], raw_fixed;  // as asked
@@ -382,14 +391,15 @@ static proof_place proof_relative(const oracle_pose *pose, const oracle_pose *fi
   oracle_rotate_back(base, d, out.position);
   for (int i = 0; i < 3; i++) {
     for (int j = 0; j < 3; j++) {
-      out.matrix[3 * i + j] = base[i] * turn[j] + base[3 + i] * turn[3 + j] + base[6 + i] * turn[6 + j];
+      out.matrix[3 * i + j] =
+          base[i] * turn[j] + base[3 + i] * turn[3 + j] + base[6 + i] * turn[6 + j];
     }
   }
   return out;
 }
 
-// The pose at t. As oracle_pose_at, but where samples are exactly half a turn apart and both arcs are as short: there the
-// sign is that of the floats' own product, and 0 leaves them as they are.
+// The pose at t. As oracle_pose_at, but where samples are exactly half a turn apart and both arcs
+// are as short: there the sign is that of the floats' own product, and 0 leaves them as they are.
 static oracle_pose proof_pose_at(const proof_motion *m, double t) {
   if (m->count == 1) return m->poses[0];
   const double at = t * (double)(m->count - 1);
@@ -398,7 +408,8 @@ static oracle_pose proof_pose_at(const proof_motion *m, double t) {
   const oracle_pose *a = &m->poses[k], *b = a + 1;
   const double f = at - (double)k;
   double product = 0, apart = 0, together = 0, q[4];
-  for (int i = 0; i < 4; i++) product += (double)m->raw[k].rotation[i] * (double)m->raw[k + 1].rotation[i];
+  for (int i = 0; i < 4; i++)
+    product += (double)m->raw[k].rotation[i] * (double)m->raw[k + 1].rotation[i];
   for (int i = 0; i < 4; i++) {
     q[i] = product < 0 ? -b->rotation[i] : b->rotation[i];
     apart += (q[i] - a->rotation[i]) * (q[i] - a->rotation[i]);
@@ -409,7 +420,8 @@ static oracle_pose proof_pose_at(const proof_motion *m, double t) {
   const double after = half > 1e-9 ? sin(f * half) / sin(half) : f;
   oracle_pose out;
   for (int i = 0; i < 4; i++) out.rotation[i] = before * a->rotation[i] + after * q[i];
-  for (int i = 0; i < 3; i++) out.position[i] = a->position[i] + f * (b->position[i] - a->position[i]);
+  for (int i = 0; i < 3; i++)
+    out.position[i] = a->position[i] + f * (b->position[i] - a->position[i]);
   oracle_quat_normalize(out.rotation);
   return out;
 }
@@ -423,7 +435,8 @@ static void proof_apply(const proof_place *at, const double *x, double *out) {
   for (int k = 0; k < 3; k++) out[k] = turned[k] + at->position[k];
 }
 
-// ------------------------------------------------------------------------------------------------------ certificates
+// -------------------------------------------------------------------------------------------------
+// certificates
 
 typedef struct proof_record {
   int kind;
