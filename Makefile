@@ -26,7 +26,7 @@ ifeq ($(BENCH),quick)
 COUNT ?= 200
 endif
 
-.PHONY: mutants bench-plan preview profile instructions sizes bench check-extremes all demo test assets problems accuracy weights format clean help check-header check-examples check-problems check-gradient
+.PHONY: race mutants bench-plan preview profile instructions sizes bench check-extremes all demo test assets problems accuracy weights format clean help check-header check-examples check-problems check-gradient
 .DELETE_ON_ERROR:
 
 PLANNERS = build/dish_insertion build/bimanual_insertion build/mining_site
@@ -118,7 +118,16 @@ COUNT_inside = $(or $(COUNT),400)
 COUNT_random_urdfs = $(or $(COUNT),2000)
 COUNT_metaworld = $(or $(COUNT),2000)
 COUNT_open = $(or $(COUNT),500)
-SETS = standard hollow inside $(REAL) $(if $(filter metaworld,$(REAL)),open)
+# What bodies do, and meshes that are hard to get right.
+COUNT_rest = $(or $(COUNT),2000)
+COUNT_rest_real = $(or $(COUNT),2000)
+COUNT_nested = $(or $(COUNT),1000)
+COUNT_same = $(or $(COUNT),1000)
+COUNT_one = $(or $(COUNT),1000)
+COUNT_soup = $(or $(COUNT),500)
+COUNT_slivers = $(or $(COUNT),300)
+HARD = rest nested same one soup slivers
+SETS = standard hollow inside $(REAL) $(if $(filter metaworld,$(REAL)),open) $(HARD) $(if $(filter random_urdfs,$(REAL)),rest_real)
 CHECK_FLAGS =
 
 $(DATA)/standard.txt: | build/problems
@@ -136,6 +145,11 @@ $(DATA)/metaworld.txt: $(DATA)/meshes/metaworld | build/problems
 	build/problems --set standard --meshes $(DATA)/meshes/metaworld --count $(COUNT_metaworld) --seed 403 --out $@
 $(DATA)/open.txt: $(DATA)/meshes/metaworld | build/problems  # meshes that are not closed
 	build/problems --set standard --meshes $(DATA)/meshes/metaworld --open only --count $(COUNT_open) --seed 406 --out $@
+$(HARD:%=$(DATA)/%.txt): $(DATA)/%.txt: | build/problems
+	@mkdir -p $(DATA)
+	build/problems --set $* --meshes procedural --count $(COUNT_$*) --seed 407 --out $@
+$(DATA)/rest_real.txt: $(DATA)/meshes/random_urdfs | build/problems
+	build/problems --set rest --meshes $(DATA)/meshes/random_urdfs --count $(COUNT_rest_real) --seed 408 --out $@
 # All OBJ files of the archive, flat.
 $(DATA)/meshes/%: | $(MESHES)/%.tar.gz
 	mkdir -p $@.part
@@ -165,9 +179,10 @@ ifdef PROBLEMS
 BENCH_SETS = $(basename $(notdir $(PROBLEMS)))=$(PROBLEMS)
 else
 BENCH_SETS = $(if $(REAL),real=$(subst $(space),$(comma),$(REAL:%=$(DATA)/%.txt)),standard=$(DATA)/standard.txt) \
-  hollow=$(DATA)/hollow.txt $(if $(BENCH),,$(foreach set,$(EXTREMES),$(set)=build/extremes/$(set).txt))
+  hollow=$(DATA)/hollow.txt rest=$(DATA)/$(if $(filter random_urdfs,$(REAL)),rest_real,rest).txt \
+  $(if $(BENCH),,$(foreach set,$(EXTREMES),$(set)=build/extremes/$(set).txt))
 BENCH_FILES = $(if $(REAL),$(REAL:%=$(DATA)/%.txt),$(DATA)/standard.txt) $(DATA)/hollow.txt \
-  $(if $(BENCH),,$(EXTREMES:%=build/extremes/%.txt))
+  $(DATA)/$(if $(filter random_urdfs,$(REAL)),rest_real,rest).txt $(if $(BENCH),,$(EXTREMES:%=build/extremes/%.txt))
 endif
 comma := ,
 space := $(subst x,,x x)
@@ -186,6 +201,10 @@ sizes:  ## code and data that each compile-time switch leaves out, host and Cort
 
 bench: build/bench $(BENCH_FILES)  ## every method on the same problems: table, build/tradeoff.tsv, build/tradeoff.svg
 	build/bench $(if $(BENCH),--quick --limit 150,--limit 600) $(BENCH_SETS)
+
+# The proof, the network's default and the mesh hierarchy on all sets, in one run: for ratios.
+race: build/bench $(BENCH_FILES) $(DATA)/standard.txt $(HARD:%=$(DATA)/%.txt)  ## the proof against the hierarchy and the network, minutes
+	build/bench --race --out build/race $(if $(LIMIT),--limit $(LIMIT)) $(BENCH_SETS) standard=$(DATA)/standard.txt $(foreach set,$(filter-out rest,$(HARD)),$(set)=$(DATA)/$(set).txt)
 
 build/plan_bench: tests/plan_bench.c tests/plan_spheres.h tests/bench_spheres.h tests/bench_mesh.h tests/method.h tests/oracle.h \
   examples/tasks.h examples/shapes.h $(LIBRARY) | build

@@ -1,19 +1,23 @@
 // neuralsvcd.h - v0.1.0 - does this body, moving along this trajectory, hit that body?
 //
-// A small neural network answers (NeuralSVCD: Son, Jung, Kim, CoRL 2025). Its weights, trained by this project, are in
-// weights.h. C99 or C++11, libc and libm, nothing else. MIT licence (LICENSE), which covers the weights too.
+// The answer is proven: a witness (two triangles that meet, and when) or a certificate that the surfaces never do, at
+// any time, rotation included. Where memory is short, or a gradient is needed, a small neural network answers instead
+// (NeuralSVCD: Son, Jung, Kim, CoRL 2025), whose weights, trained by this project, are in weights.h. C99 or C++11, libc
+// and libm, nothing else. MIT licence (LICENSE), which covers the weights too.
 //
 // Do this in ONE C or C++ file, with weights.h beside this header; include the header alone everywhere else:
 //
 //   #define NEURALSVCD_IMPLEMENTATION
 //   #include "neuralsvcd.h"
 //
+// With NSVCD_NO_NETWORK defined before that the proof is all there is, and weights.h is not needed.
+//
 // Ask a question:
 //
 //   nsvcd_mesh mesh;                                                        // once per mesh
 //   const nsvcd_body *mug, *rack;
 //   nsvcd_obj_load("mug.obj", NULL, &mesh, NULL);
-//   nsvcd_encode(&mesh, NULL, NULL, memory, memory_size, &mug);             // the same for the rack
+//   nsvcd_encode(&mesh, NULL, NULL, NULL, 0, &mug);                         // the same for the rack
 //
 //   nsvcd_pose path[3] = {{{0, 0, 0.5f}, {0, 0, 0, 1}}, {{0.1f, 0, 0.3f}, {0, 0, 0, 1}}, {{0.2f, 0, 0}, {0, 0, 0, 1}}};
 //   nsvcd_pose rack_pose = {{0.2f, 0, 0}, {0, 0, 0, 1}};
@@ -47,19 +51,24 @@
 //   take one.
 //
 // WHAT AN ANSWER IS WORTH
-//   CERTIFIED_FREE is a proof that the surfaces never meet: spheres that cover them never do, whatever the motion does
-//   between its samples. So the bodies are free unless one starts inside the other. INSIDE is an estimate, a winding
-//   number of patches: reliable for closed meshes, meaningless for open ones (a body in an open box may count as
-//   inside) or where faces are listed twice. Everything else is the opinion of a network: README.md has its measured
-//   error rates, by distance from contact. Nearly all errors are contacts or gaps of less than a few millimetres on
-//   bodies of 0.1 to 0.4 m (results scale with the bodies). For proof, check what matters with an exact method.
+//   By proof, the default, WITNESS, CERTIFIED_FREE and INSIDE are facts, not opinions; the theorem stands in section
+//   *proof*. It is about the surfaces of the two meshes and the motion as described at nsvcd_sweep, and it is tested by
+//   replaying certificates in double precision (tests/test_proof.c). UNDECIDED says that surfaces come as close as the
+//   triangles are stored (nsvcd_body_facts.quantum), or that the work allowed was not enough; then `collides` is the
+//   network's opinion, or yes. A component of a mesh is closed if every edge has its reverse; what is open encloses
+//   nothing.
+//   By the network, CERTIFIED_FREE is a proof too: spheres that cover the surfaces never meet. INSIDE is an estimate, a
+//   winding number of patches: reliable for closed meshes of one piece. Everything else is an opinion: README.md has its
+//   measured error rates. It knows nothing finer than a few millimetres on bodies of 0.1 to 0.4 m: where bodies rest on
+//   one another, ask for a proof.
 //
-// NUMERIC ROBUSTNESS (float32), as measured by `make bench` and tests/extremes.sh
-//   Coordinates up to NSVCD_MAX_COORDINATE; bodies from NSVCD_MIN_RADIUS, below which squares underflow. Bodies of 1 mm
-//   and of 100 m get the verdicts of the same scene at 0.1 to 0.4 m (500 of 500 scenes, tiny and huge); the broad phase
-//   is tested from micrometres to kilometres. Positions are taken relative to the fixed body first, so a scene 10 km
-//   from the origin loses what its own coordinates lose, about 1 mm: 99.7 % right where 99.6 % are at the origin.
-//   Resolution, not float32, is the limit: a patch must not be much larger than the clearance in question. With 512
+// NUMERIC ROBUSTNESS (float32), as measured by `make race`, `make bench`, tests/test_proof.c and tests/extremes.sh
+//   Coordinates up to NSVCD_MAX_COORDINATE; bodies from NSVCD_MIN_RADIUS, below which squares underflow. Proofs hold at
+//   every scale, tested from 3e-11 to 3e5 m. They allow for float32 with NSVCD__ROUNDING, two millionths, of the distances
+//   and extents involved: so much room must be between the surfaces of what is to be certified free, and little more; 2 um
+//   for bodies of 0.3 m, 80 um where one of them measures 20 m. Positions are taken relative to the fixed body first, so a
+//   scene 10 km from the origin loses what its own coordinates lose, about 1 mm.
+//   For the network, resolution is the limit: a patch must not be much larger than the clearance in question. With 512
 //   patches each, a body of 5 cm against one of 0.3, 1, 3 and 20 m is judged right in 98.5, 93.5, 74 and 54 % of
 //   problems near contact; with the large mesh cut to what the motion can reach (nsvcd_mesh_cut), in 99 %.
 //   NaN and infinity are refused on the bits, also under -ffast-math.
@@ -275,8 +284,9 @@ typedef struct nsvcd_sweep_options {
   nsvcd_precision precision;  // of the decoder's arithmetic; latents are int8 in any case
   float recall;  // share of collisions to be found: 0 (balanced errors), 0.99f, 0.999f or 0.9999f, as calibrated
   nsvcd_method method;
-  size_t work;      // units that a proof may take; 0: NSVCD_DEFAULT_WORK. A unit is a plane tried on two patches, a
-                    // triangle against 16, or a pair of triangles at one time: up to 0.5 microseconds
+  size_t work;      // units that a proof may take, about; 0: NSVCD_DEFAULT_WORK. A unit is a plane sought for two
+                    // patches, a triangle against 16, a pair of triangles at one time, or a ray against a triangle: up
+                    // to 0.5 microseconds
   float tolerance;  // metres, at least 0: surfaces that come closer than this, and do not meet, may be left undecided
 } nsvcd_sweep_options;
 
@@ -294,7 +304,8 @@ typedef struct nsvcd_answer {
   size_t overlapping;        // network: pairs of patches whose spheres meet, each counted once per stretch of time, until
                              // the search ends
   float point[3];            // WITNESS: where the triangles meet at that time; INSIDE: what is inside; in the world
-  float normal[3];           // WITNESS: unit normal of the fixed body's triangle, out of it, in the world; else 0
+  float normal[3];           // WITNESS: unit normal of the fixed body's triangle, out of it, in the world; else, and
+                             // where that triangle has no area, 0
   uint32_t moving_triangle;  // WITNESS: as numbered in the caller's meshes; else NSVCD_NO_TRIANGLE
   uint32_t fixed_triangle;
   size_t work;  // units that the proof took
@@ -5160,15 +5171,17 @@ static void nsvcd__candidates_start(nsvcd__candidates *kept, nsvcd__candidate *i
 //   2. The broad phase leaves out only patches and segments of time in which the spheres over the pieces stay apart. What
 //      it leaves, a pair of patches in one segment, is an *item*. Every item is parted by one of the steps below, or the
 //      verdict is not CERTIFIED_FREE.
-//   3. A *span* is a stretch of the motion: a segment or a part of one. In it every point x of the moving body (body
-//      frame) is within spread + bulge |x| of the chord between its places at the ends (section *broad phase*; within
-//      one arc of angle h, bulge = h^2 / 8). A plane that has all of the moving side's places at both ends on one side,
-//      by more than that, has their chords there too, for a chord is convex, and so all places between.
-//   4. Discs: the plane is normal to a patch; what each patch reaches along it follows from its disc.
+//   3. A *span* is a stretch of the motion: a segment or a part of one. In it the true place of a point x of the moving
+//      body (body frame) leaves the chord between its places at the ends by no more than nsvcd__deviation along any
+//      direction: that is the bulge of section *broad phase*, taken along a plane's normal (within one arc of angle h it
+//      is h^2 / 8 |x|, and nothing along the axis). A plane that has the moving side's places at both ends on one side, by
+//      more than that, has their chords there too, for a chord is convex, and so all places between.
+//   4. Discs: the plane is normal to a patch, or to a group of 16; what each side reaches along it follows from its disc.
 //      Hulls: any plane; a patch's pieces are within its slack of the hull of its first vertices.
 //      Triangles: a plane for a pair of listed triangles. A patch lists all triangles of its pieces, whole or in parts.
-//   5. Rounding: spread contains NSVCD__ROUNDING of all lengths that enter a float computation. Stored vertices are off
-//      by the patch's slack or quantum, which every plane allows for. Pairs of triangles are parted in double.
+//   5. Rounding: every plane allows for NSVCD__ROUNDING of all lengths that enter a float computation (`rounding`, part of
+//      `spread`). Stored vertices are off by the patch's slack or quantum, which every plane allows for too. Pairs of
+//      triangles are parted in double. Comparisons are such that a number that is none parts nothing.
 //   6. Containment is decided at t = 0, component by component: a body that gets in or out later crosses a surface. The
 //      crossings of a ray with the closed components of the other body are counted with their sign; a ray that passes
 //      an edge too closely is replaced by another. Open components enclose nothing.
@@ -5176,7 +5189,8 @@ static void nsvcd__candidates_start(nsvcd__candidates *kept, nsvcd__candidate *i
 // then within the two quanta of each other. UNDECIDED: two triangles come closer than their quanta and the tolerance
 // without meeting, or the limit of work was reached.
 //
-// Work is counted in units: a plane tried on two hulls, a triangle against 16, a pair of triangles at one time.
+// Work is counted in units: a plane sought for two hulls, a triangle against 16, a pair of triangles at one time, a ray
+// against a triangle. A query stops within one patch's listings, or one ray, of its limit.
 
 #define NSVCD__ITEMS 256         // items that no plane parts, kept at once; when there are more, those are settled first
 #define NSVCD__NEWS 8            // items that are worth a look before the search goes on

@@ -27,8 +27,8 @@ for asset in mug dish_rack; do
 done
 rm -f build/demo.svg
 build/quickstart >"$dir/out" || fail "quickstart"
-grep -q 'carried low  -> HITS' "$dir/out" || fail "the mug carried low hits the rack: $(grep low "$dir/out")"
-grep -q 'carried high -> clears' "$dir/out" || fail "the mug carried high clears the rack: $(grep high "$dir/out")"
+grep -q 'carried low  -> HITS (witness' "$dir/out" || fail "the mug carried low hits the rack: $(grep low "$dir/out")"
+grep -q 'carried high -> clears (certified-free' "$dir/out" || fail "the mug carried high clears the rack: $(grep high "$dir/out")"
 tail -1 build/demo.svg | grep -q '^</svg>$' || fail "build/demo.svg is not whole"
 if command -v xmllint >/dev/null; then xmllint --noout build/demo.svg || fail "build/demo.svg is not XML"; fi
 
@@ -68,6 +68,9 @@ points=$(sed -n 's/^#define NSVCD_DEFAULT_POINTS \([0-9]*\).*/\1/p' neuralsvcd.h
 grep -q " $points points" "$dir/out" || fail "svcd info says: $(cat "$dir/out")"
 expect 0 '' build/svcd encode examples/assets/mug.obj "$dir/9 mug-2.h" --points 40
 expect 0 '' build/svcd encode examples/assets/mug.obj "$dir/rough.body" --radius 0.03
+expect 0 '' build/svcd encode examples/assets/mug.obj "$dir/latents.body" --no-triangles
+expect 0 '' build/svcd info "$dir/latents.body"
+! grep -q triangles "$dir/out" || fail "--no-triangles leaves triangles: $(cat "$dir/out")"
 printf 'bad' >"$dir/bad.body"
 expect 1 'bad.body: the body is damaged' build/svcd info "$dir/bad.body"
 expect 1 'none.body: No such file' build/svcd info "$dir/none.body"
@@ -106,7 +109,8 @@ awk -F '\t' 'NF != 8 || $3 != ($2 > 0) || $4 < 0 || $4 > 1 || $8 <= 0 { exit 1 }
 test "$(cut -f1 "$dir/out" | tr -d '\n')" = abc || fail "identifiers"
 test "$(sed -n 2p "$dir/out" | cut -f2,3,7)" = "$(printf -- '-100\t0\tcertified-free')" || fail "b is certified free"
 cut -f1-7 "$dir/out" >"$dir/first"
-for options in '--model tiny' '--model small --pairs 32' '--recall 0.999' '--points 512 --pairs 1' --int8; do
+for options in '--method proof' '--method network' '--method network --model tiny' '--model small --pairs 32' \
+  '--recall 0.999' '--points 512 --pairs 1' --int8 '--work 1'; do
   # shellcheck disable=SC2086
   expect 0 '3 problems' build/svcd check $options --repeat 1 "$dir/good.txt"
 done
@@ -168,10 +172,9 @@ expect 2 'svcd check' build/svcd encode "$dir/my.obj"
 expect 2 'neither .body nor .h' build/svcd encode "$dir/my.obj" "$dir/my.txt"
 expect 2 'not together' build/svcd encode "$dir/my.obj" "$dir/my.body" --points 3 --radius 1
 expect 2 'no such option' build/svcd encode "$dir/my.obj" "$dir/my.body" --speed 3
-expect 2 'not in the library yet' build/svcd check --verify all "$dir/good.txt"
 expect 2 'one problem file' build/svcd check "$dir/good.txt" "$dir/good.txt"
 for option in '--points 0' '--points 513' '--pairs 257' '--pairs x' '--model huge' '--recall 0.5' '--recall nan' \
-  '--repeat 0' '--speed 3' '--points'; do
+  '--repeat 0' '--speed 3' '--points' '--method both' '--work 0' '--work x'; do
   # shellcheck disable=SC2086
   expect 2 "$(echo "$option" | cut -d' ' -f1)" build/svcd check "$dir/good.txt" $option
 done

@@ -20,7 +20,8 @@ hull at the start only|const nsvcd__v at_either = nsvcd__v_min(at_start, at_end)
 deviation without drift|return drift + reach * (along|return 0 * drift + reach * (along
 deviation without bulge|along * span->bulge_along_axis + across * span->bulge);|along * span->bulge_along_axis + 0 * across);
 deviation along the axis|reach * (along * span->bulge_along_axis + across * span->bulge)|reach * (across * span->bulge)
-turns off the axis|axis_turn = nsvcd__v_max(axis_turn, nsvcd__v_turn_off_axis(axis, last_fixed_q, fixed_q, arc));|(void)0;
+turns off the axis|nsvcd__v_sqrt(axis_bulge), axis_turn)|nsvcd__v_sqrt(axis_bulge), nsvcd__v_set(0))
+chords off the axis|nsvcd__v_add(nsvcd__v_sqrt(axis_bulge), axis_turn)|axis_turn
 lanes without bulge|return nsvcd__v_fma(turn, nsvcd__v_set(reach), nsvcd__v_min(by_axis, by_way));|return nsvcd__v_fma(turn, nsvcd__v_set(0 * reach), nsvcd__v_min(by_axis, by_way));
 lanes without drift|return nsvcd__v_fma(turn, nsvcd__v_set(reach), nsvcd__v_min(by_axis, by_way));|return nsvcd__v_mul(turn, nsvcd__v_set(reach));
 disc without across|nsvcd__v_mul(radius_across, across);|nsvcd__v_mul(nsvcd__v_set(0), nsvcd__v_mul(radius_across, across));
