@@ -189,9 +189,10 @@ space := $(subst x,,x x)
 
 build/profile: tests/profile.c examples/problem_file.h examples/shapes.h $(LIBRARY) | build
 	$(CC) $(ALL_CFLAGS) -Wno-unused-function -o $@ tests/profile.c -lm
-profile: build/profile $(DATA)/random_urdfs.txt $(DATA)/hollow.txt  ## where a query's time goes, stage by stage
+profile: build/profile $(DATA)/random_urdfs.txt $(DATA)/hollow.txt $(DATA)/rest.txt  ## where a query's time goes, stage by stage
 	build/profile $(DATA)/random_urdfs.txt 64 128 512
 	build/profile $(DATA)/hollow.txt 512
+	build/profile $(DATA)/rest.txt 256
 
 instructions: $(DATA)/random_urdfs.txt  ## what a query executes, counted by callgrind
 	CC="$(CC)" tests/instructions.sh $(DATA)/random_urdfs.txt 64 512

@@ -744,6 +744,7 @@ typedef struct nsvcd__v {
 } nsvcd__v;
 #define NSVCD__EACH_WORD(expression)                               \
   nsvcd__v out;                                                    \
+  NSVCD__UNROLL                                                    \
   for (size_t i = 0; i < NSVCD__WORDS; i++) out.w[i] = expression; \
   return out
 static inline nsvcd__v nsvcd__v_load(const float *p) {

@@ -4,7 +4,13 @@
 //
 // Prints the median and the mean, in microseconds, over the problems; warm, the least of five runs; the clock's own
 // 0.03 to 0.05 us are in each number. Stages of a query at the defaults: base decoder, 8 pairs, the 32 deepest ranked.
+// Then the proof, verdict by verdict: time, and what it took.
 #define _POSIX_C_SOURCE 200112L
+#include <stddef.h>
+static struct {
+  size_t tests, ranked, judged, planes, pairs, tries, collision;
+} tally;
+#define NSVCD__TALLY(what, amount) (tally.what += (amount))
 #define NEURALSVCD_IMPLEMENTATION
 #include "../neuralsvcd.h"
 #define PROGRAM "profile"
@@ -43,7 +49,7 @@ static void run_stages(const question *q, nsvcd__query *work, double *times) {
   keep_least(times, CUT, start), start = seconds();
   int more = nsvcd__search_begin(q->moving, q->fixed, &work->broad_phase);
   keep_least(times, BEGIN, start);
-  nsvcd__candidates_start(&kept, work->kept, NSVCD__SHORTLIST * NSVCD_DEFAULT_PAIRS);
+  nsvcd__candidates_start(&kept, work->by.kept, NSVCD__SHORTLIST * NSVCD_DEFAULT_PAIRS);
   start = seconds();
   while (more) more = nsvcd__search_step(&work->broad_phase, q->moving, q->fixed, &kept);
   keep_least(times, STEPS, start), start = seconds();
@@ -200,6 +206,78 @@ static void profile(const problem_file *file, size_t points) {
   free(bodies), free(moving_memory), free(fixed_memory), free(work), free(times);
 }
 
+// What the proofs that end in one verdict took, in all.
+typedef struct verdict_sum {
+  size_t count;
+  double microseconds, tests, planes, tries, pairs, work;
+} verdict_sum;
+
+static void add_proof(const question *q, nsvcd__query *work, verdict_sum *sums, double *least) {
+  nsvcd_answer answer;
+  *least = 1e9;
+  for (int run = 0; run < 5; run++) {
+    memset(&tally, 0, sizeof tally);
+    const double start = seconds();
+    nsvcd_sweep(q->moving, q->poses, q->count, q->fixed, q->fixed_pose, NULL, work, sizeof *work, &answer);
+    keep_least(least, 0, start);
+  }
+  verdict_sum *sum = &sums[answer.status];
+  sum->count++;
+  sum->microseconds += *least;
+  sum->tests += (double)tally.tests;
+  sum->planes += (double)tally.planes;
+  sum->tries += (double)tally.tries;
+  sum->pairs += (double)tally.pairs;
+  sum->work += (double)answer.work;
+}
+
+static void profile_proof(const problem_file *file, size_t points) {
+  const size_t count = file->problem_count;
+  const char *slash = strrchr(file->path, '/');
+  const nsvcd_body **bodies = (const nsvcd_body **)allocate(file->mesh_count * sizeof *bodies);
+  nsvcd__query *work = (nsvcd__query *)allocate(sizeof *work);
+  double *times = (double *)allocate(count * sizeof *times);
+  verdict_sum sums[NSVCD_STATUS_UNDECIDED + 1];
+  size_t size = 1;
+  memset(sums, 0, sizeof sums);
+  for (size_t i = 0; i < file->mesh_count; i++) {
+    const nsvcd_encode_options options = {points, 0, 0, 0};
+    char path[4096];
+    nsvcd_mesh mesh;
+    snprintf(path, sizeof path, "%.*s%s", slash ? (int)(slash - file->path) + 1 : 0, file->path, file->meshes[i].path);
+    nsvcd_result result = nsvcd_obj_load(path, NULL, &mesh, NULL);
+    if (!result) result = nsvcd_encode(&mesh, &options, NULL, NULL, 0, &bodies[i]);
+    if (result) complain("%s: %s", path, nsvcd_result_string(result)), exit(REFUSED);
+    nsvcd_mesh_free(&mesh, NULL);
+    const size_t bytes = nsvcd_body_describe(bodies[i]).size;
+    size = bytes > size ? bytes : size;
+  }
+  void *moving_memory = allocate(size), *fixed_memory = allocate(size);
+  for (size_t i = 0; i < count; i++) {
+    const problem *p = &file->problems[i];
+    question q = {NULL, NULL, file->poses + p->first_pose, &p->fixed_pose, p->count};
+    nsvcd_body_scale(bodies[p->moving], p->moving_scale, moving_memory, size, &q.moving);
+    nsvcd_body_scale(bodies[p->fixed], p->fixed_scale, fixed_memory, size, &q.fixed);
+    add_proof(&q, work, sums, &times[i]);
+  }
+  double mean = 0;
+  for (size_t i = 0; i < count; i++) mean += times[i] / (double)count;
+  qsort(times, count, sizeof *times, compare_doubles);
+  printf("proof, N = %zu, %zu problems: median %.2f, mean %.2f, 99 %% %.1f, worst %.1f us\n", points, count,
+         times[count / 2], mean, times[(size_t)(0.99 * (double)count)], times[count - 1]);
+  for (size_t k = 0; k <= NSVCD_STATUS_UNDECIDED; k++) {
+    const verdict_sum *sum = &sums[k];
+    const double n = (double)sum->count;
+    if (!sum->count) continue;
+    printf("  %-15s %5zu, mean %6.2f us: %5.0f tests of spheres and discs, %6.1f planes sought, %4.1f looks for a "
+           "witness, %5.1f pairs of triangles, %6.1f units\n",
+           nsvcd_status_string((nsvcd_status)k), sum->count, sum->microseconds / n, sum->tests / n, sum->planes / n,
+           sum->tries / n, sum->pairs / n, sum->work / n);
+  }
+  for (size_t i = 0; i < file->mesh_count; i++) nsvcd_body_free(bodies[i], NULL);
+  free(bodies), free(work), free(times), free(moving_memory), free(fixed_memory);
+}
+
 // What comes before the first query: a torus of 10,000 triangles, written as OBJ, read and encoded.
 static void time_preparation(void) {
   const char *path = "build/profile.obj";
@@ -253,6 +331,7 @@ int main(int argc, char **argv) {
   }
   time_preparation();
   if (argc == 2) profile(&file, NSVCD_DEFAULT_POINTS);
+  profile_proof(&file, NSVCD_DEFAULT_POINTS);
   for (int i = 2; i < argc; i++) {
     size_t points;
     if (!parse_count(argv[i], 1, NSVCD_MAX_POINTS, &points)) return complain("%s: no N", argv[i]), USAGE;
