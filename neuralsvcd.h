@@ -391,7 +391,7 @@ typedef enum nsvcd_plan_status {
 NSVCDDEF const char *nsvcd_plan_status_string(nsvcd_plan_status status);
 
 typedef struct nsvcd_plan_progress {
-  size_t seed, iteration;  // of `iterations` in this stage
+  size_t seed, iteration;  // of `iterations` in this stage; L-BFGS begins anew where the proof found a hit
   size_t iterations;
   int refining;     // 0: MPPI, 1: L-BFGS
   float cost;       // of the best trajectory of this stage; stages sample differently, and do not compare

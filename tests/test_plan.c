@@ -180,6 +180,7 @@ typedef struct plan_scene {
   double length;  // of the quaternions that place() gives; 0: 1
   size_t placed, attached;
   // What the progress callback saw.
+  size_t again;  // refinements after the first of a seed
   size_t reports, cancel_at, disorders, last_seed, last_iteration, out_of_place;
   int last_refining;
   float last_cost;
@@ -327,11 +328,14 @@ static int plan_progress(void *user, const nsvcd_plan_progress *progress) {
   const size_t f = s->problem.joints;
   if (s->reports) {  // in order: seeds, then stages, then iterations, each rising by one; the best never gets worse
     const int same_seed = progress->seed == s->last_seed, same_stage = progress->refining == s->last_refining;
-    if (same_seed && same_stage) {
+    // Where a proof finds a hit, L-BFGS begins once more, with another margin.
+    const int once_more = same_seed && same_stage && progress->refining && progress->iteration == 0;
+    if (same_seed && same_stage && !once_more) {
       s->disorders += progress->iteration != s->last_iteration + 1 || progress->cost > s->last_cost;
     } else {
       s->disorders +=
           progress->iteration != 0 || (same_seed ? !progress->refining : progress->seed != s->last_seed + 1);
+      s->again += once_more;
     }
   } else {
     s->disorders += progress->iteration != 0 || progress->seed != 0;
@@ -873,7 +877,7 @@ static plan_outcome plan_run(plan_scene *s) {
                bundle = o->refine.samples ? o->refine.samples : 10;
   query_memory memory = query_reserve(size + PLAN_GUARD);
   size_t written = 0;
-  s->reports = s->disorders = s->out_of_place = s->placed = 0;
+  s->reports = s->disorders = s->out_of_place = s->placed = s->again = 0;
   memset(&out, untouched, sizeof out);
   out.via = o->refine.iterations == NSVCD_NONE ? (o->explore.via_points ? o->explore.via_points : 5)
                                                : (o->refine.via_points ? o->refine.via_points : 10);
@@ -896,8 +900,10 @@ static plan_outcome plan_run(plan_scene *s) {
     CHECK_EQ(out.control[(out.via + 1) * f + j], s->goal[j]);
   }
   CHECK_EQ(a->via_points, out.via);
-  CHECK(a->seeds <= seeds && a->iterations <= a->seeds * (explore + refine));
-  CHECK_LE(a->trajectories, a->seeds * (explore * tries + refine * (bundle + 5) + 3));
+  // What a proof finds to be a hit is refined three times more.
+  const size_t rounds = 4;
+  CHECK(a->seeds <= seeds && a->iterations <= a->seeds * (explore + rounds * refine));
+  CHECK_LE(a->trajectories, a->seeds * (explore * tries + rounds * (refine * (bundle + 5) + 2) + 1));
   CHECK(isfinite(a->cost) && isfinite(a->smoothness) && isfinite(a->logit) && a->time >= 0 && a->time <= 1);
   CHECK(a->pair == NSVCD_NONE || a->pair < s->problem.pair_count);
   CHECK(a->joint == NSVCD_NONE || a->joint < f);
@@ -1057,6 +1063,62 @@ static void plan_grasped_bodies_move_along(void) {
   plan_pair(&s, 0, 1);
   const plan_outcome alone = plan_run(&s);
   CHECK_EQ(alone.answer.status, NSVCD_PLAN_CONVERGED);
+}
+
+// A body of a shared shape, with triangles; it lives until the process ends.
+static const nsvcd_body *plan_solid(int shape) {
+  static const nsvcd_body *bodies[PLAN_SHAPES];
+  if (bodies[shape]) return bodies[shape];
+  plan_body(shape);  // makes the shape
+  nsvcd_mesh flat = query_mesh(&plan_shapes[shape], 1);
+  CHECK_EQ(nsvcd_encode(&flat, NULL, NULL, NULL, 0, &bodies[shape]), NSVCD_OK);
+  nsvcd_mesh_free(&flat, NULL);
+  return bodies[shape];
+}
+
+// With triangles CONVERGED is a proof, and what is not free is not called so, whatever the search believed.
+static void plan_proves_at_the_end(void) {
+  static plan_scene s;
+  plan_wall_scene(&s);
+  s.bodies[0] = plan_solid(PLAN_BALL);
+  s.bodies[1] = plan_solid(PLAN_WALL);
+  for (uint64_t seed = 1; seed <= 4; seed++) {
+    s.options.seed = seed;
+    const plan_outcome out = plan_run(&s);
+    CHECK_EQ(out.answer.status, NSVCD_PLAN_CONVERGED);
+    CHECK_EQ(out.answer.logit, -NSVCD_LOGIT_CERTAIN);
+    CHECK_EQ(s.again, 0);
+    CHECK_GE(plan_exact_distance(&s, &out, PLAN_BALL, PLAN_WALL), 1e-5);
+  }
+  s.options.collision = -1;  // hits cost nothing: the search goes straight through
+  const plan_outcome through = plan_run(&s);
+  CHECK_EQ(through.answer.status, NSVCD_PLAN_LIMIT);
+  CHECK(through.answer.collides);
+  CHECK_GE(s.again, 3);
+  CHECK_EQ(through.answer.logit, NSVCD_LOGIT_CERTAIN);
+  CHECK_NEAR(through.answer.time, 0.5, 0.25);
+}
+
+// Half a millimetre beside a wall, and along it: the network calls the start a hit, the proof does not.
+static void plan_starts_beside_a_wall(void) {
+  static plan_scene s;
+  plan_begin(&s, PLAN_XYZ, 2);
+  s.bodies[0] = plan_solid(PLAN_BOX);
+  s.bodies[1] = plan_solid(PLAN_WALL);
+  plan_pair(&s, 0, 1);
+  s.start[0] = s.goal[0] = 0.1255f;
+  s.start[1] = -0.08f;
+  s.goal[1] = 0.08f;
+  const plan_outcome proven = plan_run(&s);
+  CHECK_EQ(proven.answer.status, NSVCD_PLAN_CONVERGED);
+  CHECK_GE(plan_exact_distance(&s, &proven, PLAN_BOX, PLAN_WALL), 1e-4);
+  s.options.sweep.method = NSVCD_METHOD_NETWORK;
+  CHECK_EQ(plan_run(&s).answer.status, NSVCD_PLAN_START);
+  s.start[0] = s.goal[0] = 0.1245f;  // pressed in
+  s.options.sweep.method = NSVCD_METHOD_PROOF;
+  CHECK_EQ(plan_run(&s).answer.status, NSVCD_PLAN_START);
+  s.bodies[0] = plan_body(PLAN_BOX);  // no triangles, no proof
+  CHECK_EQ(plan_run(&s).result, NSVCD_ERROR_BODY);
 }
 
 static void plan_stages_can_be_left_out(void) {
@@ -1491,6 +1553,8 @@ void test_plan(void) {
   RUN(plan_keeps_the_best_of_its_seeds);
   RUN(plan_can_be_cancelled);
   RUN(plan_grasped_bodies_move_along);
+  RUN(plan_proves_at_the_end);
+  RUN(plan_starts_beside_a_wall);
   RUN(plan_stages_can_be_left_out);
   RUN(plan_discrete_looks_at_poses);
   RUN(plan_takes_a_custom_cost);

@@ -906,6 +906,65 @@ static double proof_direction_use(const proof_motion *m, const nsvcd__span *span
   return worst;
 }
 
+// The turn's part alone, for the point that is off the most: |D^T n| over what is allowed for it, n the axis or any.
+static double proof_turn_use(const proof_motion *m, const nsvcd__span *span, shapes_rng *rng) {
+  double worst = 0;
+  for (int k = 0; k < 8; k++) {
+    const double share = shapes_uniform(rng, 0, 1);
+    const double t = span->t_start + share * (span->t_end - span->t_start);
+    const proof_place at = proof_place_at(m, t);
+    const double axis[3] = {(double)span->axis.x, (double)span->axis.y, (double)span->axis.z};
+    const double zero[3] = {0, 0, 0};
+    double n[3], origin[3], across[3], off[3];
+    shapes_direction(rng, n);
+    if (k % 2) memcpy(n, axis, sizeof n);
+    proof_apply(&at, zero, origin);
+    for (int j = 0; j < 3; j++) {
+      const double unit[3] = {j == 0, j == 1, j == 2};
+      double column[3];
+      proof_apply(&at, unit, column);
+      off[j] = 0;
+      for (int i = 0; i < 3; i++) {
+        const double start = (double)span->start.rotation[3 * i + j];
+        const double end = (double)span->end.rotation[3 * i + j];
+        off[j] += n[i] * (column[i] - origin[i] - start - share * (end - start));
+      }
+    }
+    oracle_cross(n, axis, across);
+    const double allowed = fabs(oracle_dot(n, axis)) * (double)span->bulge_along_axis +
+                           oracle_length(across) * (double)span->bulge;
+    worst = fmax(worst, oracle_length(off) / (allowed + 1e-6));
+  }
+  return worst;
+}
+
+// Four arcs to a segment, about axes on all sides of the segment's own: along that, samples and arcs stray alike.
+static void proof_zigzag_motion(shapes_rng *rng, proof_motion *m) {
+  const size_t count = 65;
+  const double turn = shapes_uniform(rng, 0.02, 0.08), tilt = shapes_uniform(rng, 0, 1.2);
+  double axis[3], side[4][3], step[4];
+  oracle_pose fixed, poses[PROOF_POSES];
+  shapes_direction(rng, axis);
+  for (int k = 0; k < 4; k++) shapes_direction(rng, side[k]);
+  shapes_quaternion(rng, fixed.rotation);
+  shapes_quaternion(rng, poses[0].rotation);
+  for (int k = 0; k < 3; k++) fixed.position[k] = 0;
+  for (size_t n = 0; n < count; n++) {
+    double now[3];
+    for (int k = 0; k < 3; k++) {
+      poses[n].position[k] = 0;
+      now[k] = axis[k] + tilt * side[(n + 3) % 4][k];
+    }
+    if (n == 0) continue;
+    const double length = oracle_length(now);
+    for (int k = 0; k < 3; k++) now[k] /= length > 0 ? length : 1;
+    oracle_axis_angle(now, turn, step);
+    oracle_quat_mul(step, poses[n - 1].rotation, poses[n].rotation);
+    oracle_quat_normalize(poses[n].rotation);
+  }
+  proof_motion_set(m, poses, count, &fixed);
+}
+
 // A motion of many samples, some to a segment, whose axis wanders as much as its way.
 static void proof_wandering_motion(shapes_rng *rng, proof_motion *m) {
   const size_t count = 33 + (size_t)shapes_pick(rng, PROOF_POSES - 32);
@@ -941,7 +1000,7 @@ static void proof_wandering_motion(shapes_rng *rng, proof_motion *m) {
 static void proof_spans_hold_along_directions(void) {
   static nsvcd__workspace work;
   shapes_rng rng = {405};
-  double worst = 0;
+  double worst = 0, turned = 0;
   size_t segments = 0;
   for (size_t trial = 0; trial < 4000; trial++) {
     const float reach = (float)pow(10, shapes_uniform(&rng, -2, 0));
@@ -949,6 +1008,8 @@ static void proof_spans_hold_along_directions(void) {
     nsvcd__motion motion;
     if (trial % 4 == 0) {
       proof_any_motion(&rng, &m);
+    } else if (trial % 4 == 1) {
+      proof_zigzag_motion(&rng, &m);
     } else {
       proof_wandering_motion(&rng, &m);
     }
@@ -957,10 +1018,13 @@ static void proof_spans_hold_along_directions(void) {
     for (size_t k = 0; k < work.segments; k++, segments++) {
       const nsvcd__span span = nsvcd__span_of_segment(&motion, &work, k);
       worst = fmax(worst, proof_direction_use(&m, &span, (double)reach, &rng));
+      turned = fmax(turned, proof_turn_use(&m, &span, &rng));
     }
   }
-  printf("  %zu segments: at most %.3g of what they allow along a direction\n", segments, worst);
+  printf("  %zu segments: at most %.3g of what they allow along a direction, %.3g of that for turns\n", segments,
+         worst, turned);
   CHECK_LE(worst, 1);
+  CHECK_LE(turned, 1);
   CHECK_GE(worst, 0.5);  // else the bound says little, or the worst is not here
 }
 
