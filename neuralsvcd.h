@@ -1,4 +1,4 @@
-// neuralsvcd.h - v0.1.0 - does this body, moving along this trajectory, hit that body?
+// neuralsvcd.h - v0.2.0 - does this body, moving along this trajectory, hit that body?
 //
 // The answer is proven: a witness (two triangles that meet, and when) or a certificate that the surfaces never do, at
 // any time, rotation included. Where memory is short, or a gradient is needed, a small neural network answers instead
@@ -5197,6 +5197,8 @@ static void nsvcd__candidates_start(nsvcd__candidates *kept, nsvcd__candidate *i
 #define NSVCD__NEWS 8            // items that are worth a look before the search goes on
 #define NSVCD__FRESH 32          // items found, before planes are tried on them
 #define NSVCD__PLANE_STEPS 12    // of Gilbert's iteration
+#define NSVCD__HEIGHTS 256       // over the last plane, remembered: of moving patches,
+#define NSVCD__REST_HEIGHTS 64   // and of resting ones
 #define NSVCD__DEEP 0.2f         // depth from which on an item is worth a look for a witness before any plane
 #define NSVCD__HALVINGS 40       // of a span, at most
 #define NSVCD__CROSSED 128       // triangles that a ray may cross
@@ -5251,6 +5253,12 @@ typedef struct nsvcd__contact {
 
 typedef enum nsvcd__verdict { NSVCD__FREE, NSVCD__MEETS, NSVCD__UNDECIDED, NSVCD__WITHIN } nsvcd__verdict;
 
+// A moving patch's height over a plane in a segment.
+typedef struct nsvcd__height {
+  uint32_t plane, key;
+  float height;
+} nsvcd__height;
+
 typedef struct nsvcd__proof {
   const nsvcd__motion *motion;
   nsvcd__facets moving, fixed;
@@ -5267,7 +5275,9 @@ typedef struct nsvcd__proof {
   nsvcd__item fresh[NSVCD__FRESH];  // as the search finds them
   nsvcd__item items[NSVCD__ITEMS];  // that no plane parts over their segment
   float start[3][NSVCD__LANES], end[3][NSVCD__LANES], rest[3][NSVCD__LANES];  // hulls, posed
-  nsvcd__f3 held;                                                             // normal of the last plane that held
+  nsvcd__f3 held;    // normal of the last plane that held,
+  uint32_t plane;    // and how many held before; 0: none
+  nsvcd__height heights[NSVCD__HEIGHTS], rest_heights[NSVCD__REST_HEIGHTS];
   nsvcd__block moving_block, fixed_block;
   float posed[2][3][3][NSVCD__LANES];  // corners of the moving block at the ends of a span
   uint32_t crossed[NSVCD__CROSSED];    // triangles
@@ -5858,7 +5868,12 @@ static int nsvcd__hulls_are_apart(nsvcd__proof *p, size_t i, size_t j, const nsv
     const nsvcd__support found = nsvcd__support_along(p, normal);
     if (found.gap > 0) {
       if (found.gap > slack * nsvcd__f3_length(normal) + nsvcd__deviation(span, normal, reach)) {
+        if (p->plane == 0) {  // what is remembered is of another query
+          memset(p->heights, 0, sizeof p->heights);
+          memset(p->rest_heights, 0, sizeof p->rest_heights);
+        }
         p->held = normal;
+        p->plane++;
         return 1;
       }
     }
@@ -6335,14 +6350,59 @@ static nsvcd__verdict nsvcd__settle_item(nsvcd__proof *p, const nsvcd__workspace
   return verdict;
 }
 
-// Is there a plane between an item's patches over its segment?
-static int nsvcd__item_is_parted(nsvcd__proof *p, const nsvcd__workspace *work, const nsvcd__item *item) {
-  const nsvcd__span *span = nsvcd__segment_span(p, work, item->segment);
-  if (!nsvcd__hulls_are_apart(p, item->moving, item->fixed, span)) return 0;
+// The height over p->held above which a moving patch stays in a segment, all allowances taken off. Neighbours of an item
+// that a plane parts ask for the same again.
+static float nsvcd__least_height(nsvcd__proof *p, const nsvcd__span *span, size_t i, size_t s) {
+  const uint32_t key = (uint32_t)(i * NSVCD__MAX_SEGMENTS + s);
+  nsvcd__height *known = &p->heights[(NSVCD__GROUP * s + i % NSVCD__GROUP) % NSVCD__HEIGHTS];
+  if (known->plane == p->plane && known->key == key) return known->height;
+  const nsvcd__v3 n = nsvcd__v3_set(p->held);
+  const nsvcd__v3 hull = nsvcd__facet_vertices(&p->moving, i, 0, p->moving.hull_counts[i]);
+  const nsvcd__v at_start = nsvcd__v3_dot(n, nsvcd__v3_transform(&span->start, hull));
+  const nsvcd__v at_end = nsvcd__v3_dot(n, nsvcd__v3_transform(&span->end, hull));
+  const float lowest = nsvcd__v_least(nsvcd__v_min(at_start, at_end));
+  const float slack = (p->moving.slacks[i] + span->rounding) * nsvcd__f3_length(p->held);
+  known->plane = p->plane;
+  known->key = key;
+  known->height = lowest - slack - nsvcd__deviation(span, p->held, nsvcd__patch_reach(&p->moving, i));
+  return known->height;
+}
+
+// The height over p->held below which a resting patch is.
+static float nsvcd__greatest_height(nsvcd__proof *p, size_t j) {
+  nsvcd__height *known = &p->rest_heights[j % NSVCD__REST_HEIGHTS];
+  if (known->plane == p->plane && known->key == j) return known->height;
+  const nsvcd__v3 hull = nsvcd__facet_vertices(&p->fixed, j, 0, p->fixed.hull_counts[j]);
+  const float highest = -nsvcd__v_least(nsvcd__v_negate(nsvcd__v3_dot(nsvcd__v3_set(p->held), hull)));
+  known->plane = p->plane;
+  known->key = (uint32_t)j;
+  known->height = highest + p->fixed.slacks[j] * nsvcd__f3_length(p->held);
+  return known->height;
+}
+
+static void nsvcd__certify_item(const nsvcd__proof *p, const nsvcd__span *span, const nsvcd__item *item) {
   const float normal[3] = {p->held.x, p->held.y, p->held.z};
   NSVCD__CERTIFY(NSVCD__BY_HULL, item->moving, item->fixed, NSVCD_NONE, NSVCD_NONE, span->t_start, span->t_end,
                  normal);
   (void)normal;
+  (void)span;
+  (void)item;
+}
+
+// Does a plane with the normal that held last part an item's patches over its segment?
+static int nsvcd__held_again(nsvcd__proof *p, const nsvcd__workspace *work, const nsvcd__item *item) {
+  const nsvcd__span *span = nsvcd__segment_span(p, work, item->segment);
+  const float least = nsvcd__least_height(p, span, item->moving, item->segment);
+  if (!(least > nsvcd__greatest_height(p, item->fixed))) return 0;
+  nsvcd__certify_item(p, span, item);
+  return 1;
+}
+
+// Is there any plane that does?
+static int nsvcd__item_is_parted(nsvcd__proof *p, const nsvcd__workspace *work, const nsvcd__item *item) {
+  const nsvcd__span *span = nsvcd__segment_span(p, work, item->segment);
+  if (!nsvcd__hulls_are_apart(p, item->moving, item->fixed, span)) return 0;
+  nsvcd__certify_item(p, span, item);
   return 1;
 }
 
@@ -6370,15 +6430,21 @@ static nsvcd__verdict nsvcd__settle_items(nsvcd__proof *p, const nsvcd__workspac
 }
 
 // Looks at fresh items, the deepest first: parts those that planes can part, looks for a witness in the others, and
-// keeps them.
+// keeps them. The last plane that held is tried on all before anything else: it often holds for neighbours.
 static nsvcd__verdict nsvcd__sift_items(nsvcd__proof *p, const nsvcd__workspace *work) {
-  const size_t count = p->fresh_count;
-  nsvcd__sort_items(p->fresh, count);
+  size_t count = 0;
+  for (size_t n = 0; n < p->fresh_count; n++) {
+    if (p->plane && nsvcd__held_again(p, work, &p->fresh[n])) continue;
+    p->fresh[count++] = p->fresh[n];
+  }
   p->fresh_count = 0;
+  nsvcd__sort_items(p->fresh, count);
   if (count > 0 && p->fresh[0].depth > NSVCD__DEEP && nsvcd__seek_item(p, work, &p->fresh[0])) return NSVCD__MEETS;
+
   for (size_t n = 0; n < count; n++) {
     nsvcd__item *item = &p->fresh[n];
     if (p->work > p->limit) return NSVCD__UNDECIDED;
+    if (p->plane && nsvcd__held_again(p, work, item)) continue;
     if (nsvcd__item_is_parted(p, work, item)) continue;
     if (!item->sought && nsvcd__seek_item(p, work, item)) return NSVCD__MEETS;
     if (p->count == NSVCD__ITEMS) {
@@ -7731,6 +7797,7 @@ static void nsvcd__answer_by_proof(const nsvcd__question *ask, nsvcd__query *que
   p->work = p->count = p->fresh_count = 0;
   p->spans_known = 0;
   p->held = nsvcd__f3_of(0, 0, 0);
+  p->plane = 0;
   p->undecided = p->within = 0;
   p->arc.index = (size_t)-1;
   const nsvcd__verdict verdict = nsvcd__prove(p, &query->broad_phase);

@@ -27,6 +27,9 @@ lanes without drift|return nsvcd__v_fma(turn, nsvcd__v_set(reach), nsvcd__v_min(
 disc without across|nsvcd__v_mul(radius_across, across);|nsvcd__v_mul(nsvcd__v_set(0), nsvcd__v_mul(radius_across, across));
 group of eight|for (size_t i = first; i < first + NSVCD__GROUP \&\& i < f->body->points; i++) {\n    const size_t all|for (size_t i = first; i < first + 8 \&\& i < f->body->points; i++) {\n    const size_t all
 group's disc at the start only|const nsvcd__v3 at_end = nsvcd__v3_add(at_start, nsvcd__v3_turned_back(block->turned, fixed->normal));|const nsvcd__v3 at_end = at_start;
+held plane without deviation|lowest - slack - nsvcd__deviation(span, p->held, nsvcd__patch_reach(\&p->moving, i));|lowest - slack;
+held plane without slack|highest + p->fixed.slacks[j] * nsvcd__f3_length(p->held);|highest;
+heights over another plane|if (known->plane == p->plane \&\& known->key == key) return|if (known->key == key) return
 pair without quanta|pair.slack = (double)p->moving.quanta[i] + (double)p->fixed.quanta[j] + pair.rounding;|pair.slack = pair.rounding;
 pair without bulge|> pair->slack + angle * angle * 0.1250001 * pair->reach * off_axis;|> pair->slack + 0 * angle * off_axis;
 pair at the start only|lowest = fmin(lowest, nsvcd__d3_dot(normal, nsvcd__place_point(&end, pair->moving[k])));|(void)end;
