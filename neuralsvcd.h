@@ -6519,9 +6519,36 @@ static int nsvcd__is_new(nsvcd__proof *p, size_t *count, uint32_t number, int *u
   return 1;
 }
 
+// Lanes of a block whose triangles the ray crosses, or passes within the margin, and some more. The signed volumes of the
+// edges and the ray are products of an edge and a place on it, both off by rounding of the corners: by no more than
+// `rounding`, square metres.
+static uint32_t nsvcd__lanes_on_ray(nsvcd__block *block, const nsvcd__ray *ray, float margin, float rounding) {
+  const nsvcd__v3 from = nsvcd__v3_set(nsvcd__f3_round(ray->from));
+  const nsvcd__v3 direction = nsvcd__v3_set(nsvcd__f3_round(ray->direction));
+  const nsvcd__v3 a = nsvcd__v3_load(block->corners[0]);
+  const nsvcd__v3 b = nsvcd__v3_load(block->corners[1]);
+  const nsvcd__v3 c = nsvcd__v3_load(block->corners[2]);
+  const nsvcd__v3 ab = nsvcd__v3_cross(nsvcd__v3_sub(b, a), direction);
+  const nsvcd__v3 bc = nsvcd__v3_cross(nsvcd__v3_sub(c, b), direction);
+  const nsvcd__v3 ca = nsvcd__v3_cross(nsvcd__v3_sub(a, c), direction);
+  const nsvcd__v by_ab = nsvcd__v3_dot(ab, nsvcd__v3_sub(a, from));
+  const nsvcd__v by_bc = nsvcd__v3_dot(bc, nsvcd__v3_sub(b, from));
+  const nsvcd__v by_ca = nsvcd__v3_dot(ca, nsvcd__v3_sub(c, from));
+  const nsvcd__v least = nsvcd__v_min(by_ab, nsvcd__v_min(by_bc, by_ca));
+  const nsvcd__v most = nsvcd__v_max(by_ab, nsvcd__v_max(by_bc, by_ca));
+  const nsvcd__v longest = nsvcd__v_max(nsvcd__v3_length(ab), nsvcd__v_max(nsvcd__v3_length(bc), nsvcd__v3_length(ca)));
+  const nsvcd__v allowed = nsvcd__v_fma(nsvcd__v_set(margin), longest, nsvcd__v_set(rounding));
+  const uint32_t exist = ((uint32_t)1 << (block->count - 1) << 1) - 1;
+  const uint32_t missed = nsvcd__v_lt(least, nsvcd__v_negate(allowed)) & nsvcd__v_lt(allowed, most);
+  return exist & ~missed;
+}
+
 // How often the surface of the closed components winds about a point, by one ray; *unclear if it cannot tell. A triangle
 // counts once, whatever patches list it, or parts of it.
 static int nsvcd__crossings(nsvcd__proof *p, const nsvcd__facets *f, const nsvcd__ray *ray, int *unclear) {
+  nsvcd__block *block = &p->fixed_block;
+  const float remote = (float)nsvcd__d3_length(ray->from) + f->body->extent;
+  const float rounding = 0.5f * NSVCD__ROUNDING * remote * f->body->extent;
   int sum = 0;
   size_t count = 0;
   for (size_t first = 0; first < f->body->padded && !*unclear; first += NSVCD__LANES) {
@@ -6530,15 +6557,21 @@ static int nsvcd__crossings(nsvcd__proof *p, const nsvcd__facets *f, const nsvcd
       const size_t i = first + nsvcd__lowest_bit(patches);
       if (i >= f->body->points) break;
       const double margin = (double)f->quanta[i] + ray->margin;
-      for (size_t n = f->first_triangle[i]; n < f->first_triangle[i + 1]; n++) {
-        nsvcd__d3 corners[3];
-        int encloses;
-        const uint32_t number = nsvcd__facet_number(f, n, &encloses);
-        if (!encloses) continue;
-        nsvcd__facet_triangle(f, i, n, corners);
+      const size_t end = f->first_triangle[i + 1];
+      for (size_t n = f->first_triangle[i]; n < end; n += NSVCD__LANES) {
+        nsvcd__block_load(f, i, n, end - n < NSVCD__LANES ? end - n : NSVCD__LANES, block);
         p->work++;
-        const int crossing = nsvcd__ray_crosses(ray, corners, margin, unclear);
-        if (crossing && nsvcd__is_new(p, &count, number, unclear)) sum += crossing;
+        uint32_t lanes = nsvcd__lanes_on_ray(block, ray, (float)(2 * margin), rounding);
+        for (; lanes; lanes &= lanes - 1) {
+          const size_t listing = n + nsvcd__lowest_bit(lanes);
+          nsvcd__d3 corners[3];
+          int encloses;
+          const uint32_t number = nsvcd__facet_number(f, listing, &encloses);
+          if (!encloses) continue;
+          nsvcd__facet_triangle(f, i, listing, corners);
+          const int crossing = nsvcd__ray_crosses(ray, corners, margin, unclear);
+          if (crossing && nsvcd__is_new(p, &count, number, unclear)) sum += crossing;
+        }
       }
     }
   }
@@ -6613,6 +6646,22 @@ static int nsvcd__sticks_out(const nsvcd__facets *inner, const nsvcd__transform 
   return 0;
 }
 
+// Seeds first .. first + 15 that may be in a sphere about the other body.
+static uint32_t nsvcd__seeds_near(const nsvcd__facets *inner, size_t first, const nsvcd__transform *start,
+                                  const nsvcd_body *outer) {
+  const size_t left = inner->components - first;
+  float lanes[3][NSVCD__LANES];
+  for (size_t l = 0; l < NSVCD__LANES; l++) {
+    const float *seed = inner->seeds + 3 * (first + (l < left ? l : 0));
+    for (size_t k = 0; k < 3; k++) lanes[k][l] = seed[k];
+  }
+  const nsvcd__v3 centre = nsvcd__v3_set(nsvcd__f3_of(outer->centre[0], outer->centre[1], outer->centre[2]));
+  const nsvcd__v3 d = nsvcd__v3_sub(nsvcd__v3_transform(start, nsvcd__v3_load(lanes)), centre);
+  const float remote = nsvcd__f3_length(start->position) + inner->body->extent + outer->extent;
+  const nsvcd__v radius = nsvcd__v_set(outer->radius + 4 * NSVCD__ROUNDING * remote);
+  return nsvcd__v_le(nsvcd__v3_dot(d, d), nsvcd__v_mul(radius, radius));
+}
+
 // The pose that takes the fixed body's frame to the moving one's.
 static nsvcd__placement nsvcd__inverse_placement(const nsvcd__placement *at) {
   nsvcd__placement out;
@@ -6635,8 +6684,11 @@ static int nsvcd__starts_within(nsvcd__proof *p) {
     const nsvcd__placement *start = way == 0 ? &at : &back;
     const nsvcd__transform rounded = nsvcd__transform_of(start);
     if (outer->body->open) continue;
+    uint32_t nearby = 0;
     if (inner->components == 1 && nsvcd__sticks_out(inner, &rounded, outer->body)) continue;
     for (size_t n = 0; n < inner->components; n++) {
+      if (n % NSVCD__LANES == 0) nearby = nsvcd__seeds_near(inner, n, &rounded, outer->body);
+      if (!(nearby >> n % NSVCD__LANES & 1)) continue;
       if (p->work > p->limit) {
         p->undecided = 1;
         return 0;
