@@ -84,13 +84,14 @@ typedef struct problem_set {
   const char *name;
   problem_file files[4];
   nsvcd_mesh *meshes[4];  // (files[i].mesh_count)
-  size_t file_count, problems, stride;
+  size_t file_count, problems, total;
   int extreme;  // NeuralSVCD alone
 } problem_set;
 
-// One problem of a set, whichever file it is in. Every stride-th counts, so that a quick run sees all files.
+// One problem of a set, whichever file it is in. A quick run sees all files, and steps by a large prime: generators go
+// through labels and kinds in turns.
 static const problem *get_problem(const problem_set *set, size_t index, size_t *file) {
-  index *= set->stride;
+  if (set->problems < set->total) index = index * 7919 % set->total;
   for (*file = 0; index >= set->files[*file].problem_count; ++*file) index -= set->files[*file].problem_count;
   return &set->files[*file].problems[index];
 }
@@ -134,8 +135,8 @@ static int load_set(char *argument, size_t limit, problem_set *set) {
     if (!load_meshes(file, meshes)) return 0;
     set->problems += file->problem_count;
   }
-  set->stride = limit && set->problems > limit ? (set->problems + limit - 1) / limit : 1;
-  set->problems = (set->problems + set->stride - 1) / set->stride;
+  set->total = set->problems;
+  if (limit && limit < set->total && set->total % 7919) set->problems = limit;
   return set->problems > 0 || complain("%s: no problems", set->name);
 }
 
