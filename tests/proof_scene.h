@@ -356,10 +356,15 @@ typedef struct proof_place {
   double matrix[9], position[3];
 } proof_place;
 
+// volatile: where gcc 12.2 vectorizes (double)(float)x it drops both conversions.
+static float proof_to_float(double x) {
+  volatile float rounded = (float)x;
+  return rounded;
+}
 static nsvcd_pose proof_rounded(const oracle_pose *pose) {
   nsvcd_pose out;
-  for (int k = 0; k < 3; k++) out.position[k] = (float)pose->position[k];
-  for (int k = 0; k < 4; k++) out.rotation[k] = (float)pose->rotation[k];
+  for (int k = 0; k < 3; k++) out.position[k] = proof_to_float(pose->position[k]);
+  for (int k = 0; k < 4; k++) out.rotation[k] = proof_to_float(pose->rotation[k]);
   return out;
 }
 static oracle_pose proof_widened(const nsvcd_pose *pose) {
