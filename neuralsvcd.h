@@ -193,7 +193,7 @@ typedef struct nsvcd_encode_options {
 
 #ifndef NSVCD_NO_NETWORK
 // Bytes of a body of `points` points without triangles; 0 if there can be no such body. One with triangles takes up to
-// 12 bytes more for each, and some 100 for each point: let nsvcd_encode allocate it, or ask nsvcd_body_describe.
+// 12 bytes more for each, and 100 to 200 for each point: let nsvcd_encode allocate it, or ask nsvcd_body_describe.
 NSVCDDEF size_t nsvcd_body_size(size_t points);
 #endif
 
