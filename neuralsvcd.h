@@ -285,8 +285,8 @@ typedef struct nsvcd_sweep_options {
   float recall;  // share of collisions to be found: 0 (balanced errors), 0.99f, 0.999f or 0.9999f, as calibrated
   nsvcd_method method;
   size_t work;      // units that a proof may take, about; 0: NSVCD_DEFAULT_WORK. A unit is a plane sought for two
-                    // patches, a triangle against 16, a pair of triangles at one time, or a ray against a triangle: up
-                    // to 0.5 microseconds
+                    // patches, a triangle against 16, a pair of triangles at one time, or a ray against 16: up to 0.5
+                    // microseconds
   float tolerance;  // metres, at least 0: surfaces that come closer than this, and do not meet, may be left undecided
 } nsvcd_sweep_options;
 
@@ -322,8 +322,8 @@ typedef struct nsvcd_answer {
 // nsvcd_encode, nsvcd_body_load or nsvcd_body_scale. Source: the proof: this library, see *proof* below; the network:
 // NeuralSVCD, algorithm 1.
 // What a proof says is about the surfaces of the two meshes, posed exactly as above: CERTIFIED_FREE and INSIDE hold for
-// the meshes themselves; the triangles of a WITNESS meet to within the two bodies' quantum (nsvcd_body_facts), usually
-// less than a micrometre; UNDECIDED are surfaces that come as close as that without meeting, or more work than was
+// the meshes themselves; the triangles of a WITNESS meet to within the two bodies' quantum (nsvcd_body_facts), a few
+// micrometres at most on bodies of 0.3 m; UNDECIDED are surfaces that come as close as that without meeting, or more work than was
 // allowed.
 NSVCDDEF size_t nsvcd_sweep_workspace_size(void);
 NSVCDDEF nsvcd_result nsvcd_sweep(const nsvcd_body *moving, const nsvcd_pose *poses, size_t count,
