@@ -105,6 +105,14 @@ ORACLE_DEF void oracle_transform(const oracle_pose *pose, const double *v, doubl
   oracle_rotate(m, v, r);
   for (int i = 0; i < 3; i++) out[i] = r[i] + pose->position[i];
 }
+// `outer` after `inner`.
+ORACLE_DEF oracle_pose oracle_compose(const oracle_pose *outer, const oracle_pose *inner) {
+  oracle_pose out;
+  oracle_transform(outer, inner->position, out.position);
+  oracle_quat_mul(outer->rotation, inner->rotation, out.rotation);
+  oracle_quat_normalize(out.rotation);
+  return out;
+}
 
 // --------------------------------------------------------------------------------------------- mesh topology
 

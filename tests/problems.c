@@ -923,16 +923,9 @@ static void rest_motion(shapes_rng *rng, problem *p, rest_move move, const oracl
     p->motion[s] = turned_pose(*rest, about, (t - 0.5) * turn, by);
   }
 }
-static oracle_pose composed(const oracle_pose *outer, const oracle_pose *inner) {
-  oracle_pose out;
-  oracle_transform(outer, inner->position, out.position);
-  oracle_quat_mul(outer->rotation, inner->rotation, out.rotation);
-  oracle_quat_normalize(out.rotation);
-  return out;
-}
 static void move_scene(problem *p, const oracle_pose *scene) {
-  p->fixed_pose = composed(scene, &p->fixed_pose);
-  for (size_t s = 0; s < p->samples; s++) p->motion[s] = composed(scene, &p->motion[s]);
+  p->fixed_pose = oracle_compose(scene, &p->fixed_pose);
+  for (size_t s = 0; s < p->samples; s++) p->motion[s] = oracle_compose(scene, &p->motion[s]);
 }
 // Does the oracle agree with the plan? Sets label and margin. Walls that are nearer than the floor,
 // or the edge of a floor that ends under the body, make another problem of it: rejected.

@@ -24,14 +24,6 @@ static oracle_pose random_pose(shapes_rng *rng, double reach) {
   shapes_quaternion(rng, pose.rotation);
   return pose;
 }
-// pose = a after b.
-static oracle_pose compose(const oracle_pose *a, const oracle_pose *b) {
-  oracle_pose out;
-  oracle_quat_mul(a->rotation, b->rotation, out.rotation);
-  oracle_quat_normalize(out.rotation);
-  oracle_transform(a, b->position, out.position);
-  return out;
-}
 static oracle_mesh build(shapes_mesh *mesh) {
   oracle_mesh out;
   int built = oracle_mesh_init(&out, mesh->positions, mesh->vertices, mesh->indices, mesh->triangles, 1);
@@ -356,9 +348,9 @@ static void oracle_is_invariant_under_rigid_motion(void) {
   for (int trial = 0; trial < 20; trial++) {
     oracle_mesh a = random_solid(&rng), b = random_solid(&rng);
     oracle_pose poses[5], moved[5], here = random_pose(&rng, 0.4), all = random_pose(&rng, 10),
-                                    there = compose(&all, &here);
+                                    there = oracle_compose(&all, &here);
     random_walk(&rng, poses, 5, 0.05, 0.5);
-    for (int i = 0; i < 5; i++) moved[i] = compose(&all, &poses[i]);
+    for (int i = 0; i < 5; i++) moved[i] = oracle_compose(&all, &poses[i]);
     oracle_result r = oracle_sweep(&a, poses, 5, &b, &here, NULL), s = oracle_sweep(&a, moved, 5, &b, &there, NULL);
     CHECK_EQ(r.status, s.status);
     CHECK_NEAR(r.distance, s.distance, 2e-5);
