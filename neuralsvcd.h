@@ -3445,7 +3445,7 @@ static void nsvcd__turn_latent(const int8_t *z, float (*turn)[NSVCD__LANES], siz
 #define NSVCD__GROUP NSVCD__LANES      // patches per group
 #define NSVCD__MAX_LENGTH 1.6e7f       // metres, over every radius and distance that coordinates within bounds can give
 #define NSVCD__BODY_MAGIC 0x4256534eu  // "NSVB"
-#define NSVCD__BODY_VERSION 3u
+#define NSVCD__BODY_VERSION 4u
 
 struct nsvcd_body {
   uint32_t magic, version;
@@ -3715,6 +3715,7 @@ static int nsvcd__spheres_fit(const nsvcd_body *body, float scale) {
 // The body of triangles: behind the spheres, which are the least about each patch's pieces of the surface, stand
 //
 //   counts          (8)      uint32 listed L, vertices V, components C, bytes of all corners, bytes of a number, zeros
+//   box             (2, 3)   float least and greatest coordinates of the surface
 //   discs           (6, P)   float unit normal n, low, high, across: a piece's points x have low <= n.(x - c) <= high,
 //                            and are no farther than `across` from the line along n; c: centre of the patch's sphere
 //   group discs     (6, G)   float the same over the members of each group; c: centre of the group's sphere
@@ -3731,10 +3732,11 @@ static int nsvcd__spheres_fit(const nsvcd_body *body, float scale) {
 // behind the vertices there are 16 more numbers, so that 16 can be read from any.
 
 #define NSVCD__FACET_COUNTS 8
+#define NSVCD__FACET_BOX 6
 
 typedef struct nsvcd__facets {
   const nsvcd_body *body;  // of triangles
-  const float *discs, *group_discs, *steps, *slacks, *quanta;
+  const float *box, *discs, *group_discs, *steps, *slacks, *quanta;
   const uint32_t *first_vertex, *first_triangle, *first_corner;
   const float *seeds;
   const unsigned char *numbers, *corners;
@@ -3757,7 +3759,7 @@ static const nsvcd_body *nsvcd__triangles_of(const nsvcd_body *body) {
 // Bytes of a body of triangles; 0 if they cannot be counted in 32 bits.
 static size_t nsvcd__facets_size(size_t points, const uint32_t *counts) {
   const size_t padded = nsvcd__round_up(points, NSVCD__GROUP);
-  uint64_t size = nsvcd__spheres_size(padded) + 4 * NSVCD__FACET_COUNTS + 12 * (points + 1);
+  uint64_t size = nsvcd__spheres_size(padded) + 4 * (NSVCD__FACET_COUNTS + NSVCD__FACET_BOX) + 12 * (points + 1);
   size += 36 * padded + 24 * nsvcd__group_slots(padded);
   size += (uint64_t)12 * counts[2];
   size += (uint64_t)counts[4] * counts[0];
@@ -3778,7 +3780,8 @@ static nsvcd__facets nsvcd__facets_of(const nsvcd_body *body) {
   f.components = counts[2];
   f.corners_size = counts[3];
   f.number_bytes = counts[4];
-  f.discs = (const float *)(const void *)(counts + NSVCD__FACET_COUNTS);
+  f.box = (const float *)(const void *)(counts + NSVCD__FACET_COUNTS);
+  f.discs = f.box + NSVCD__FACET_BOX;
   f.group_discs = f.discs + 6 * padded;
   f.steps = f.group_discs + 6 * nsvcd__group_slots(padded);
   f.slacks = f.steps + padded;
@@ -3923,9 +3926,34 @@ static void nsvcd__finish_group(nsvcd_body *body, size_t g) {
   disc[5 * slots] = nsvcd__round_outward(thinnest.across + margin);
 }
 
+static void nsvcd__finish_box(nsvcd_body *body) {
+  const nsvcd__facets f = nsvcd__facets_of(body);
+  float *box = (float *)nsvcd__writable(body, f.box);
+  double low[3] = {HUGE_VAL, HUGE_VAL, HUGE_VAL};
+  double high[3] = {-HUGE_VAL, -HUGE_VAL, -HUGE_VAL};
+  for (size_t i = 0; i < body->points; i++) {
+    const size_t count = f.first_vertex[i + 1] - f.first_vertex[i];
+    const int16_t *coordinates = f.vertices + 3 * (size_t)f.first_vertex[i];
+    const nsvcd__f3 centre = nsvcd__facet_centre(&f, i);
+    const double centres[3] = {(double)centre.x, (double)centre.y, (double)centre.z};
+    for (size_t n = 0; n < 3 * count; n++) {
+      const size_t k = n / count;
+      const double at = centres[k] + (double)f.steps[i] * coordinates[n];
+      low[k] = fmin(low[k], at - (double)f.quanta[i]);
+      high[k] = fmax(high[k], at + (double)f.quanta[i]);
+    }
+  }
+  const double margin = 1e-6 * (double)body->extent;  // float rounding
+  for (size_t k = 0; k < 3; k++) {
+    box[k] = (float)(low[k] - margin);
+    box[3 + k] = (float)(high[k] + margin);
+  }
+}
+
 // What is computed from the patches of a body of triangles, when these are in place.
 static void nsvcd__facets_finish(nsvcd_body *body) {
   nsvcd__body_finish(body);
+  nsvcd__finish_box(body);
   for (size_t g = 0; g < nsvcd__body_groups(body); g++) nsvcd__finish_group(body, g);
   body->checksum = nsvcd__body_checksum(body);
 }
@@ -4059,6 +4087,7 @@ static int nsvcd__facets_are_laid_out(const nsvcd_body *body, size_t size) {
 static int nsvcd__facets_are_sound(const nsvcd_body *body) {
   const nsvcd__facets f = nsvcd__facets_of(body);
   const size_t padded = body->padded, slots = nsvcd__group_slots(padded);
+  if (!nsvcd__all_within(f.box, NSVCD__FACET_BOX, NSVCD__MAX_LENGTH)) return 0;
   if (!nsvcd__all_within(f.discs, 3 * padded, 1.000001f)) return 0;
   if (!nsvcd__all_within(f.discs + 3 * padded, 3 * padded, NSVCD__MAX_LENGTH)) return 0;
   if (!nsvcd__all_within(f.group_discs, 3 * slots, 1.000001f)) return 0;
@@ -5200,7 +5229,11 @@ static void nsvcd__candidates_start(nsvcd__candidates *kept, nsvcd__candidate *i
 #define NSVCD__HEIGHTS 256       // over the last plane, remembered: of moving patches,
 #define NSVCD__REST_HEIGHTS 64   // and of resting ones
 #define NSVCD__DEEP 0.2f         // depth from which on an item is worth a look for a witness before any plane
-#define NSVCD__HALVINGS 40       // of a span, at most
+#define NSVCD__WINDOW 8          // blocks of a resting patch, loaded at once
+#define NSVCD__HALVINGS 40       // of a span for a pair of triangles, at most
+#define NSVCD__MOST_PARTS 12     // parts of a span that pairs of triangles ask for, before all of them go on with its halves,
+#define NSVCD__SHORTEST 0.015    // if it is longer than this share of an arc
+#define NSVCD__PLACED 8          // poses that are remembered
 #define NSVCD__CROSSED 128       // triangles that a ray may cross
 #define NSVCD__SAME_PLACE 1e-13  // of all lengths: distance in double that is none
 
@@ -5244,6 +5277,10 @@ typedef struct nsvcd__block {
   size_t first, count;  // listings
 } nsvcd__block;
 
+typedef struct nsvcd__box {
+  nsvcd__f3 low, high;
+} nsvcd__box;
+
 typedef struct nsvcd__contact {
   double time;
   nsvcd__d3 point, normal;  // the fixed body's frame; out of the fixed body
@@ -5251,7 +5288,20 @@ typedef struct nsvcd__contact {
   uint16_t moving_patch, fixed_patch;
 } nsvcd__contact;
 
-typedef enum nsvcd__verdict { NSVCD__FREE, NSVCD__MEETS, NSVCD__UNDECIDED, NSVCD__WITHIN } nsvcd__verdict;
+typedef enum nsvcd__verdict {
+  NSVCD__FREE,
+  NSVCD__MEETS,
+  NSVCD__UNDECIDED,
+  NSVCD__WITHIN,
+  NSVCD__TOO_LONG  // a span that had better be halved
+} nsvcd__verdict;
+
+// A pose that has been computed.
+typedef struct nsvcd__placed {
+  size_t arc;
+  double u;
+  nsvcd__placement placement;
+} nsvcd__placed;
 
 // A moving patch's height over a plane in a segment.
 typedef struct nsvcd__height {
@@ -5278,7 +5328,13 @@ typedef struct nsvcd__proof {
   nsvcd__f3 held;    // normal of the last plane that held,
   uint32_t plane;    // and how many held before; 0: none
   nsvcd__height heights[NSVCD__HEIGHTS], rest_heights[NSVCD__REST_HEIGHTS];
-  nsvcd__block moving_block, fixed_block;
+  nsvcd__block moving_block, fixed_blocks[NSVCD__WINDOW];
+  nsvcd__box bounds[NSVCD__WINDOW];  // of the fixed blocks
+  size_t window;                     // how many they are
+  nsvcd__d3 parting;   // unit normal of the plane that parted a pair last
+  size_t parts;        // of the span, that pairs asked for so far
+  nsvcd__placed placed[NSVCD__PLACED];
+  size_t next_placed;
   float posed[2][3][3][NSVCD__LANES];  // corners of the moving block at the ends of a span
   uint32_t crossed[NSVCD__CROSSED];    // triangles
 } nsvcd__proof;
@@ -5384,6 +5440,19 @@ static nsvcd__placement nsvcd__placement_at(const nsvcd__arc *arc, double u) {
   nsvcd__rows_of(q, at.rows);
   at.position = nsvcd__d3_add(arc->from, nsvcd__d3_scale(arc->moved, u));
   return at;
+}
+
+// The same, of the arc last asked for, remembered: pairs of triangles ask for the same poses again.
+static nsvcd__placement nsvcd__placed_at(nsvcd__proof *p, double u) {
+  for (size_t n = 0; n < NSVCD__PLACED; n++) {
+    if (p->placed[n].arc == p->arc.index && p->placed[n].u == u) return p->placed[n].placement;
+  }
+  nsvcd__placed *out = &p->placed[p->next_placed];
+  p->next_placed = (p->next_placed + 1) % NSVCD__PLACED;
+  out->arc = p->arc.index;
+  out->u = u;
+  out->placement = nsvcd__placement_at(&p->arc, u);
+  return out->placement;
 }
 
 static nsvcd__transform nsvcd__transform_of(const nsvcd__placement *at) {
@@ -6029,9 +6098,10 @@ static void nsvcd__keep_contact(nsvcd__proof *p, const nsvcd__pair *pair, double
 }
 
 // Does the plane with this unit normal part the pair from u0 to u1 of the arc?
-static int nsvcd__plane_parts(const nsvcd__arc *arc, const nsvcd__pair *pair, double u0, double u1, nsvcd__d3 normal) {
-  const nsvcd__placement start = nsvcd__placement_at(arc, u0);
-  const nsvcd__placement end = nsvcd__placement_at(arc, u1);
+static int nsvcd__plane_parts(nsvcd__proof *p, const nsvcd__pair *pair, double u0, double u1, nsvcd__d3 normal) {
+  const nsvcd__arc *arc = &p->arc;
+  const nsvcd__placement start = nsvcd__placed_at(p, u0);
+  const nsvcd__placement end = nsvcd__placed_at(p, u1);
   const double angle = 2 * arc->half_angle * (u1 - u0);
   double lowest = HUGE_VAL, highest = -HUGE_VAL;
   for (size_t k = 0; k < 3; k++) {
@@ -6043,8 +6113,20 @@ static int nsvcd__plane_parts(const nsvcd__arc *arc, const nsvcd__pair *pair, do
   return lowest - highest > pair->slack + angle * angle * 0.1250001 * pair->reach * off_axis;
 }
 
-// Settles a pair of triangles from u0 to u1 of the arc: halves the time until a plane at the middle's nearest points
-// parts them in each part, or they meet there, or come too close to tell.
+static void nsvcd__certify_pair(const nsvcd__proof *p, const nsvcd__pair *pair, double u0, double u1) {
+  const float normal[3] = {(float)p->parting.x, (float)p->parting.y, (float)p->parting.z};
+  const double start = ((double)p->arc.index + u0) / nsvcd__arc_count(p->motion);
+  const double end = ((double)p->arc.index + u1) / nsvcd__arc_count(p->motion);
+  NSVCD__CERTIFY(NSVCD__BY_TRIANGLES, pair->moving_patch, pair->fixed_patch, pair->moving_listing, pair->fixed_listing,
+                 start, end, normal);
+  (void)normal;
+  (void)start;
+  (void)end;
+  (void)pair;
+}
+
+// Settles a pair of triangles from u0 to u1 of the arc: halves the time until a plane parts them in each part, the one
+// that parted a pair last or one at the middle's nearest points, or they meet there, or come too close to tell.
 static nsvcd__verdict nsvcd__settle_pair(nsvcd__proof *p, const nsvcd__pair *pair, double u0, double u1) {
   const nsvcd__arc *arc = &p->arc;
   const double speed = nsvcd__d3_length(arc->moved) + 2 * arc->half_angle * pair->reach;
@@ -6055,31 +6137,29 @@ static nsvcd__verdict nsvcd__settle_pair(nsvcd__proof *p, const nsvcd__pair *pai
   for (double u = u0; left > 0;) {
     const double end = ends[left - 1];
     const double middle = 0.5 * (u + end);
-    const nsvcd__placement at = nsvcd__placement_at(arc, middle);
-    nsvcd__d3 posed[3];
     p->work++;
     NSVCD__TALLY(pairs, 1);
     if (p->work > p->limit) return NSVCD__UNDECIDED;
-    nsvcd__place_triangle(&at, pair->moving, posed);
-    const nsvcd__nearest nearest = nsvcd__triangles_nearest(posed, pair->fixed);
-    const double distance = sqrt(nearest.square);
-    if (distance <= pair->rounding) {
-      nsvcd__keep_contact(p, pair, ((double)arc->index + middle) / nsvcd__arc_count(p->motion), nearest.on_a);
-      return NSVCD__MEETS;
+    int apart = nsvcd__plane_parts(p, pair, u, end, p->parting);
+    if (!apart) {
+      nsvcd__d3 posed[3];
+      const nsvcd__placement at = nsvcd__placed_at(p, middle);
+      nsvcd__place_triangle(&at, pair->moving, posed);
+      const nsvcd__nearest nearest = nsvcd__triangles_nearest(posed, pair->fixed);
+      const double distance = sqrt(nearest.square);
+      if (distance <= pair->rounding) {
+        nsvcd__keep_contact(p, pair, ((double)arc->index + middle) / nsvcd__arc_count(p->motion), nearest.on_a);
+        return NSVCD__MEETS;
+      }
+      p->parting = nsvcd__d3_scale(nsvcd__d3_sub(nearest.on_a, nearest.on_b), 1 / distance);
+      apart = nsvcd__plane_parts(p, pair, u, end, p->parting);
     }
-    const nsvcd__d3 normal = nsvcd__d3_scale(nsvcd__d3_sub(nearest.on_a, nearest.on_b), 1 / distance);
-    const int apart = nsvcd__plane_parts(arc, pair, u, end, normal);
-    if (apart) {
-      const float rounded[3] = {(float)normal.x, (float)normal.y, (float)normal.z};
-      NSVCD__CERTIFY(NSVCD__BY_TRIANGLES, pair->moving_patch, pair->fixed_patch, pair->moving_listing,
-                     pair->fixed_listing, ((double)arc->index + u) / nsvcd__arc_count(p->motion),
-                     ((double)arc->index + end) / nsvcd__arc_count(p->motion), rounded);
-      (void)rounded;
-    }
+    if (apart) nsvcd__certify_pair(p, pair, u, end);
     const double close = pair->slack + p->tolerance;
     const int tiny = speed * (end - u) <= 0.25 * close || left > NSVCD__HALVINGS;
     if (!apart && !tiny) {
       ends[left++] = middle;
+      p->parts++;
       continue;
     }
     undecided |= !apart;
@@ -6091,23 +6171,43 @@ static nsvcd__verdict nsvcd__settle_pair(nsvcd__proof *p, const nsvcd__pair *pai
 
 // ---- blocks of triangles
 
+// Where the 16 vertices of corner k of listings first .. first + count - 1 are, the last repeated.
+static void nsvcd__block_corners(const nsvcd__facets *f, size_t patch, size_t first, size_t count, size_t k,
+                                 uint16_t *vertices) {
+  const size_t bytes = nsvcd__corner_bytes(f->first_vertex[patch + 1] - f->first_vertex[patch]);
+  const size_t at = 3 * (first - f->first_triangle[patch]) + k;
+  const unsigned char *corners = f->corners + f->first_corner[patch] + bytes * at;
+  const size_t last = count - 1;
+  if (bytes == 1) {
+    for (size_t l = 0; l < NSVCD__LANES; l++) vertices[l] = corners[3 * (l < last ? l : last)];
+    return;
+  }
+  for (size_t l = 0; l < NSVCD__LANES; l++) memcpy(vertices + l, corners + 6 * (l < last ? l : last), 2);
+}
+
 // Listings first .. first + count - 1 of a patch, at most 16; the last is repeated.
 static void nsvcd__block_load(const nsvcd__facets *f, size_t patch, size_t first, size_t count, nsvcd__block *out) {
   const size_t all = f->first_vertex[patch + 1] - f->first_vertex[patch];
   const int16_t *x = f->vertices + 3 * (size_t)f->first_vertex[patch];
+  const int16_t *y = x + all;
+  const int16_t *z = y + all;
   const nsvcd__v step = nsvcd__v_set(f->steps[patch]);
   const nsvcd__v3 centre = nsvcd__v3_set(nsvcd__facet_centre(f, patch));
   nsvcd__v3 low = centre, high = centre;
   out->first = first;
   out->count = count;
   for (size_t k = 0; k < 3; k++) {
+    uint16_t vertices[NSVCD__LANES];
+    int16_t places[3][NSVCD__LANES];
+    nsvcd__block_corners(f, patch, first, count, k, vertices);
     for (size_t l = 0; l < NSVCD__LANES; l++) {
-      const size_t vertex = nsvcd__facet_corner(f, patch, first + (l < count ? l : count - 1), k);
-      out->corners[k][0][l] = (float)x[vertex];
-      out->corners[k][1][l] = (float)x[all + vertex];
-      out->corners[k][2][l] = (float)x[2 * all + vertex];
+      places[0][l] = x[vertices[l]];
+      places[1][l] = y[vertices[l]];
+      places[2][l] = z[vertices[l]];
     }
-    const nsvcd__v3 corner = nsvcd__v3_fma(step, nsvcd__v3_load(out->corners[k]), centre);
+    const nsvcd__v3 integers = nsvcd__v3_of(nsvcd__v_load_int16(places[0]), nsvcd__v_load_int16(places[1]),
+                                            nsvcd__v_load_int16(places[2]));
+    const nsvcd__v3 corner = nsvcd__v3_fma(step, integers, centre);
     low = k == 0 ? corner : nsvcd__v3_min(low, corner);
     high = k == 0 ? corner : nsvcd__v3_max(high, corner);
     nsvcd__v3_store(out->corners[k], corner);
@@ -6135,15 +6235,44 @@ static void nsvcd__block_box(nsvcd__proof *p, size_t ends) {
   nsvcd__v3_store(p->moving_block.high, high);
 }
 
-// Lanes of the fixed block whose boxes come within `margin` of that of lane l of the moving one.
-static uint32_t nsvcd__boxes_meet(const nsvcd__proof *p, size_t l, float margin) {
-  const nsvcd__block *a = &p->moving_block, *b = &p->fixed_block;
-  uint32_t met = ((uint32_t)1 << (b->count - 1) << 1) - 1;
-  for (size_t k = 0; k < 3; k++) {
-    met &= nsvcd__v_le(nsvcd__v_load(b->low[k]), nsvcd__v_set(a->high[k][l] + margin));
-    met &= nsvcd__v_le(nsvcd__v_set(a->low[k][l] - margin), nsvcd__v_load(b->high[k]));
+static nsvcd__f3 nsvcd__least_of_lanes(float (*lanes)[NSVCD__LANES]) {
+  return nsvcd__f3_of(nsvcd__v_least(nsvcd__v_load(lanes[0])), nsvcd__v_least(nsvcd__v_load(lanes[1])),
+                      nsvcd__v_least(nsvcd__v_load(lanes[2])));
+}
+static nsvcd__f3 nsvcd__greatest_of_lanes(float (*lanes)[NSVCD__LANES]) {
+  return nsvcd__f3_of(-nsvcd__v_least(nsvcd__v_negate(nsvcd__v_load(lanes[0]))),
+                      -nsvcd__v_least(nsvcd__v_negate(nsvcd__v_load(lanes[1]))),
+                      -nsvcd__v_least(nsvcd__v_negate(nsvcd__v_load(lanes[2]))));
+}
+
+// Loads up to NSVCD__WINDOW blocks of resting patch j, from listing `first` on, and what they extend to.
+static void nsvcd__window_load(nsvcd__proof *p, size_t j, size_t first) {
+  const size_t end = p->fixed.first_triangle[j + 1];
+  p->window = 0;
+  for (size_t n = first; n < end && p->window < NSVCD__WINDOW; n += NSVCD__LANES) {
+    nsvcd__block *block = &p->fixed_blocks[p->window];
+    nsvcd__block_load(&p->fixed, j, n, end - n < NSVCD__LANES ? end - n : NSVCD__LANES, block);
+    p->bounds[p->window].low = nsvcd__least_of_lanes(block->low);
+    p->bounds[p->window].high = nsvcd__greatest_of_lanes(block->high);
+    p->window++;
   }
-  return met;
+}
+
+// Lanes of a block whose boxes come within `margin` of a box along every axis.
+NSVCD__INLINE uint32_t nsvcd__lanes_near(const nsvcd__block *block, nsvcd__box box, float margin) {
+  const float low[3] = {box.low.x - margin, box.low.y - margin, box.low.z - margin};
+  const float high[3] = {box.high.x + margin, box.high.y + margin, box.high.z + margin};
+  uint32_t lanes = ((uint32_t)1 << (block->count - 1) << 1) - 1;
+  for (size_t k = 0; k < 3; k++) {
+    lanes &= nsvcd__v_le(nsvcd__v_load(block->low[k]), nsvcd__v_set(high[k]));
+    lanes &= nsvcd__v_le(nsvcd__v_set(low[k]), nsvcd__v_load(block->high[k]));
+  }
+  return lanes;
+}
+
+static nsvcd__box nsvcd__box_of_lane(nsvcd__block *block, size_t l) {
+  const nsvcd__box out = {nsvcd__lane_of(block->low, l), nsvcd__lane_of(block->high, l)};
+  return out;
 }
 
 // A margin along normals of any length. Where their squares underflow it is so large that nothing is beyond it.
@@ -6153,15 +6282,16 @@ static nsvcd__v nsvcd__margin_along(nsvcd__v3 n, float margin) {
   return nsvcd__v_pick(square, nsvcd__v_set(1e-30f), nsvcd__v_set(1e30f), limit);
 }
 
-// Lanes of the fixed block whose planes have the lane l of the moving one, at `ends` poses, on one side by more than
-// `margin`; and the same with the plane of the moving one, at one pose.
-static uint32_t nsvcd__planes_part(nsvcd__proof *p, size_t l, size_t ends, float margin, nsvcd__v3 *plane,
-                                   uint32_t *below) {
-  const nsvcd__v3 b0 = nsvcd__v3_load(p->fixed_block.corners[0]);
-  const nsvcd__v3 b1 = nsvcd__v3_load(p->fixed_block.corners[1]);
-  const nsvcd__v3 b2 = nsvcd__v3_load(p->fixed_block.corners[2]);
-  const nsvcd__v3 n = nsvcd__v3_cross(nsvcd__v3_sub(b1, b0), nsvcd__v3_sub(b2, b0));
-  const nsvcd__v limit = nsvcd__margin_along(n, margin);
+// Lanes of a fixed block that planes with these normals, of any length, have on one side of lane l of the moving one, at
+// `ends` (1 or 2) poses, by more than `margin`. below: the moving one is on the side that the normal points from.
+NSVCD__INLINE uint32_t nsvcd__normals_part(nsvcd__proof *p, size_t l, nsvcd__block *fixed, size_t ends, float margin,
+                                           nsvcd__v3 n, uint32_t *below) {
+  const nsvcd__v3 b0 = nsvcd__v3_load(fixed->corners[0]);
+  const nsvcd__v height1 = nsvcd__v3_dot(n, nsvcd__v3_sub(nsvcd__v3_load(fixed->corners[1]), b0));
+  const nsvcd__v height2 = nsvcd__v3_dot(n, nsvcd__v3_sub(nsvcd__v3_load(fixed->corners[2]), b0));
+  const nsvcd__v zero = nsvcd__v_set(0);
+  const nsvcd__v low = nsvcd__v_min(zero, nsvcd__v_min(height1, height2));
+  const nsvcd__v high = nsvcd__v_max(zero, nsvcd__v_max(height1, height2));
   nsvcd__v lowest = nsvcd__v_set(HUGE_VALF), highest = nsvcd__v_set(-HUGE_VALF);
   for (size_t k = 0; k < 3 * ends; k++) {
     const nsvcd__v3 a = nsvcd__v3_set(nsvcd__lane_of(p->posed[k / 3][k % 3], l));
@@ -6169,35 +6299,65 @@ static uint32_t nsvcd__planes_part(nsvcd__proof *p, size_t l, size_t ends, float
     lowest = nsvcd__v_min(lowest, height);
     highest = nsvcd__v_max(highest, height);
   }
-  // The normal of a needle may be far off, and then its corners are at different heights.
-  const nsvcd__v height1 = nsvcd__v3_dot(n, nsvcd__v3_sub(b1, b0));
-  const nsvcd__v height2 = nsvcd__v3_dot(n, nsvcd__v3_sub(b2, b0));
-  const nsvcd__v zero = nsvcd__v_set(0);
-  const nsvcd__v low = nsvcd__v_min(zero, nsvcd__v_min(height1, height2));
-  const nsvcd__v high = nsvcd__v_max(zero, nsvcd__v_max(height1, height2));
-  *plane = n;
+  const nsvcd__v limit = nsvcd__margin_along(n, margin);
   *below = nsvcd__v_lt(highest, nsvcd__v_sub(low, limit));
   return nsvcd__v_lt(nsvcd__v_add(high, limit), lowest) | *below;
 }
 
-// Lanes of the fixed block on one side of the plane of lane l of the moving one, posed once.
-static uint32_t nsvcd__moving_plane_parts(nsvcd__proof *p, size_t l, float margin) {
-  const nsvcd__f3 a0 = nsvcd__lane_of(p->posed[0][0], l);
-  const nsvcd__v3 a = nsvcd__v3_set(a0);
-  const nsvcd__v3 u = nsvcd__v3_sub(nsvcd__v3_set(nsvcd__lane_of(p->posed[0][1], l)), a);
-  const nsvcd__v3 v = nsvcd__v3_sub(nsvcd__v3_set(nsvcd__lane_of(p->posed[0][2], l)), a);
-  const nsvcd__v3 n = nsvcd__v3_cross(u, v);
-  const nsvcd__v limit = nsvcd__margin_along(n, margin);
-  nsvcd__v lowest = nsvcd__v_set(HUGE_VALF), highest = nsvcd__v_set(-HUGE_VALF);
-  for (size_t k = 0; k < 3; k++) {
-    const nsvcd__v height = nsvcd__v3_dot(n, nsvcd__v3_sub(nsvcd__v3_load(p->fixed_block.corners[k]), a));
-    lowest = nsvcd__v_min(lowest, height);
-    highest = nsvcd__v_max(highest, height);
+// Normal number k of those that may part two triangles: of the fixed ones, of lane l of the moving one, and of an edge of
+// each.
+#define NSVCD__NORMALS 11
+NSVCD__INLINE nsvcd__v3 nsvcd__normal_to_try(nsvcd__proof *p, size_t l, nsvcd__block *fixed, size_t k) {
+  if (k == 1) {
+    const nsvcd__f3 a = nsvcd__lane_of(p->posed[0][0], l);
+    const nsvcd__f3 u = nsvcd__f3_sub(nsvcd__lane_of(p->posed[0][1], l), a);
+    const nsvcd__f3 v = nsvcd__f3_sub(nsvcd__lane_of(p->posed[0][2], l), a);
+    return nsvcd__v3_set(nsvcd__f3_cross(u, v));
   }
-  return (nsvcd__v_lt(limit, lowest) | nsvcd__v_lt(highest, nsvcd__v_negate(limit))) & 0xffff;
+  const size_t fixed_edge = k == 0 ? 0 : (k - 2) % 3, moving_edge = k == 0 ? 0 : (k - 2) / 3;
+  const nsvcd__v3 b = nsvcd__v3_load(fixed->corners[fixed_edge]);
+  const nsvcd__v3 edge = nsvcd__v3_sub(nsvcd__v3_load(fixed->corners[(fixed_edge + 1) % 3]), b);
+  if (k == 0) return nsvcd__v3_cross(edge, nsvcd__v3_sub(nsvcd__v3_load(fixed->corners[2]), b));
+  const nsvcd__f3 a = nsvcd__lane_of(p->posed[0][moving_edge], l);
+  const nsvcd__f3 other = nsvcd__f3_sub(nsvcd__lane_of(p->posed[0][(moving_edge + 1) % 3], l), a);
+  return nsvcd__v3_cross(nsvcd__v3_set(other), edge);
 }
 
 // ---- witnesses
+
+// Among the moving block, posed `at`, and a block of the window: two triangles that meet a share u of arc k later than
+// its start.
+static int nsvcd__find_witness_in(nsvcd__proof *p, size_t i, size_t j, size_t n, const nsvcd__placement *at, size_t k,
+                                  double u, float margin) {
+  nsvcd__block *fixed = &p->fixed_blocks[n];
+  uint32_t lanes = nsvcd__lanes_near(&p->moving_block, p->bounds[n], margin);
+  for (; lanes; lanes &= lanes - 1) {
+    const size_t l = nsvcd__lowest_bit(lanes);
+    uint32_t met = nsvcd__lanes_near(fixed, nsvcd__box_of_lane(&p->moving_block, l), margin);
+    for (size_t axis = 0; met && axis < NSVCD__NORMALS; axis++) {
+      uint32_t below;
+      met &= ~nsvcd__normals_part(p, l, fixed, 1, margin, nsvcd__normal_to_try(p, l, fixed, axis), &below);
+    }
+    for (; met; met &= met - 1) {
+      const size_t listing = p->moving_block.first + l;
+      const nsvcd__pair pair = nsvcd__pair_of(p, i, j, listing, fixed->first + nsvcd__lowest_bit(met));
+      nsvcd__d3 posed[3];
+      nsvcd__place_triangle(at, pair.moving, posed);
+      nsvcd__d3 point;
+      p->work++;
+      if (!nsvcd__triangles_meet(posed, pair.fixed, &point)) continue;
+      nsvcd__keep_contact(p, &pair, ((double)k + u) / nsvcd__arc_count(p->motion), point);
+      return 1;
+    }
+  }
+  return 0;
+}
+
+// Loads 16 triangles of moving patch i, from listing `first` on.
+static void nsvcd__moving_block_load(nsvcd__proof *p, size_t i, size_t first) {
+  const size_t left = p->moving.first_triangle[i + 1] - first;
+  nsvcd__block_load(&p->moving, i, first, left < NSVCD__LANES ? left : NSVCD__LANES, &p->moving_block);
+}
 
 // Looks for two triangles of patches i and j that meet a share u of arc k later than its start.
 static int nsvcd__find_witness(nsvcd__proof *p, size_t i, size_t j, size_t k, double u) {
@@ -6207,32 +6367,16 @@ static int nsvcd__find_witness(nsvcd__proof *p, size_t i, size_t j, size_t k, do
   const float margin = NSVCD__ROUNDING * (p->lengths + nsvcd__f3_length(rounded.position));
   const size_t moving_end = p->moving.first_triangle[i + 1], fixed_end = p->fixed.first_triangle[j + 1];
   NSVCD__TALLY(tries, 1);
-  for (size_t a = p->moving.first_triangle[i]; a < moving_end; a += NSVCD__LANES) {
-    nsvcd__block_load(&p->moving, i, a, moving_end - a < NSVCD__LANES ? moving_end - a : NSVCD__LANES,
-                      &p->moving_block);
-    nsvcd__block_pose(p, &rounded, 0);
-    nsvcd__block_box(p, 1);
-    for (size_t b = p->fixed.first_triangle[j]; b < fixed_end; b += NSVCD__LANES) {
-      nsvcd__block_load(&p->fixed, j, b, fixed_end - b < NSVCD__LANES ? fixed_end - b : NSVCD__LANES, &p->fixed_block);
-      p->work++;
-      if (p->work > p->limit) return 0;
-      for (size_t l = 0; l < p->moving_block.count; l++) {
-        uint32_t met = nsvcd__boxes_meet(p, l, margin);
-        nsvcd__v3 plane;
-        uint32_t below;
-        if (!met) continue;
-        met &= ~nsvcd__planes_part(p, l, 1, margin, &plane, &below);
-        if (met) met &= ~nsvcd__moving_plane_parts(p, l, margin);
-        for (; met; met &= met - 1) {
-          const nsvcd__pair pair = nsvcd__pair_of(p, i, j, a + l, b + nsvcd__lowest_bit(met));
-          nsvcd__d3 posed[3];
-          nsvcd__place_triangle(&at, pair.moving, posed);
-          nsvcd__d3 point;
-          p->work++;
-          if (!nsvcd__triangles_meet(posed, pair.fixed, &point)) continue;
-          nsvcd__keep_contact(p, &pair, ((double)k + u) / nsvcd__arc_count(p->motion), point);
-          return 1;
-        }
+  for (size_t b = p->fixed.first_triangle[j]; b < fixed_end; b += NSVCD__WINDOW * NSVCD__LANES) {
+    nsvcd__window_load(p, j, b);
+    for (size_t a = p->moving.first_triangle[i]; a < moving_end; a += NSVCD__LANES) {
+      nsvcd__moving_block_load(p, i, a);
+      nsvcd__block_pose(p, &rounded, 0);
+      nsvcd__block_box(p, 1);
+      for (size_t n = 0; n < p->window; n++) {
+        p->work++;
+        if (p->work > p->limit) return 0;
+        if (nsvcd__find_witness_in(p, i, j, n, &at, k, u, margin)) return 1;
       }
     }
   }
@@ -6259,11 +6403,11 @@ static int nsvcd__seek_item(nsvcd__proof *p, const nsvcd__workspace *work, nsvcd
 // ---- what hulls leave
 
 #ifdef NSVCD__CERTIFIES
-// All pairs of lane l and the fixed block's `apart` lanes, by their planes or, where that is NULL, by their boxes.
-static void nsvcd__certify_block(nsvcd__proof *p, size_t i, size_t j, size_t l, const nsvcd__span *span, uint32_t apart,
-                                 const nsvcd__v3 *plane, uint32_t below) {
+// All pairs of lane l and the `apart` lanes of a block, by their planes or, where that is NULL, by their boxes.
+static void nsvcd__certify_block(nsvcd__proof *p, size_t i, size_t j, size_t l, const nsvcd__block *b,
+                                 const nsvcd__span *span, uint32_t apart, const nsvcd__v3 *plane, uint32_t below) {
   float lanes[3][NSVCD__LANES];
-  const nsvcd__block *a = &p->moving_block, *b = &p->fixed_block;
+  const nsvcd__block *a = &p->moving_block;
   if (plane) nsvcd__v3_store(lanes, *plane);
   for (size_t n = 0; n < b->count; n++) {
     float normal[3] = {0, 0, 0}, widest = -HUGE_VALF;
@@ -6280,43 +6424,76 @@ static void nsvcd__certify_block(nsvcd__proof *p, size_t i, size_t j, size_t l, 
     NSVCD__CERTIFY(NSVCD__BY_TRIANGLES, i, j, a->first + l, b->first + n, span->t_start, span->t_end, normal);
   }
 }
-#define NSVCD__CERTIFY_BLOCK(p, i, j, l, span, apart, plane, below) \
-  nsvcd__certify_block(p, i, j, l, span, apart, plane, below)
+#define NSVCD__CERTIFY_BLOCK(p, i, j, l, b, span, apart, plane, below) \
+  nsvcd__certify_block(p, i, j, l, b, span, apart, plane, below)
 #else
-#define NSVCD__CERTIFY_BLOCK(p, i, j, l, span, apart, plane, below) ((void)0)
+#define NSVCD__CERTIFY_BLOCK(p, i, j, l, b, span, apart, plane, below) ((void)0)
 #endif
 
-// All pairs of triangles of an item's patches over a span from u0 to u1 of an arc.
+// Lane l of the moving block, posed at both ends of a span from u0 to u1 of the arc, and block n of the window: pairs that
+// planes do not part are settled one by one, and what parts one may part others. TOO_LONG only if it may be.
+static nsvcd__verdict nsvcd__settle_row(nsvcd__proof *p, size_t i, size_t j, size_t l, size_t n,
+                                        const nsvcd__span *span, float margin, double u0, double u1, int may_halve) {
+  nsvcd__block *fixed = &p->fixed_blocks[n];
+  const float quanta = p->moving.quanta[i] + p->fixed.quanta[j];
+  const float reach = p->moving.body->extent + p->moving.quanta[i];
+  nsvcd__verdict verdict = NSVCD__FREE;
+  uint32_t below = 0;
+  p->work++;
+  uint32_t met = nsvcd__lanes_near(fixed, nsvcd__box_of_lane(&p->moving_block, l), margin);
+  NSVCD__CERTIFY_BLOCK(p, i, j, l, fixed, span, ~met, NULL, below);
+  if (!met) return NSVCD__FREE;
+  for (size_t k = 0; met && k < NSVCD__NORMALS; k++) {
+    const nsvcd__v3 normal = nsvcd__normal_to_try(p, l, fixed, k);
+    const uint32_t apart = nsvcd__normals_part(p, l, fixed, 2, margin, normal, &below) & met;
+    NSVCD__CERTIFY_BLOCK(p, i, j, l, fixed, span, apart, &normal, below);
+    met &= ~apart;
+  }
+  for (; met; met &= met - 1) {
+    const nsvcd__f3 last = nsvcd__f3_round(p->parting);
+    const nsvcd__v3 normal = nsvcd__v3_set(last);
+    const float along = quanta + span->rounding + nsvcd__deviation(span, last, reach);
+    const uint32_t apart = nsvcd__normals_part(p, l, fixed, 2, along, normal, &below) & met;
+    NSVCD__CERTIFY_BLOCK(p, i, j, l, fixed, span, apart, &normal, below);
+    met &= ~apart;
+    if (!met) break;
+    const size_t listing = p->moving_block.first + l;
+    const nsvcd__pair pair = nsvcd__pair_of(p, i, j, listing, fixed->first + nsvcd__lowest_bit(met));
+    const nsvcd__verdict one = nsvcd__settle_pair(p, &pair, u0, u1);
+    if (one == NSVCD__MEETS || p->work > p->limit) return one;
+    if (one == NSVCD__UNDECIDED) verdict = one;
+    if (may_halve && p->parts > NSVCD__MOST_PARTS) return NSVCD__TOO_LONG;
+  }
+  return verdict;
+}
+
+// All pairs of triangles of an item's patches over a span from u0 to u1 of the arc.
 static nsvcd__verdict nsvcd__settle_triangles(nsvcd__proof *p, size_t i, size_t j, const nsvcd__span *span, double u0,
-                                              double u1) {
+                                              double u1, int may_halve) {
   const size_t moving_end = p->moving.first_triangle[i + 1], fixed_end = p->fixed.first_triangle[j + 1];
   const float reach = p->moving.body->extent + p->moving.quanta[i];
   const float margin = p->moving.quanta[i] + p->fixed.quanta[j] + span->spread + span->bulge * reach;
   nsvcd__verdict verdict = NSVCD__FREE;
-  for (size_t a = p->moving.first_triangle[i]; a < moving_end; a += NSVCD__LANES) {
-    nsvcd__block_load(&p->moving, i, a, moving_end - a < NSVCD__LANES ? moving_end - a : NSVCD__LANES,
-                      &p->moving_block);
-    nsvcd__block_pose(p, &span->start, 0);
-    nsvcd__block_pose(p, &span->end, 1);
-    nsvcd__block_box(p, 2);
-    for (size_t b = p->fixed.first_triangle[j]; b < fixed_end; b += NSVCD__LANES) {
-      nsvcd__block_load(&p->fixed, j, b, fixed_end - b < NSVCD__LANES ? fixed_end - b : NSVCD__LANES, &p->fixed_block);
-      for (size_t l = 0; l < p->moving_block.count; l++) {
+  p->parts = 0;
+  for (size_t b = p->fixed.first_triangle[j]; b < fixed_end; b += NSVCD__WINDOW * NSVCD__LANES) {
+    nsvcd__window_load(p, j, b);
+    for (size_t a = p->moving.first_triangle[i]; a < moving_end; a += NSVCD__LANES) {
+      nsvcd__moving_block_load(p, i, a);
+      nsvcd__block_pose(p, &span->start, 0);
+      nsvcd__block_pose(p, &span->end, 1);
+      nsvcd__block_box(p, 2);
+      for (size_t n = 0; n < p->window; n++) {
+        const uint32_t lanes = nsvcd__lanes_near(&p->moving_block, p->bounds[n], margin);
         p->work++;
         if (p->work > p->limit) return NSVCD__UNDECIDED;
-        uint32_t met = nsvcd__boxes_meet(p, l, margin);
-        uint32_t below = 0;
-        nsvcd__v3 plane;
-        NSVCD__CERTIFY_BLOCK(p, i, j, l, span, ~met, NULL, below);
-        if (!met) continue;
-        const uint32_t apart = nsvcd__planes_part(p, l, 2, margin, &plane, &below) & met;
-        NSVCD__CERTIFY_BLOCK(p, i, j, l, span, apart, &plane, below);
-        for (met &= ~apart; met; met &= met - 1) {
-          const nsvcd__pair pair = nsvcd__pair_of(p, i, j, a + l, b + nsvcd__lowest_bit(met));
-          const nsvcd__verdict one = nsvcd__settle_pair(p, &pair, u0, u1);
-          if (one == NSVCD__MEETS) return one;
-          if (one == NSVCD__UNDECIDED) verdict = one;
-          if (p->work > p->limit) return NSVCD__UNDECIDED;
+        for (size_t l = 0; l < p->moving_block.count; l++) {
+          if (!(lanes >> l & 1)) {
+            NSVCD__CERTIFY_BLOCK(p, i, j, l, &p->fixed_blocks[n], span, 0xffff, NULL, 0);
+            continue;
+          }
+          const nsvcd__verdict row = nsvcd__settle_row(p, i, j, l, n, span, margin, u0, u1, may_halve);
+          if (row == NSVCD__MEETS || row == NSVCD__TOO_LONG || p->work > p->limit) return row;
+          if (row == NSVCD__UNDECIDED) verdict = row;
         }
       }
     }
@@ -6324,7 +6501,43 @@ static nsvcd__verdict nsvcd__settle_triangles(nsvcd__proof *p, size_t i, size_t 
   return verdict;
 }
 
-// An item that no plane parts over its segment: arc by arc, with planes that fit these, then by its triangles.
+static void nsvcd__certify_item(const nsvcd__proof *p, const nsvcd__span *span, const nsvcd__item *item) {
+  const float normal[3] = {p->held.x, p->held.y, p->held.z};
+  NSVCD__CERTIFY(NSVCD__BY_HULL, item->moving, item->fixed, NSVCD_NONE, NSVCD_NONE, span->t_start, span->t_end,
+                 normal);
+  (void)normal;
+  (void)span;
+  (void)item;
+}
+
+// An item from u0 to u1 of arc k, or from halves to halves of that: by a plane that fits it, or by its triangles.
+static nsvcd__verdict nsvcd__settle_arc(nsvcd__proof *p, const nsvcd__item *item, size_t k, double u0, double u1) {
+  double ends[8];  // later ends of the parts to come, the last one first
+  size_t left = 1;
+  nsvcd__verdict verdict = NSVCD__FREE;
+  ends[0] = u1;
+  for (double u = u0; left > 0;) {
+    const double end = ends[left - 1];
+    const nsvcd__span span = nsvcd__span_of_arc(p, k, u, end);
+    if (nsvcd__hulls_are_apart(p, item->moving, item->fixed, &span)) {
+      nsvcd__certify_item(p, &span, item);
+    } else {
+      const int may_halve = end - u > NSVCD__SHORTEST && left < 8;
+      const nsvcd__verdict part = nsvcd__settle_triangles(p, item->moving, item->fixed, &span, u, end, may_halve);
+      if (part == NSVCD__MEETS || p->work > p->limit) return part;
+      if (part == NSVCD__TOO_LONG) {
+        ends[left++] = 0.5 * (u + end);
+        continue;
+      }
+      if (part == NSVCD__UNDECIDED) verdict = part;
+    }
+    u = end;
+    left--;
+  }
+  return verdict;
+}
+
+// An item that no plane parts over its segment, arc by arc.
 static nsvcd__verdict nsvcd__settle_item(nsvcd__proof *p, const nsvcd__workspace *work, const nsvcd__item *item) {
   const double start = nsvcd__segment_start(work, item->segment);
   const double end = p->motion->count > 1 ? nsvcd__segment_start(work, item->segment + 1u) : 1;
@@ -6334,18 +6547,10 @@ static nsvcd__verdict nsvcd__settle_item(nsvcd__proof *p, const nsvcd__workspace
     const size_t k = nsvcd__arc_and_share(p->motion, at, &u0);
     const double next = end < (double)(k + 1) ? end : (double)(k + 1);
     const double u1 = p->motion->count > 1 ? next - (double)k : 1;
-    const nsvcd__span span = nsvcd__span_of_arc(p, k, u0, u1);
-    at = next;
-    if (nsvcd__hulls_are_apart(p, item->moving, item->fixed, &span)) {
-      const float normal[3] = {p->held.x, p->held.y, p->held.z};
-      NSVCD__CERTIFY(NSVCD__BY_HULL, item->moving, item->fixed, NSVCD_NONE, NSVCD_NONE, span.t_start, span.t_end,
-                     normal);
-      (void)normal;
-      continue;
-    }
-    const nsvcd__verdict part = nsvcd__settle_triangles(p, item->moving, item->fixed, &span, u0, u1);
+    const nsvcd__verdict part = nsvcd__settle_arc(p, item, k, u0, u1);
     if (part == NSVCD__MEETS || p->work > p->limit) return part;
     if (part == NSVCD__UNDECIDED) verdict = part;
+    at = next;
   }
   return verdict;
 }
@@ -6378,15 +6583,6 @@ static float nsvcd__greatest_height(nsvcd__proof *p, size_t j) {
   known->key = (uint32_t)j;
   known->height = highest + p->fixed.slacks[j] * nsvcd__f3_length(p->held);
   return known->height;
-}
-
-static void nsvcd__certify_item(const nsvcd__proof *p, const nsvcd__span *span, const nsvcd__item *item) {
-  const float normal[3] = {p->held.x, p->held.y, p->held.z};
-  NSVCD__CERTIFY(NSVCD__BY_HULL, item->moving, item->fixed, NSVCD_NONE, NSVCD_NONE, span->t_start, span->t_end,
-                 normal);
-  (void)normal;
-  (void)span;
-  (void)item;
 }
 
 // Does a plane with the normal that held last part an item's patches over its segment?
@@ -6495,18 +6691,35 @@ static int nsvcd__ray_crosses(const nsvcd__ray *ray, const nsvcd__d3 *t, double 
   return slope > 0 ? 1 : slope < 0 ? -1 : 0;
 }
 
-// Patches, 16 from `first` on, whose pieces the ray may meet: it meets their spheres.
-static uint32_t nsvcd__patches_on_ray(const nsvcd__facets *f, const nsvcd__ray *ray, size_t first) {
-  const nsvcd_body *b = f->body;
-  const nsvcd__v3 centre = nsvcd__v3_of(nsvcd__v_load(nsvcd__body_x(b) + first), nsvcd__v_load(nsvcd__body_y(b) + first),
-                                        nsvcd__v_load(nsvcd__body_z(b) + first));
+// Lanes of 16 spheres, in the body's frame, that the ray meets.
+static uint32_t nsvcd__spheres_on_ray(const nsvcd_body *b, const nsvcd__ray *ray, const float *x, const float *y,
+                                      const float *z, const float *r) {
+  const nsvcd__v3 centre = nsvcd__v3_of(nsvcd__v_load(x), nsvcd__v_load(y), nsvcd__v_load(z));
   const nsvcd__v3 n = nsvcd__v3_set(nsvcd__f3_round(ray->direction));
   const nsvcd__v3 d = nsvcd__v3_sub(centre, nsvcd__v3_set(nsvcd__f3_round(ray->from)));
   const nsvcd__v3 off = nsvcd__v3_cross(d, n);
   const nsvcd__v rounding = nsvcd__v_set((float)ray->margin + 4 * NSVCD__ROUNDING * b->extent);
-  const nsvcd__v reach = nsvcd__v_add(nsvcd__v_load(nsvcd__body_r(b) + first), rounding);
+  const nsvcd__v reach = nsvcd__v_add(nsvcd__v_load(r), rounding);
   const uint32_t near_line = nsvcd__v_le(nsvcd__v3_dot(off, off), nsvcd__v_signed_square(reach));
   return near_line & nsvcd__v_le(nsvcd__v_negate(reach), nsvcd__v3_dot(d, n));
+}
+
+// Groups whose spheres the ray meets.
+static uint32_t nsvcd__groups_on_ray(const nsvcd_body *b, const nsvcd__ray *ray) {
+  uint32_t groups = 0;
+  for (size_t first = 0; first < nsvcd__body_groups(b); first += NSVCD__LANES) {
+    groups |= nsvcd__spheres_on_ray(b, ray, nsvcd__body_group(b, 0) + first, nsvcd__body_group(b, 1) + first,
+                                    nsvcd__body_group(b, 2) + first, nsvcd__body_group(b, 3) + first)
+              << first;
+  }
+  return groups;
+}
+
+// Members of group g whose spheres the ray meets: it may meet their pieces.
+static uint32_t nsvcd__patches_on_ray(const nsvcd_body *b, const nsvcd__ray *ray, size_t g) {
+  const size_t first = NSVCD__GROUP * g;
+  return nsvcd__spheres_on_ray(b, ray, nsvcd__body_x(b) + first, nsvcd__body_y(b) + first, nsvcd__body_z(b) + first,
+                               nsvcd__body_r(b) + first);
 }
 
 // Is the triangle new to the list of those that a ray has crossed? Then it is added; *unclear if there is no room.
@@ -6546,15 +6759,16 @@ static uint32_t nsvcd__lanes_on_ray(nsvcd__block *block, const nsvcd__ray *ray, 
 // How often the surface of the closed components winds about a point, by one ray; *unclear if it cannot tell. A triangle
 // counts once, whatever patches list it, or parts of it.
 static int nsvcd__crossings(nsvcd__proof *p, const nsvcd__facets *f, const nsvcd__ray *ray, int *unclear) {
-  nsvcd__block *block = &p->fixed_block;
+  nsvcd__block *block = &p->fixed_blocks[0];
   const float remote = (float)nsvcd__d3_length(ray->from) + f->body->extent;
   const float rounding = 0.5f * NSVCD__ROUNDING * remote * f->body->extent;
   int sum = 0;
   size_t count = 0;
-  for (size_t first = 0; first < f->body->padded && !*unclear; first += NSVCD__LANES) {
-    uint32_t patches = nsvcd__patches_on_ray(f, ray, first);
+  for (uint32_t groups = nsvcd__groups_on_ray(f->body, ray); groups && !*unclear; groups &= groups - 1) {
+    const size_t g = nsvcd__lowest_bit(groups);
+    uint32_t patches = nsvcd__patches_on_ray(f->body, ray, g);
     for (; patches; patches &= patches - 1) {
-      const size_t i = first + nsvcd__lowest_bit(patches);
+      const size_t i = NSVCD__GROUP * g + nsvcd__lowest_bit(patches);
       if (i >= f->body->points) break;
       const double margin = (double)f->quanta[i] + ray->margin;
       const size_t end = f->first_triangle[i + 1];
@@ -6578,20 +6792,51 @@ static int nsvcd__crossings(nsvcd__proof *p, const nsvcd__facets *f, const nsvcd
   return sum;
 }
 
-// Is a stored triangle so close to the place that the true surface may be on its other side?
-static int nsvcd__surface_is_near(const nsvcd__facets *f, nsvcd__d3 place, double tolerance) {
+// Lanes of 16 spheres, in the body's frame, that come within `distance` of a place.
+static uint32_t nsvcd__spheres_near(nsvcd__f3 place, float distance, const float *x, const float *y, const float *z,
+                                    const float *r) {
+  const nsvcd__v3 centre = nsvcd__v3_of(nsvcd__v_load(x), nsvcd__v_load(y), nsvcd__v_load(z));
+  const nsvcd__v3 d = nsvcd__v3_sub(centre, nsvcd__v3_set(place));
+  const nsvcd__v reach = nsvcd__v_add(nsvcd__v_load(r), nsvcd__v_set(distance));
+  return nsvcd__v_le(nsvcd__v3_dot(d, d), nsvcd__v_signed_square(reach));
+}
+
+// Is a stored triangle of patch i so close to the place that the true surface may be on its other side? `distance`: that
+// close, and what float rounding may add.
+static int nsvcd__patch_is_near(nsvcd__proof *p, const nsvcd__facets *f, size_t i, nsvcd__d3 place, double tolerance,
+                                float distance) {
   const nsvcd__d3 point[3] = {place, place, place};
-  for (size_t i = 0; i < f->body->points; i++) {
-    const double distance = 2 * (double)f->quanta[i] + tolerance;
-    const nsvcd__d3 centre = nsvcd__d3_widen(nsvcd__facet_centre(f, i));
-    const double reach = (double)nsvcd__body_r(f->body)[i] + distance;
-    const nsvcd__d3 d = nsvcd__d3_sub(place, centre);
-    if (nsvcd__d3_dot(d, d) > 1.00001 * reach * reach) continue;
-    for (size_t n = f->first_triangle[i]; n < f->first_triangle[i + 1]; n++) {
+  const nsvcd__box here = {nsvcd__f3_round(place), nsvcd__f3_round(place)};
+  nsvcd__block *block = &p->fixed_blocks[0];
+  const double limit = 2 * (double)f->quanta[i] + tolerance;
+  const size_t end = f->first_triangle[i + 1];
+  for (size_t n = f->first_triangle[i]; n < end; n += NSVCD__LANES) {
+    nsvcd__block_load(f, i, n, end - n < NSVCD__LANES ? end - n : NSVCD__LANES, block);
+    for (uint32_t lanes = nsvcd__lanes_near(block, here, distance); lanes; lanes &= lanes - 1) {
       nsvcd__d3 corners[3];
-      nsvcd__facet_triangle(f, i, n, corners);
+      nsvcd__facet_triangle(f, i, n + nsvcd__lowest_bit(lanes), corners);
       const nsvcd__nearest nearest = nsvcd__triangles_nearest(point, corners);
-      if (nearest.square <= distance * distance) return 1;
+      if (nearest.square <= limit * limit) return 1;
+    }
+  }
+  return 0;
+}
+
+// Is a stored triangle that close?
+static int nsvcd__surface_is_near(nsvcd__proof *p, const nsvcd__facets *f, nsvcd__d3 place, double tolerance) {
+  const nsvcd_body *b = f->body;
+  const nsvcd__f3 rounded = nsvcd__f3_round(place);
+  const float remote = nsvcd__f3_length(rounded) + b->extent;
+  float widest = 0;
+  for (size_t i = 0; i < b->points; i++) widest = f->quanta[i] > widest ? f->quanta[i] : widest;
+  const float distance = 2 * widest + (float)tolerance * 1.0001f + 4 * NSVCD__ROUNDING * remote;
+  for (size_t g = 0; g < nsvcd__body_groups(b); g++) {
+    const size_t first = NSVCD__GROUP * g;
+    uint32_t patches = nsvcd__spheres_near(rounded, distance, nsvcd__body_x(b) + first, nsvcd__body_y(b) + first,
+                                           nsvcd__body_z(b) + first, nsvcd__body_r(b) + first);
+    for (; patches; patches &= patches - 1) {
+      const size_t i = first + nsvcd__lowest_bit(patches);
+      if (i < b->points && nsvcd__patch_is_near(p, f, i, place, tolerance, distance)) return 1;
     }
   }
   return 0;
@@ -6646,20 +6891,28 @@ static int nsvcd__sticks_out(const nsvcd__facets *inner, const nsvcd__transform 
   return 0;
 }
 
-// Seeds first .. first + 15 that may be in a sphere about the other body.
+// Seeds first .. first + 15 that may be in the sphere and in the box about the other body.
 static uint32_t nsvcd__seeds_near(const nsvcd__facets *inner, size_t first, const nsvcd__transform *start,
-                                  const nsvcd_body *outer) {
+                                  const nsvcd__facets *outer) {
+  const nsvcd_body *o = outer->body;
   const size_t left = inner->components - first;
   float lanes[3][NSVCD__LANES];
   for (size_t l = 0; l < NSVCD__LANES; l++) {
     const float *seed = inner->seeds + 3 * (first + (l < left ? l : 0));
     for (size_t k = 0; k < 3; k++) lanes[k][l] = seed[k];
   }
-  const nsvcd__v3 centre = nsvcd__v3_set(nsvcd__f3_of(outer->centre[0], outer->centre[1], outer->centre[2]));
-  const nsvcd__v3 d = nsvcd__v3_sub(nsvcd__v3_transform(start, nsvcd__v3_load(lanes)), centre);
-  const float remote = nsvcd__f3_length(start->position) + inner->body->extent + outer->extent;
-  const nsvcd__v radius = nsvcd__v_set(outer->radius + 4 * NSVCD__ROUNDING * remote);
-  return nsvcd__v_le(nsvcd__v3_dot(d, d), nsvcd__v_mul(radius, radius));
+  const nsvcd__v3 seen = nsvcd__v3_transform(start, nsvcd__v3_load(lanes));
+  const nsvcd__v3 d = nsvcd__v3_sub(seen, nsvcd__v3_set(nsvcd__f3_of(o->centre[0], o->centre[1], o->centre[2])));
+  const float remote = nsvcd__f3_length(start->position) + inner->body->extent + o->extent;
+  const float rounding = 4 * NSVCD__ROUNDING * remote;
+  const nsvcd__v radius = nsvcd__v_set(o->radius + rounding);
+  uint32_t nearby = nsvcd__v_le(nsvcd__v3_dot(d, d), nsvcd__v_mul(radius, radius));
+  const nsvcd__v at[3] = {seen.x, seen.y, seen.z};
+  for (size_t k = 0; k < 3; k++) {
+    nearby &= nsvcd__v_le(nsvcd__v_set(outer->box[k] - rounding), at[k]);
+    nearby &= nsvcd__v_le(at[k], nsvcd__v_set(outer->box[3 + k] + rounding));
+  }
+  return nearby;
 }
 
 // The pose that takes the fixed body's frame to the moving one's.
@@ -6687,7 +6940,7 @@ static int nsvcd__starts_within(nsvcd__proof *p) {
     uint32_t nearby = 0;
     if (inner->components == 1 && nsvcd__sticks_out(inner, &rounded, outer->body)) continue;
     for (size_t n = 0; n < inner->components; n++) {
-      if (n % NSVCD__LANES == 0) nearby = nsvcd__seeds_near(inner, n, &rounded, outer->body);
+      if (n % NSVCD__LANES == 0) nearby = nsvcd__seeds_near(inner, n, &rounded, outer);
       if (!(nearby >> n % NSVCD__LANES & 1)) continue;
       if (p->work > p->limit) {
         p->undecided = 1;
@@ -6701,7 +6954,7 @@ static int nsvcd__starts_within(nsvcd__proof *p) {
       p->found.moving_triangle = NSVCD_NO_TRIANGLE;
       p->found.fixed_triangle = NSVCD_NO_TRIANGLE;
       p->within = 1;
-      if (!nsvcd__surface_is_near(outer, seen, p->tolerance)) return 1;
+      if (!nsvcd__surface_is_near(p, outer, seen, p->tolerance)) return 1;
     }
   }
   return 0;
@@ -7852,6 +8105,9 @@ static void nsvcd__answer_by_proof(const nsvcd__question *ask, nsvcd__query *que
   p->plane = 0;
   p->undecided = p->within = 0;
   p->arc.index = (size_t)-1;
+  p->parting = nsvcd__d3_of(0, 0, 0);
+  p->next_placed = 0;
+  for (size_t n = 0; n < NSVCD__PLACED; n++) p->placed[n].arc = (size_t)-1;
   const nsvcd__verdict verdict = nsvcd__prove(p, &query->broad_phase);
 
   nsvcd_answer found = nsvcd__answer_free();

@@ -35,7 +35,16 @@ pair without bulge|> pair->slack + angle * angle * 0.1250001 * pair->reach * off
 pair at the start only|lowest = fmin(lowest, nsvcd__d3_dot(normal, nsvcd__place_point(&end, pair->moving[k])));|(void)end;
 block without quanta|p->moving.quanta[i] + p->fixed.quanta[j] + span->spread + span->bulge * reach;|span->spread + span->bulge * reach;
 block without bulge|p->fixed.quanta[j] + span->spread + span->bulge * reach;|p->fixed.quanta[j] + span->spread + 0 * reach;
-block at the start only|nsvcd__planes_part(p, l, 2, margin, &plane, &below)|nsvcd__planes_part(p, l, 1, margin, &plane, &below)
+block at the start only|nsvcd__normals_part(p, l, fixed, 2, margin, normal, &below)|nsvcd__normals_part(p, l, fixed, 1, margin, normal, &below)
+parting plane at the start only|nsvcd__normals_part(p, l, fixed, 2, along, normal, &below)|nsvcd__normals_part(p, l, fixed, 1, along, normal, &below)
+parting plane without deviation|quanta + span->rounding + nsvcd__deviation(span, last, reach);|quanta + span->rounding + 0 * reach;
+parting plane without quanta|quanta + span->rounding + nsvcd__deviation(span, last, reach);|0 * quanta + span->rounding + nsvcd__deviation(span, last, reach);
+pose of another arc|p->placed[n].arc == p->arc.index \&\& p->placed[n].u == u|p->placed[n].u == u
+first half only|        ends[left++] = 0.5 * (u + end);\n|        ends[left - 1] = 0.5 * (u + end);\n
+a window forgotten|b < fixed_end; b += NSVCD__WINDOW * NSVCD__LANES) {\n    nsvcd__window_load(p, j, b);\n    for (size_t a = p->moving.first_triangle[i]; a < moving_end; a += NSVCD__LANES) {\n      nsvcd__moving_block_load(p, i, a);\n      nsvcd__block_pose(p, \&span->start, 0);|b < fixed_end; b += 2 * NSVCD__WINDOW * NSVCD__LANES) {\n    nsvcd__window_load(p, j, b);\n    for (size_t a = p->moving.first_triangle[i]; a < moving_end; a += NSVCD__LANES) {\n      nsvcd__moving_block_load(p, i, a);\n      nsvcd__block_pose(p, \&span->start, 0);
+bounds of half a window's block|nsvcd__least_of_lanes(block->low);|nsvcd__f3_scale(nsvcd__f3_add(nsvcd__least_of_lanes(block->low), nsvcd__greatest_of_lanes(block->high)), 0.5f);
+half of the box|nearby \&= nsvcd__v_le(at[k], nsvcd__v_set(outer->box[3 + k] + rounding));|nearby \&= nsvcd__v_le(at[k], nsvcd__v_set(0.5f * outer->box[k] + 0.5f * outer->box[3 + k]));
+rays past half the groups|const size_t g = nsvcd__lowest_bit(groups);\n    uint32_t patches|const size_t g = nsvcd__lowest_bit(groups);\n    if (g % 2) continue;\n    uint32_t patches
 block's boxes at the start only|nsvcd__block_box(p, 2);|nsvcd__block_box(p, 1);
 last triangle skipped|const size_t moving_end = p->moving.first_triangle[i + 1], fixed_end = p->fixed.first_triangle[j + 1];\n  const float reach|const size_t moving_end = p->moving.first_triangle[i + 1] - 1, fixed_end = p->fixed.first_triangle[j + 1];\n  const float reach
 containment one way|way < 2; way++|way < 1; way++
