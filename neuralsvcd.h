@@ -5230,8 +5230,9 @@ static void nsvcd__candidates_start(nsvcd__candidates *kept, nsvcd__candidate *i
 #define NSVCD__REST_HEIGHTS 64   // and of resting ones
 #define NSVCD__DEEP 0.2f         // depth from which on an item is worth a look for a witness before any plane
 #define NSVCD__WINDOW 8          // blocks of a resting patch, loaded at once
+#define NSVCD__HOPE 8            // so many looks for a witness come before triangles are tried over a whole segment
 #define NSVCD__HALVINGS 40       // of a span for a pair of triangles, at most
-#define NSVCD__MOST_PARTS 12     // parts of a span that pairs of triangles ask for, before all of them go on with its halves,
+#define NSVCD__PATIENCE_TO_PART 12  // parts of a span that pairs of triangles ask for, before all go on with its halves,
 #define NSVCD__SHORTEST 0.015    // if it is longer than this share of an arc
 #define NSVCD__PLACED 8          // poses that are remembered
 #define NSVCD__CROSSED 128       // triangles that a ray may cross
@@ -5333,6 +5334,7 @@ typedef struct nsvcd__proof {
   size_t window;                     // how many they are
   nsvcd__d3 parting;   // unit normal of the plane that parted a pair last
   size_t parts;        // of the span, that pairs asked for so far
+  size_t misses;       // looks for a witness that found none
   nsvcd__placed placed[NSVCD__PLACED];
   size_t next_placed;
   float posed[2][3][3][NSVCD__LANES];  // corners of the moving block at the ends of a span
@@ -6431,9 +6433,10 @@ static void nsvcd__certify_block(nsvcd__proof *p, size_t i, size_t j, size_t l, 
 #endif
 
 // Lane l of the moving block, posed at both ends of a span from u0 to u1 of the arc, and block n of the window: pairs that
-// planes do not part are settled one by one, and what parts one may part others. TOO_LONG only if it may be.
+// planes do not part are settled one by one, and what parts one may part others. TOO_LONG when they have asked for more
+// than `patience` parts of the span; without any, when there is such a pair.
 static nsvcd__verdict nsvcd__settle_row(nsvcd__proof *p, size_t i, size_t j, size_t l, size_t n,
-                                        const nsvcd__span *span, float margin, double u0, double u1, int may_halve) {
+                                        const nsvcd__span *span, float margin, double u0, double u1, size_t patience) {
   nsvcd__block *fixed = &p->fixed_blocks[n];
   const float quanta = p->moving.quanta[i] + p->fixed.quanta[j];
   const float reach = p->moving.body->extent + p->moving.quanta[i];
@@ -6457,19 +6460,20 @@ static nsvcd__verdict nsvcd__settle_row(nsvcd__proof *p, size_t i, size_t j, siz
     NSVCD__CERTIFY_BLOCK(p, i, j, l, fixed, span, apart, &normal, below);
     met &= ~apart;
     if (!met) break;
+    if (patience == 0) return NSVCD__TOO_LONG;
     const size_t listing = p->moving_block.first + l;
     const nsvcd__pair pair = nsvcd__pair_of(p, i, j, listing, fixed->first + nsvcd__lowest_bit(met));
     const nsvcd__verdict one = nsvcd__settle_pair(p, &pair, u0, u1);
     if (one == NSVCD__MEETS || p->work > p->limit) return one;
     if (one == NSVCD__UNDECIDED) verdict = one;
-    if (may_halve && p->parts > NSVCD__MOST_PARTS) return NSVCD__TOO_LONG;
+    if (p->parts > patience) return NSVCD__TOO_LONG;
   }
   return verdict;
 }
 
 // All pairs of triangles of an item's patches over a span from u0 to u1 of the arc.
 static nsvcd__verdict nsvcd__settle_triangles(nsvcd__proof *p, size_t i, size_t j, const nsvcd__span *span, double u0,
-                                              double u1, int may_halve) {
+                                              double u1, size_t patience) {
   const size_t moving_end = p->moving.first_triangle[i + 1], fixed_end = p->fixed.first_triangle[j + 1];
   const float reach = p->moving.body->extent + p->moving.quanta[i];
   const float margin = p->moving.quanta[i] + p->fixed.quanta[j] + span->spread + span->bulge * reach;
@@ -6491,7 +6495,7 @@ static nsvcd__verdict nsvcd__settle_triangles(nsvcd__proof *p, size_t i, size_t 
             NSVCD__CERTIFY_BLOCK(p, i, j, l, &p->fixed_blocks[n], span, 0xffff, NULL, 0);
             continue;
           }
-          const nsvcd__verdict row = nsvcd__settle_row(p, i, j, l, n, span, margin, u0, u1, may_halve);
+          const nsvcd__verdict row = nsvcd__settle_row(p, i, j, l, n, span, margin, u0, u1, patience);
           if (row == NSVCD__MEETS || row == NSVCD__TOO_LONG || p->work > p->limit) return row;
           if (row == NSVCD__UNDECIDED) verdict = row;
         }
@@ -6523,7 +6527,8 @@ static nsvcd__verdict nsvcd__settle_arc(nsvcd__proof *p, const nsvcd__item *item
       nsvcd__certify_item(p, &span, item);
     } else {
       const int may_halve = end - u > NSVCD__SHORTEST && left < 8;
-      const nsvcd__verdict part = nsvcd__settle_triangles(p, item->moving, item->fixed, &span, u, end, may_halve);
+      const size_t patience = may_halve ? NSVCD__PATIENCE_TO_PART : (size_t)-1;
+      const nsvcd__verdict part = nsvcd__settle_triangles(p, item->moving, item->fixed, &span, u, end, patience);
       if (part == NSVCD__MEETS || p->work > p->limit) return part;
       if (part == NSVCD__TOO_LONG) {
         ends[left++] = 0.5 * (u + end);
@@ -6602,6 +6607,12 @@ static int nsvcd__item_is_parted(nsvcd__proof *p, const nsvcd__workspace *work, 
   return 1;
 }
 
+// Is there one for each pair of their triangles?
+static int nsvcd__triangles_are_parted(nsvcd__proof *p, const nsvcd__workspace *work, const nsvcd__item *item) {
+  const nsvcd__span *span = nsvcd__segment_span(p, work, item->segment);
+  return nsvcd__settle_triangles(p, item->moving, item->fixed, span, 0, 0, 0) == NSVCD__FREE;
+}
+
 // Puts the deepest items first.
 static void nsvcd__sort_items(nsvcd__item *items, size_t count) {
   for (size_t n = 1; n < count; n++) {
@@ -6642,7 +6653,9 @@ static nsvcd__verdict nsvcd__sift_items(nsvcd__proof *p, const nsvcd__workspace 
     if (p->work > p->limit) return NSVCD__UNDECIDED;
     if (p->plane && nsvcd__held_again(p, work, item)) continue;
     if (nsvcd__item_is_parted(p, work, item)) continue;
+    if (p->misses >= NSVCD__HOPE && nsvcd__triangles_are_parted(p, work, item)) continue;
     if (!item->sought && nsvcd__seek_item(p, work, item)) return NSVCD__MEETS;
+    p->misses++;
     if (p->count == NSVCD__ITEMS) {
       const nsvcd__verdict verdict = nsvcd__settle_items(p, work);
       if (verdict != NSVCD__FREE) return verdict;
@@ -8105,6 +8118,7 @@ static void nsvcd__answer_by_proof(const nsvcd__question *ask, nsvcd__query *que
   p->plane = 0;
   p->undecided = p->within = 0;
   p->arc.index = (size_t)-1;
+  p->misses = 0;
   p->parting = nsvcd__d3_of(0, 0, 0);
   p->next_placed = 0;
   for (size_t n = 0; n < NSVCD__PLACED; n++) p->placed[n].arc = (size_t)-1;
