@@ -612,6 +612,14 @@ static inline nsvcd__d3 nsvcd__d3_widen(nsvcd__f3 a) {
 #else
 #define NSVCD__INLINE static inline
 #endif
+// Functions that must not be inlined: what they take of the stack would add up.
+#if defined(__GNUC__) || defined(__clang__)
+#define NSVCD__APART __attribute__((noinline))
+#elif defined(_MSC_VER)
+#define NSVCD__APART __declspec(noinline)
+#else
+#define NSVCD__APART
+#endif
 #if defined(__GNUC__) && !defined(__clang__)
 #define NSVCD__UNROLL _Pragma("GCC unroll 8")  // at -O2 too, so that sums stay in registers
 #else
@@ -4490,6 +4498,20 @@ typedef struct nsvcd__segments {
   float drift_along_axis[NSVCD__LANES], way[3][NSVCD__LANES], drift_off_way[NSVCD__LANES];
 } nsvcd__segments;
 
+// What is kept of 16 segments while their samples are visited, lane by lane.
+typedef struct nsvcd__cut {
+  // Quaternions as given, and seen from the fixed body: of the sample before, and of the segment's last one.
+  float last[4][NSVCD__LANES], last_fixed[4][NSVCD__LANES];
+  float end[4][NSVCD__LANES], end_fixed[4][NSVCD__LANES];
+  float share[NSVCD__LANES];                      // of the segment, of the way between two samples
+  float widest[NSVCD__LANES], sum[NSVCD__LANES];  // of its arcs
+  // The greatest so far, squared, of what samples are off their chord by: the rotation and the position, and both
+  // along the axis, or across the way.
+  float bulge[NSVCD__LANES], spread[NSVCD__LANES], axis_bulge[NSVCD__LANES], axis_drift[NSVCD__LANES];
+  float way_drift[NSVCD__LANES];
+  float axis_turn[NSVCD__LANES];  // of what arcs leave their chords by along the axis
+} nsvcd__cut;
+
 // 16 boxes, as their least and greatest coordinates.
 typedef struct nsvcd__boxes {
   float low[3][NSVCD__LANES], high[3][NSVCD__LANES];
@@ -4502,6 +4524,7 @@ typedef struct nsvcd__workspace {
   float time[NSVCD__MAX_SEGMENTS + 1];                    // of the ends of the segments
   float turn[NSVCD__MAX_SEGMENTS + 1];                    // rotation arc from t = 0 to there, radians
   nsvcd__segments blocks[NSVCD__BLOCKS];                  // (S / 16 rounded up)
+  nsvcd__cut cut;
   nsvcd__chords group[NSVCD__BLOCKS];                     // a moving group's
   nsvcd__chords members[NSVCD__MAX_SEGMENTS];             // its 16 members', per segment
   uint64_t nearby[NSVCD__MAX_GROUPS][NSVCD__MAX_GROUPS];  // moving groups, fixed groups
@@ -4509,6 +4532,7 @@ typedef struct nsvcd__workspace {
   size_t steps, step;                                     // how many they are, and which of them is being searched
   uint32_t waiting;                                       // fixed groups that it has yet to be searched against
   uint64_t posed;                                         // segments for which members[] is filled
+  float remote;                                           // no part of these members is farther from the body's origin
   nsvcd_pose between[NSVCD__MAX_SEGMENTS + 1];            // samples where the caller's are too few
 } nsvcd__workspace;
 
@@ -4638,88 +4662,131 @@ static nsvcd__v nsvcd__v_turn_off_axis(nsvcd__v3 axis, const nsvcd__v *from, con
   return nsvcd__v_mul(nsvcd__v_mul(arc, nsvcd__v_set(0.3931f)), nsvcd__v_sqrt(nsvcd__v3_dot(across, across)));
 }
 
-// 16 segments, of which `count` exist; `begin`: (17) their ends as sample indices. turn: arc of each.
-static void nsvcd__cut_block(const nsvcd__motion *motion, const nsvcd__samples *samples, const size_t *begin,
-                             size_t count, float lengths, nsvcd__segments *out, float *turn) {
-  nsvcd__v q[4], last_q[4], end_q[4], fixed_q[4], p[3], r0[9], p0[3], r1[9], p1[3],
-      widest = nsvcd__v_set(0), sum = widest, bulge = widest, spread = widest;
-  nsvcd__v last_fixed_q[4], end_fixed_q[4];
-  nsvcd__v axis_bulge = widest, axis_turn = widest, axis_drift = widest, way_drift = widest;
-  size_t index[NSVCD__LANES], most = 0;
-  float share[NSVCD__LANES];
-  nsvcd__load_samples(samples, begin, last_q, p);
-  nsvcd__v_to_fixed(motion, last_q, p, last_fixed_q, p0);
-  nsvcd__v_matrix(last_fixed_q, r0);
-  nsvcd__load_samples(samples, begin + 1, end_q, p);
-  nsvcd__v_to_fixed(motion, end_q, p, end_fixed_q, p1);
-  nsvcd__v_matrix(end_fixed_q, r1);
-  const nsvcd__v3 axis = nsvcd__v3_unit(nsvcd__v_turn_between(last_fixed_q, end_fixed_q));
+static void nsvcd__v_store_all(float (*out)[NSVCD__LANES], const nsvcd__v *values, size_t count) {
+  for (size_t k = 0; k < count; k++) nsvcd__v_store(out[k], values[k]);
+}
+static void nsvcd__v_load_all(float (*from)[NSVCD__LANES], nsvcd__v *values, size_t count) {
+  for (size_t k = 0; k < count; k++) values[k] = nsvcd__v_load(from[k]);
+}
+static void nsvcd__v_keep_most(float *most, nsvcd__v value) {
+  nsvcd__v_store(most, nsvcd__v_max(nsvcd__v_load(most), value));
+}
+
+// Poses at the ends of 16 segments, whose samples are begin[0..16]. Starts the visit of the samples within.
+static NSVCD__APART void nsvcd__cut_ends(const nsvcd__motion *motion, const nsvcd__samples *samples, const size_t *begin,
+                                         nsvcd__segments *out, nsvcd__cut *cut) {
+  nsvcd__v q[4], p[3], fixed_q[4], m[9], at[3];
+  memset(cut, 0, sizeof *cut);
+  nsvcd__load_samples(samples, begin, q, p);
+  nsvcd__v_to_fixed(motion, q, p, fixed_q, at);
+  nsvcd__v_matrix(fixed_q, m);
+  nsvcd__v_store_all(cut->last, q, 4);
+  nsvcd__v_store_all(cut->last_fixed, fixed_q, 4);
+  nsvcd__v_store_all(out->rotation, m, 9);
+  nsvcd__v_store_all(out->position, at, 3);
+
+  nsvcd__load_samples(samples, begin + 1, q, p);
+  nsvcd__v_to_fixed(motion, q, p, fixed_q, at);
+  nsvcd__v_matrix(fixed_q, m);
+  nsvcd__v_store_all(cut->end, q, 4);
+  nsvcd__v_store_all(cut->end_fixed, fixed_q, 4);
+  for (size_t i = 0; i < 9; i++) nsvcd__v_store(out->turned[i], nsvcd__v_sub(m[i], nsvcd__v_load(out->rotation[i])));
+  for (size_t i = 0; i < 3; i++) nsvcd__v_store(out->moved[i], nsvcd__v_sub(at[i], nsvcd__v_load(out->position[i])));
+
+  nsvcd__v last_fixed[4];
+  nsvcd__v_load_all(cut->last_fixed, last_fixed, 4);
+  nsvcd__v3_store(out->axis, nsvcd__v3_unit(nsvcd__v_turn_between(last_fixed, fixed_q)));
+  nsvcd__v3_store(out->way, nsvcd__v3_unit(nsvcd__v3_load(out->moved)));
   for (size_t l = 0; l < NSVCD__LANES; l++) {
     const size_t length = begin[l + 1] - begin[l];
-    share[l] = length ? 1 / (float)length : 0, most = length > most ? length : most;
+    cut->share[l] = length ? 1 / (float)length : 0;
   }
-  for (size_t i = 0; i < 9; i++) {
-    nsvcd__v_store(out->rotation[i], r0[i]);
-    r1[i] = nsvcd__v_sub(r1[i], r0[i]);
-    nsvcd__v_store(out->turned[i], r1[i]);
-  }
-  for (size_t i = 0; i < 3; i++) {
-    nsvcd__v_store(out->position[i], p0[i]);
-    p1[i] = nsvcd__v_sub(p1[i], p0[i]);
-    nsvcd__v_store(out->moved[i], p1[i]);
-  }
-  const nsvcd__v3 way = nsvcd__v3_unit(nsvcd__v3_of(p1[0], p1[1], p1[2]));
-  for (size_t j = 1; j < most; j++) {  // the samples within; lanes with fewer of them stay at the end
-    for (size_t l = 0; l < NSVCD__LANES; l++) index[l] = begin[l] + j < begin[l + 1] ? begin[l] + j : begin[l + 1];
-    nsvcd__load_samples(samples, index, q, p);
-    const nsvcd__v arc = nsvcd__v_arc(last_q, q);
-    widest = nsvcd__v_max(widest, arc), sum = nsvcd__v_add(sum, arc);
-    memcpy(last_q, q, sizeof q);
-    nsvcd__v r[9], at[3], square = nsvcd__v_set(0), gap = square;
-    const nsvcd__v u = nsvcd__v_min(nsvcd__v_mul(nsvcd__v_set((float)j), nsvcd__v_load(share)), nsvcd__v_set(1));
-    nsvcd__v_to_fixed(motion, q, p, fixed_q, at);
-    nsvcd__v_matrix(fixed_q, r);
-    for (size_t i = 0; i < 9; i++) {
-      r[i] = nsvcd__v_sub(r[i], nsvcd__v_fma(u, r1[i], r0[i]));
-      square = nsvcd__v_fma(r[i], r[i], square);
-    }
-    for (size_t i = 0; i < 3; i++) {
-      at[i] = nsvcd__v_sub(at[i], nsvcd__v_fma(u, p1[i], p0[i]));
-      gap = nsvcd__v_fma(at[i], at[i], gap);
-    }
-    bulge = nsvcd__v_max(bulge, square), spread = nsvcd__v_max(spread, gap);
+}
 
-    const nsvcd__v3 row0 = nsvcd__v3_of(r[0], r[1], r[2]);
-    const nsvcd__v3 row1 = nsvcd__v3_of(r[3], r[4], r[5]);
-    const nsvcd__v3 row2 = nsvcd__v3_of(r[6], r[7], r[8]);
-    const nsvcd__v3 along = nsvcd__v3_fma(axis.x, row0, nsvcd__v3_fma(axis.y, row1, nsvcd__v3_scale(row2, axis.z)));
-    const nsvcd__v3 off = nsvcd__v3_of(at[0], at[1], at[2]);
-    const nsvcd__v3 off_way = nsvcd__v3_cross(way, off);
-    const nsvcd__v off_axis = nsvcd__v3_dot(axis, off);
-    axis_bulge = nsvcd__v_max(axis_bulge, nsvcd__v3_dot(along, along));
-    axis_drift = nsvcd__v_max(axis_drift, nsvcd__v_mul(off_axis, off_axis));
-    way_drift = nsvcd__v_max(way_drift, nsvcd__v3_dot(off_way, off_way));
-    axis_turn = nsvcd__v_max(axis_turn, nsvcd__v_turn_off_axis(axis, last_fixed_q, fixed_q, arc));
-    memcpy(last_fixed_q, fixed_q, sizeof fixed_q);
+// Adds the arc from the last sample to this one, which becomes the last.
+static void nsvcd__cut_arc(const nsvcd__v *q, const nsvcd__v *fixed_q, nsvcd__segments *out, nsvcd__cut *cut) {
+  nsvcd__v last[4], last_fixed[4];
+  nsvcd__v_load_all(cut->last, last, 4);
+  nsvcd__v_load_all(cut->last_fixed, last_fixed, 4);
+  const nsvcd__v arc = nsvcd__v_arc(last, q);
+  nsvcd__v_keep_most(cut->widest, arc);
+  nsvcd__v_store(cut->sum, nsvcd__v_add(nsvcd__v_load(cut->sum), arc));
+  nsvcd__v_keep_most(cut->axis_turn, nsvcd__v_turn_off_axis(nsvcd__v3_load(out->axis), last_fixed, fixed_q, arc));
+  nsvcd__v_store_all(cut->last, q, 4);
+  nsvcd__v_store_all(cut->last_fixed, fixed_q, 4);
+}
+
+static NSVCD__APART void nsvcd__cut_last_arc(nsvcd__segments *out, nsvcd__cut *cut) {
+  nsvcd__v end[4], end_fixed[4];
+  nsvcd__v_load_all(cut->end, end, 4);
+  nsvcd__v_load_all(cut->end_fixed, end_fixed, 4);
+  nsvcd__cut_arc(end, end_fixed, out, cut);
+}
+
+// Visits the sample `j` after the first of each segment; lanes with fewer of them stay at the end.
+static NSVCD__APART void nsvcd__cut_sample(const nsvcd__motion *motion, const nsvcd__samples *samples,
+                                           const size_t *begin, size_t j, nsvcd__segments *out, nsvcd__cut *cut) {
+  nsvcd__v q[4], p[3], fixed_q[4], r[9], at[3];
+  size_t index[NSVCD__LANES];
+  for (size_t l = 0; l < NSVCD__LANES; l++) index[l] = begin[l] + j < begin[l + 1] ? begin[l] + j : begin[l + 1];
+  nsvcd__load_samples(samples, index, q, p);
+  nsvcd__v_to_fixed(motion, q, p, fixed_q, at);
+  nsvcd__cut_arc(q, fixed_q, out, cut);
+
+  // What it is off its segment's chord by.
+  const nsvcd__v share = nsvcd__v_mul(nsvcd__v_set((float)j), nsvcd__v_load(cut->share));
+  const nsvcd__v u = nsvcd__v_min(share, nsvcd__v_set(1));
+  nsvcd__v square = nsvcd__v_set(0);
+  nsvcd__v_matrix(fixed_q, r);
+  for (size_t i = 0; i < 9; i++) {
+    const nsvcd__v chord = nsvcd__v_fma(u, nsvcd__v_load(out->turned[i]), nsvcd__v_load(out->rotation[i]));
+    r[i] = nsvcd__v_sub(r[i], chord);
+    square = nsvcd__v_fma(r[i], r[i], square);
   }
-  const nsvcd__v arc = nsvcd__v_arc(last_q, end_q);
-  widest = nsvcd__v_max(widest, arc), sum = nsvcd__v_add(sum, arc);
-  axis_turn = nsvcd__v_max(axis_turn, nsvcd__v_turn_off_axis(axis, last_fixed_q, end_fixed_q, arc));
-  bulge = nsvcd__v_fma(nsvcd__v_mul(widest, widest), nsvcd__v_set(0.125f), nsvcd__v_sqrt(bulge));
-  spread = nsvcd__v_sqrt(spread);
+  const nsvcd__v3 chord = nsvcd__v3_fma(u, nsvcd__v3_load(out->moved), nsvcd__v3_load(out->position));
+  const nsvcd__v3 off = nsvcd__v3_sub(nsvcd__v3_of(at[0], at[1], at[2]), chord);
+  nsvcd__v_keep_most(cut->bulge, square);
+  nsvcd__v_keep_most(cut->spread, nsvcd__v3_dot(off, off));
+
+  const nsvcd__v3 axis = nsvcd__v3_load(out->axis);
+  const nsvcd__v3 row0 = nsvcd__v3_of(r[0], r[1], r[2]);
+  const nsvcd__v3 row1 = nsvcd__v3_of(r[3], r[4], r[5]);
+  const nsvcd__v3 row2 = nsvcd__v3_of(r[6], r[7], r[8]);
+  const nsvcd__v3 along = nsvcd__v3_fma(axis.x, row0, nsvcd__v3_fma(axis.y, row1, nsvcd__v3_scale(row2, axis.z)));
+  const nsvcd__v3 off_way = nsvcd__v3_cross(nsvcd__v3_load(out->way), off);
+  const nsvcd__v off_axis = nsvcd__v3_dot(axis, off);
+  nsvcd__v_keep_most(cut->axis_bulge, nsvcd__v3_dot(along, along));
+  nsvcd__v_keep_most(cut->axis_drift, nsvcd__v_mul(off_axis, off_axis));
+  nsvcd__v_keep_most(cut->way_drift, nsvcd__v3_dot(off_way, off_way));
+}
+
+// 16 segments, of which `count` exist; `begin`: (17) their ends as sample indices. turn: arc of each.
+static void nsvcd__cut_block(const nsvcd__motion *motion, const nsvcd__samples *samples, const size_t *begin,
+                             size_t count, float lengths, nsvcd__segments *out, nsvcd__cut *cut, float *turn) {
+  size_t most = 0;
+  for (size_t l = 0; l < NSVCD__LANES; l++) most = begin[l + 1] - begin[l] > most ? begin[l + 1] - begin[l] : most;
+  nsvcd__cut_ends(motion, samples, begin, out, cut);
+  for (size_t j = 1; j < most; j++) nsvcd__cut_sample(motion, samples, begin, j, out, cut);
+  nsvcd__cut_last_arc(out, cut);
+
+  const nsvcd__v widest = nsvcd__v_load(cut->widest);
+  const nsvcd__v spread = nsvcd__v_sqrt(nsvcd__v_load(cut->spread));
+  const nsvcd__v arc_bulge = nsvcd__v_mul(nsvcd__v_mul(widest, widest), nsvcd__v_set(0.125f));
+  nsvcd__v_store(out->bulge, nsvcd__v_add(arc_bulge, nsvcd__v_sqrt(nsvcd__v_load(cut->bulge))));
   nsvcd__v_store(out->drift, spread);
-  nsvcd__v3_store(out->axis, axis);
-  nsvcd__v3_store(out->way, way);
-  nsvcd__v_store(out->bulge_along_axis, nsvcd__v_add(nsvcd__v_sqrt(axis_bulge), axis_turn));
-  nsvcd__v_store(out->drift_along_axis, nsvcd__v_sqrt(axis_drift));
-  nsvcd__v_store(out->drift_off_way, nsvcd__v_sqrt(way_drift));
-  for (size_t i = 0; i < 3; i++) p1[i] = nsvcd__v_add(p1[i], p0[i]);
-  nsvcd__v remote = nsvcd__v_add(nsvcd__v_sqrt(nsvcd__v_dot3(p0, p0)), nsvcd__v_sqrt(nsvcd__v_dot3(p1, p1)));
-  remote = nsvcd__v_add(remote, nsvcd__v_add(spread, nsvcd__v_set(lengths)));
-  nsvcd__v_store(out->rounding, nsvcd__v_mul(remote, nsvcd__v_set(NSVCD__ROUNDING)));
-  nsvcd__v_store(out->spread, nsvcd__v_fma(remote, nsvcd__v_set(NSVCD__ROUNDING), spread));
-  nsvcd__v_store(out->bulge, bulge);
-  nsvcd__v_store(turn, sum);
+  const nsvcd__v axis_bulge = nsvcd__v_sqrt(nsvcd__v_load(cut->axis_bulge));
+  nsvcd__v_store(out->bulge_along_axis, nsvcd__v_add(axis_bulge, nsvcd__v_load(cut->axis_turn)));
+  nsvcd__v_store(out->drift_along_axis, nsvcd__v_sqrt(nsvcd__v_load(cut->axis_drift)));
+  nsvcd__v_store(out->drift_off_way, nsvcd__v_sqrt(nsvcd__v_load(cut->way_drift)));
+
+  const nsvcd__v3 start = nsvcd__v3_load(out->position);
+  const nsvcd__v remote = nsvcd__v_add(nsvcd__v3_length(start),
+                                       nsvcd__v3_length(nsvcd__v3_add(start, nsvcd__v3_load(out->moved))));
+  const nsvcd__v all = nsvcd__v_add(remote, nsvcd__v_add(spread, nsvcd__v_set(lengths)));
+  const nsvcd__v rounding = nsvcd__v_mul(all, nsvcd__v_set(NSVCD__ROUNDING));
+  nsvcd__v_store(out->rounding, rounding);
+  nsvcd__v_store(out->spread, nsvcd__v_add(rounding, spread));
+  memcpy(turn, cut->sum, sizeof cut->sum);
   for (size_t l = count; l < NSVCD__LANES; l++) out->spread[l] = NSVCD__NOWHERE;  // these meet nothing
 }
 
@@ -4739,7 +4806,7 @@ static void nsvcd__cut_motion(const nsvcd__motion *motion, float lengths, nsvcd_
     size_t ends[NSVCD__LANES + 1];
     float turn[NSVCD__LANES];
     for (size_t l = 0; l <= NSVCD__LANES; l++) ends[l] = begin[first + (l < count ? l : count)];
-    nsvcd__cut_block(motion, &samples, ends, count, lengths, &work->blocks[first / NSVCD__LANES], turn);
+    nsvcd__cut_block(motion, &samples, ends, count, lengths, &work->blocks[first / NSVCD__LANES], &work->cut, turn);
     for (size_t l = 0; l < count; l++) work->turn[first + l + 1] = work->turn[first + l] + turn[l];
   }
 }
@@ -5109,11 +5176,11 @@ static void nsvcd__pose_members(nsvcd__workspace *work, const nsvcd_body *moving
   if (!(wanted & ~work->posed)) return;
   const float centre[3] = {nsvcd__body_group(moving, 0)[g], nsvcd__body_group(moving, 1)[g],
                            nsvcd__body_group(moving, 2)[g]};
-  const float remote = 1.000002f * (nsvcd__length3(centre) + nsvcd__body_group(moving, 3)[g]);
+  work->remote = 1.000002f * (nsvcd__length3(centre) + nsvcd__body_group(moving, 3)[g]);
   for (uint64_t missing = wanted & ~work->posed; missing; missing &= missing - 1) {
     const size_t s = nsvcd__lowest_bit(missing);
     nsvcd__chords_of_members(&work->blocks[s / NSVCD__LANES], s % NSVCD__LANES, nsvcd__body_x(moving) + i,
-                             nsvcd__body_y(moving) + i, nsvcd__body_z(moving) + i, nsvcd__body_r(moving) + i, remote,
+                             nsvcd__body_y(moving) + i, nsvcd__body_z(moving) + i, nsvcd__body_r(moving) + i, work->remote,
                              &work->members[s]);
   }
   work->posed |= wanted;
@@ -5224,7 +5291,7 @@ static void nsvcd__candidates_start(nsvcd__candidates *kept, nsvcd__candidate *i
 
 #define NSVCD__ITEMS 256         // items that no plane parts, kept at once; when there are more, those are settled first
 #define NSVCD__NEWS 8            // items that are worth a look before the search goes on
-#define NSVCD__FRESH 32          // items found, before planes are tried on them
+#define NSVCD__FRESH 48          // items found, before planes are tried on them
 #define NSVCD__PLANE_STEPS 12    // of Gilbert's iteration
 #define NSVCD__HEIGHTS 256       // over the last plane, remembered: of moving patches,
 #define NSVCD__REST_HEIGHTS 64   // and of resting ones
@@ -5234,6 +5301,7 @@ static void nsvcd__candidates_start(nsvcd__candidates *kept, nsvcd__candidate *i
 #define NSVCD__HALVINGS 40       // of a span for a pair of triangles, at most
 #define NSVCD__PATIENCE_TO_PART 12  // parts of a span that pairs of triangles ask for, before all go on with its halves,
 #define NSVCD__SHORTEST 0.015    // if it is longer than this share of an arc
+#define NSVCD__ARC_PARTS 8       // of an arc, waiting
 #define NSVCD__PLACED 8          // poses that are remembered
 #define NSVCD__CROSSED 128       // triangles that a ray may cross
 #define NSVCD__SAME_PLACE 1e-13  // of all lengths: distance in double that is none
@@ -5322,6 +5390,11 @@ typedef struct nsvcd__proof {
   nsvcd__arc arc;        // the last one asked for
   uint64_t spans_known;  // segments
   nsvcd__span spans[NSVCD__MAX_SEGMENTS];
+  // Where the search is: in a moving group, in a pair of it and a resting one; what this one's patches meet, and in which
+  // segments.
+  int in_group, in_pair;
+  uint32_t met;
+  uint64_t met_in[NSVCD__GROUP];
   size_t fresh_count, count;
   nsvcd__item fresh[NSVCD__FRESH];  // as the search finds them
   nsvcd__item items[NSVCD__ITEMS];  // that no plane parts over their segment
@@ -5332,6 +5405,9 @@ typedef struct nsvcd__proof {
   nsvcd__block moving_block, fixed_blocks[NSVCD__WINDOW];
   nsvcd__box bounds[NSVCD__WINDOW];  // of the fixed blocks
   size_t window;                     // how many they are
+  double pair_ends[NSVCD__HALVINGS + 2];  // later ends of the parts of a span to come, for a pair, the last one first
+  double arc_ends[NSVCD__ARC_PARTS];      // the same for all pairs of an item
+  nsvcd__span span;                       // of an arc
   nsvcd__d3 parting;   // unit normal of the plane that parted a pair last
   size_t parts;        // of the span, that pairs asked for so far
   size_t misses;       // looks for a witness that found none
@@ -5444,17 +5520,19 @@ static nsvcd__placement nsvcd__placement_at(const nsvcd__arc *arc, double u) {
   return at;
 }
 
-// The same, of the arc last asked for, remembered: pairs of triangles ask for the same poses again.
-static nsvcd__placement nsvcd__placed_at(nsvcd__proof *p, double u) {
-  for (size_t n = 0; n < NSVCD__PLACED; n++) {
-    if (p->placed[n].arc == p->arc.index && p->placed[n].u == u) return p->placed[n].placement;
+// The same, of the arc last asked for, remembered: pairs of triangles ask for the same poses again. The last two that were
+// asked for stay where they are.
+static const nsvcd__placement *nsvcd__placed_at(nsvcd__proof *p, double u) {
+  size_t n = 0;
+  while (n < NSVCD__PLACED && !(p->placed[n].arc == p->arc.index && p->placed[n].u == u)) n++;
+  if (n == NSVCD__PLACED) {
+    n = p->next_placed;
+    p->placed[n].arc = p->arc.index;
+    p->placed[n].u = u;
+    p->placed[n].placement = nsvcd__placement_at(&p->arc, u);
   }
-  nsvcd__placed *out = &p->placed[p->next_placed];
-  p->next_placed = (p->next_placed + 1) % NSVCD__PLACED;
-  out->arc = p->arc.index;
-  out->u = u;
-  out->placement = nsvcd__placement_at(&p->arc, u);
-  return out->placement;
+  if (n == p->next_placed) p->next_placed = (n + 1) % NSVCD__PLACED;
+  return &p->placed[n].placement;
 }
 
 static nsvcd__transform nsvcd__transform_of(const nsvcd__placement *at) {
@@ -5925,7 +6003,7 @@ static void nsvcd__guess_normals(const nsvcd__proof *p, size_t i, size_t j, cons
 
 // Is there a plane between two patches over the whole span? After the guesses Gilbert's iteration (1966) towards the
 // point nearest to 0 of the differences of the two hulls; each of its directions is tried. p->held is what held.
-static int nsvcd__hulls_are_apart(nsvcd__proof *p, size_t i, size_t j, const nsvcd__span *span) {
+static NSVCD__APART int nsvcd__hulls_are_apart(nsvcd__proof *p, size_t i, size_t j, const nsvcd__span *span) {
   const float slack = p->moving.slacks[i] + p->fixed.slacks[j] + span->rounding;
   const float reach = nsvcd__patch_reach(&p->moving, i);
   nsvcd__f3 guesses[NSVCD__GUESSES];
@@ -6102,13 +6180,13 @@ static void nsvcd__keep_contact(nsvcd__proof *p, const nsvcd__pair *pair, double
 // Does the plane with this unit normal part the pair from u0 to u1 of the arc?
 static int nsvcd__plane_parts(nsvcd__proof *p, const nsvcd__pair *pair, double u0, double u1, nsvcd__d3 normal) {
   const nsvcd__arc *arc = &p->arc;
-  const nsvcd__placement start = nsvcd__placed_at(p, u0);
-  const nsvcd__placement end = nsvcd__placed_at(p, u1);
+  const nsvcd__placement *start = nsvcd__placed_at(p, u0);
+  const nsvcd__placement *end = nsvcd__placed_at(p, u1);
   const double angle = 2 * arc->half_angle * (u1 - u0);
   double lowest = HUGE_VAL, highest = -HUGE_VAL;
   for (size_t k = 0; k < 3; k++) {
-    lowest = fmin(lowest, nsvcd__d3_dot(normal, nsvcd__place_point(&start, pair->moving[k])));
-    lowest = fmin(lowest, nsvcd__d3_dot(normal, nsvcd__place_point(&end, pair->moving[k])));
+    lowest = fmin(lowest, nsvcd__d3_dot(normal, nsvcd__place_point(start, pair->moving[k])));
+    lowest = fmin(lowest, nsvcd__d3_dot(normal, nsvcd__place_point(end, pair->moving[k])));
     highest = fmax(highest, nsvcd__d3_dot(normal, pair->fixed[k]));
   }
   const double off_axis = nsvcd__d3_length(nsvcd__d3_cross(normal, arc->axis)) + 1e-6;
@@ -6129,10 +6207,10 @@ static void nsvcd__certify_pair(const nsvcd__proof *p, const nsvcd__pair *pair, 
 
 // Settles a pair of triangles from u0 to u1 of the arc: halves the time until a plane parts them in each part, the one
 // that parted a pair last or one at the middle's nearest points, or they meet there, or come too close to tell.
-static nsvcd__verdict nsvcd__settle_pair(nsvcd__proof *p, const nsvcd__pair *pair, double u0, double u1) {
+static NSVCD__APART nsvcd__verdict nsvcd__settle_pair(nsvcd__proof *p, const nsvcd__pair *pair, double u0, double u1) {
   const nsvcd__arc *arc = &p->arc;
   const double speed = nsvcd__d3_length(arc->moved) + 2 * arc->half_angle * pair->reach;
-  double ends[NSVCD__HALVINGS + 2];  // later ends of the parts to come, the last one first
+  double *ends = p->pair_ends;
   size_t left = 1;
   int undecided = 0;
   ends[0] = u1;
@@ -6145,8 +6223,7 @@ static nsvcd__verdict nsvcd__settle_pair(nsvcd__proof *p, const nsvcd__pair *pai
     int apart = nsvcd__plane_parts(p, pair, u, end, p->parting);
     if (!apart) {
       nsvcd__d3 posed[3];
-      const nsvcd__placement at = nsvcd__placed_at(p, middle);
-      nsvcd__place_triangle(&at, pair->moving, posed);
+      nsvcd__place_triangle(nsvcd__placed_at(p, middle), pair->moving, posed);
       const nsvcd__nearest nearest = nsvcd__triangles_nearest(posed, pair->fixed);
       const double distance = sqrt(nearest.square);
       if (distance <= pair->rounding) {
@@ -6219,7 +6296,7 @@ static void nsvcd__block_load(const nsvcd__facets *f, size_t patch, size_t first
 }
 
 // Poses the corners of the moving block, into p->posed[which].
-static void nsvcd__block_pose(nsvcd__proof *p, const nsvcd__transform *at, size_t which) {
+static NSVCD__APART void nsvcd__block_pose(nsvcd__proof *p, const nsvcd__transform *at, size_t which) {
   for (size_t k = 0; k < 3; k++) {
     nsvcd__v3_store(p->posed[which][k], nsvcd__v3_transform(at, nsvcd__v3_load(p->moving_block.corners[k])));
   }
@@ -6325,6 +6402,52 @@ NSVCD__INLINE nsvcd__v3 nsvcd__normal_to_try(nsvcd__proof *p, size_t l, nsvcd__b
   return nsvcd__v3_cross(nsvcd__v3_set(other), edge);
 }
 
+#ifdef NSVCD__CERTIFIES
+// All pairs of lane l and the `apart` lanes of a block, by their planes or, where that is NULL, by their boxes.
+static void nsvcd__certify_block(nsvcd__proof *p, size_t i, size_t j, size_t l, const nsvcd__block *b,
+                                 const nsvcd__span *span, uint32_t apart, const nsvcd__v3 *plane, uint32_t below) {
+  float lanes[3][NSVCD__LANES];
+  const nsvcd__block *a = &p->moving_block;
+  if (plane) nsvcd__v3_store(lanes, *plane);
+  for (size_t n = 0; n < b->count; n++) {
+    float normal[3] = {0, 0, 0}, widest = -HUGE_VALF;
+    const float sign = below >> n & 1 ? -1.0f : 1.0f;
+    if (!(apart >> n & 1)) continue;
+    for (size_t k = 0; k < 3; k++) {
+      if (plane) normal[k] = sign * lanes[k][n];
+      const float above = a->low[k][l] - b->high[k][n], under = b->low[k][n] - a->high[k][l];
+      if (plane || (above <= widest && under <= widest)) continue;
+      widest = above > under ? above : under;
+      normal[0] = normal[1] = normal[2] = 0;
+      normal[k] = above > under ? 1.0f : -1.0f;
+    }
+    NSVCD__CERTIFY(NSVCD__BY_TRIANGLES, i, j, a->first + l, b->first + n, span->t_start, span->t_end, normal);
+  }
+}
+#define NSVCD__CERTIFY_BLOCK(p, i, j, l, b, span, apart, plane, below) \
+  nsvcd__certify_block(p, i, j, l, b, span, apart, plane, below)
+#else
+#define NSVCD__CERTIFY_BLOCK(p, i, j, l, b, span, apart, plane, below) ((void)0)
+#endif
+
+// Lanes of a fixed block that neither boxes nor planes part from lane l of the moving one, at `ends` poses. span: of
+// patches i and j, for the certificates; NULL for none.
+static NSVCD__APART uint32_t nsvcd__row_left(nsvcd__proof *p, size_t i, size_t j, size_t l, nsvcd__block *fixed, size_t ends,
+                                             const nsvcd__span *span, float margin) {
+  uint32_t met = nsvcd__lanes_near(fixed, nsvcd__box_of_lane(&p->moving_block, l), margin);
+  if (span) NSVCD__CERTIFY_BLOCK(p, i, j, l, fixed, span, ~met, NULL, 0);
+  for (size_t k = 0; met && k < NSVCD__NORMALS; k++) {
+    uint32_t below;
+    const nsvcd__v3 normal = nsvcd__normal_to_try(p, l, fixed, k);
+    const uint32_t apart = nsvcd__normals_part(p, l, fixed, ends, margin, normal, &below) & met;
+    if (span) NSVCD__CERTIFY_BLOCK(p, i, j, l, fixed, span, apart, &normal, below);
+    met &= ~apart;
+  }
+  (void)i;
+  (void)j;
+  return met;
+}
+
 // ---- witnesses
 
 // Among the moving block, posed `at`, and a block of the window: two triangles that meet a share u of arc k later than
@@ -6335,11 +6458,7 @@ static int nsvcd__find_witness_in(nsvcd__proof *p, size_t i, size_t j, size_t n,
   uint32_t lanes = nsvcd__lanes_near(&p->moving_block, p->bounds[n], margin);
   for (; lanes; lanes &= lanes - 1) {
     const size_t l = nsvcd__lowest_bit(lanes);
-    uint32_t met = nsvcd__lanes_near(fixed, nsvcd__box_of_lane(&p->moving_block, l), margin);
-    for (size_t axis = 0; met && axis < NSVCD__NORMALS; axis++) {
-      uint32_t below;
-      met &= ~nsvcd__normals_part(p, l, fixed, 1, margin, nsvcd__normal_to_try(p, l, fixed, axis), &below);
-    }
+    uint32_t met = nsvcd__row_left(p, i, j, l, fixed, 1, NULL, margin);
     for (; met; met &= met - 1) {
       const size_t listing = p->moving_block.first + l;
       const nsvcd__pair pair = nsvcd__pair_of(p, i, j, listing, fixed->first + nsvcd__lowest_bit(met));
@@ -6404,34 +6523,6 @@ static int nsvcd__seek_item(nsvcd__proof *p, const nsvcd__workspace *work, nsvcd
 
 // ---- what hulls leave
 
-#ifdef NSVCD__CERTIFIES
-// All pairs of lane l and the `apart` lanes of a block, by their planes or, where that is NULL, by their boxes.
-static void nsvcd__certify_block(nsvcd__proof *p, size_t i, size_t j, size_t l, const nsvcd__block *b,
-                                 const nsvcd__span *span, uint32_t apart, const nsvcd__v3 *plane, uint32_t below) {
-  float lanes[3][NSVCD__LANES];
-  const nsvcd__block *a = &p->moving_block;
-  if (plane) nsvcd__v3_store(lanes, *plane);
-  for (size_t n = 0; n < b->count; n++) {
-    float normal[3] = {0, 0, 0}, widest = -HUGE_VALF;
-    const float sign = below >> n & 1 ? -1.0f : 1.0f;
-    if (!(apart >> n & 1)) continue;
-    for (size_t k = 0; k < 3; k++) {
-      if (plane) normal[k] = sign * lanes[k][n];
-      const float above = a->low[k][l] - b->high[k][n], under = b->low[k][n] - a->high[k][l];
-      if (plane || (above <= widest && under <= widest)) continue;
-      widest = above > under ? above : under;
-      normal[0] = normal[1] = normal[2] = 0;
-      normal[k] = above > under ? 1.0f : -1.0f;
-    }
-    NSVCD__CERTIFY(NSVCD__BY_TRIANGLES, i, j, a->first + l, b->first + n, span->t_start, span->t_end, normal);
-  }
-}
-#define NSVCD__CERTIFY_BLOCK(p, i, j, l, b, span, apart, plane, below) \
-  nsvcd__certify_block(p, i, j, l, b, span, apart, plane, below)
-#else
-#define NSVCD__CERTIFY_BLOCK(p, i, j, l, b, span, apart, plane, below) ((void)0)
-#endif
-
 // Lane l of the moving block, posed at both ends of a span from u0 to u1 of the arc, and block n of the window: pairs that
 // planes do not part are settled one by one, and what parts one may part others. TOO_LONG when they have asked for more
 // than `patience` parts of the span; without any, when there is such a pair.
@@ -6443,15 +6534,7 @@ static nsvcd__verdict nsvcd__settle_row(nsvcd__proof *p, size_t i, size_t j, siz
   nsvcd__verdict verdict = NSVCD__FREE;
   uint32_t below = 0;
   p->work++;
-  uint32_t met = nsvcd__lanes_near(fixed, nsvcd__box_of_lane(&p->moving_block, l), margin);
-  NSVCD__CERTIFY_BLOCK(p, i, j, l, fixed, span, ~met, NULL, below);
-  if (!met) return NSVCD__FREE;
-  for (size_t k = 0; met && k < NSVCD__NORMALS; k++) {
-    const nsvcd__v3 normal = nsvcd__normal_to_try(p, l, fixed, k);
-    const uint32_t apart = nsvcd__normals_part(p, l, fixed, 2, margin, normal, &below) & met;
-    NSVCD__CERTIFY_BLOCK(p, i, j, l, fixed, span, apart, &normal, below);
-    met &= ~apart;
-  }
+  uint32_t met = nsvcd__row_left(p, i, j, l, fixed, 2, span, margin);
   for (; met; met &= met - 1) {
     const nsvcd__f3 last = nsvcd__f3_round(p->parting);
     const nsvcd__v3 normal = nsvcd__v3_set(last);
@@ -6472,8 +6555,9 @@ static nsvcd__verdict nsvcd__settle_row(nsvcd__proof *p, size_t i, size_t j, siz
 }
 
 // All pairs of triangles of an item's patches over a span from u0 to u1 of the arc.
-static nsvcd__verdict nsvcd__settle_triangles(nsvcd__proof *p, size_t i, size_t j, const nsvcd__span *span, double u0,
-                                              double u1, size_t patience) {
+static NSVCD__APART nsvcd__verdict nsvcd__settle_triangles(nsvcd__proof *p, size_t i, size_t j,
+                                                           const nsvcd__span *span, double u0, double u1,
+                                                           size_t patience) {
   const size_t moving_end = p->moving.first_triangle[i + 1], fixed_end = p->fixed.first_triangle[j + 1];
   const float reach = p->moving.body->extent + p->moving.quanta[i];
   const float margin = p->moving.quanta[i] + p->fixed.quanta[j] + span->spread + span->bulge * reach;
@@ -6516,19 +6600,19 @@ static void nsvcd__certify_item(const nsvcd__proof *p, const nsvcd__span *span, 
 
 // An item from u0 to u1 of arc k, or from halves to halves of that: by a plane that fits it, or by its triangles.
 static nsvcd__verdict nsvcd__settle_arc(nsvcd__proof *p, const nsvcd__item *item, size_t k, double u0, double u1) {
-  double ends[8];  // later ends of the parts to come, the last one first
+  double *ends = p->arc_ends;
   size_t left = 1;
   nsvcd__verdict verdict = NSVCD__FREE;
   ends[0] = u1;
   for (double u = u0; left > 0;) {
     const double end = ends[left - 1];
-    const nsvcd__span span = nsvcd__span_of_arc(p, k, u, end);
-    if (nsvcd__hulls_are_apart(p, item->moving, item->fixed, &span)) {
-      nsvcd__certify_item(p, &span, item);
+    p->span = nsvcd__span_of_arc(p, k, u, end);
+    if (nsvcd__hulls_are_apart(p, item->moving, item->fixed, &p->span)) {
+      nsvcd__certify_item(p, &p->span, item);
     } else {
-      const int may_halve = end - u > NSVCD__SHORTEST && left < 8;
+      const int may_halve = end - u > NSVCD__SHORTEST && left < NSVCD__ARC_PARTS;
       const size_t patience = may_halve ? NSVCD__PATIENCE_TO_PART : (size_t)-1;
-      const nsvcd__verdict part = nsvcd__settle_triangles(p, item->moving, item->fixed, &span, u, end, patience);
+      const nsvcd__verdict part = nsvcd__settle_triangles(p, item->moving, item->fixed, &p->span, u, end, patience);
       if (part == NSVCD__MEETS || p->work > p->limit) return part;
       if (part == NSVCD__TOO_LONG) {
         ends[left++] = 0.5 * (u + end);
@@ -6624,7 +6708,7 @@ static void nsvcd__sort_items(nsvcd__item *items, size_t count) {
 }
 
 // Settles the items that no plane parts, the deepest first.
-static nsvcd__verdict nsvcd__settle_items(nsvcd__proof *p, const nsvcd__workspace *work) {
+static NSVCD__APART nsvcd__verdict nsvcd__settle_items(nsvcd__proof *p, const nsvcd__workspace *work) {
   nsvcd__sort_items(p->items, p->count);
   for (size_t n = 0; n < p->count; n++) {
     if (p->work > p->limit) return NSVCD__UNDECIDED;
@@ -6638,7 +6722,7 @@ static nsvcd__verdict nsvcd__settle_items(nsvcd__proof *p, const nsvcd__workspac
 
 // Looks at fresh items, the deepest first: parts those that planes can part, looks for a witness in the others, and
 // keeps them. The last plane that held is tried on all before anything else: it often holds for neighbours.
-static nsvcd__verdict nsvcd__sift_items(nsvcd__proof *p, const nsvcd__workspace *work) {
+static NSVCD__APART nsvcd__verdict nsvcd__sift_items(nsvcd__proof *p, const nsvcd__workspace *work) {
   size_t count = 0;
   for (size_t n = 0; n < p->fresh_count; n++) {
     if (p->plane && nsvcd__held_again(p, work, &p->fresh[n])) continue;
@@ -6941,7 +7025,7 @@ static nsvcd__placement nsvcd__inverse_placement(const nsvcd__placement *at) {
 // Is a component of one body within the other at the start of the motion? Then p->found has its point. Where that is so
 // close to the surface that quanta matter, 0 is returned and p->within is set: if planes then part all patches at t = 0,
 // the point, the stored surface and the true one, patch by patch on one side of a plane, agree, and it is within.
-static int nsvcd__starts_within(nsvcd__proof *p) {
+static NSVCD__APART int nsvcd__starts_within(nsvcd__proof *p) {
   const nsvcd__placement at = nsvcd__placement_at(nsvcd__arc_at(p, 0), 0);
   const nsvcd__placement back = nsvcd__inverse_placement(&at);
   for (size_t way = 0; way < 2; way++) {
@@ -6975,19 +7059,15 @@ static int nsvcd__starts_within(nsvcd__proof *p) {
 
 // ---- all of it
 
-// Adds the items of moving group g and resting patch j, in the segments `wanted`.
-static nsvcd__verdict nsvcd__collect_items(nsvcd__proof *p, const nsvcd__workspace *work, size_t g, size_t j,
-                                           uint64_t wanted) {
+// Adds the items of moving group g and resting patch j in the segments `left`, and clears these, as long as there is room
+// for 16 more.
+static void nsvcd__collect_items(nsvcd__proof *p, const nsvcd__workspace *work, size_t g, size_t j, uint64_t *left) {
   const nsvcd_body *moving = p->moving.body, *fixed = p->fixed.body;
   const nsvcd__v3 centre = nsvcd__v3_set(nsvcd__facet_centre(&p->fixed, j));
   const nsvcd__v r = nsvcd__v_set(nsvcd__body_r(fixed)[j]);
   const nsvcd__v radii = nsvcd__v_add(nsvcd__v_load(nsvcd__body_r(moving) + NSVCD__GROUP * g), r);
-  const float group[3] = {nsvcd__body_group(moving, 0)[g], nsvcd__body_group(moving, 1)[g],
-                          nsvcd__body_group(moving, 2)[g]};
-  const float remote = 1.000002f * (nsvcd__length3(group) + nsvcd__body_group(moving, 3)[g]);
-  if (p->fixed.hull_counts[j] == 0) return NSVCD__FREE;
-  for (; wanted; wanted &= wanted - 1) {
-    const size_t s = nsvcd__lowest_bit(wanted);
+  for (; *left && p->fresh_count + NSVCD__GROUP <= NSVCD__FRESH; *left &= *left - 1) {
+    const size_t s = nsvcd__lowest_bit(*left);
     const nsvcd__chords *c = &work->members[s];
     const nsvcd__v3 start = nsvcd__v3_of(nsvcd__v_load(c->x), nsvcd__v_load(c->y), nsvcd__v_load(c->z));
     const nsvcd__v3 v = nsvcd__v3_of(nsvcd__v_load(c->vx), nsvcd__v_load(c->vy), nsvcd__v_load(c->vz));
@@ -6999,8 +7079,7 @@ static nsvcd__verdict nsvcd__collect_items(nsvcd__proof *p, const nsvcd__workspa
     uint32_t met = nsvcd__v_le(square, limit);
     NSVCD__TALLY(tests, 1);
     if (!met) continue;
-    const nsvcd__span *span = nsvcd__segment_span(p, work, s);
-    met = nsvcd__discs_meet(p, c, g, j, span, remote, met);
+    met = nsvcd__discs_meet(p, c, g, j, nsvcd__segment_span(p, work, s), work->remote, met);
     if (!met) continue;
 
     float depth[NSVCD__LANES], share[NSVCD__LANES];
@@ -7011,49 +7090,56 @@ static nsvcd__verdict nsvcd__collect_items(nsvcd__proof *p, const nsvcd__workspa
       const size_t l = nsvcd__lowest_bit(met);
       const size_t i = NSVCD__GROUP * g + l;
       if (p->moving.hull_counts[i] == 0) continue;
-      if (p->fresh_count == NSVCD__FRESH) {
-        const nsvcd__verdict verdict = nsvcd__sift_items(p, work);
-        if (verdict != NSVCD__FREE) return verdict;
-      }
       const nsvcd__item item = {(uint16_t)i, (uint16_t)j, (uint16_t)s, 0, depth[l], share[l]};
       p->fresh[p->fresh_count++] = item;
     }
   }
-  return NSVCD__FREE;
 }
 
-// Settles moving group g, the next in order, against all that it meets.
-static nsvcd__verdict nsvcd__prove_group(nsvcd__proof *p, nsvcd__workspace *work) {
+// Goes on with the search until there are fresh items enough for a look. 0 when it has come to its end.
+static NSVCD__APART int nsvcd__collect(nsvcd__proof *p, nsvcd__workspace *work) {
   const nsvcd_body *moving = p->moving.body, *fixed = p->fixed.body;
-  const size_t g = work->order[work->step];
-  nsvcd__search_group(work, moving, fixed);
-  nsvcd__part_groups(p, work, g);
-  for (; work->waiting; work->waiting &= work->waiting - 1) {
-    const size_t h = nsvcd__lowest_bit(work->waiting);
-    uint64_t segments[NSVCD__GROUP];
-    uint32_t met = nsvcd__group_against_members(work, fixed, h, work->nearby[g][h], segments);
-    for (; met; met &= met - 1) {
-      const size_t l = nsvcd__lowest_bit(met);
-      nsvcd__pose_members(work, moving, g, segments[l]);
-      const nsvcd__verdict verdict = nsvcd__collect_items(p, work, g, NSVCD__GROUP * h + l, segments[l]);
-      if (verdict != NSVCD__FREE) return verdict;
+  for (; work->step < work->steps; work->step++) {
+    const size_t g = work->order[work->step];
+    if (!p->in_group) {
+      nsvcd__search_group(work, moving, fixed);
+      nsvcd__part_groups(p, work, g);
+      p->in_group = 1;
     }
-    if (p->fresh_count < NSVCD__NEWS) continue;
-    const nsvcd__verdict verdict = nsvcd__sift_items(p, work);
-    if (verdict != NSVCD__FREE) return verdict;
+    while (work->waiting) {
+      const size_t h = nsvcd__lowest_bit(work->waiting);
+      if (!p->in_pair) {
+        p->met = nsvcd__group_against_members(work, fixed, h, work->nearby[g][h], p->met_in);
+        p->in_pair = 1;
+      }
+      for (; p->met; p->met &= p->met - 1) {
+        const size_t l = nsvcd__lowest_bit(p->met);
+        const size_t j = NSVCD__GROUP * h + l;
+        if (p->fixed.hull_counts[j] == 0) continue;
+        nsvcd__pose_members(work, moving, g, p->met_in[l]);
+        nsvcd__collect_items(p, work, g, j, &p->met_in[l]);
+        if (p->met_in[l]) return 1;
+      }
+      work->waiting &= work->waiting - 1;
+      p->in_pair = 0;
+      if (p->fresh_count >= NSVCD__NEWS) return 1;
+    }
+    p->in_group = 0;
   }
-  return NSVCD__FREE;
+  return 0;
 }
 
 static nsvcd__verdict nsvcd__prove(nsvcd__proof *p, nsvcd__workspace *work) {
-  nsvcd__verdict verdict = NSVCD__FREE;
   if (nsvcd__motion_is_far(p->motion, p->lengths)) return NSVCD__FREE;
   if (nsvcd__starts_within(p)) return NSVCD__WITHIN;
   nsvcd__cut_motion(p->motion, p->lengths, work);
   nsvcd__search_begin(p->moving.body, p->fixed.body, work);
-  for (; work->step < work->steps && verdict == NSVCD__FREE; work->step++) verdict = nsvcd__prove_group(p, work);
-  if (verdict == NSVCD__FREE) verdict = nsvcd__sift_items(p, work);
-  if (verdict == NSVCD__FREE) verdict = nsvcd__settle_items(p, work);
+  for (int more = 1; more;) {
+    more = nsvcd__collect(p, work);
+    const nsvcd__verdict verdict = nsvcd__sift_items(p, work);
+    if (verdict != NSVCD__FREE) return verdict;
+  }
+  const nsvcd__verdict verdict = nsvcd__settle_items(p, work);
   if (verdict != NSVCD__FREE) return verdict;
   return p->undecided ? NSVCD__UNDECIDED : p->within ? NSVCD__WITHIN : NSVCD__FREE;
 }
@@ -8118,6 +8204,7 @@ static void nsvcd__answer_by_proof(const nsvcd__question *ask, nsvcd__query *que
   p->plane = 0;
   p->undecided = p->within = 0;
   p->arc.index = (size_t)-1;
+  p->in_group = p->in_pair = 0;
   p->misses = 0;
   p->parting = nsvcd__d3_of(0, 0, 0);
   p->next_placed = 0;

@@ -21,7 +21,7 @@ hull at the start only|const nsvcd__v at_either = nsvcd__v_min(at_start, at_end)
 deviation without drift|return drift + reach * (along|return 0 * drift + reach * (along
 deviation without bulge|along * span->bulge_along_axis + across * span->bulge);|along * span->bulge_along_axis + 0 * across);
 deviation along the axis|reach * (along * span->bulge_along_axis + across * span->bulge)|reach * (across * span->bulge)
-chords off the axis|nsvcd__v_add(nsvcd__v_sqrt(axis_bulge), axis_turn)|axis_turn
+chords off the axis|nsvcd__v_add(axis_bulge, nsvcd__v_load(cut->axis_turn))|nsvcd__v_load(cut->axis_turn)
 lanes without bulge|return nsvcd__v_fma(turn, nsvcd__v_set(reach), nsvcd__v_min(by_axis, by_way));|return nsvcd__v_fma(turn, nsvcd__v_set(0 * reach), nsvcd__v_min(by_axis, by_way));
 lanes without drift|return nsvcd__v_fma(turn, nsvcd__v_set(reach), nsvcd__v_min(by_axis, by_way));|return nsvcd__v_mul(turn, nsvcd__v_set(reach));
 disc without across|nsvcd__v_mul(radius_across, across);|nsvcd__v_mul(nsvcd__v_set(0), nsvcd__v_mul(radius_across, across));
@@ -32,10 +32,10 @@ held plane without slack|highest + p->fixed.slacks[j] * nsvcd__f3_length(p->held
 heights over another plane|if (known->plane == p->plane \&\& known->key == key) return|if (known->key == key) return
 pair without quanta|pair.slack = (double)p->moving.quanta[i] + (double)p->fixed.quanta[j] + pair.rounding;|pair.slack = pair.rounding;
 pair without bulge|> pair->slack + angle * angle * 0.1250001 * pair->reach * off_axis;|> pair->slack + 0 * angle * off_axis;
-pair at the start only|lowest = fmin(lowest, nsvcd__d3_dot(normal, nsvcd__place_point(&end, pair->moving[k])));|(void)end;
+pair at the start only|lowest = fmin(lowest, nsvcd__d3_dot(normal, nsvcd__place_point(end, pair->moving[k])));|(void)end;
 block without quanta|p->moving.quanta[i] + p->fixed.quanta[j] + span->spread + span->bulge * reach;|span->spread + span->bulge * reach;
 block without bulge|p->fixed.quanta[j] + span->spread + span->bulge * reach;|p->fixed.quanta[j] + span->spread + 0 * reach;
-block at the start only|nsvcd__normals_part(p, l, fixed, 2, margin, normal, &below)|nsvcd__normals_part(p, l, fixed, 1, margin, normal, &below)
+block at the start only|nsvcd__row_left(p, i, j, l, fixed, 2, span, margin)|nsvcd__row_left(p, i, j, l, fixed, 1, span, margin)
 parting plane at the start only|nsvcd__normals_part(p, l, fixed, 2, along, normal, &below)|nsvcd__normals_part(p, l, fixed, 1, along, normal, &below)
 parting plane without deviation|quanta + span->rounding + nsvcd__deviation(span, last, reach);|quanta + span->rounding + 0 * reach;
 parting plane without quanta|quanta + span->rounding + nsvcd__deviation(span, last, reach);|0 * quanta + span->rounding + nsvcd__deviation(span, last, reach);
@@ -49,7 +49,8 @@ block's boxes at the start only|nsvcd__block_box(p, 2);|nsvcd__block_box(p, 1);
 last triangle skipped|const size_t moving_end = p->moving.first_triangle[i + 1], fixed_end = p->fixed.first_triangle[j + 1];\n  const float reach|const size_t moving_end = p->moving.first_triangle[i + 1] - 1, fixed_end = p->fixed.first_triangle[j + 1];\n  const float reach
 containment one way|way < 2; way++|way < 1; way++
 first arc only|for (double at = start; at < end;) {|for (double at = start; at < end \&\& at == start;) {
-a segment dropped|hull_counts[j] == 0) return NSVCD__FREE;\n  for (; wanted;|hull_counts[j] == 0) return NSVCD__FREE;\n  if (wanted \& (wanted - 1)) wanted \&= wanted - 1;\n  for (; wanted;
+a segment dropped|        p->met = nsvcd__group_against_members(work, fixed, h, work->nearby[g][h], p->met_in);\n|        p->met = nsvcd__group_against_members(work, fixed, h, work->nearby[g][h], p->met_in);\n        for (size_t l = 0; l < NSVCD__GROUP; l++) {\n          if (p->met_in[l] \& (p->met_in[l] - 1)) p->met_in[l] \&= p->met_in[l] - 1;\n        }\n
+a full buffer forgotten|        if (p->met_in[l]) return 1;\n|
 margin of small normals|nsvcd__v_pick(square, nsvcd__v_set(1e-30f), nsvcd__v_set(1e30f), limit)|limit
 LIST
 

@@ -1,4 +1,5 @@
 // What a query costs: the bound that nsvcd_sweep states, batches, and threads.
+#define _POSIX_C_SOURCE 200809L
 #define NSVCD_STATIC
 #define NEURALSVCD_IMPLEMENTATION
 #include <stddef.h>
@@ -214,9 +215,91 @@ static void cost_threads_agree(void) {
   }
 }
 
+// ------------------------------------------------------------------------------------------------------------- stack
+
+#define COST_STACK (256 * 1024)
+#define COST_PAINT 0xa5
+#define COST_MOST_STACK 6144  // bytes that a proof may take: gcc 12 makes it 3.7 to 5.6 KB, by -march and -O
+
+// A thread that asks for proofs, and nothing else, or for nothing.
+typedef struct cost_asker {
+  const nsvcd_body *bodies[2];
+  nsvcd_pose motion[QUERY_POSES], fixed_pose;
+  void *workspace;
+  nsvcd_answer answer;
+  int asks;
+} cost_asker;
+
+static void *cost_ask(void *argument) {
+  cost_asker *a = (cost_asker *)argument;
+  if (a->asks) {
+    nsvcd_sweep(a->bodies[0], a->motion, QUERY_POSES, a->bodies[1], &a->fixed_pose, NULL, a->workspace,
+                nsvcd_sweep_workspace_size(), &a->answer);
+  }
+  return NULL;
+}
+
+// Bytes of a painted stack that such a thread leaves a trace on.
+static size_t cost_stack_of(cost_asker *asker, unsigned char *stack) {
+  pthread_attr_t attributes;
+  pthread_t thread;
+  memset(stack, COST_PAINT, COST_STACK);
+  CHECK_EQ(pthread_attr_init(&attributes), 0);
+  CHECK_EQ(pthread_attr_setstack(&attributes, stack, COST_STACK), 0);
+  CHECK_EQ(pthread_create(&thread, &attributes, cost_ask, asker), 0);
+  pthread_join(thread, NULL);
+  pthread_attr_destroy(&attributes);
+  size_t untouched = 0;
+  while (untouched < COST_STACK && stack[untouched] == COST_PAINT) untouched++;
+  return COST_STACK - untouched;
+}
+
+// A motion that passes the fixed body at a gap, or presses into it, so that every part of a proof has its turn.
+static void cost_stack_is_bounded(void) {
+  static cost_asker asker;
+  void *stack;
+  size_t most = 0, statuses[NSVCD_STATUS_UNDECIDED + 1] = {0};
+  asker.workspace = query_workspace();
+  asker.fixed_pose = query_pose(0, 0, 0);
+  CHECK_EQ(posix_memalign(&stack, 4096, COST_STACK), 0);
+  const size_t idle = cost_stack_of(&asker, (unsigned char *)stack);
+  asker.asks = 1;
+  for (uint64_t seed = 1; seed <= 60; seed++) {
+    shapes_rng rng = {seed};
+    query_scene scene;
+    nsvcd_mesh mesh = query_solid(seed, 0.2);
+    CHECK_EQ(nsvcd_encode(&mesh, NULL, NULL, NULL, 0, &asker.bodies[0]), NSVCD_OK);
+    asker.bodies[1] = asker.bodies[0];
+    memset(&scene, 0, sizeof scene);
+    query_scene_motion(&scene, &rng);
+    for (size_t i = 0; i < QUERY_POSES; i++) {
+      const double t = (double)i / (QUERY_POSES - 1);
+      asker.motion[i] = scene.motion[i];
+      if (seed % 3 == 0) continue;
+      asker.motion[i] = query_pose(0.15 + 0.001 * (double)seed, 0.05 * t, 0.02);
+      query_multiply(scene.motion[i].rotation, asker.motion[0].rotation, asker.motion[i].rotation);
+    }
+    cost_ask(&asker);  // once before, for a function of libm that is called first is looked up, on the stack
+    const size_t used = cost_stack_of(&asker, (unsigned char *)stack) - idle;
+    most = used > most ? used : most;
+    statuses[asker.answer.status]++;
+    nsvcd_body_free(asker.bodies[0], NULL);
+    nsvcd_mesh_free(&mesh, NULL);
+  }
+  printf("  at most %zu bytes of stack; %zu witnesses, %zu free\n", most, statuses[NSVCD_STATUS_WITNESS],
+         statuses[NSVCD_STATUS_CERTIFIED_FREE]);
+  CHECK_GE(statuses[NSVCD_STATUS_WITNESS], 5);
+  CHECK_GE(statuses[NSVCD_STATUS_CERTIFIED_FREE], 5);
+#if defined(__OPTIMIZE__) && !defined(__OPTIMIZE_SIZE__) && !defined(__SANITIZE_ADDRESS__)
+  CHECK_GE(COST_MOST_STACK, most);
+#endif
+  free(stack);
+}
+
 void test_cost(void) {
   RUN(cost_is_bounded);
   RUN(cost_batch_agrees_with_single_queries);
   RUN(cost_batch_refuses_as_a_query_does);
   RUN(cost_threads_agree);
+  RUN(cost_stack_is_bounded);
 }
