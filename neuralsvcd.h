@@ -5283,8 +5283,10 @@ static void nsvcd__candidates_start(nsvcd__candidates *kept, nsvcd__candidate *i
 //      crossings of a ray with the closed components of the other body are counted with their sign; a ray that passes
 //      an edge too closely is replaced by another. Open components enclose nothing.
 // A WITNESS is a pair of stored triangles that share a point at the true pose, in double; the mesh's own triangles are
-// then within the two quanta of each other. UNDECIDED: two triangles come closer than their quanta and the tolerance
-// without meeting, or the limit of work was reached.
+// then within the two quanta of each other. Faces that are parallel when they meet do so at one time only, which rounded
+// numbers miss: there, a corner that is on one side of the other triangle at one time and on the other at another, and
+// within its edges all the while, has met it between (an edge and an edge likewise), and halving finds when. UNDECIDED:
+// two triangles come closer than their quanta and the tolerance without meeting, or the limit of work was reached.
 //
 // Work is counted in units: a plane sought for two hulls, a triangle against 16, a pair of triangles at one time, a ray
 // against a triangle. A query stops within one patch's listings, or one ray, of its limit.
@@ -6193,6 +6195,114 @@ static int nsvcd__plane_parts(nsvcd__proof *p, const nsvcd__pair *pair, double u
   return lowest - highest > pair->slack + angle * angle * 0.1250001 * pair->reach * off_axis;
 }
 
+// A pair at three times: the moving triangle's corners.
+typedef struct nsvcd__passage {
+  nsvcd__d3 start[3], middle[3], end[3];
+  double way;  // no point of it moves farther between these times, seen from the fixed one
+} nsvcd__passage;
+
+// Is the foot of x on the plane of a triangle within it, farther than `margin` from its edges?
+static int nsvcd__foot_well_within(nsvcd__d3 x, const nsvcd__d3 *t, double margin) {
+  const nsvcd__d3 n = nsvcd__d3_cross(nsvcd__d3_sub(t[1], t[0]), nsvcd__d3_sub(t[2], t[0]));
+  const double size = nsvcd__d3_length(n);
+  for (size_t k = 0; k < 3; k++) {
+    const nsvcd__d3 edge = nsvcd__d3_sub(t[(k + 1) % 3], t[k]);
+    const double within = nsvcd__d3_dot(n, nsvcd__d3_cross(edge, nsvcd__d3_sub(x, t[k])));
+    if (!(within > margin * size * nsvcd__d3_length(edge))) return 0;
+  }
+  return 1;
+}
+
+// Have two heights different signs, clear of 0 by their margins?
+static int nsvcd__are_opposed(double before, double least_before, double after, double least_after) {
+  const int falls = before > least_before && after < -least_after;
+  const int rises = before < -least_before && after > least_after;
+  return falls || rises;
+}
+
+// Is x on different sides of a triangle's plane, farther than `margin` from it, at two times?
+static int nsvcd__changes_sides(nsvcd__d3 x0, const nsvcd__d3 *t0, nsvcd__d3 x1, const nsvcd__d3 *t1, double margin) {
+  const nsvcd__d3 n0 = nsvcd__d3_cross(nsvcd__d3_sub(t0[1], t0[0]), nsvcd__d3_sub(t0[2], t0[0]));
+  const nsvcd__d3 n1 = nsvcd__d3_cross(nsvcd__d3_sub(t1[1], t1[0]), nsvcd__d3_sub(t1[2], t1[0]));
+  const double before = nsvcd__d3_dot(n0, nsvcd__d3_sub(x0, t0[0]));
+  const double after = nsvcd__d3_dot(n1, nsvcd__d3_sub(x1, t1[0]));
+  return nsvcd__are_opposed(before, margin * nsvcd__d3_length(n0), after, margin * nsvcd__d3_length(n1));
+}
+
+// Six times the volume of the tetrahedron of two edges.
+static double nsvcd__edges_volume(nsvcd__d3 a0, nsvcd__d3 a1, nsvcd__d3 b0, nsvcd__d3 b1) {
+  const nsvcd__d3 across = nsvcd__d3_cross(nsvcd__d3_sub(a1, a0), nsvcd__d3_sub(b1, b0));
+  return nsvcd__d3_dot(across, nsvcd__d3_sub(b0, a0));
+}
+
+// Do two edges pass through each other: do they change sides, and are their lines nearest to each other well within both?
+static int nsvcd__edges_cross(const nsvcd__passage *p, size_t k, nsvcd__d3 b0, nsvcd__d3 b1, double margin) {
+  const size_t next = (k + 1) % 3;
+  const nsvcd__d3 u = nsvcd__d3_sub(p->middle[next], p->middle[k]);
+  const nsvcd__d3 v = nsvcd__d3_sub(b1, b0);
+  const nsvcd__d3 across = nsvcd__d3_cross(u, v);
+  const double size = nsvcd__d3_length(across);
+  const double lengths = nsvcd__d3_length(u) * nsvcd__d3_length(v);
+  if (!(size > 0.01 * lengths)) return 0;
+  const double before = nsvcd__edges_volume(p->start[k], p->start[next], b0, b1);
+  const double after = nsvcd__edges_volume(p->end[k], p->end[next], b0, b1);
+  if (!nsvcd__are_opposed(before, margin * size, after, margin * size)) return 0;
+  const nsvcd__d3 w = nsvcd__d3_sub(b0, p->middle[k]);
+  const double s = nsvcd__d3_dot(nsvcd__d3_cross(w, v), across) / (size * size);
+  const double t = nsvcd__d3_dot(nsvcd__d3_cross(w, u), across) / (size * size);
+  const double room = 4 * p->way * lengths / size;  // the lines' nearest points move no farther along them
+  const double room_s = room / nsvcd__d3_length(u), room_t = room / nsvcd__d3_length(v);
+  return s > room_s && s < 1 - room_s && t > room_t && t < 1 - room_t;
+}
+
+// Have two triangles met between these times, since a corner has passed through the other one, or an edge through an edge?
+// That is how faces meet which are parallel then: at no single time can it be seen in rounded numbers.
+static int nsvcd__triangles_pass(const nsvcd__passage *p, const nsvcd__d3 *fixed, double margin) {
+  for (size_t k = 0; k < 3; k++) {
+    if (nsvcd__foot_well_within(p->middle[k], fixed, 2 * p->way) &&
+        nsvcd__changes_sides(p->start[k], fixed, p->end[k], fixed, margin)) {
+      return 1;
+    }
+    if (nsvcd__foot_well_within(fixed[k], p->middle, 2 * p->way) &&
+        nsvcd__changes_sides(fixed[k], p->start, fixed[k], p->end, margin)) {
+      return 1;
+    }
+    for (size_t n = 0; n < 3; n++) {
+      if (nsvcd__edges_cross(p, k, fixed[n], fixed[(n + 1) % 3], margin)) return 1;
+    }
+  }
+  return 0;
+}
+
+// The same for a pair from u0 to u1 of the arc, at that speed.
+static int nsvcd__pair_passes(nsvcd__proof *p, const nsvcd__pair *pair, double u0, double u1, double speed) {
+  nsvcd__passage passage;
+  nsvcd__place_triangle(nsvcd__placed_at(p, u0), pair->moving, passage.start);
+  nsvcd__place_triangle(nsvcd__placed_at(p, 0.5 * (u0 + u1)), pair->moving, passage.middle);
+  nsvcd__place_triangle(nsvcd__placed_at(p, u1), pair->moving, passage.end);
+  passage.way = speed * (u1 - u0);
+  return nsvcd__triangles_pass(&passage, pair->fixed, pair->rounding);
+}
+
+// Where a pair has met by passing, the time is narrowed down to rounding, and is the contact's.
+static NSVCD__APART int nsvcd__find_passage(nsvcd__proof *p, const nsvcd__pair *pair, double u0, double u1,
+                                            double speed) {
+  if (!nsvcd__pair_passes(p, pair, u0, u1, speed)) return 0;
+  for (size_t n = 0; n < NSVCD__HALVINGS; n++) {
+    const double middle = 0.5 * (u0 + u1);
+    const int in_first = nsvcd__pair_passes(p, pair, u0, middle, speed);
+    if (!in_first && !nsvcd__pair_passes(p, pair, middle, u1, speed)) break;
+    u0 = in_first ? u0 : middle;
+    u1 = in_first ? middle : u1;
+  }
+  const double when = 0.5 * (u0 + u1);
+  nsvcd__d3 posed[3];
+  nsvcd__place_triangle(nsvcd__placed_at(p, when), pair->moving, posed);
+  const nsvcd__nearest nearest = nsvcd__triangles_nearest(posed, pair->fixed);
+  nsvcd__keep_contact(p, pair, ((double)p->arc.index + when) / nsvcd__arc_count(p->motion), nearest.on_b);
+  return 1;
+}
+
 static void nsvcd__certify_pair(const nsvcd__proof *p, const nsvcd__pair *pair, double u0, double u1) {
   const float normal[3] = {(float)p->parting.x, (float)p->parting.y, (float)p->parting.z};
   const double start = ((double)p->arc.index + u0) / nsvcd__arc_count(p->motion);
@@ -6241,6 +6351,7 @@ static NSVCD__APART nsvcd__verdict nsvcd__settle_pair(nsvcd__proof *p, const nsv
       p->parts++;
       continue;
     }
+    if (!apart && nsvcd__find_passage(p, pair, u, end, speed)) return NSVCD__MEETS;
     undecided |= !apart;
     u = end;
     left--;

@@ -51,6 +51,8 @@ containment one way|way < 2; way++|way < 1; way++
 first arc only|for (double at = start; at < end;) {|for (double at = start; at < end \&\& at == start;) {
 a segment dropped|        p->met = nsvcd__group_against_members(work, fixed, h, work->nearby[g][h], p->met_in);\n|        p->met = nsvcd__group_against_members(work, fixed, h, work->nearby[g][h], p->met_in);\n        for (size_t l = 0; l < NSVCD__GROUP; l++) {\n          if (p->met_in[l] \& (p->met_in[l] - 1)) p->met_in[l] \&= p->met_in[l] - 1;\n        }\n
 a full buffer forgotten|        if (p->met_in[l]) return 1;\n|
+passing not seen|    if (!apart \&\& nsvcd__find_passage(p, pair, u, end, speed)) return NSVCD__MEETS;\n|
+passing without a change of sides|  const int falls = before > least_before \&\& after < -least_after;|  const int falls = before != 0;
 margin of small normals|nsvcd__v_pick(square, nsvcd__v_set(1e-30f), nsvcd__v_set(1e30f), limit)|limit
 LIST
 

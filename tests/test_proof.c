@@ -1346,6 +1346,63 @@ static void proof_flat_on_flat(void) {
 }
 
 // Every triangle twice, and some without area.
+// A flat sheet of this size, open, its corners representable.
+static proof_body proof_flat_sheet(double x, double y, int cuts) {
+  shapes_mesh shape;
+  memset(&shape, 0, sizeof shape);
+  proof_sheet(&shape, 1, cuts);
+  for (size_t i = 0; i < shape.vertices; i++) {
+    shape.positions[3 * i] *= x;
+    shape.positions[3 * i + 1] *= y;
+    shape.positions[3 * i + 2] = 0;
+  }
+  return proof_of_shape(&shape, 1, 16);
+}
+
+// Sheets that are parallel all the time, one of which passes through the other: they meet at a single time, which no
+// rounded number is. By a corner in a face (0), a face on a corner (1), edges over edges (2); past it (3); and there and
+// back, short of it by less than a quantum (4).
+static void proof_faces_pass(void) {
+  shapes_rng rng = {91};
+  proof_body small = proof_flat_sheet(0.125, 0.125, 2), large = proof_flat_sheet(0.5, 0.5, 2);
+  proof_body wide = proof_flat_sheet(0.5, 0.03125, 1), deep = proof_flat_sheet(0.03125, 0.5, 1);
+  const proof_body *moving[5] = {&small, &large, &wide, &small, &small};
+  const proof_body *fixed[5] = {&large, &small, &deep, &large, &large};
+  for (int n = 0; n < 200; n++) {
+    const int kind = n % 5;
+    attack a;
+    oracle_pose still = {{0, 0, 0}, {0, 0, 0, 1}}, poses[3];
+    const double turn = kind == 2 ? shapes_uniform(&rng, -0.2, 0.2) : shapes_uniform(&rng, -3, 3);
+    const double from = shapes_uniform(&rng, 0.001, 0.1), to = shapes_uniform(&rng, 0.001, 0.1);
+    for (int k = 0; k < 3; k++) {
+      poses[k] = still;
+      poses[k].position[0] = shapes_uniform(&rng, -0.05, 0.05) + (kind == 3 ? 0.5 : 0);
+      poses[k].position[1] = shapes_uniform(&rng, -0.05, 0.05);
+      poses[k].rotation[2] = sin(turn / 2 + 0.01 * k);
+      poses[k].rotation[3] = cos(turn / 2 + 0.01 * k);
+    }
+    poses[0].position[2] = from;
+    poses[1].position[2] = kind == 4 ? 1e-7 : -to;
+    poses[2].position[2] = kind == 4 ? from : -to;
+    a.moving = moving[kind];
+    a.fixed = fixed[kind];
+    proof_motion_set(&a.motion, poses, 3, &still);
+    proof_ask(&a);
+    const double when = 0.5 * from / (from + to);
+    if (kind < 3) {
+      CHECK_EQ(a.answer.status, NSVCD_STATUS_WITNESS);
+      CHECK_LE(fabs((double)a.answer.time - when), 1e-6);
+      proof_check_witness(&a);
+    }
+    if (kind == 3) CHECK_EQ(a.answer.status, NSVCD_STATUS_CERTIFIED_FREE);
+    if (kind == 4) CHECK_EQ(a.answer.status, NSVCD_STATUS_UNDECIDED);
+  }
+  proof_free(&small);
+  proof_free(&large);
+  proof_free(&wide);
+  proof_free(&deep);
+}
+
 static void proof_triangles_listed_twice(void) {
   shapes_mesh shape;
   shapes_rng rng = {62};
@@ -1737,6 +1794,7 @@ void test_proof(void) {
   RUN(proof_refuses);
   RUN(proof_bodies_on_themselves);
   RUN(proof_flat_on_flat);
+  RUN(proof_faces_pass);
   RUN(proof_triangles_listed_twice);
   RUN(proof_half_turns);
   RUN(proof_forged_blobs);
