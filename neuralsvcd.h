@@ -3722,7 +3722,7 @@ static int nsvcd__spheres_fit(const nsvcd_body *body, float scale) {
 // ----------------------------------------------------------------------------------------------------- facets
 // The body of triangles: behind the spheres, which are the least about each patch's pieces of the surface, stand
 //
-//   counts          (8)      uint32 listed L, vertices V, components C, bytes of all corners, bytes of a number, zeros
+//   counts          (8)      uint32 listed triangles, vertices V, components C, bytes of listings B, zeros
 //   box             (2, 3)   float least and greatest coordinates of the surface
 //   discs           (6, P)   float unit normal n, low, high, across: a piece's points x have low <= n.(x - c) <= high,
 //                            and are no farther than `across` from the line along n; c: centre of the patch's sphere
@@ -3730,11 +3730,12 @@ static int nsvcd__spheres_fit(const nsvcd_body *body, float scale) {
 //   steps           (P)      float metres per integer: a stored vertex is c + step (x, y, z)
 //   slacks          (P)      float pieces are within this of the hull of the patch's first vertices
 //   quanta          (P)      float corners of triangles are within this of their stored vertices
-//   first_vertex, first_triangle, first_corner (3, N + 1) uint32: the latter in bytes
+//   first_vertex, first_triangle, first_byte (3, N + 1) uint32: where a patch's vertices, triangles and listings begin
 //   seeds           (C, 3)   float a point of each component
-//   numbers         (L)      uint16 or uint32: of the triangle in the caller's mesh; the top bit is NSVCD__ENCLOSES
 //   vertices        (3 V)    int16 patch by patch x, y, z; the hull's first
-//   corners         (L, 3)   uint8, or uint16 in patches of more than 256 vertices: vertices within the patch
+//   listings        (B)      bytes patch by patch, of its T triangles
+//     corners       (T, 3)   uint8, or uint16 in patches of more than 256 vertices: vertices within the patch
+//     numbers       (T)      each in 1 to 5 bytes: see nsvcd__read_code
 //   hull_counts     (N)      uint8 vertices of the hull, 16 at most; 0: the patch has no surface
 //
 // behind the vertices there are 16 more numbers, so that 16 can be read from any.
@@ -3745,12 +3746,12 @@ static int nsvcd__spheres_fit(const nsvcd_body *body, float scale) {
 typedef struct nsvcd__facets {
   const nsvcd_body *body;  // of triangles
   const float *box, *discs, *group_discs, *steps, *slacks, *quanta;
-  const uint32_t *first_vertex, *first_triangle, *first_corner;
+  const uint32_t *first_vertex, *first_triangle, *first_byte;
   const float *seeds;
-  const unsigned char *numbers, *corners;
   const int16_t *vertices;
+  const unsigned char *listings;
   const uint8_t *hull_counts;
-  size_t listed, vertex_count, components, corners_size, number_bytes;
+  size_t listed, vertex_count, components, listings_size;
 } nsvcd__facets;
 
 // The same place of a body that is being written.
@@ -3770,7 +3771,6 @@ static size_t nsvcd__facets_size(size_t points, const uint32_t *counts) {
   uint64_t size = nsvcd__spheres_size(padded) + 4 * (NSVCD__FACET_COUNTS + NSVCD__FACET_BOX) + 12 * (points + 1);
   size += 36 * padded + 24 * nsvcd__group_slots(padded);
   size += (uint64_t)12 * counts[2];
-  size += (uint64_t)counts[4] * counts[0];
   size += 2 * ((uint64_t)3 * counts[1] + NSVCD__LANES);
   size += counts[3];
   size += points + NSVCD_ALIGNMENT;
@@ -3786,8 +3786,7 @@ static nsvcd__facets nsvcd__facets_of(const nsvcd_body *body) {
   f.listed = counts[0];
   f.vertex_count = counts[1];
   f.components = counts[2];
-  f.corners_size = counts[3];
-  f.number_bytes = counts[4];
+  f.listings_size = counts[3];
   f.box = (const float *)(const void *)(counts + NSVCD__FACET_COUNTS);
   f.discs = f.box + NSVCD__FACET_BOX;
   f.group_discs = f.discs + 6 * padded;
@@ -3796,12 +3795,11 @@ static nsvcd__facets nsvcd__facets_of(const nsvcd_body *body) {
   f.quanta = f.slacks + padded;
   f.first_vertex = (const uint32_t *)(const void *)(f.quanta + padded);
   f.first_triangle = f.first_vertex + body->points + 1;
-  f.first_corner = f.first_triangle + body->points + 1;
-  f.seeds = (const float *)(const void *)(f.first_corner + body->points + 1);
-  f.numbers = (const unsigned char *)(f.seeds + 3 * f.components);
-  f.vertices = (const int16_t *)(const void *)(f.numbers + f.number_bytes * f.listed);
-  f.corners = (const unsigned char *)(f.vertices + 3 * f.vertex_count + NSVCD__LANES);
-  f.hull_counts = f.corners + f.corners_size;
+  f.first_byte = f.first_triangle + body->points + 1;
+  f.seeds = (const float *)(const void *)(f.first_byte + body->points + 1);
+  f.vertices = (const int16_t *)(const void *)(f.seeds + 3 * f.components);
+  f.listings = (const unsigned char *)(f.vertices + 3 * f.vertex_count + NSVCD__LANES);
+  f.hull_counts = f.listings + f.listings_size;
   return f;
 }
 
@@ -3810,7 +3808,7 @@ static size_t nsvcd__corner_bytes(size_t vertices) { return vertices <= 256 ? 1 
 
 // The vertex, of its patch, of corner k (0..2) of listing n.
 static size_t nsvcd__facet_corner(const nsvcd__facets *f, size_t patch, size_t n, size_t k) {
-  const unsigned char *corners = f->corners + f->first_corner[patch];
+  const unsigned char *corners = f->listings + f->first_byte[patch];
   const size_t at = 3 * (n - f->first_triangle[patch]) + k;
   if (nsvcd__corner_bytes(f->first_vertex[patch + 1] - f->first_vertex[patch]) == 1) return corners[at];
   uint16_t corner;
@@ -3818,18 +3816,32 @@ static size_t nsvcd__facet_corner(const nsvcd__facets *f, size_t patch, size_t n
   return corner;
 }
 
-// The number of the triangle, and whether it belongs to a closed component.
-static uint32_t nsvcd__facet_number(const nsvcd__facets *f, size_t n, int *encloses) {
-  uint32_t number;
-  if (f->number_bytes == 2) {
-    uint16_t half;
-    memcpy(&half, f->numbers + 2 * n, sizeof half);
-    number = (uint32_t)(half & 0x7fff) | (uint32_t)(half >> 15) << 31;
-  } else {
-    memcpy(&number, f->numbers + 4 * n, sizeof number);
+// The numbers of a patch's triangles in the caller's mesh follow each other as codes: twice what the number is more than
+// the one before, modulo 2^31, the lowest bit set if the triangle belongs to a closed component. A code is stored 7 bits
+// a byte, the lowest first; the top bit says that there are more. Most take one byte, for neighbours have near numbers.
+static uint32_t nsvcd__read_code(const unsigned char **at) {
+  uint32_t code = 0;
+  for (unsigned shift = 0; shift < 35; shift += 7) {
+    const uint32_t byte = *(*at)++;
+    code |= (byte & 0x7f) << shift;
+    if (!(byte & 0x80)) break;
   }
-  *encloses = (number & NSVCD__ENCLOSES) != 0;
-  return number & ~NSVCD__ENCLOSES;
+  return code;
+}
+
+// The number of listing n of a patch, and whether it belongs to a closed component.
+static uint32_t nsvcd__facet_number(const nsvcd__facets *f, size_t patch, size_t n, int *encloses) {
+  const size_t vertices = f->first_vertex[patch + 1] - f->first_vertex[patch];
+  const size_t first = f->first_triangle[patch];
+  const size_t triangles = f->first_triangle[patch + 1] - first;
+  const unsigned char *at = f->listings + f->first_byte[patch] + 3 * triangles * nsvcd__corner_bytes(vertices);
+  uint32_t number = 0;
+  for (size_t k = first; k <= n; k++) {
+    const uint32_t code = nsvcd__read_code(&at);
+    number = (number + (code >> 1)) & ~NSVCD__ENCLOSES;
+    *encloses = (int)(code & 1);
+  }
+  return number;
 }
 
 static nsvcd__f3 nsvcd__facet_centre(const nsvcd__facets *f, size_t patch) {
@@ -3967,20 +3979,41 @@ static void nsvcd__facets_finish(nsvcd_body *body) {
 }
 
 #ifndef NSVCD_NO_ENCODER
+// The code of a triangle (an id of a surface) after another, and the bytes that it takes.
+static uint32_t nsvcd__code_of(uint32_t id, uint32_t last) {
+  const uint32_t more = (id - last) & ~NSVCD__ENCLOSES;
+  return more << 1 | id >> 31;
+}
+static size_t nsvcd__code_bytes(uint32_t code) {
+  size_t bytes = 1;
+  for (; code > 0x7f; code >>= 7) bytes++;
+  return bytes;
+}
+
+// Bytes of the numbers of patch i.
+static size_t nsvcd__numbers_size(const nsvcd__surface *surface, size_t i) {
+  size_t size = 0;
+  uint32_t last = 0;
+  for (size_t n = surface->first_triangle[i]; n < surface->first_triangle[i + 1]; n++) {
+    size += nsvcd__code_bytes(nsvcd__code_of(surface->ids[n], last));
+    last = surface->ids[n];
+  }
+  return size;
+}
+
 // The counts of the body of triangles that a surface makes.
-static void nsvcd__facets_count(const nsvcd_mesh *mesh, const nsvcd__surface *surface, uint32_t *counts) {
+static void nsvcd__facets_count(const nsvcd__surface *surface, uint32_t *counts) {
   memset(counts, 0, NSVCD__FACET_COUNTS * sizeof *counts);
   counts[0] = (uint32_t)surface->listed;
   counts[1] = (uint32_t)surface->vertex_count;
   counts[2] = (uint32_t)surface->component_count;
-  counts[4] = mesh->triangle_count <= 0x7fff ? 2 : 4;
-  uint64_t corners = 0;
+  uint64_t bytes = 0;
   for (size_t i = 0; i < surface->count; i++) {
     const uint32_t vertices = surface->first_vertex[i + 1] - surface->first_vertex[i];
     const uint32_t triangles = surface->first_triangle[i + 1] - surface->first_triangle[i];
-    corners += (uint64_t)3 * triangles * nsvcd__corner_bytes(vertices);
+    bytes += (uint64_t)3 * triangles * nsvcd__corner_bytes(vertices) + nsvcd__numbers_size(surface, i);
   }
-  counts[3] = corners < 0xffffffffu ? (uint32_t)corners : 0xffffffffu;  // then the body is refused as too large
+  counts[3] = bytes < 0xffffffffu ? (uint32_t)bytes : 0xffffffffu;  // then the body is refused as too large
 }
 
 // Writes patch `to` of a body of triangles from patch `from` of a surface.
@@ -4008,25 +4041,23 @@ static void nsvcd__facets_write(const nsvcd__surface *surface, size_t from, nsvc
   uint32_t *first_vertex = (uint32_t *)nsvcd__writable(body, f.first_vertex);
   uint32_t *first_triangle = (uint32_t *)nsvcd__writable(body, f.first_triangle);
   int16_t *coordinates = (int16_t *)nsvcd__writable(body, f.vertices);
-  unsigned char *numbers = (unsigned char *)nsvcd__writable(body, f.numbers);
-  uint32_t *first_corner = (uint32_t *)nsvcd__writable(body, f.first_corner);
-  unsigned char *corners = (unsigned char *)nsvcd__writable(body, f.corners) + first_corner[to];
+  uint32_t *first_byte = (uint32_t *)nsvcd__writable(body, f.first_byte);
+  unsigned char *corners = (unsigned char *)nsvcd__writable(body, f.listings) + first_byte[to];
   const size_t bytes = nsvcd__corner_bytes(vertices);
-  first_corner[to + 1] = first_corner[to] + (uint32_t)(3 * triangles * bytes);
+  unsigned char *numbers = corners + 3 * triangles * bytes;
+  first_byte[to + 1] = first_byte[to] + (uint32_t)(3 * triangles * bytes + nsvcd__numbers_size(surface, from));
   first_vertex[to + 1] = first_vertex[to] + (uint32_t)vertices;
   first_triangle[to + 1] = first_triangle[to] + (uint32_t)triangles;
   memcpy(coordinates + 3 * (size_t)first_vertex[to], surface->vertices + 3 * vertex, 6 * vertices);
-  for (size_t n = 0; n < triangles; n++) {
-    const uint32_t number = surface->ids[triangle + n];
-    const size_t at = first_triangle[to] + n;
-    const uint16_t half = (uint16_t)((number & 0x7fff) | number >> 31 << 15);
-    if (f.number_bytes == 2) memcpy(numbers + 2 * at, &half, 2);
-    if (f.number_bytes == 4) memcpy(numbers + 4 * at, &number, 4);
-    for (size_t k = 0; k < 3; k++) {
-      const uint16_t corner = surface->corners[3 * (triangle + n) + k];
-      if (bytes == 1) corners[3 * n + k] = (unsigned char)corner;
-      if (bytes == 2) memcpy(corners + 2 * (3 * n + k), &corner, 2);
-    }
+  for (size_t n = 0; n < 3 * triangles; n++) {
+    const uint16_t corner = surface->corners[3 * triangle + n];
+    if (bytes == 1) corners[n] = (unsigned char)corner;
+    if (bytes == 2) memcpy(corners + 2 * n, &corner, 2);
+  }
+  for (size_t n = triangle; n < triangle + triangles; n++) {
+    uint32_t code = nsvcd__code_of(surface->ids[n], n > triangle ? surface->ids[n - 1] : 0);
+    for (; code > 0x7f; code >>= 7) *numbers++ = (unsigned char)(code | 0x80);
+    *numbers++ = (unsigned char)code;
   }
 }
 
@@ -4059,17 +4090,31 @@ static nsvcd_result nsvcd__facets_build(const nsvcd_mesh *mesh, const nsvcd__sur
 }
 #endif
 
+// Are there just as many codes from one byte of the listings to another, and all of triangles that there are?
+static int nsvcd__numbers_are_sound(const nsvcd__facets *f, size_t from, size_t to, size_t count) {
+  const unsigned char *at = f->listings + from;
+  const unsigned char *end = f->listings + to;
+  uint32_t number = 0;
+  for (size_t n = 0; n < count; n++) {
+    size_t bytes = 1;
+    while (bytes < 5 && bytes < (size_t)(end - at) && at[bytes - 1] & 0x80) bytes++;
+    if (at >= end || at[bytes - 1] & 0x80) return 0;
+    number = (number + (nsvcd__read_code(&at) >> 1)) & ~NSVCD__ENCLOSES;
+    if (number >= f->body->triangles) return 0;
+  }
+  return at == end;
+}
+
 // Is the layout right: sizes, counts, indices? A body of triangles of at most `size` bytes, at least a header.
 static int nsvcd__facets_are_laid_out(const nsvcd_body *body, size_t size) {
   if (nsvcd__spheres_size(body->padded) + 4 * NSVCD__FACET_COUNTS > size) return 0;
   const void *at = (const char *)body + nsvcd__spheres_size(body->padded);
   const uint32_t *counts = (const uint32_t *)at;
-  if (counts[4] != 2 && counts[4] != 4) return 0;
-  if (counts[5] || counts[6] || counts[7] || body->triangles == 0) return 0;
+  if (counts[4] || counts[5] || counts[6] || counts[7] || body->triangles == 0) return 0;
   if (body->size != nsvcd__facets_size(body->points, counts) || body->size > size) return 0;
 
   const nsvcd__facets f = nsvcd__facets_of(body);
-  if (f.first_vertex[0] != 0 || f.first_triangle[0] != 0 || f.first_corner[0] != 0) return 0;
+  if (f.first_vertex[0] != 0 || f.first_triangle[0] != 0 || f.first_byte[0] != 0) return 0;
   for (size_t i = 0; i < body->points; i++) {
     if (f.first_vertex[i + 1] < f.first_vertex[i] || f.first_triangle[i + 1] < f.first_triangle[i]) return 0;
     if (f.first_vertex[i + 1] > f.vertex_count || f.first_triangle[i + 1] > f.listed) return 0;
@@ -4077,17 +4122,14 @@ static int nsvcd__facets_are_laid_out(const nsvcd_body *body, size_t size) {
     const size_t triangles = f.first_triangle[i + 1] - f.first_triangle[i];
     if (f.hull_counts[i] > NSVCD__HULL || f.hull_counts[i] > vertices) return 0;
     if ((f.hull_counts[i] == 0) != (vertices == 0) || (vertices == 0) != (triangles == 0)) return 0;
-    const uint64_t corners_end = f.first_corner[i] + (uint64_t)3 * triangles * nsvcd__corner_bytes(vertices);
-    if (f.first_corner[i + 1] != corners_end || corners_end > f.corners_size) return 0;
+    const uint64_t corners_end = f.first_byte[i] + (uint64_t)3 * triangles * nsvcd__corner_bytes(vertices);
+    if (corners_end > f.first_byte[i + 1] || f.first_byte[i + 1] > f.listings_size) return 0;
+    if (!nsvcd__numbers_are_sound(&f, (size_t)corners_end, f.first_byte[i + 1], triangles)) return 0;
     for (size_t n = 0; n < 3 * triangles; n++) {
       if (nsvcd__facet_corner(&f, i, f.first_triangle[i] + n / 3, n % 3) >= vertices) return 0;
     }
   }
-  for (size_t n = 0; n < f.listed; n++) {
-    int encloses;
-    if (nsvcd__facet_number(&f, n, &encloses) >= body->triangles) return 0;
-  }
-  if (f.first_corner[body->points] != f.corners_size) return 0;
+  if (f.first_byte[body->points] != f.listings_size) return 0;
   return f.first_vertex[body->points] == f.vertex_count && f.first_triangle[body->points] == f.listed;
 }
 
@@ -6173,8 +6215,8 @@ static void nsvcd__keep_contact(nsvcd__proof *p, const nsvcd__pair *pair, double
   p->found.time = time;
   p->found.point = point;
   p->found.normal = length > 0 ? nsvcd__d3_scale(normal, 1 / length) : nsvcd__d3_of(0, 0, 0);
-  p->found.moving_triangle = nsvcd__facet_number(&p->moving, pair->moving_listing, &encloses);
-  p->found.fixed_triangle = nsvcd__facet_number(&p->fixed, pair->fixed_listing, &encloses);
+  p->found.moving_triangle = nsvcd__facet_number(&p->moving, pair->moving_patch, pair->moving_listing, &encloses);
+  p->found.fixed_triangle = nsvcd__facet_number(&p->fixed, pair->fixed_patch, pair->fixed_listing, &encloses);
   p->found.moving_patch = (uint16_t)pair->moving_patch;
   p->found.fixed_patch = (uint16_t)pair->fixed_patch;
 }
@@ -6366,7 +6408,7 @@ static void nsvcd__block_corners(const nsvcd__facets *f, size_t patch, size_t fi
                                  uint16_t *vertices) {
   const size_t bytes = nsvcd__corner_bytes(f->first_vertex[patch + 1] - f->first_vertex[patch]);
   const size_t at = 3 * (first - f->first_triangle[patch]) + k;
-  const unsigned char *corners = f->corners + f->first_corner[patch] + bytes * at;
+  const unsigned char *corners = f->listings + f->first_byte[patch] + bytes * at;
   const size_t last = count - 1;
   if (bytes == 1) {
     for (size_t l = 0; l < NSVCD__LANES; l++) vertices[l] = corners[3 * (l < last ? l : last)];
@@ -6988,7 +7030,7 @@ static int nsvcd__crossings(nsvcd__proof *p, const nsvcd__facets *f, const nsvcd
           const size_t listing = n + nsvcd__lowest_bit(lanes);
           nsvcd__d3 corners[3];
           int encloses;
-          const uint32_t number = nsvcd__facet_number(f, listing, &encloses);
+          const uint32_t number = nsvcd__facet_number(f, i, listing, &encloses);
           if (!encloses) continue;
           nsvcd__facet_triangle(f, i, listing, corners);
           const int crossing = nsvcd__ray_crosses(ray, corners, margin, unclear);
@@ -7852,7 +7894,7 @@ static nsvcd_result nsvcd__parts_build(const nsvcd_mesh *mesh, size_t points, co
   if (!result && !(options && options->no_triangles)) {
     result = nsvcd__surface_build(mesh, &parts->patches, allocator, &parts->surface);
     if (!result) {
-      nsvcd__facets_count(mesh, &parts->surface, parts->counts);
+      nsvcd__facets_count(&parts->surface, parts->counts);
       parts->facets_size = nsvcd__facets_size(parts->patches.count, parts->counts);
       if (!parts->facets_size) {
         nsvcd__surface_free(&parts->surface, allocator);

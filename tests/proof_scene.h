@@ -175,20 +175,41 @@ static size_t proof_stored_number(const unsigned char *at, size_t bytes) {
   return number;
 }
 
+// Where the numbers of a patch's triangles are: behind their corners.
+static const unsigned char *proof_numbers(const nsvcd__facets *f, size_t i) {
+  const size_t vertices = f->first_vertex[i + 1] - f->first_vertex[i];
+  const size_t triangles = f->first_triangle[i + 1] - f->first_triangle[i];
+  return f->listings + f->first_byte[i] + (vertices <= 256 ? 3 : 6) * triangles;
+}
+
+// The number of the patch's n-th triangle: the sum of what n + 1 codes say, each in groups of seven bits.
+static size_t proof_triangle_number(const nsvcd__facets *f, size_t i, size_t n) {
+  const unsigned char *at = proof_numbers(f, i);
+  size_t sum = 0;
+  for (size_t k = 0; k <= n; k++) {
+    size_t code = 0;
+    size_t place = 1;
+    do {
+      code += place * (*at & 127);
+      place *= 128;
+    } while (*at++ >= 128);
+    sum += code / 2;
+  }
+  return sum % ((size_t)1 << 31);
+}
+
 static void proof_read_listing(const proof_body *b, const nsvcd__facets *f, size_t i, size_t n,
                                proof_listing *out) {
   const size_t all = f->first_vertex[i + 1] - f->first_vertex[i];
   const int16_t *x = f->vertices + 3 * (size_t)f->first_vertex[i];
-  const size_t top = (size_t)1 << (8 * f->number_bytes - 1);
   out->patch = i;
-  out->triangle =
-      proof_stored_number(f->numbers + f->number_bytes * n, f->number_bytes) & (top - 1);
+  out->triangle = proof_triangle_number(f, i, n - f->first_triangle[i]);
   proof_corners(b, out->triangle, out->corners);
   out->whole = 1;
   for (size_t c = 0; c < 3; c++) {
     const size_t bytes = all <= 256 ? 1 : 2;
     const size_t corner = 3 * (n - f->first_triangle[i]) + c;
-    const unsigned char *at = f->corners + f->first_corner[i] + bytes * corner;
+    const unsigned char *at = f->listings + f->first_byte[i] + bytes * corner;
     const size_t vertex = proof_stored_number(at, bytes);
     double off[3];
     for (size_t k = 0; k < 3; k++) {

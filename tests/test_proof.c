@@ -1536,9 +1536,9 @@ static void proof_forge_counts(const nsvcd_body *body, const nsvcd__facets *f) {
     for (int n = 0; n < 6; n++) proof_expect_refusal(body, counts + 4 * k, &bad[n], 4);
   }
   for (size_t i = 0; i <= f->body->points; i++) {
-    const uint32_t *firsts[2] = {f->first_vertex + i, f->first_triangle + i};
+    const uint32_t *firsts[3] = {f->first_vertex + i, f->first_triangle + i, f->first_byte + i};
     const uint32_t bad[3] = {0xffffffffu, 0x7fffffffu, i == 0 ? 1u : *firsts[0] - 70000u};
-    for (int k = 0; k < 2; k++) {
+    for (int k = 0; k < 3; k++) {
       for (int n = 0; n < 3; n++)
         proof_expect_refusal(body, proof_offset(f, firsts[k]), &bad[n], 4);
     }
@@ -1548,10 +1548,14 @@ static void proof_forge_counts(const nsvcd_body *body, const nsvcd__facets *f) {
     for (int n = 0; n < 2; n++)
       proof_expect_refusal(body, proof_offset(f, f->hull_counts + i), &bad[n], 1);
   }
-  const unsigned char far[4] = {0xff, 0x7f, 0xff, 0x7f};
-  for (size_t n = 0; n < f->listed; n += 1 + f->listed / 50) {
-    proof_expect_refusal(body, proof_offset(f, f->numbers + f->number_bytes * n), far,
-                         f->number_bytes);
+  const unsigned char far[5] = {0xff, 0xff, 0xff, 0xff, 0x0f};
+  const unsigned char endless[5] = {0x80, 0x80, 0x80, 0x80, 0x80};
+  for (size_t i = 0; i < f->body->points; i++) {
+    const unsigned char *at = proof_numbers(f, i);
+    const unsigned char *end = f->listings + f->first_byte[i + 1];
+    if (end - at >= 5) proof_expect_refusal(body, proof_offset(f, at), far, 5);
+    if (end - at >= 5) proof_expect_refusal(body, proof_offset(f, at), endless, 5);
+    if (end > at) proof_expect_refusal(body, proof_offset(f, end - 1), endless, 1);
   }
 }
 
