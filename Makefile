@@ -118,6 +118,7 @@ COUNT_inside = $(or $(COUNT),400)
 COUNT_random_urdfs = $(or $(COUNT),2000)
 COUNT_metaworld = $(or $(COUNT),2000)
 COUNT_open = $(or $(COUNT),500)
+COUNT_large = $(or $(COUNT),1000)
 # What bodies do, and meshes that are hard to get right.
 COUNT_rest = $(or $(COUNT),2000)
 COUNT_rest_real = $(or $(COUNT),2000)
@@ -127,7 +128,7 @@ COUNT_one = $(or $(COUNT),1000)
 COUNT_soup = $(or $(COUNT),500)
 COUNT_slivers = $(or $(COUNT),300)
 HARD = rest nested same one soup slivers
-SETS = standard hollow inside $(REAL) $(if $(filter metaworld,$(REAL)),open) $(HARD) $(if $(filter random_urdfs,$(REAL)),rest_real)
+SETS = standard hollow inside $(REAL) $(if $(filter metaworld,$(REAL)),open) $(HARD) $(if $(filter random_urdfs,$(REAL)),rest_real) $(if $(REAL),large)
 CHECK_FLAGS =
 
 $(DATA)/standard.txt: | build/problems
@@ -150,6 +151,12 @@ $(HARD:%=$(DATA)/%.txt): $(DATA)/%.txt: | build/problems
 	build/problems --set $* --meshes procedural --count $(COUNT_$*) --seed 407 --out $@
 $(DATA)/rest_real.txt: $(DATA)/meshes/random_urdfs | build/problems
 	build/problems --set rest --meshes $(DATA)/meshes/random_urdfs --count $(COUNT_rest_real) --seed 408 --out $@
+$(DATA)/large.txt: $(DATA)/meshes/large | build/problems  # closed meshes of 1,500 triangles and more
+	build/problems --set standard --meshes $(DATA)/meshes/large --count $(COUNT_large) --seed 409 --out $@
+$(DATA)/meshes/large: $(REAL:%=$(DATA)/meshes/%)
+	mkdir -p $@.part
+	for mesh in $(REAL:%=$(DATA)/meshes/%/*.obj); do [ `grep -c '^f' $$mesh` -lt 1500 ] || cp $$mesh $@.part/; done
+	mv $@.part $@
 # All OBJ files of the archive, flat.
 $(DATA)/meshes/%: | $(MESHES)/%.tar.gz
 	mkdir -p $@.part
@@ -204,8 +211,8 @@ bench: build/bench $(BENCH_FILES)  ## every method on the same problems: table, 
 	build/bench $(if $(BENCH),--quick --limit 150,--limit 600) $(BENCH_SETS)
 
 # The proof, the network's default and the mesh hierarchy on all sets, in one run: for ratios.
-race: build/bench $(BENCH_FILES) $(DATA)/standard.txt $(HARD:%=$(DATA)/%.txt)  ## the proof against the hierarchy and the network, minutes
-	build/bench --race --out build/race $(if $(LIMIT),--limit $(LIMIT)) $(BENCH_SETS) standard=$(DATA)/standard.txt $(foreach set,$(filter-out rest,$(HARD)),$(set)=$(DATA)/$(set).txt)
+race: build/bench $(BENCH_FILES) $(DATA)/standard.txt $(HARD:%=$(DATA)/%.txt) $(if $(REAL),$(DATA)/large.txt)  ## the proof against the hierarchy and the network, minutes
+	build/bench --race --out build/race $(if $(LIMIT),--limit $(LIMIT)) $(BENCH_SETS) standard=$(DATA)/standard.txt $(foreach set,$(filter-out rest,$(HARD)) $(if $(REAL),large),$(set)=$(DATA)/$(set).txt)
 
 build/plan_bench: tests/plan_bench.c tests/plan_spheres.h tests/bench_spheres.h tests/bench_mesh.h tests/method.h tests/oracle.h \
   examples/tasks.h examples/shapes.h $(LIBRARY) | build

@@ -178,14 +178,16 @@ NSVCDDEF void nsvcd_mesh_free(nsvcd_mesh *mesh, const nsvcd_allocator *allocator
 typedef struct nsvcd_body nsvcd_body;
 
 #define NSVCD_ALIGNMENT 8
-#define NSVCD_DEFAULT_POINTS 256
+#define NSVCD_DEFAULT_POINTS 192
+#define NSVCD_DEFAULT_NETWORK_POINTS 256  // of bodies for the network alone, which needs finer patches than a proof
 #define NSVCD_MAX_POINTS 512       // representative points per body
 #define NSVCD_MAX_COORDINATE 1e6f  // metres
 #define NSVCD_MIN_RADIUS 1e-12f    // metres, of a body's bounding sphere
 #define NSVCD_MAX_POSES 65536      // per motion
 
 typedef struct nsvcd_encode_options {
-  size_t points;       // N, representative points (patches), 1..NSVCD_MAX_POINTS; 0: NSVCD_DEFAULT_POINTS
+  size_t points;       // N, representative points (patches), 1..NSVCD_MAX_POINTS; 0: NSVCD_DEFAULT_POINTS, or
+                       // NSVCD_DEFAULT_NETWORK_POINTS without triangles
   float patch_radius;  // metres; if > 0 and points is 0: as many points as make patches of about this radius
   int open;            // 1: the mesh is not closed (a sheet, or a part cut out): nothing counts as inside it
   int no_triangles;    // 1: for the network alone, in fewer bytes; then there is no proof
@@ -7956,7 +7958,8 @@ NSVCDDEF nsvcd_result nsvcd_encode(const nsvcd_mesh *mesh, const nsvcd_encode_op
     const double count = ceil(0.45 * nsvcd__mesh_area(mesh) / ((double)wanted * (double)wanted));
     points = count >= NSVCD_MAX_POINTS ? NSVCD_MAX_POINTS : count >= 1 ? (size_t)count : 1;
   }
-  if (points == 0) points = NSVCD_DEFAULT_POINTS;
+  const int latents_alone = options && options->no_triangles;
+  if (points == 0) points = latents_alone ? NSVCD_DEFAULT_NETWORK_POINTS : NSVCD_DEFAULT_POINTS;
 
   nsvcd__parts parts;
   nsvcd_result result = nsvcd__parts_build(mesh, points, options, allocator, &parts);

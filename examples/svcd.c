@@ -248,7 +248,7 @@ static int usage(void) {
           "    answers the problems of FILE, a line each on standard output, separated by tabs:\n"
           "    ID LOGIT COLLIDES TIME MOVING_PATCH FIXED_PATCH STATUS MICROSECONDS; a summary on standard error.\n"
           "      --method M   proof: a witness or a certificate; network: an opinion (proof)\n"
-          "      --points N   representative points per body, 1..%d (%d)\n"
+          "      --points N   representative points per body, 1..%d (%d; %d for the network)\n"
           "      --pairs K    pairs of patches that the network looks at, 1..%d (8)\n"
           "      --model M    decoder (base)\n"
           "      --recall R   share of collisions to be found: 0.99, 0.999, 0.9999 or 0: balanced errors (0)\n"
@@ -260,7 +260,7 @@ static int usage(void) {
           "    --no-triangles: for the network alone\n"
           "svcd info FILE.body\n"
           "exit status: 0 done, 1 a file or line was refused, 2 usage\n",
-          NSVCD_MAX_POINTS, NSVCD_DEFAULT_POINTS, NSVCD_MAX_PAIRS, NSVCD_DEFAULT_WORK);
+          NSVCD_MAX_POINTS, NSVCD_DEFAULT_POINTS, NSVCD_DEFAULT_NETWORK_POINTS, NSVCD_MAX_PAIRS, NSVCD_DEFAULT_WORK);
   return USAGE;
 }
 static int usage_error(const char *option, const char *reason) {
@@ -341,6 +341,7 @@ static int parse_check(int argc, char **argv, check_options *options) {
     if (status != DONE) return status;
   }
   if (!options->path) return usage();
+  options->encode.no_triangles = options->sweep.method == NSVCD_METHOD_NETWORK;
   if (!recall_is_known(&options->sweep)) return usage_error("--recall", "none of 0, 0.99, 0.999, 0.9999");
   return DONE;
 }

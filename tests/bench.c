@@ -517,12 +517,11 @@ static void run_ours(table *t, const problem_set *set, const char *method, const
 }
 
 // The proof, at several resolutions.
-static void run_proof(table *t, const problem_set *set) {
-  static const size_t all_points[] = {64, 128, 256, 512};
+static void run_proof(table *t, const problem_set *set, const size_t *all_points, size_t count) {
   nsvcd_sweep_options settings;
   memset(&settings, 0, sizeof settings);
   settings.method = NSVCD_METHOD_PROOF;
-  for (size_t i = 0; i < sizeof all_points / sizeof all_points[0]; i++) {
+  for (size_t i = 0; i < count; i++) {
     const nsvcd_encode_options encode = {all_points[i], 0, 0, 0};
     run_ours(t, set, "proof", &encode, &settings, 1);
   }
@@ -531,13 +530,14 @@ static void run_proof(table *t, const problem_set *set) {
 // Few methods in one run, for ratios: the hierarchy, the network's default, the proof.
 static void run_race(table *t, const problem_set *set) {
   static const query_setting settings[3] = {{16, 0}, {32, 0}, {64, 0}};
+  static const size_t points[] = {NSVCD_DEFAULT_POINTS};
   const preparation how = {0, 0};
-  const nsvcd_encode_options encode = {NSVCD_DEFAULT_POINTS, 0, 0, 1};
+  const nsvcd_encode_options encode = {NSVCD_DEFAULT_NETWORK_POINTS, 0, 0, 1};
   nsvcd_sweep_options network;
   memset(&network, 0, sizeof network);
   run_discrete(t, set, &full_mesh_method, &how, "", settings, 3);
   run_ours(t, set, "NeuralSVCD", &encode, &network, 1);
-  run_proof(t, set);
+  run_proof(t, set, points, 1);
 }
 
 static void run_all_neural(table *t, const problem_set *set, int quick) {
@@ -590,12 +590,12 @@ static void swept_box(const problem_set *set, size_t f, const problem *p, float 
 
 // What a scene requires: of the fixed mesh only the part that the moving body can reach, cut out for each problem.
 static void run_neural_cut(table *t, const problem_set *set) {
-  const size_t size = nsvcd_body_size(NSVCD_DEFAULT_POINTS), workspace_size = nsvcd_sweep_workspace_size();
+  const size_t size = nsvcd_body_size(NSVCD_DEFAULT_NETWORK_POINTS), workspace_size = nsvcd_sweep_workspace_size();
   double *times = (double *)allocate(set->problems * sizeof *times);
   void *memory[2], *workspace = allocate(workspace_size);
   memory[0] = allocate(size), memory[1] = allocate(size);
   row *r = new_row(t, "NeuralSVCD");
-  snprintf(r->setting, sizeof r->setting, "N %d, K %d, base, fixed mesh cut to the sweep", NSVCD_DEFAULT_POINTS,
+  snprintf(r->setting, sizeof r->setting, "N %d, K %d, base, fixed mesh cut to the sweep", NSVCD_DEFAULT_NETWORK_POINTS,
            NSVCD_DEFAULT_PAIRS);
   for (size_t i = 0; i < set->problems; i++) {
     size_t f;
@@ -712,6 +712,7 @@ static int usage(void) {
 }
 
 int main(int argc, char **argv) {
+  static const size_t proof_points[] = {64, 128, NSVCD_DEFAULT_POINTS, 256, 512};
   int quick = 0, race = 0, i = 1;
   size_t limit = 0;
   const char *out = "build/tradeoff";
@@ -749,7 +750,7 @@ int main(int argc, char **argv) {
       continue;
     }
     if (!set.extreme) run_baselines(&t, &set, quick), run_oracle(&t, &set);
-    run_proof(&t, &set);
+    run_proof(&t, &set, proof_points, sizeof proof_points / sizeof proof_points[0]);
     run_all_neural(&t, &set, quick);
     if (strcmp(set.name, "mixed") == 0 || strcmp(set.name, "cavity") == 0) run_neural_cut(&t, &set);
     mark_fronts(&t);

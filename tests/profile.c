@@ -330,7 +330,7 @@ int main(int argc, char **argv) {
            100 * head_gflops(m, 4, 1) / peak, 100 * head_gflops(m, 8, 1) / peak, 100 * head_gflops(m, 16, 1) / peak);
   }
   time_preparation();
-  if (argc == 2) profile(&file, NSVCD_DEFAULT_POINTS);
+  if (argc == 2) profile(&file, NSVCD_DEFAULT_NETWORK_POINTS);
   profile_proof(&file, NSVCD_DEFAULT_POINTS);
   for (int i = 2; i < argc; i++) {
     size_t points;

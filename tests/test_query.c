@@ -577,7 +577,7 @@ static void query_encode_refuses_bad_input(void) {
 
 static void query_scale_refuses_bad_input(void) {
   nsvcd_mesh mesh = query_box(0.1, 0.1, 0.1);
-  query_memory memory, out = query_reserve(nsvcd_body_size(NSVCD_DEFAULT_POINTS));
+  query_memory memory, out = query_reserve(nsvcd_body_size(NSVCD_DEFAULT_NETWORK_POINTS));
   const nsvcd_body *body = query_encode(&mesh, 0, &memory), *scaled = body;
   size_t size = nsvcd_body_describe(body).size;
   const float bad[5] = {0, -1, NAN, INFINITY, 1e30f};
@@ -673,7 +673,7 @@ static const nsvcd_body *query_scaled(const query_library *library, const char *
   const nsvcd_body *scaled = NULL;
   for (size_t i = 0; i < library->count; i++)
     if (strcmp(library->names[i], name) == 0)
-      nsvcd_body_scale(library->bodies[i], scale, memory, nsvcd_body_size(NSVCD_DEFAULT_POINTS), &scaled);
+      nsvcd_body_scale(library->bodies[i], scale, memory, nsvcd_body_size(NSVCD_DEFAULT_NETWORK_POINTS), &scaled);
   return scaled;
 }
 static int query_read_pose(FILE *file, nsvcd_pose *pose) {
@@ -734,8 +734,8 @@ static void accuracy_on_a_labelled_file(void) {
   FILE *file = fopen(QUERY_DATA "problems.txt", "r");
   CHECK(file != NULL);  // run from the repository root
   if (!file) return;
-  query_memory memory[2] = {query_reserve(nsvcd_body_size(NSVCD_DEFAULT_POINTS)),
-                            query_reserve(nsvcd_body_size(NSVCD_DEFAULT_POINTS))};
+  query_memory memory[2] = {query_reserve(nsvcd_body_size(NSVCD_DEFAULT_NETWORK_POINTS)),
+                            query_reserve(nsvcd_body_size(NSVCD_DEFAULT_NETWORK_POINTS))};
   void *const scaled[2] = {memory[0].at, memory[1].at};
   char word[64], name[64], path[256];
   int good = 1;
