@@ -5332,8 +5332,8 @@ static void nsvcd__candidates_start(nsvcd__candidates *kept, nsvcd__candidate *i
 // within its edges all the while, has met it between (an edge and an edge likewise), and halving finds when. UNDECIDED:
 // two triangles come closer than their quanta and the tolerance without meeting, or the limit of work was reached.
 //
-// Work is counted in units: a plane sought for two hulls, a triangle against 16, a pair of triangles at one time, a ray
-// against a triangle. A query stops within one patch's listings, or one ray, of its limit.
+// Work is counted in units: a plane sought for two hulls, 16 triangles against the box of 16, one of them against these, a
+// pair of triangles at one time, a ray against 16 triangles. A query stops within one patch's listings, or one ray, of its limit.
 
 #define NSVCD__ITEMS 256         // items that no plane parts, kept at once; when there are more, those are settled first
 #define NSVCD__NEWS 8            // items that are worth a look before the search goes on
@@ -7064,6 +7064,7 @@ static int nsvcd__patch_is_near(nsvcd__proof *p, const nsvcd__facets *f, size_t 
   const size_t end = f->first_triangle[i + 1];
   for (size_t n = f->first_triangle[i]; n < end; n += NSVCD__LANES) {
     nsvcd__block_load(f, i, n, end - n < NSVCD__LANES ? end - n : NSVCD__LANES, block);
+    p->work++;
     for (uint32_t lanes = nsvcd__lanes_near(block, here, distance); lanes; lanes &= lanes - 1) {
       nsvcd__d3 corners[3];
       nsvcd__facet_triangle(f, i, n + nsvcd__lowest_bit(lanes), corners);
