@@ -3831,19 +3831,38 @@ static uint32_t nsvcd__read_code(const unsigned char **at) {
   return code;
 }
 
-// The number of listing n of a patch, and whether it belongs to a closed component.
-static uint32_t nsvcd__facet_number(const nsvcd__facets *f, size_t patch, size_t n, int *encloses) {
+// The numbers of a patch's triangles, read one after another.
+typedef struct nsvcd__numbers {
+  const unsigned char *at;
+  size_t next;      // listing
+  uint32_t number;  // of the one before
+  int encloses;     // does it belong to a closed component?
+} nsvcd__numbers;
+
+static nsvcd__numbers nsvcd__numbers_of(const nsvcd__facets *f, size_t patch) {
   const size_t vertices = f->first_vertex[patch + 1] - f->first_vertex[patch];
-  const size_t first = f->first_triangle[patch];
-  const size_t triangles = f->first_triangle[patch + 1] - first;
-  const unsigned char *at = f->listings + f->first_byte[patch] + 3 * triangles * nsvcd__corner_bytes(vertices);
-  uint32_t number = 0;
-  for (size_t k = first; k <= n; k++) {
-    const uint32_t code = nsvcd__read_code(&at);
-    number = (number + (code >> 1)) & ~NSVCD__ENCLOSES;
-    *encloses = (int)(code & 1);
+  const size_t triangles = f->first_triangle[patch + 1] - f->first_triangle[patch];
+  nsvcd__numbers out;
+  out.at = f->listings + f->first_byte[patch] + 3 * triangles * nsvcd__corner_bytes(vertices);
+  out.next = f->first_triangle[patch];
+  out.number = 0;
+  out.encloses = 0;
+  return out;
+}
+
+// Reads on until listing n, which has not been read before.
+static void nsvcd__read_number(nsvcd__numbers *numbers, size_t n) {
+  for (; numbers->next <= n; numbers->next++) {
+    const uint32_t code = nsvcd__read_code(&numbers->at);
+    numbers->number = (numbers->number + (code >> 1)) & ~NSVCD__ENCLOSES;
+    numbers->encloses = (int)(code & 1);
   }
-  return number;
+}
+
+static uint32_t nsvcd__facet_number(const nsvcd__facets *f, size_t patch, size_t n) {
+  nsvcd__numbers numbers = nsvcd__numbers_of(f, patch);
+  nsvcd__read_number(&numbers, n);
+  return numbers.number;
 }
 
 static nsvcd__f3 nsvcd__facet_centre(const nsvcd__facets *f, size_t patch) {
@@ -6210,15 +6229,14 @@ static nsvcd__pair nsvcd__pair_of(const nsvcd__proof *p, size_t i, size_t j, siz
 }
 
 static void nsvcd__keep_contact(nsvcd__proof *p, const nsvcd__pair *pair, double time, nsvcd__d3 point) {
-  int encloses;
   const nsvcd__d3 *t = pair->fixed;
   const nsvcd__d3 normal = nsvcd__d3_cross(nsvcd__d3_sub(t[1], t[0]), nsvcd__d3_sub(t[2], t[0]));
   const double length = nsvcd__d3_length(normal);
   p->found.time = time;
   p->found.point = point;
   p->found.normal = length > 0 ? nsvcd__d3_scale(normal, 1 / length) : nsvcd__d3_of(0, 0, 0);
-  p->found.moving_triangle = nsvcd__facet_number(&p->moving, pair->moving_patch, pair->moving_listing, &encloses);
-  p->found.fixed_triangle = nsvcd__facet_number(&p->fixed, pair->fixed_patch, pair->fixed_listing, &encloses);
+  p->found.moving_triangle = nsvcd__facet_number(&p->moving, pair->moving_patch, pair->moving_listing);
+  p->found.fixed_triangle = nsvcd__facet_number(&p->fixed, pair->fixed_patch, pair->fixed_listing);
   p->found.moving_patch = (uint16_t)pair->moving_patch;
   p->found.fixed_patch = (uint16_t)pair->fixed_patch;
 }
@@ -6334,6 +6352,7 @@ static NSVCD__APART int nsvcd__find_passage(nsvcd__proof *p, const nsvcd__pair *
   if (!nsvcd__pair_passes(p, pair, u0, u1, speed)) return 0;
   for (size_t n = 0; n < NSVCD__HALVINGS; n++) {
     const double middle = 0.5 * (u0 + u1);
+    p->work++;
     const int in_first = nsvcd__pair_passes(p, pair, u0, middle, speed);
     if (!in_first && !nsvcd__pair_passes(p, pair, middle, u1, speed)) break;
     u0 = in_first ? u0 : middle;
@@ -6613,6 +6632,7 @@ static int nsvcd__find_witness_in(nsvcd__proof *p, size_t i, size_t j, size_t n,
   uint32_t lanes = nsvcd__lanes_near(&p->moving_block, p->bounds[n], margin);
   for (; lanes; lanes &= lanes - 1) {
     const size_t l = nsvcd__lowest_bit(lanes);
+    p->work++;
     uint32_t met = nsvcd__row_left(p, i, j, l, fixed, 1, NULL, margin);
     for (; met; met &= met - 1) {
       const size_t listing = p->moving_block.first + l;
@@ -6735,7 +6755,8 @@ static NSVCD__APART nsvcd__verdict nsvcd__settle_triangles(nsvcd__proof *p, size
             continue;
           }
           const nsvcd__verdict row = nsvcd__settle_row(p, i, j, l, n, span, margin, u0, u1, patience);
-          if (row == NSVCD__MEETS || row == NSVCD__TOO_LONG || p->work > p->limit) return row;
+          if (row == NSVCD__MEETS || row == NSVCD__TOO_LONG) return row;
+          if (p->work > p->limit) return NSVCD__UNDECIDED;
           if (row == NSVCD__UNDECIDED) verdict = row;
         }
       }
@@ -7019,11 +7040,12 @@ static int nsvcd__crossings(nsvcd__proof *p, const nsvcd__facets *f, const nsvcd
   for (uint32_t groups = nsvcd__groups_on_ray(f->body, ray); groups && !*unclear; groups &= groups - 1) {
     const size_t g = nsvcd__lowest_bit(groups);
     uint32_t patches = nsvcd__patches_on_ray(f->body, ray, g);
-    for (; patches; patches &= patches - 1) {
+    for (; patches && !*unclear; patches &= patches - 1) {
       const size_t i = NSVCD__GROUP * g + nsvcd__lowest_bit(patches);
       if (i >= f->body->points) break;
       const double margin = (double)f->quanta[i] + ray->margin;
       const size_t end = f->first_triangle[i + 1];
+      nsvcd__numbers numbers = nsvcd__numbers_of(f, i);
       for (size_t n = f->first_triangle[i]; n < end; n += NSVCD__LANES) {
         nsvcd__block_load(f, i, n, end - n < NSVCD__LANES ? end - n : NSVCD__LANES, block);
         p->work++;
@@ -7031,12 +7053,11 @@ static int nsvcd__crossings(nsvcd__proof *p, const nsvcd__facets *f, const nsvcd
         for (; lanes; lanes &= lanes - 1) {
           const size_t listing = n + nsvcd__lowest_bit(lanes);
           nsvcd__d3 corners[3];
-          int encloses;
-          const uint32_t number = nsvcd__facet_number(f, i, listing, &encloses);
-          if (!encloses) continue;
+          nsvcd__read_number(&numbers, listing);
+          if (!numbers.encloses) continue;
           nsvcd__facet_triangle(f, i, listing, corners);
           const int crossing = nsvcd__ray_crosses(ray, corners, margin, unclear);
-          if (crossing && nsvcd__is_new(p, &count, number, unclear)) sum += crossing;
+          if (crossing && nsvcd__is_new(p, &count, numbers.number, unclear)) sum += crossing;
         }
       }
     }
@@ -7109,7 +7130,7 @@ static int nsvcd__is_enclosed(nsvcd__proof *p, const nsvcd__facets *f, nsvcd__d3
   nsvcd__ray ray;
   ray.from = place;
   ray.margin = NSVCD__SAME_PLACE * (double)p->lengths;
-  for (size_t n = 0; n < 8; n++) {
+  for (size_t n = 0; n < 8 && p->work <= p->limit; n++) {
     const double *d = directions[best ^ n];
     int unclear = 0;
     ray.direction = nsvcd__d3_of(d[0], d[1], d[2]);

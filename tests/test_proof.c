@@ -1224,6 +1224,16 @@ static void proof_keeps_its_limit_in_large_patches(void) {
   printf("  %zu triangles in a patch, 300 components: at most %zu units, of 1000\n", ball.triangles,
          most);
   CHECK_LE(most, options.work + 2 * (ball.listed + crumbs.listed));
+
+  // On itself no ray is clear: one of them may be beyond the limit, not all eight.
+  attack itself;
+  const oracle_pose still = {{0, 0, 0}, {0, 0, 0, 1}};
+  options.work = 1;
+  itself.moving = itself.fixed = &ball;
+  proof_motion_set(&itself.motion, &still, 1, &still);
+  CHECK_EQ(proof_ask_with(&itself, &options), NSVCD_OK);
+  CHECK_EQ(itself.answer.status, NSVCD_STATUS_UNDECIDED);
+  CHECK_LE(itself.answer.work, 1 + ball.listed / 16 + 1);
   proof_free(&ball);
   proof_free(&crumbs);
 }
