@@ -3856,6 +3856,7 @@ static void nsvcd__read_number(nsvcd__numbers *numbers, size_t n) {
     const uint32_t code = nsvcd__read_code(&numbers->at);
     numbers->number = (numbers->number + (code >> 1)) & ~NSVCD__ENCLOSES;
     numbers->encloses = (int)(code & 1);
+    NSVCD__TALLY(numbers, 1);
   }
 }
 

@@ -17,6 +17,7 @@
 #define TALLY_planes(amount) ((void)0)
 #define TALLY_pairs(amount) ((void)0)
 #define TALLY_tries(amount) ((void)0)
+#define TALLY_numbers(amount) ((void)0)
 #define TALLY_collision(amount) (collision_seconds += (amount) ? seconds() : -seconds())
 static double collision_seconds;  // spent in the cost of collision
 static double seconds(void);

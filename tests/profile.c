@@ -8,7 +8,7 @@
 #define _POSIX_C_SOURCE 200112L
 #include <stddef.h>
 static struct {
-  size_t tests, ranked, judged, planes, pairs, tries, collision;
+  size_t tests, ranked, judged, planes, pairs, tries, numbers, collision;
 } tally;
 #define NSVCD__TALLY(what, amount) (tally.what += (amount))
 #define NEURALSVCD_IMPLEMENTATION

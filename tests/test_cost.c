@@ -4,7 +4,7 @@
 #define NEURALSVCD_IMPLEMENTATION
 #include <stddef.h>
 static struct {
-  size_t tests, ranked, judged, planes, pairs, tries;
+  size_t tests, ranked, judged, planes, pairs, tries, numbers;
   size_t collision;  // of no interest here
 } tally;
 #define NSVCD__TALLY(what, amount) (tally.what += (amount))
@@ -215,6 +215,36 @@ static void cost_threads_agree(void) {
   }
 }
 
+// ----------------------------------------------------------------------------------------------------------- numbers
+
+// A ray through a detail of a large body, whose triangles are all so small that float rounding keeps them: their numbers
+// are read once, not from the first one on for each.
+static void cost_reads_numbers_once(void) {
+  const double way[3] = {0.5359, 0.6013, 0.5927};  // the header's ray from a place on this side
+  shapes_mesh shape;
+  memset(&shape, 0, sizeof shape);
+  shapes_ellipsoid(&shape, 1, 1, 1, 32);
+  const size_t first = shape.vertices;
+  shapes_ellipsoid(&shape, 0.005, 0.005, 0.005, 64);
+  for (size_t i = 3 * first; i < 3 * shape.vertices; i++) shape.positions[i] += 0.6 * way[i % 3];
+  nsvcd_mesh mesh = query_mesh(&shape, 1), speck = query_box(0.001, 0.001, 0.001);
+  const nsvcd_body *large = NULL, *small = NULL;
+  CHECK_EQ(nsvcd_encode(&mesh, NULL, NULL, NULL, 0, &large), NSVCD_OK);
+  CHECK_EQ(nsvcd_encode(&speck, NULL, NULL, NULL, 0, &small), NSVCD_OK);
+  const nsvcd_pose pose = query_pose(0.2 * way[0], 0.2 * way[1], 0.2 * way[2]), still = query_pose(0, 0, 0);
+  memset(&tally, 0, sizeof tally);
+  const nsvcd_answer answer = query_ask(small, &pose, 1, large, &still, NULL);
+  printf("  %zu numbers read on a ray past %zu triangles\n", tally.numbers, mesh.triangle_count);
+  CHECK_EQ(answer.status, NSVCD_STATUS_INSIDE);
+  CHECK_GE(tally.numbers, 500);  // or the ray is not where it should be
+  CHECK_LE(tally.numbers, 4 * mesh.triangle_count);
+  nsvcd_body_free(large, NULL);
+  nsvcd_body_free(small, NULL);
+  nsvcd_mesh_free(&mesh, NULL);
+  nsvcd_mesh_free(&speck, NULL);
+  shapes_free(&shape);
+}
+
 // ------------------------------------------------------------------------------------------------------------- stack
 
 #define COST_STACK (256 * 1024)
@@ -301,5 +331,6 @@ void test_cost(void) {
   RUN(cost_batch_agrees_with_single_queries);
   RUN(cost_batch_refuses_as_a_query_does);
   RUN(cost_threads_agree);
+  RUN(cost_reads_numbers_once);
   RUN(cost_stack_is_bounded);
 }
