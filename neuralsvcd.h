@@ -287,8 +287,8 @@ typedef struct nsvcd_sweep_options {
   float recall;  // share of collisions to be found: 0 (balanced errors), 0.99f, 0.999f or 0.9999f, as calibrated
   nsvcd_method method;
   size_t work;      // units that a proof may take, about; 0: NSVCD_DEFAULT_WORK. A unit is a plane sought for two
-                    // patches, a triangle against 16, a pair of triangles at one time, or a ray against 16: up to 0.5
-                    // microseconds
+                    // patches, 16 triangles against the box of 16, one of them against these, a pair of triangles at
+                    // one time, or a ray against 16: up to 0.5 microseconds
   float tolerance;  // metres, at least 0: surfaces that come closer than this, and do not meet, may be left undecided
 } nsvcd_sweep_options;
 
@@ -325,8 +325,8 @@ typedef struct nsvcd_answer {
 // NeuralSVCD, algorithm 1.
 // What a proof says is about the surfaces of the two meshes, posed exactly as above: CERTIFIED_FREE and INSIDE hold for
 // the meshes themselves; the triangles of a WITNESS meet to within the two bodies' quantum (nsvcd_body_facts), a few
-// micrometres at most on bodies of 0.3 m; UNDECIDED are surfaces that come as close as that without meeting, or more work than was
-// allowed.
+// micrometres at most on bodies of 0.3 m; UNDECIDED are surfaces that come as close as that without meeting, or more
+// work than was allowed.
 NSVCDDEF size_t nsvcd_sweep_workspace_size(void);
 NSVCDDEF nsvcd_result nsvcd_sweep(const nsvcd_body *moving, const nsvcd_pose *poses, size_t count,
                                   const nsvcd_body *fixed, const nsvcd_pose *fixed_pose,
@@ -4067,7 +4067,6 @@ static void nsvcd__facets_write(const nsvcd__surface *surface, size_t from, nsvc
   unsigned char *corners = (unsigned char *)nsvcd__writable(body, f.listings) + first_byte[to];
   const size_t bytes = nsvcd__corner_bytes(vertices);
   unsigned char *numbers = corners + 3 * triangles * bytes;
-  first_byte[to + 1] = first_byte[to] + (uint32_t)(3 * triangles * bytes + nsvcd__numbers_size(surface, from));
   first_vertex[to + 1] = first_vertex[to] + (uint32_t)vertices;
   first_triangle[to + 1] = first_triangle[to] + (uint32_t)triangles;
   memcpy(coordinates + 3 * (size_t)first_vertex[to], surface->vertices + 3 * vertex, 6 * vertices);
@@ -4081,6 +4080,7 @@ static void nsvcd__facets_write(const nsvcd__surface *surface, size_t from, nsvc
     for (; code > 0x7f; code >>= 7) *numbers++ = (unsigned char)(code | 0x80);
     *numbers++ = (unsigned char)code;
   }
+  first_byte[to + 1] = first_byte[to] + (uint32_t)(numbers - corners);
 }
 
 // Builds a body of triangles of `size` bytes in `memory`, its patches in the given order. centres (N, 3): for patches
@@ -5353,7 +5353,8 @@ static void nsvcd__candidates_start(nsvcd__candidates *kept, nsvcd__candidate *i
 // two triangles come closer than their quanta and the tolerance without meeting, or the limit of work was reached.
 //
 // Work is counted in units: a plane sought for two hulls, 16 triangles against the box of 16, one of them against these, a
-// pair of triangles at one time, a ray against 16 triangles. A query stops within one patch's listings, or one ray, of its limit.
+// pair of triangles at one time, a ray against 16 triangles. A query stops within one patch's listings, or one ray, of its
+// limit.
 
 #define NSVCD__ITEMS 256         // items that no plane parts, kept at once; when there are more, those are settled first
 #define NSVCD__NEWS 8            // items that are worth a look before the search goes on
@@ -6425,7 +6426,8 @@ static NSVCD__APART nsvcd__verdict nsvcd__settle_pair(nsvcd__proof *p, const nsv
 
 // ---- blocks of triangles
 
-// Where the 16 vertices of corner k of listings first .. first + count - 1 are, the last repeated.
+// Corner k of listings first .. first + count - 1, as vertices of their patch, the last one repeated to 16: what
+// nsvcd__facet_corner says of each, the patch asked once.
 static void nsvcd__block_corners(const nsvcd__facets *f, size_t patch, size_t first, size_t count, size_t k,
                                  uint16_t *vertices) {
   const size_t bytes = nsvcd__corner_bytes(f->first_vertex[patch + 1] - f->first_vertex[patch]);

@@ -1,4 +1,4 @@
-// What a query costs: the bound that nsvcd_sweep states, batches, and threads.
+// What a query costs: the bound that nsvcd_sweep states, batches, threads, numbers read, and stack.
 #define _POSIX_C_SOURCE 200809L
 #define NSVCD_STATIC
 #define NEURALSVCD_IMPLEMENTATION

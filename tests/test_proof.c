@@ -1355,7 +1355,6 @@ static void proof_flat_on_flat(void) {
   proof_free(&upper);
 }
 
-// Every triangle twice, and some without area.
 // A flat sheet of this size, open, its corners representable.
 static proof_body proof_flat_sheet(double x, double y, int cuts) {
   shapes_mesh shape;
@@ -1413,6 +1412,7 @@ static void proof_faces_pass(void) {
   proof_free(&deep);
 }
 
+// Every triangle twice, and some without area.
 static void proof_triangles_listed_twice(void) {
   shapes_mesh shape;
   shapes_rng rng = {62};
