@@ -14,16 +14,20 @@
 //
 // Ask a question:
 //
-//   nsvcd_mesh mesh;                                                        // once per mesh
+//   nsvcd_mesh mesh;                                 // once per mesh
 //   const nsvcd_body *mug, *rack;
 //   nsvcd_obj_load("mug.obj", NULL, &mesh, NULL);
-//   nsvcd_encode(&mesh, NULL, NULL, NULL, 0, &mug);                         // the same for the rack
+//   nsvcd_encode(&mesh, NULL, NULL, NULL, 0, &mug);  // the same for the rack
 //
-//   nsvcd_pose path[3] = {{{0, 0, 0.5f}, {0, 0, 0, 1}}, {{0.1f, 0, 0.3f}, {0, 0, 0, 1}}, {{0.2f, 0, 0}, {0, 0, 0, 1}}};
-//   nsvcd_pose rack_pose = {{0.2f, 0, 0}, {0, 0, 0, 1}};
+//   nsvcd_pose path[2] = {{{0, 0, 0.5f}, {0, 0, 0, 1}}, {{0.2f, 0, 0}, {0, 0, 0, 1}}};
+//   nsvcd_question question = {0};                   // zero is the default of everything but the bodies
+//   question.a.body = mug;
+//   question.a.poses = path;
+//   question.a.count = 2;
+//   question.b.body = rack;                          // which rests at the origin
 //   nsvcd_answer answer;
-//   nsvcd_sweep(mug, path, 3, rack, &rack_pose, NULL, workspace, workspace_size, &answer);
-//   if (answer.collides) printf("hits at t = %g\n", answer.time);
+//   nsvcd_sweep(&question, workspace, workspace_size, &answer);
+//   if (answer.collides) printf("hits at t = %g\n", answer.contact_time);
 //
 // Or plan a motion that hits nothing: nsvcd_plan, below.
 //
@@ -120,6 +124,8 @@ typedef enum nsvcd_result {
   NSVCD_ERROR_EMPTY,      // no triangle, or no area
   NSVCD_ERROR_TOO_LARGE,  // more vertices, triangles or bytes than can be counted
   NSVCD_ERROR_POSE,       // a pose is not finite, or its quaternion is not of unit length to 1e-4
+  NSVCD_ERROR_SCALE,      // a scale is not finite, negative, or out of range, or makes a body larger or smaller than may be
+  NSVCD_ERROR_SAME,       // both sides of a question are the same body in the same motion: something was passed twice
   NSVCD_ERROR_BODY,       // a body blob is damaged, cut short, misaligned, of another version or model, or has not
                           // what the method asked for needs
   NSVCD_ERROR_WORKSPACE   // the memory given is too small, or not aligned to NSVCD_ALIGNMENT bytes
@@ -184,6 +190,8 @@ typedef struct nsvcd_body nsvcd_body;
 #define NSVCD_MAX_COORDINATE 1e6f  // metres
 #define NSVCD_MIN_RADIUS 1e-12f    // metres, of a body's bounding sphere
 #define NSVCD_MAX_POSES 65536      // per motion
+#define NSVCD_MIN_SCALE 1e-6f      // of a body in a question
+#define NSVCD_MAX_SCALE 1e6f
 
 typedef struct nsvcd_encode_options {
   size_t points;       // N, representative points (patches), 1..NSVCD_MAX_POINTS; 0: NSVCD_DEFAULT_POINTS, or
@@ -292,73 +300,82 @@ typedef struct nsvcd_sweep_options {
   float tolerance;  // metres, at least 0: surfaces that come closer than this, and do not meet, may be left undecided
 } nsvcd_sweep_options;
 
+// A body in a scene: how it moves, and how large it is. Many may share one body.
+typedef struct nsvcd_mover {
+  const nsvcd_body *body;   // from nsvcd_encode, nsvcd_body_load or nsvcd_body_scale
+  const nsvcd_pose *poses;  // (count), uniform in t in [0,1]; position linear and rotation slerp in between. One pose: it
+                            // rests there. NULL, and count 0: it rests at the origin
+  size_t count;
+  float scale;  // of the body, about its origin, NSVCD_MIN_SCALE..NSVCD_MAX_SCALE; 0: 1
+} nsvcd_mover;
+
+// Do two bodies hit each other? What is zero is the default, but for the bodies.
+typedef struct nsvcd_question {
+  nsvcd_mover a, b;  // either may move, or both, in the same time; their counts may differ
+  nsvcd_sweep_options options;
+} nsvcd_question;
+
 typedef struct nsvcd_answer {
-  float logit;            // of collision; positive is yes. The threshold that options.recall asks for is already in it.
-                          // The greatest of the pairs looked at; the search ends at the first above 3. Where the tiny
-                          // decoder, which ranks the pairs, is clear (beyond +-3), it is the one that answers. Of a
-                          // proof: +-NSVCD_LOGIT_CERTAIN; where it is undecided, the network's
-  int collides;           // logit > 0. UNDECIDED: the network's opinion, or, where there is no network, yes
-  float time;             // in [0,1]. WITNESS: when the triangles meet, which need not be the first time; INSIDE: 0;
-                          // by the network: where the most suspicious pair comes closest
-  uint32_t moving_patch;  // the pair; 0, 0 where there is none
-  uint32_t fixed_patch;
+  float logit;         // of collision; positive is yes. The threshold that options.recall asks for is already in it.
+                       // The greatest of the pairs looked at; the search ends at the first above 3. Where the tiny
+                       // decoder, which ranks the pairs, is clear (beyond +-3), it is the one that answers. Of a
+                       // proof: +-NSVCD_LOGIT_CERTAIN; where it is undecided, the network's
+  int collides;        // logit > 0. UNDECIDED: the network's opinion, or, where there is no network, yes
+  float contact_time;  // in [0,1]. WITNESS: when the triangles meet, which need not be the first time; INSIDE: 0; by the
+                       // network: where the most suspicious pair comes closest
+  uint32_t patch_a;    // the pair; 0, 0 where there is none
+  uint32_t patch_b;
   nsvcd_status status;
-  size_t overlapping;        // network: pairs of patches whose spheres meet, each counted once per stretch of time, until
-                             // the search ends
-  float point[3];            // WITNESS: where the triangles meet at that time; INSIDE: what is inside; in the world
-  float normal[3];           // WITNESS: unit normal of the fixed body's triangle, out of it, in the world; else, and
-                             // where that triangle has no area, 0
-  uint32_t moving_triangle;  // WITNESS: as numbered in the caller's meshes; else NSVCD_NO_TRIANGLE
-  uint32_t fixed_triangle;
+  size_t overlapping;   // network: pairs of patches whose spheres meet, each counted once per stretch of time, until the
+                        // search ends
+  float point[3];       // WITNESS: where the triangles meet at that time; INSIDE: what is inside; in the world
+  float normal[3];      // WITNESS: unit normal of one of the triangles, from b to a, in the world; else, and where that
+                        // triangle has no area, 0
+  uint32_t triangle_a;  // WITNESS: as numbered in the caller's meshes; else NSVCD_NO_TRIANGLE
+  uint32_t triangle_b;
   size_t work;  // units that the proof took
 } nsvcd_answer;
 
-// Does the moving body, along `count` poses uniform in t in [0,1] (position linear and rotation slerp in between), hit
-// the fixed body? One pose asks about one placement.
-//   options  NULL for the defaults.  workspace  nsvcd_sweep_workspace_size() bytes, aligned to NSVCD_ALIGNMENT.
-// Allocates nothing; threads may share bodies, each with its own workspace; deterministic. Bodies of Ga
-// and Gb groups of 16 patches and a motion of S segments, 16 or so up to 320 degrees of turn and 64 at most, take at
-// most 18 S Ga Gb + 3 S tests of 16 spheres against one; then a proof takes options.work units, and the network the tiny
-// decoder on 12 K pairs and the chosen one on K (tiny alone: on 3 K), and 32 distances per patch. On failure `answer` is
-// left as it was: ARGUMENT, POSE, WORKSPACE, and BODY where a body has not what the method needs. Bodies must come from
-// nsvcd_encode, nsvcd_body_load or nsvcd_body_scale. Source: the proof: this library, see *proof* below; the network:
-// NeuralSVCD, algorithm 1.
-// What a proof says is about the surfaces of the two meshes, posed exactly as above: CERTIFIED_FREE and INSIDE hold for
-// the meshes themselves; the triangles of a WITNESS meet to within the two bodies' quantum (nsvcd_body_facts), a few
-// micrometres at most on bodies of 0.3 m; UNDECIDED are surfaces that come as close as that without meeting, or more
-// work than was allowed.
+// Answers a question. workspace: nsvcd_sweep_workspace_size() bytes, aligned to NSVCD_ALIGNMENT.
+// Allocates nothing; threads may share bodies, each with its own workspace; deterministic, and the same verdict whichever
+// body is a and which b. Bodies of Ga and Gb groups of 16 patches and a motion of S segments, 16 or so up to 320 degrees
+// of turn and 64 at most, take at most 18 S Ga Gb + 3 S tests of 16 spheres against one; then a proof takes options.work
+// units, and the network the tiny decoder on 12 K pairs and the chosen one on K (tiny alone: on 3 K), and 32 distances
+// per patch. On failure `answer` is left as it was: ARGUMENT (NULL, a count, or an option out of its range), POSE, SCALE,
+// SAME, WORKSPACE, and BODY where a body has not what the method needs. Source: the proof: this library, see *proof*
+// below; the network: NeuralSVCD, algorithm 1.
+// What a proof says is about the surfaces of the two meshes, scaled and posed exactly as described: CERTIFIED_FREE and
+// INSIDE hold for the meshes themselves; the triangles of a WITNESS meet to within the two bodies' quantum
+// (nsvcd_body_facts, times the scale), a few micrometres at most on bodies of 0.3 m; UNDECIDED are surfaces that come as
+// close as that without meeting, or more work than was allowed.
 NSVCDDEF size_t nsvcd_sweep_workspace_size(void);
-NSVCDDEF nsvcd_result nsvcd_sweep(const nsvcd_body *moving, const nsvcd_pose *poses, size_t count,
-                                  const nsvcd_body *fixed, const nsvcd_pose *fixed_pose,
-                                  const nsvcd_sweep_options *options, void *workspace, size_t workspace_size,
+NSVCDDEF nsvcd_result nsvcd_sweep(const nsvcd_question *question, void *workspace, size_t workspace_size,
                                   nsvcd_answer *answer);
 
-// The same for `motions` motions of `count` poses each, one after another in `poses` (motions, count), as a sampling
-// planner asks; answers: (motions). Errors as above, and then no answer is written; no motions are no error.
-// Faster than as many nsvcd_sweep calls where motions are alike, because each is first asked where the one before it
-// collided: if that is a clear collision again (logit above 3), it is the answer, and the rest is not searched. Other
-// answers are nsvcd_sweep's, to the bit. Source: this library; physics engines call it temporal coherence.
-NSVCDDEF nsvcd_result nsvcd_sweep_batch(const nsvcd_body *moving, const nsvcd_pose *poses, size_t count, size_t motions,
-                                        const nsvcd_body *fixed, const nsvcd_pose *fixed_pose,
-                                        const nsvcd_sweep_options *options, void *workspace, size_t workspace_size,
-                                        nsvcd_answer *answers);
+// The same for `count` questions, as a frame of a game or a sampling planner has them; answers: (count). Errors as above,
+// of the first question that has one, and then no answer is written; no questions are no error.
+// Where neighbours ask the network about the same two bodies, this is faster than as many nsvcd_sweep calls: each is first
+// asked where the one before it collided, and if that is a clear collision again (logit above 3), it is the answer, and the
+// rest is not searched. Other answers are nsvcd_sweep's, to the bit. Source: this library; physics engines call it
+// temporal coherence.
+NSVCDDEF nsvcd_result nsvcd_sweep_batch(const nsvcd_question *questions, size_t count, void *workspace,
+                                        size_t workspace_size, nsvcd_answer *answers);
 
 #ifndef NSVCD_NO_GRADIENT
-// nsvcd_sweep by the network, and the derivative of answer->logit by the moving body's poses: what drives them (joints, a spline)
-// takes it from there by the chain rule. gradient: (count, 6): per pose, by a displacement of the body's origin
-// (metres, world axes), then by a small rotation about that origin (rotation vector, radians, world axes, applied on
-// the left). Zero where no network answered (CERTIFIED_FREE, INSIDE) and for poses that the decisive pair does not
+// nsvcd_sweep by the network, and the derivatives of answer->logit by the poses of a and of b: what drives them (joints, a
+// spline) takes it from there by the chain rule. gradient_a, gradient_b: (count, 6), or NULL where it is not wanted, but
+// not both: per pose, by a displacement of the body's origin (metres, world axes), then by a small rotation about that
+// origin (rotation vector, radians, world axes, applied on the left); of one row for a body without poses.
+// Zero where no network answered (CERTIFIED_FREE, INSIDE) and for poses that the decisive pair does not
 // pass. It is that of the pair and the stretch of time that decided: the logit is the greatest of several, and so has
 // kinks, also where the network (ReLU) and the frame of a pair have theirs; where the pair is at rest, or does not
 // turn, it is the mean of both sides. The ends of the stretch move with the poses, but for those at t = 0 or 1 and
 // where a segment of the search begins or ends; the unit of length and the spheres' allowance for what the motion does
 // between its samples are taken as constant. In int8 arithmetic it is the derivative of the float decoder, or, without
-// that, of the function that the int8 one rounds. Errors as nsvcd_sweep's, and then `gradient` is left as it was; it
-// must not be NULL. Takes 2 to 3 microseconds more. Source: reverse mode; this library.
-NSVCDDEF nsvcd_result nsvcd_sweep_gradient(const nsvcd_body *moving, const nsvcd_pose *poses, size_t count,
-                                           const nsvcd_body *fixed, const nsvcd_pose *fixed_pose,
-                                           const nsvcd_sweep_options *options, void *workspace, size_t workspace_size,
-                                           nsvcd_answer *answer, float *gradient);
+// that, of the function that the int8 one rounds. Errors as nsvcd_sweep's, and then the gradients are left as they were.
+// Takes 2 to 3 microseconds more. Source: reverse mode; this library.
+NSVCDDEF nsvcd_result nsvcd_sweep_gradient(const nsvcd_question *question, void *workspace, size_t workspace_size,
+                                           nsvcd_answer *answer, float *gradient_a, float *gradient_b);
 #endif
 
 #ifndef NSVCD_NO_OPTIMIZER
@@ -951,6 +968,10 @@ NSVCDDEF const char *nsvcd_result_string(nsvcd_result result) {
       return "more vertices, triangles or bytes than can be counted";
     case NSVCD_ERROR_POSE:
       return "a pose is not finite, or its quaternion is not of unit length";
+    case NSVCD_ERROR_SCALE:
+      return "a scale is not finite, negative or out of range, or makes a body too small or too large";
+    case NSVCD_ERROR_SAME:
+      return "both sides are the same body in the same motion";
     case NSVCD_ERROR_BODY:
       return "the body is damaged, cut short, misaligned, of another version or model, or lacks what the method needs";
     case NSVCD_ERROR_WORKSPACE:
@@ -4300,19 +4321,33 @@ NSVCDDEF nsvcd_result nsvcd_body_scale(const nsvcd_body *body, float scale, void
 }
 
 // ----------------------------------------------------------------------------------------------------- motion
-// In: `count` poses of the moving body's origin, uniform in t in [0,1], and the fixed body's pose. Between samples the
-// position is linear and the rotation is a slerp on the shorter arc. Out: the moving body's pose in the fixed body's
-// frame at any t. Positions are taken relative to the fixed body first, so a scene far from the origin loses nothing.
-// Two samples exactly 180 degrees apart have two shortest arcs: rounding picks one.
+// In: two movers: bodies, their scales, and their poses, uniform in t in [0,1]; between poses the position is linear and
+// the rotation a slerp on the shorter arc. Out: the pose of one of them, *moving*, in the frame of the other, *fixed*, at
+// any t. Both may move; "fixed" says whose frame it is, in units of its scale, so that its stored numbers need no change.
+// A point x of the moving body is at scale R x + p there. Positions are subtracted in the world first, so a scene far
+// from the origin loses nothing. Two poses exactly 180 degrees apart have two shortest arcs: rounding picks one.
+//
+// Time is counted in *ticks*, of which a motion has a whole number, and so has each body between two of its poses: the
+// least common multiple. A *knot* is a tick at which a pose of either is. Between two knots both motions are smooth.
 
-typedef struct nsvcd__motion {
+// The poses of one body.
+typedef struct nsvcd__track {
   const nsvcd_pose *poses;  // (count), the caller's
   size_t count;
-  const nsvcd_pose *fixed_pose;  // the caller's
-  float fixed_position[3];
-  float to_fixed[9];    // world axes to the fixed body's axes
-  float to_fixed_q[4];  // the same as a quaternion
-  float low[3];         // of the positions, from the fixed body's origin, in world axes
+  uint32_t ticks;  // from a pose to the next; all of them where there is one pose
+} nsvcd__track;
+
+typedef struct nsvcd__motion {
+  nsvcd__track moving, fixed;
+  uint32_t ticks;   // in all
+  int fixed_moves;  // else it has one pose
+  float scale;      // of the moving body, over that of the fixed one,
+  float per_scale;  // and the other way round
+  float unit;       // of the fixed body's frame: its scale, metres
+  float fixed_position[3];  // of the fixed body at t = 0, metres
+  float to_fixed[9];        // world axes to the fixed body's axes at t = 0
+  float to_fixed_q[4];      // the same as a quaternion
+  float low[3];             // of the moving body's origin less the fixed one's, in world axes, metres
   float high[3];
 } nsvcd__motion;
 
@@ -4334,8 +4369,10 @@ static int nsvcd__poses_are_valid(const nsvcd_pose *poses, size_t count) {
   }
   if (most > nsvcd__magnitude(NSVCD_MAX_COORDINATE)) return 0;
   for (size_t k = 0; k < count; k++) {
-    const float *q = poses[k].rotation, square = (q[0] * q[0] + q[1] * q[1]) + (q[2] * q[2] + q[3] * q[3]);
-    shortest = square < shortest ? square : shortest, longest = square > longest ? square : longest;
+    const float *q = poses[k].rotation;
+    const float square = (q[0] * q[0] + q[1] * q[1]) + (q[2] * q[2] + q[3] * q[3]);
+    shortest = square < shortest ? square : shortest;
+    longest = square > longest ? square : longest;
   }
   return shortest >= 0.9998f && longest <= 1.0002f;
 }
@@ -4382,88 +4419,135 @@ static void nsvcd__slerp(const float *a, const float *b, float u, float *out) {
   nsvcd__quat_normalize(a, start);
   nsvcd__quat_normalize(b, end);
   const float angle = nsvcd__quat_half_angle(start, end, nsvcd__is_opposed(a, b));
-  if (angle > 1e-3f) wa = sinf((1 - u) * angle), wb = sinf(u * angle);  // below, the difference is less than rounding
+  if (angle > 1e-3f) {  // below, the difference is less than rounding
+    wa = sinf((1 - u) * angle);
+    wb = sinf(u * angle);
+  }
   for (size_t k = 0; k < 4; k++) end[k] = wa * start[k] + wb * end[k];
   nsvcd__quat_normalize(end, out);
 }
 
-// Are they poses, `motions` times `count`, and is the other one?
-static nsvcd_result nsvcd__motions_check(const nsvcd_pose *poses, size_t count, size_t motions,
-                                         const nsvcd_pose *fixed_pose) {
-  if (!poses || !fixed_pose || count < 1 || count > NSVCD_MAX_POSES) return NSVCD_ERROR_ARGUMENT;
-  if (motions > SIZE_MAX / sizeof *poses / count) return NSVCD_ERROR_ARGUMENT;
-  return nsvcd__poses_are_valid(fixed_pose, 1) && nsvcd__poses_are_valid(poses, count * motions) ? NSVCD_OK
-                                                                                                 : NSVCD_ERROR_POSE;
+// What a mover that is at rest at the origin is given.
+static const nsvcd_pose nsvcd__at_origin = {{0, 0, 0}, {0, 0, 0, 1}};
+
+static size_t nsvcd__pose_count(const nsvcd_mover *mover) { return mover->poses ? mover->count : 1; }
+
+static nsvcd_result nsvcd__mover_check(const nsvcd_mover *mover) {
+  if (!mover->body) return NSVCD_ERROR_ARGUMENT;
+  const float scale = mover->scale;
+  if (!nsvcd__is_finite(scale) || scale < 0) return NSVCD_ERROR_SCALE;
+  if (scale > 0) {
+    if (scale < NSVCD_MIN_SCALE || scale > NSVCD_MAX_SCALE) return NSVCD_ERROR_SCALE;
+    if (scale * mover->body->radius < NSVCD_MIN_RADIUS) return NSVCD_ERROR_SCALE;
+    if (scale * mover->body->extent > 2 * NSVCD_MAX_COORDINATE) return NSVCD_ERROR_SCALE;
+  }
+  if (!mover->poses) return mover->count == 0 ? NSVCD_OK : NSVCD_ERROR_ARGUMENT;
+  if (mover->count < 1 || mover->count > NSVCD_MAX_POSES) return NSVCD_ERROR_ARGUMENT;
+  return nsvcd__poses_are_valid(mover->poses, mover->count) ? NSVCD_OK : NSVCD_ERROR_POSE;
 }
 
-// Prepares a motion of valid poses. Keeps the pointer `poses`.
-static void nsvcd__motion_init(const nsvcd_pose *poses, size_t count, const nsvcd_pose *fixed_pose,
-                               nsvcd__motion *motion) {
-  float q[4], from_fixed[9], low[3], high[3];
+static uint32_t nsvcd__common_divisor(uint32_t a, uint32_t b) {
+  while (b) {
+    const uint32_t rest = a % b;
+    a = b;
+    b = rest;
+  }
+  return a;
+}
+
+static nsvcd__track nsvcd__track_of(const nsvcd_mover *mover) {
+  nsvcd__track track = {mover->poses ? mover->poses : &nsvcd__at_origin, nsvcd__pose_count(mover), 0};
+  return track;
+}
+
+// The motion's ticks, `parts` times as many as its knots need. No more than 65,535 * 65,534, which 32 bits hold, for
+// parts is 1 but where knots are few.
+static void nsvcd__motion_set_ticks(nsvcd__motion *motion, uint32_t parts) {
+  const uint32_t a = motion->moving.count > 1 ? (uint32_t)(motion->moving.count - 1) : 1;
+  const uint32_t b = motion->fixed.count > 1 ? (uint32_t)(motion->fixed.count - 1) : 1;
+  motion->ticks = a / nsvcd__common_divisor(a, b) * b * parts;
+  motion->moving.ticks = motion->ticks / a;
+  motion->fixed.ticks = motion->ticks / b;
+}
+
+static void nsvcd__track_box(const nsvcd__track *track, float *low, float *high) {
+  for (size_t k = 0; k < 3; k++) low[k] = high[k] = track->poses->position[k];
+  for (size_t n = 1; n < track->count; n++) {
+    for (size_t k = 0; k < 3; k++) {
+      const float x = track->poses[n].position[k];
+      low[k] = x < low[k] ? x : low[k];
+      high[k] = x > high[k] ? x : high[k];
+    }
+  }
+}
+
+// Prepares the motion of valid movers. Keeps the pointers to their poses.
+static void nsvcd__motion_init(const nsvcd_mover *moving, const nsvcd_mover *fixed, nsvcd__motion *motion) {
+  float q[4], from_fixed[9], low[3], high[3], fixed_low[3], fixed_high[3];
+  motion->moving = nsvcd__track_of(moving);
+  motion->fixed = nsvcd__track_of(fixed);
+  motion->fixed_moves = motion->fixed.count > 1;
+  motion->unit = fixed->scale > 0 ? fixed->scale : 1;
+  motion->scale = (moving->scale > 0 ? moving->scale : 1) / motion->unit;
+  motion->per_scale = 1 / motion->scale;
+  nsvcd__motion_set_ticks(motion, 1);
+
+  const nsvcd_pose *fixed_pose = motion->fixed.poses;
   nsvcd__quat_normalize(fixed_pose->rotation, q);
   nsvcd__quat_to_matrix(q, from_fixed);
   nsvcd__transpose33(from_fixed, motion->to_fixed);
   for (size_t k = 0; k < 4; k++) motion->to_fixed_q[k] = k < 3 ? -q[k] : q[k];
   memcpy(motion->fixed_position, fixed_pose->position, sizeof motion->fixed_position);
-  motion->poses = poses, motion->count = count, motion->fixed_pose = fixed_pose;
-  for (size_t k = 0; k < 3; k++) low[k] = high[k] = poses->position[k];
-  for (size_t n = 1; n < count; n++) {
-    for (size_t k = 0; k < 3; k++) {
-      const float x = poses[n].position[k];
-      low[k] = x < low[k] ? x : low[k], high[k] = x > high[k] ? x : high[k];
-    }
-  }
+
+  nsvcd__track_box(&motion->moving, low, high);
+  nsvcd__track_box(&motion->fixed, fixed_low, fixed_high);
   for (size_t k = 0; k < 3; k++) {
-    motion->low[k] = low[k] - fixed_pose->position[k], motion->high[k] = high[k] - fixed_pose->position[k];
+    motion->low[k] = low[k] - fixed_high[k];
+    motion->high[k] = high[k] - fixed_low[k];
   }
 }
 
-// Does the moving body's origin always stay more than `distance` from the fixed body's?
+// Does the moving body's origin always stay more than `distance`, in the fixed body's units, from the fixed one's?
 static int nsvcd__motion_is_far(const nsvcd__motion *motion, float distance) {
+  const float metres = motion->unit * distance;
   float square = 0;
   for (size_t k = 0; k < 3; k++) {
-    const float below = motion->low[k], above = -motion->high[k], d = below > above ? below : above;
+    const float below = motion->low[k];
+    const float above = -motion->high[k];
+    const float d = below > above ? below : above;
     square += d > 0 ? d * d : 0;
   }
-  return square > 1.00001f * distance * distance;
+  return square > 1.00001f * metres * metres;
 }
 
-#ifndef NSVCD_NO_NETWORK
-// Pose a fraction u in [0,1] after sample k: rotation matrix and position from the fixed body's origin, in world axes.
-static void nsvcd__motion_between(const nsvcd__motion *motion, size_t k, float u, float *rotation, float *position) {
-  const nsvcd_pose *a = &motion->poses[k];
-  float q[4];
-  nsvcd__sub3(a->position, motion->fixed_position, position);
-  if (u > 0) {
-    const nsvcd_pose *b = &motion->poses[k + 1];
-    nsvcd__slerp(a->rotation, b->rotation, u, q);
-    for (size_t i = 0; i < 3; i++) position[i] += u * (b->position[i] - a->position[i]);
+// A track's pose at a tick: its rotation, unit to 1e-4, and its position, metres. In double: on a long way past the other
+// body, roundings of its ends would be large beside what is near.
+static void nsvcd__track_pose(const nsvcd__track *track, uint32_t tick, float *q, double *position) {
+  const uint32_t k = track->ticks == 1 ? tick : tick / track->ticks;
+  const uint32_t past = tick - k * track->ticks;
+  const nsvcd_pose *a = &track->poses[k < track->count ? k : track->count - 1];
+  if (past == 0 || track->count == 1) {
+    memcpy(q, a->rotation, sizeof a->rotation);
+    for (size_t n = 0; n < 3; n++) position[n] = (double)a->position[n];
+    return;
   }
-  if (!(u > 0)) nsvcd__quat_normalize(a->rotation, q);
-  nsvcd__quat_to_matrix(q, rotation);
-}
-
-// Turns a pose from world axes into the fixed body's.
-static void nsvcd__motion_to_fixed(const nsvcd__motion *motion, const float *rotation, const float *position,
-                                   float *fixed_rotation, float *fixed_position) {
-  nsvcd__mul33(motion->to_fixed, rotation, fixed_rotation);
-  nsvcd__mul33_vec(motion->to_fixed, position, fixed_position);
-}
-
-// Pose of the moving body in the fixed body's frame at time t, clamped to [0,1]: x_fixed = rotation x + position.
-static void nsvcd__motion_pose(const nsvcd__motion *motion, float t, float *rotation, float *position) {
-  size_t k = 0;
-  float u = 0, r[9], p[3];
-  if (motion->count > 1) {
-    size_t last = motion->count - 2;
-    u = (t < 0 ? 0 : t > 1 ? 1 : t) * (float)(last + 1);
-    k = (size_t)u < last ? (size_t)u : last;
-    u -= (float)k;
+  const nsvcd_pose *b = a + 1;
+  const double share = (double)past / (double)track->ticks;
+  nsvcd__slerp(a->rotation, b->rotation, (float)share, q);
+  for (size_t n = 0; n < 3; n++) {
+    position[n] = (double)a->position[n] + share * ((double)b->position[n] - (double)a->position[n]);
   }
-  nsvcd__motion_between(motion, k, u, r, p);
-  nsvcd__motion_to_fixed(motion, r, p, rotation, position);
 }
-#endif
+
+// The knot after a tick.
+static uint32_t nsvcd__next_knot(const nsvcd__motion *motion, uint32_t tick) {
+  const uint32_t a = motion->moving.ticks;
+  const uint32_t b = motion->fixed.ticks;
+  if (a == 1 || b == 1) return tick + 1;
+  const uint32_t after_a = (tick / a + 1) * a;
+  const uint32_t after_b = (tick / b + 1) * b;
+  return after_a < after_b ? after_a : after_b;
+}
 
 // Rotation matrices of quaternions of any length but 0, lane by lane.
 static void nsvcd__v_matrix(const nsvcd__v *q, nsvcd__v *m) {
@@ -4494,15 +4578,66 @@ static void nsvcd__v_mul33_vec(const nsvcd__v *m, const nsvcd__v *x, nsvcd__v *o
   for (size_t i = 0; i < 3; i++) out[i] = nsvcd__v_dot3(m + 3 * i, x);
 }
 
-// Turns poses from world axes, relative to the fixed body's origin, into the fixed body's: quaternions of any length.
-static void nsvcd__v_to_fixed(const nsvcd__motion *motion, const nsvcd__v *q, const nsvcd__v *p, nsvcd__v *fixed_q,
-                              nsvcd__v *fixed_p) {
-  nsvcd__v turn[4], m[9];
-  for (size_t k = 0; k < 4; k++) turn[k] = nsvcd__v_set(motion->to_fixed_q[k]);
-  for (size_t k = 0; k < 9; k++) m[k] = nsvcd__v_set(motion->to_fixed[k]);
-  nsvcd__v_quat_mul(turn, q, fixed_q);
-  nsvcd__v_mul33_vec(m, p, fixed_p);
+static void nsvcd__v_quat_normalize(nsvcd__v *q) {
+  nsvcd__v square = nsvcd__v_mul(q[0], q[0]);
+  for (size_t k = 1; k < 4; k++) square = nsvcd__v_fma(q[k], q[k], square);
+  const nsvcd__v length = nsvcd__v_sqrt(square);
+  for (size_t k = 0; k < 4; k++) q[k] = nsvcd__v_div(q[k], length);
 }
+
+// Poses of both bodies at 16 times, in the world.
+typedef struct nsvcd__v_poses {
+  nsvcd__v q[4];        // of the moving body, of any length
+  nsvcd__v fixed_q[4];  // of the fixed one, unit; only where it moves
+  nsvcd__v p[3];        // of the moving one's origin, from the fixed one's, metres
+} nsvcd__v_poses;
+
+// The moving body's poses as the fixed one sees them: quaternions of any length, and positions in its units.
+static void nsvcd__v_seen(const nsvcd__motion *motion, const nsvcd__v_poses *at, nsvcd__v *q, nsvcd__v *p) {
+  nsvcd__v turn[4], m[9];
+  const nsvcd__v per_metre = nsvcd__v_set(1 / motion->unit);
+  if (!motion->fixed_moves) {
+    for (size_t k = 0; k < 4; k++) turn[k] = nsvcd__v_set(motion->to_fixed_q[k]);
+    for (size_t k = 0; k < 9; k++) m[k] = nsvcd__v_set(motion->to_fixed[k]);
+  } else {
+    for (size_t k = 0; k < 4; k++) turn[k] = k < 3 ? nsvcd__v_negate(at->fixed_q[k]) : at->fixed_q[k];
+    nsvcd__v_matrix(turn, m);
+  }
+  nsvcd__v_quat_mul(turn, at->q, q);
+  nsvcd__v_mul33_vec(m, at->p, p);
+  for (size_t k = 0; k < 3; k++) p[k] = nsvcd__v_mul(per_metre, p[k]);
+}
+
+#ifndef NSVCD_NO_NETWORK
+// A track's pose at time t in [0,1], position in double.
+static void nsvcd__track_pose_at(const nsvcd__track *track, float t, float *q, double *position) {
+  const size_t last = track->count > 1 ? track->count - 2 : 0;
+  const float at = track->count > 1 ? t * (float)(last + 1) : 0;
+  const size_t k = (size_t)at < last ? (size_t)at : last;
+  const double u = (double)(at - (float)k);
+  const nsvcd_pose *a = &track->poses[k];
+  const nsvcd_pose *b = track->count > 1 ? a + 1 : a;
+  nsvcd__slerp(a->rotation, b->rotation, (float)u, q);
+  for (size_t n = 0; n < 3; n++) {
+    position[n] = (double)a->position[n] + u * ((double)b->position[n] - (double)a->position[n]);
+  }
+}
+
+// Pose of the moving body in the fixed body's frame at time t, clamped to [0,1]: x_fixed = scale rotation x + position.
+static void nsvcd__motion_pose(const nsvcd__motion *motion, float t, float *rotation, float *position) {
+  float q[4], fixed_q[4], r[9], fixed[9], to_fixed[9], d[3];
+  double p[3], fixed_p[3];
+  const float when = t < 0 ? 0 : t > 1 ? 1 : t;
+  nsvcd__track_pose_at(&motion->moving, when, q, p);
+  nsvcd__track_pose_at(&motion->fixed, when, fixed_q, fixed_p);
+  nsvcd__quat_to_matrix(q, r);
+  nsvcd__quat_to_matrix(fixed_q, fixed);
+  nsvcd__transpose33(fixed, to_fixed);
+  for (size_t k = 0; k < 3; k++) d[k] = (float)((p[k] - fixed_p[k]) / (double)motion->unit);
+  nsvcd__mul33(to_fixed, r, rotation);
+  nsvcd__mul33_vec(to_fixed, d, position);
+}
+#endif
 
 // ------------------------------------------------------------------------------------------------ broad phase
 // In: two bodies and a motion. Out: the pairs of patches whose spheres meet at some t, as candidates, deepest first.
@@ -4562,18 +4697,27 @@ typedef struct nsvcd__segments {
   float drift_along_axis[NSVCD__LANES], way[3][NSVCD__LANES], drift_off_way[NSVCD__LANES];
 } nsvcd__segments;
 
-// What is kept of 16 segments while their samples are visited, lane by lane.
-typedef struct nsvcd__cut {
-  // Quaternions as given, and seen from the fixed body: of the sample before, and of the segment's last one.
-  float last[4][NSVCD__LANES], last_fixed[4][NSVCD__LANES];
-  float end[4][NSVCD__LANES], end_fixed[4][NSVCD__LANES];
-  float share[NSVCD__LANES];                      // of the segment, of the way between two samples
-  float widest[NSVCD__LANES], sum[NSVCD__LANES];  // of its arcs
-  // The greatest so far, squared, of what samples are off their chord by: the rotation and the position, and both
-  // along the axis, or across the way.
+// Poses of both bodies at 16 ticks, and one more, in the world; and quaternions as the fixed body sees them.
+typedef struct nsvcd__knots {
+  float q[4][NSVCD__LANES + 1], p[3][NSVCD__LANES + 1], fixed_q[4][NSVCD__LANES + 1];
+  float seen[4][NSVCD__LANES];
+} nsvcd__knots;
+
+// What is kept of 16 segments while their knots are visited, lane by lane.
+typedef struct nsvcd__bends {
+  float sum[NSVCD__LANES];  // of the turns of arcs
+  // The greatest so far of what arcs leave their chords by: per metre from the moving body's origin, along the axis
+  // too, and that origin itself.
+  float arc_bulge[NSVCD__LANES], axis_turn[NSVCD__LANES], arc_drift[NSVCD__LANES];
+  // The greatest so far, squared, of what knots are off their chord by: the rotation and the position, and both along
+  // the axis, or across the way.
   float bulge[NSVCD__LANES], spread[NSVCD__LANES], axis_bulge[NSVCD__LANES], axis_drift[NSVCD__LANES];
   float way_drift[NSVCD__LANES];
-  float axis_turn[NSVCD__LANES];  // of what arcs leave their chords by along the axis
+} nsvcd__bends;
+
+typedef struct nsvcd__cut {
+  nsvcd__knots here, last, end;  // read now, the ones before, and those at the segments' ends
+  nsvcd__bends most;
 } nsvcd__cut;
 
 // 16 boxes, as their least and greatest coordinates.
@@ -4583,8 +4727,8 @@ typedef struct nsvcd__boxes {
 
 typedef struct nsvcd__workspace {
   size_t segments;                                        // S
-  uint32_t begin[NSVCD__MAX_SEGMENTS + 1];                // samples at which they begin, then the last one
-  size_t per_arc;                                         // samples to an arc of the motion
+  float scale;                                            // of the moving body
+  uint32_t begin[NSVCD__MAX_SEGMENTS + 1];                // ticks at which they begin, then the last one
   float time[NSVCD__MAX_SEGMENTS + 1];                    // of the ends of the segments
   float turn[NSVCD__MAX_SEGMENTS + 1];                    // rotation arc from t = 0 to there, radians
   nsvcd__segments blocks[NSVCD__BLOCKS];                  // (S / 16 rounded up)
@@ -4597,7 +4741,6 @@ typedef struct nsvcd__workspace {
   uint32_t waiting;                                       // fixed groups that it has yet to be searched against
   uint64_t posed;                                         // segments for which members[] is filled
   float remote;                                           // no part of these members is farther from the body's origin
-  nsvcd_pose between[NSVCD__MAX_SEGMENTS + 1];            // samples where the caller's are too few
 } nsvcd__workspace;
 
 // Not less than the angle between two rotations, unit to 1e-4, and hardly more where it is small: 4 asin(chord / 2) of
@@ -4615,6 +4758,15 @@ static nsvcd__v3 nsvcd__v_turn_between(const nsvcd__v *a, const nsvcd__v *b) {
   return nsvcd__v3_fma(a[3], v, nsvcd__v3_fma(nsvcd__v_negate(b[3]), u, across));
 }
 
+// The same on the shorter arc. cosine: of half the angle; near 0, rounding may have taken the longer one.
+static nsvcd__v3 nsvcd__v_shorter_turn_between(const nsvcd__v *a, const nsvcd__v *b, nsvcd__v *cosine) {
+  nsvcd__v dot = nsvcd__v_mul(a[0], b[0]);
+  for (size_t k = 1; k < 4; k++) dot = nsvcd__v_fma(a[k], b[k], dot);
+  const nsvcd__v sign = nsvcd__v_pick(nsvcd__v_set(0), dot, nsvcd__v_set(1), nsvcd__v_set(-1));
+  *cosine = nsvcd__v_mul(sign, dot);
+  return nsvcd__v3_scale(nsvcd__v_turn_between(a, b), sign);
+}
+
 // Vectors over their lengths; x where there is none.
 static nsvcd__v3 nsvcd__v3_unit(nsvcd__v3 a) {
   const nsvcd__v length = nsvcd__v_sqrt(nsvcd__v3_dot(a, a));
@@ -4625,86 +4777,103 @@ static nsvcd__v3 nsvcd__v3_unit(nsvcd__v3 a) {
                       nsvcd__v_pick(length, least, zero, unit.z));
 }
 
-// Bounds of the total length of the rotation arcs, radians, and of the longest.
-static void nsvcd__measure_turn(const nsvcd__motion *motion, float *turn, float *widest) {
+// Bounds of the total length of a track's rotation arcs, radians, and of the longest.
+static void nsvcd__measure_turn(const nsvcd__track *track, float *turn, float *widest) {
   float chord2[NSVCD__LANES], sums[NSVCD__LANES], longest[NSVCD__LANES];
   nsvcd__v sum = nsvcd__v_set(0), most = sum;
-  for (size_t first = 0; first + 1 < motion->count; first += NSVCD__LANES) {
-    const size_t left = motion->count - 1 - first, count = left < NSVCD__LANES ? left : NSVCD__LANES;
+  for (size_t first = 0; first + 1 < track->count; first += NSVCD__LANES) {
+    const size_t left = track->count - 1 - first;
+    const size_t count = left < NSVCD__LANES ? left : NSVCD__LANES;
     for (size_t l = 0; l < NSVCD__LANES; l++) {
-      const float *a = motion->poses[first + (l < count ? l : count - 1)].rotation;
-      const float *b = motion->poses[first + (l < count ? l + 1 : count - 1)].rotation;
-      const float dot = (a[0] * b[0] + a[1] * b[1]) + (a[2] * b[2] + a[3] * b[3]), sign = dot < 0 ? -1.0f : 1.0f;
+      const float *a = track->poses[first + (l < count ? l : count - 1)].rotation;
+      const float *b = track->poses[first + (l < count ? l + 1 : count - 1)].rotation;
+      const float dot = (a[0] * b[0] + a[1] * b[1]) + (a[2] * b[2] + a[3] * b[3]);
+      const float sign = dot < 0 ? -1.0f : 1.0f;
       float d[4];
       for (size_t k = 0; k < 4; k++) d[k] = sign * b[k] - a[k];
       chord2[l] = (d[0] * d[0] + d[1] * d[1]) + (d[2] * d[2] + d[3] * d[3]);
     }
     const nsvcd__v arc = nsvcd__v_arc_bound(nsvcd__v_load(chord2));
-    sum = nsvcd__v_add(sum, arc), most = nsvcd__v_max(most, arc);
+    sum = nsvcd__v_add(sum, arc);
+    most = nsvcd__v_max(most, arc);
   }
-  nsvcd__v_store(sums, sum), nsvcd__v_store(longest, most);
-  *turn = *widest = 0;
-  for (size_t l = 0; l < NSVCD__LANES; l++) *turn += sums[l], *widest = longest[l] > *widest ? longest[l] : *widest;
+  nsvcd__v_store(sums, sum);
+  nsvcd__v_store(longest, most);
+  *turn = 0;
+  *widest = 0;
+  for (size_t l = 0; l < NSVCD__LANES; l++) {
+    *turn += sums[l];
+    *widest = longest[l] > *widest ? longest[l] : *widest;
+  }
 }
 
-// How many segments, and how many to an arc where there are fewer arcs than that (else 0). Ends of segments are always
-// samples, or divide an arc evenly.
-static size_t nsvcd__segment_count(const nsvcd__motion *motion, size_t *per_arc) {
-  const size_t arcs = motion->count - 1;
-  float turn, widest;
-  nsvcd__measure_turn(motion, &turn, &widest);
-  turn = turn < 1e3f ? turn : 1e3f;
-  const size_t coarse = (size_t)ceilf(turn / NSVCD__SEGMENT_TURN), fine = (size_t)ceilf(turn / NSVCD__FINE_TURN);
+// How many segments, and into how many parts a tick must be cut where there are too few for that (else 1). Segments begin
+// at ticks.
+static size_t nsvcd__segment_count(const nsvcd__motion *motion, uint32_t *parts) {
+  const size_t ticks = motion->ticks;
+  float turn, widest, fixed_turn = 0, fixed_widest = 0;
+  *parts = 1;
+  if (motion->moving.count == 1 && !motion->fixed_moves) return 1;
+  nsvcd__measure_turn(&motion->moving, &turn, &widest);
+  if (motion->fixed_moves) nsvcd__measure_turn(&motion->fixed, &fixed_turn, &fixed_widest);
+  turn = turn + fixed_turn < 1e3f ? turn + fixed_turn : 1e3f;
+  const size_t coarse = (size_t)ceilf(turn / NSVCD__SEGMENT_TURN);
+  const size_t fine = (size_t)ceilf(turn / NSVCD__FINE_TURN);
   size_t wanted = fine < NSVCD__SEGMENTS ? fine : NSVCD__SEGMENTS;
   if (wanted < coarse) wanted = coarse < NSVCD__MAX_SEGMENTS ? coarse : NSVCD__MAX_SEGMENTS;
   if (wanted < 1) wanted = 1;
-  *per_arc = 0;
-  if (arcs == 0) return 1;
-  if (arcs > wanted) return arcs < NSVCD__SEGMENTS ? arcs : wanted < NSVCD__SEGMENTS ? NSVCD__SEGMENTS : wanted;
-  const size_t least = (size_t)ceilf(widest / NSVCD__SEGMENT_TURN), most = NSVCD__MAX_SEGMENTS / arcs;
-  *per_arc = wanted / arcs > least ? wanted / arcs : least;
-  if (*per_arc > most) *per_arc = most;
-  return arcs * *per_arc;
+  if (ticks > wanted) return ticks < NSVCD__SEGMENTS ? ticks : wanted < NSVCD__SEGMENTS ? NSVCD__SEGMENTS : wanted;
+  const float of_tick = widest / (float)motion->moving.ticks + fixed_widest / (float)motion->fixed.ticks;
+  const size_t least = (size_t)ceilf(of_tick / NSVCD__SEGMENT_TURN);
+  const size_t most = NSVCD__MAX_SEGMENTS / ticks;
+  size_t each = wanted / ticks > least ? wanted / ticks : least;
+  each = each < most ? each : most;
+  *parts = (uint32_t)(each > 1 ? each : 1);
+  return ticks * *parts;
 }
 
-// The samples at whose indices segments end: the caller's, or `between`, whose positions are relative to the fixed
-// body.
-typedef struct nsvcd__samples {
-  const nsvcd_pose *poses;
-  float origin[3];  // to subtract from positions
-  size_t last;      // index
-} nsvcd__samples;
-
-static nsvcd__samples nsvcd__samples_of(const nsvcd__motion *motion, size_t per_arc, nsvcd_pose *between) {
-  nsvcd__samples samples = {motion->poses, {0, 0, 0}, motion->count - 1};
-  memcpy(samples.origin, motion->fixed_position, sizeof samples.origin);
-  if (per_arc < 2) return samples;
-  samples.poses = between, samples.last *= per_arc;
-  memset(samples.origin, 0, sizeof samples.origin);
-  for (size_t i = 0; i <= samples.last; i++) {
-    const size_t k = i == samples.last ? motion->count - 2 : i / per_arc;
-    const double share = (double)(i - k * per_arc) / (double)per_arc;
-    const nsvcd_pose *a = &motion->poses[k], *b = a + 1;
-    nsvcd__slerp(a->rotation, b->rotation, (float)share, between[i].rotation);
-    for (size_t n = 0; n < 3; n++) {
-      // In double: on a long way past the fixed body, roundings of its ends would be large beside what is near.
-      const double from = (double)a->position[n] - (double)motion->fixed_position[n];
-      between[i].position[n] = (float)(from + share * ((double)b->position[n] - (double)a->position[n]));
-    }
+// Reads the poses of both bodies at the first `count` of these ticks.
+static void nsvcd__knots_read(const nsvcd__motion *motion, const uint32_t *ticks, size_t count, nsvcd__knots *out) {
+  const int plain = motion->moving.ticks == 1 && motion->moving.count > 1 && !motion->fixed_moves;
+  for (size_t l = 0; plain && l < count; l++) {  // the caller's own poses, of one body: no need to ask
+    const nsvcd_pose *pose = &motion->moving.poses[ticks[l]];
+    for (size_t k = 0; k < 3; k++) out->p[k][l] = pose->position[k] - motion->fixed_position[k];
+    for (size_t k = 0; k < 4; k++) out->q[k][l] = pose->rotation[k];
   }
-  return samples;
+  for (size_t l = 0; !plain && l < count; l++) {
+    float q[4], fixed_q[4] = {0, 0, 0, 1};
+    double p[3], fixed_p[3];
+    nsvcd__track_pose(&motion->moving, ticks[l], q, p);
+    for (size_t k = 0; k < 3; k++) fixed_p[k] = (double)motion->fixed_position[k];
+    if (motion->fixed_moves) nsvcd__track_pose(&motion->fixed, ticks[l], fixed_q, fixed_p);
+    for (size_t k = 0; k < 3; k++) out->p[k][l] = (float)(p[k] - fixed_p[k]);
+    for (size_t k = 0; k < 4; k++) out->q[k][l] = q[k];
+    for (size_t k = 0; motion->fixed_moves && k < 4; k++) out->fixed_q[k][l] = fixed_q[k];
+  }
 }
 
-// Sample index[l] in lane l: q (4), of any length, and p (3), relative to the fixed body, in world axes.
-static void nsvcd__load_samples(const nsvcd__samples *samples, const size_t *index, nsvcd__v *q, nsvcd__v *p) {
-  float lanes[7][NSVCD__LANES];
-  for (size_t l = 0; l < NSVCD__LANES; l++) {
-    const nsvcd_pose *pose = &samples->poses[index[l]];
-    for (size_t k = 0; k < 3; k++) lanes[k][l] = pose->position[k] - samples->origin[k];
-    for (size_t k = 0; k < 4; k++) lanes[3 + k][l] = pose->rotation[k];
+// 16 of them, from the one in lane `first` (0 or 1) on.
+static nsvcd__v_poses nsvcd__knots_load(const nsvcd__motion *motion, const nsvcd__knots *from, size_t first) {
+  nsvcd__v_poses out;
+  for (size_t k = 0; k < 3; k++) out.p[k] = nsvcd__v_load(from->p[k] + first);
+  for (size_t k = 0; k < 4; k++) out.q[k] = nsvcd__v_load(from->q[k] + first);
+  for (size_t k = 0; k < 4; k++) out.fixed_q[k] = out.q[k];
+  if (motion->fixed_moves) {
+    for (size_t k = 0; k < 4; k++) out.fixed_q[k] = nsvcd__v_load(from->fixed_q[k] + first);
+    nsvcd__v_quat_normalize(out.q);
+    nsvcd__v_quat_normalize(out.fixed_q);
   }
-  for (size_t k = 0; k < 3; k++) p[k] = nsvcd__v_load(lanes[k]);
-  for (size_t k = 0; k < 4; k++) q[k] = nsvcd__v_load(lanes[3 + k]);
+  return out;
+}
+
+// `seen`: the quaternions as the fixed body sees them.
+static void nsvcd__knots_keep(const nsvcd__motion *motion, const nsvcd__v_poses *at, const nsvcd__v *seen,
+                              nsvcd__knots *out) {
+  for (size_t k = 0; k < 4; k++) nsvcd__v_store(out->q[k], at->q[k]);
+  for (size_t k = 0; k < 4; k++) nsvcd__v_store(out->seen[k], seen[k]);
+  if (!motion->fixed_moves) return;
+  for (size_t k = 0; k < 3; k++) nsvcd__v_store(out->p[k], at->p[k]);
+  for (size_t k = 0; k < 4; k++) nsvcd__v_store(out->fixed_q[k], at->fixed_q[k]);
 }
 
 // A bound of the angle between a (4) and b (4), unit quaternions, lane by lane.
@@ -4726,9 +4895,6 @@ static nsvcd__v nsvcd__v_turn_off_axis(nsvcd__v3 axis, const nsvcd__v *from, con
   return nsvcd__v_mul(nsvcd__v_mul(arc, nsvcd__v_set(0.3931f)), nsvcd__v_sqrt(nsvcd__v3_dot(across, across)));
 }
 
-static void nsvcd__v_store_all(float (*out)[NSVCD__LANES], const nsvcd__v *values, size_t count) {
-  for (size_t k = 0; k < count; k++) nsvcd__v_store(out[k], values[k]);
-}
 static void nsvcd__v_load_all(float (*from)[NSVCD__LANES], nsvcd__v *values, size_t count) {
   for (size_t k = 0; k < count; k++) values[k] = nsvcd__v_load(from[k]);
 }
@@ -4736,81 +4902,119 @@ static void nsvcd__v_keep_most(float *most, nsvcd__v value) {
   nsvcd__v_store(most, nsvcd__v_max(nsvcd__v_load(most), value));
 }
 
-// Poses at the ends of 16 segments, whose samples are begin[0..16]. Starts the visit of the samples within.
-static NSVCD__APART void nsvcd__cut_ends(const nsvcd__motion *motion, const nsvcd__samples *samples, const size_t *begin,
-                                         nsvcd__segments *out, nsvcd__cut *cut) {
-  nsvcd__v q[4], p[3], fixed_q[4], m[9], at[3];
-  memset(cut, 0, sizeof *cut);
-  nsvcd__load_samples(samples, begin, q, p);
-  nsvcd__v_to_fixed(motion, q, p, fixed_q, at);
-  nsvcd__v_matrix(fixed_q, m);
-  nsvcd__v_store_all(cut->last, q, 4);
-  nsvcd__v_store_all(cut->last_fixed, fixed_q, 4);
-  nsvcd__v_store_all(out->rotation, m, 9);
-  nsvcd__v_store_all(out->position, at, 3);
+// Poses at the ends of 16 segments, whose ticks are begin[0..16]. Starts the visit of the knots within.
+static NSVCD__APART void nsvcd__cut_ends(const nsvcd__motion *motion, const uint32_t *begin, nsvcd__segments *out,
+                                         nsvcd__cut *cut) {
+  nsvcd__v seen[4], m[9], p[3], last_seen[4];
+  const nsvcd__v scale = nsvcd__v_set(motion->scale);
+  memset(&cut->most, 0, sizeof cut->most);
+  nsvcd__knots_read(motion, begin, NSVCD__LANES + 1, &cut->here);
+  nsvcd__v_poses at = nsvcd__knots_load(motion, &cut->here, 0);
+  nsvcd__v_seen(motion, &at, last_seen, p);
+  nsvcd__v_matrix(last_seen, m);
+  nsvcd__knots_keep(motion, &at, last_seen, &cut->last);
+  for (size_t i = 0; i < 9; i++) nsvcd__v_store(out->rotation[i], nsvcd__v_mul(scale, m[i]));
+  for (size_t i = 0; i < 3; i++) nsvcd__v_store(out->position[i], p[i]);
 
-  nsvcd__load_samples(samples, begin + 1, q, p);
-  nsvcd__v_to_fixed(motion, q, p, fixed_q, at);
-  nsvcd__v_matrix(fixed_q, m);
-  nsvcd__v_store_all(cut->end, q, 4);
-  nsvcd__v_store_all(cut->end_fixed, fixed_q, 4);
-  for (size_t i = 0; i < 9; i++) nsvcd__v_store(out->turned[i], nsvcd__v_sub(m[i], nsvcd__v_load(out->rotation[i])));
-  for (size_t i = 0; i < 3; i++) nsvcd__v_store(out->moved[i], nsvcd__v_sub(at[i], nsvcd__v_load(out->position[i])));
-
-  nsvcd__v last_fixed[4];
-  nsvcd__v_load_all(cut->last_fixed, last_fixed, 4);
-  nsvcd__v3_store(out->axis, nsvcd__v3_unit(nsvcd__v_turn_between(last_fixed, fixed_q)));
-  nsvcd__v3_store(out->way, nsvcd__v3_unit(nsvcd__v3_load(out->moved)));
-  for (size_t l = 0; l < NSVCD__LANES; l++) {
-    const size_t length = begin[l + 1] - begin[l];
-    cut->share[l] = length ? 1 / (float)length : 0;
+  at = nsvcd__knots_load(motion, &cut->here, 1);
+  nsvcd__v_seen(motion, &at, seen, p);
+  nsvcd__v_matrix(seen, m);
+  nsvcd__knots_keep(motion, &at, seen, &cut->end);
+  for (size_t i = 0; i < 9; i++) {
+    nsvcd__v_store(out->turned[i], nsvcd__v_sub(nsvcd__v_mul(scale, m[i]), nsvcd__v_load(out->rotation[i])));
   }
+  for (size_t i = 0; i < 3; i++) nsvcd__v_store(out->moved[i], nsvcd__v_sub(p[i], nsvcd__v_load(out->position[i])));
+  nsvcd__v3_store(out->axis, nsvcd__v3_unit(nsvcd__v_turn_between(last_seen, seen)));
+  nsvcd__v3_store(out->way, nsvcd__v3_unit(nsvcd__v3_load(out->moved)));
 }
 
-// Adds the arc from the last sample to this one, which becomes the last.
-static void nsvcd__cut_arc(const nsvcd__v *q, const nsvcd__v *fixed_q, nsvcd__segments *out, nsvcd__cut *cut) {
-  nsvcd__v last[4], last_fixed[4];
-  nsvcd__v_load_all(cut->last, last, 4);
-  nsvcd__v_load_all(cut->last_fixed, last_fixed, 4);
-  const nsvcd__v arc = nsvcd__v_arc(last, q);
-  nsvcd__v_keep_most(cut->widest, arc);
-  nsvcd__v_store(cut->sum, nsvcd__v_add(nsvcd__v_load(cut->sum), arc));
-  nsvcd__v_keep_most(cut->axis_turn, nsvcd__v_turn_off_axis(nsvcd__v3_load(out->axis), last_fixed, fixed_q, arc));
-  nsvcd__v_store_all(cut->last, q, 4);
-  nsvcd__v_store_all(cut->last_fixed, fixed_q, 4);
+// Of arcs in which both bodies move. With w and w' the rotation vectors of the moving and the fixed body over the arc, in
+// the world, o = w - w', and d the way from the fixed origin to the moving one, which goes by v, the second derivative of
+// what the fixed body sees of a point x is, in its axes,
+//   o x (o x Rx) + (o x w') x Rx   -   2 w' x v + w' x (w' x d)
+// so that the arc leaves its chord by (|o|^2 + |o x w'|) / 8 |x| and (2 |w' x v| + |w'| |w' x d|) / 8 at most.
+static void nsvcd__cut_double_arc(const nsvcd__motion *motion, const nsvcd__v_poses *from, const nsvcd__v_poses *to,
+                                  nsvcd__cut *cut) {
+  const nsvcd__v eighth = nsvcd__v_set(0.12501f);
+  nsvcd__v cosine, fixed_cosine;
+  const nsvcd__v3 half = nsvcd__v_shorter_turn_between(from->q, to->q, &cosine);
+  const nsvcd__v3 fixed_half = nsvcd__v_shorter_turn_between(from->fixed_q, to->fixed_q, &fixed_cosine);
+  const nsvcd__v sine = nsvcd__v3_length(half), fixed_sine = nsvcd__v3_length(fixed_half);
+  const nsvcd__v difference =
+      nsvcd__v_pick(nsvcd__v_min(cosine, fixed_cosine), nsvcd__v_set(0.001f), nsvcd__v_add(sine, fixed_sine),
+                    nsvcd__v3_length(nsvcd__v3_sub(half, fixed_half)));
+  // A rotation vector is 2 asin(s) / s times these halves of length s, and asin(s) - s is at most (pi / 2 - 1) s^3.
+  const nsvcd__v cubes = nsvcd__v_fma(nsvcd__v_mul(sine, sine), sine,
+                                      nsvcd__v_mul(nsvcd__v_mul(fixed_sine, fixed_sine), fixed_sine));
+  nsvcd__v turn = nsvcd__v_mul(nsvcd__v_set(2.00001f), difference);
+  turn = nsvcd__v_fma(nsvcd__v_set(1.1417f), cubes, turn);
+  turn = nsvcd__v_fma(nsvcd__v_set(2e-6f), nsvcd__v_add(sine, fixed_sine), turn);
+  const nsvcd__v fixed_turn = nsvcd__v_arc(from->fixed_q, to->fixed_q);
+  const nsvcd__v bulge = nsvcd__v_mul(nsvcd__v_mul(turn, nsvcd__v_add(turn, fixed_turn)), eighth);
+  nsvcd__v_keep_most(cut->most.arc_bulge, bulge);
+
+  const nsvcd__v3 d0 = nsvcd__v3_of(from->p[0], from->p[1], from->p[2]);
+  const nsvcd__v3 d1 = nsvcd__v3_of(to->p[0], to->p[1], to->p[2]);
+  const nsvcd__v remote = nsvcd__v_max(nsvcd__v3_length(d0), nsvcd__v3_length(d1));
+  const nsvcd__v way = nsvcd__v3_length(nsvcd__v3_sub(d1, d0));
+  const nsvcd__v both = nsvcd__v_fma(fixed_turn, remote, nsvcd__v_add(way, way));
+  const nsvcd__v metres = nsvcd__v_mul(nsvcd__v_mul(fixed_turn, both), eighth);
+  nsvcd__v_keep_most(cut->most.arc_drift, nsvcd__v_div(metres, nsvcd__v_set(motion->unit)));
+  nsvcd__v_store(cut->most.sum, nsvcd__v_add(nsvcd__v_load(cut->most.sum), fixed_turn));
 }
 
-static NSVCD__APART void nsvcd__cut_last_arc(nsvcd__segments *out, nsvcd__cut *cut) {
-  nsvcd__v end[4], end_fixed[4];
-  nsvcd__v_load_all(cut->end, end, 4);
-  nsvcd__v_load_all(cut->end_fixed, end_fixed, 4);
-  nsvcd__cut_arc(end, end_fixed, out, cut);
+// Adds the arc from the last knot to this one, which becomes the last.
+static void nsvcd__cut_arc(const nsvcd__motion *motion, const nsvcd__v_poses *at, const nsvcd__v *seen,
+                           nsvcd__segments *out, nsvcd__cut *cut) {
+  const nsvcd__v_poses last = nsvcd__knots_load(motion, &cut->last, 0);
+  const nsvcd__v arc = nsvcd__v_arc(last.q, at->q);
+  nsvcd__v_store(cut->most.sum, nsvcd__v_add(nsvcd__v_load(cut->most.sum), arc));
+  if (motion->fixed_moves) {
+    nsvcd__cut_double_arc(motion, &last, at, cut);
+  } else {
+    nsvcd__v last_seen[4];
+    nsvcd__v_load_all(cut->last.seen, last_seen, 4);
+    nsvcd__v_keep_most(cut->most.arc_bulge, nsvcd__v_mul(nsvcd__v_mul(arc, arc), nsvcd__v_set(0.125f)));
+    nsvcd__v_keep_most(cut->most.axis_turn, nsvcd__v_turn_off_axis(nsvcd__v3_load(out->axis), last_seen, seen, arc));
+  }
+  nsvcd__knots_keep(motion, at, seen, &cut->last);
 }
 
-// Visits the sample `j` after the first of each segment; lanes with fewer of them stay at the end.
-static NSVCD__APART void nsvcd__cut_sample(const nsvcd__motion *motion, const nsvcd__samples *samples,
-                                           const size_t *begin, size_t j, nsvcd__segments *out, nsvcd__cut *cut) {
-  nsvcd__v q[4], p[3], fixed_q[4], r[9], at[3];
-  size_t index[NSVCD__LANES];
-  for (size_t l = 0; l < NSVCD__LANES; l++) index[l] = begin[l] + j < begin[l + 1] ? begin[l] + j : begin[l + 1];
-  nsvcd__load_samples(samples, index, q, p);
-  nsvcd__v_to_fixed(motion, q, p, fixed_q, at);
-  nsvcd__cut_arc(q, fixed_q, out, cut);
+static NSVCD__APART void nsvcd__cut_last_arc(const nsvcd__motion *motion, nsvcd__segments *out, nsvcd__cut *cut) {
+  nsvcd__v seen[4];
+  const nsvcd__v_poses end = nsvcd__knots_load(motion, &cut->end, 0);
+  nsvcd__v_load_all(cut->end.seen, seen, 4);
+  nsvcd__cut_arc(motion, &end, seen, out, cut);
+}
+
+// Visits a knot of each segment: ticks (16), of segments that begin at begin[0..15] and end at begin[1..16].
+static NSVCD__APART void nsvcd__cut_knot(const nsvcd__motion *motion, const uint32_t *begin, const uint32_t *ticks,
+                                         nsvcd__segments *out, nsvcd__cut *cut) {
+  nsvcd__v seen[4], r[9], at[3];
+  float share[NSVCD__LANES];
+  nsvcd__knots_read(motion, ticks, NSVCD__LANES, &cut->here);
+  const nsvcd__v_poses poses = nsvcd__knots_load(motion, &cut->here, 0);
+  nsvcd__v_seen(motion, &poses, seen, at);
+  nsvcd__cut_arc(motion, &poses, seen, out, cut);
+  for (size_t l = 0; l < NSVCD__LANES; l++) {
+    const uint32_t length = begin[l + 1] - begin[l];
+    share[l] = length ? (float)(ticks[l] - begin[l]) / (float)length : 0;
+  }
 
   // What it is off its segment's chord by.
-  const nsvcd__v share = nsvcd__v_mul(nsvcd__v_set((float)j), nsvcd__v_load(cut->share));
-  const nsvcd__v u = nsvcd__v_min(share, nsvcd__v_set(1));
+  const nsvcd__v u = nsvcd__v_load(share);
+  const nsvcd__v scale = nsvcd__v_set(motion->scale);
   nsvcd__v square = nsvcd__v_set(0);
-  nsvcd__v_matrix(fixed_q, r);
+  nsvcd__v_matrix(seen, r);
   for (size_t i = 0; i < 9; i++) {
     const nsvcd__v chord = nsvcd__v_fma(u, nsvcd__v_load(out->turned[i]), nsvcd__v_load(out->rotation[i]));
-    r[i] = nsvcd__v_sub(r[i], chord);
+    r[i] = nsvcd__v_sub(nsvcd__v_mul(scale, r[i]), chord);
     square = nsvcd__v_fma(r[i], r[i], square);
   }
   const nsvcd__v3 chord = nsvcd__v3_fma(u, nsvcd__v3_load(out->moved), nsvcd__v3_load(out->position));
   const nsvcd__v3 off = nsvcd__v3_sub(nsvcd__v3_of(at[0], at[1], at[2]), chord);
-  nsvcd__v_keep_most(cut->bulge, square);
-  nsvcd__v_keep_most(cut->spread, nsvcd__v3_dot(off, off));
+  nsvcd__v_keep_most(cut->most.bulge, square);
+  nsvcd__v_keep_most(cut->most.spread, nsvcd__v3_dot(off, off));
 
   const nsvcd__v3 axis = nsvcd__v3_load(out->axis);
   const nsvcd__v3 row0 = nsvcd__v3_of(r[0], r[1], r[2]);
@@ -4819,61 +5023,96 @@ static NSVCD__APART void nsvcd__cut_sample(const nsvcd__motion *motion, const ns
   const nsvcd__v3 along = nsvcd__v3_fma(axis.x, row0, nsvcd__v3_fma(axis.y, row1, nsvcd__v3_scale(row2, axis.z)));
   const nsvcd__v3 off_way = nsvcd__v3_cross(nsvcd__v3_load(out->way), off);
   const nsvcd__v off_axis = nsvcd__v3_dot(axis, off);
-  nsvcd__v_keep_most(cut->axis_bulge, nsvcd__v3_dot(along, along));
-  nsvcd__v_keep_most(cut->axis_drift, nsvcd__v_mul(off_axis, off_axis));
-  nsvcd__v_keep_most(cut->way_drift, nsvcd__v3_dot(off_way, off_way));
+  nsvcd__v_keep_most(cut->most.axis_bulge, nsvcd__v3_dot(along, along));
+  nsvcd__v_keep_most(cut->most.axis_drift, nsvcd__v_mul(off_axis, off_axis));
+  nsvcd__v_keep_most(cut->most.way_drift, nsvcd__v3_dot(off_way, off_way));
 }
 
-// 16 segments, of which `count` exist; `begin`: (17) their ends as sample indices. turn: arc of each.
-static void nsvcd__cut_block(const nsvcd__motion *motion, const nsvcd__samples *samples, const size_t *begin,
-                             size_t count, float lengths, nsvcd__segments *out, nsvcd__cut *cut, float *turn) {
-  size_t most = 0;
-  for (size_t l = 0; l < NSVCD__LANES; l++) most = begin[l + 1] - begin[l] > most ? begin[l + 1] - begin[l] : most;
-  nsvcd__cut_ends(motion, samples, begin, out, cut);
-  for (size_t j = 1; j < most; j++) nsvcd__cut_sample(motion, samples, begin, j, out, cut);
-  nsvcd__cut_last_arc(out, cut);
+// 16 segments, of which `count` exist; `begin`: (17) their ends in ticks. turn: arc of each.
+static void nsvcd__cut_block(const nsvcd__motion *motion, const uint32_t *begin, size_t count, float lengths,
+                             nsvcd__segments *out, nsvcd__cut *cut, float *turn) {
+  uint32_t ticks[NSVCD__LANES];
+  nsvcd__cut_ends(motion, begin, out, cut);
+  memcpy(ticks, begin, sizeof ticks);
+  for (int within = 1; within;) {
+    within = 0;
+    for (size_t l = 0; l < NSVCD__LANES; l++) {
+      const uint32_t next = ticks[l] < begin[l + 1] ? nsvcd__next_knot(motion, ticks[l]) : begin[l + 1];
+      ticks[l] = next < begin[l + 1] ? next : begin[l + 1];
+      within |= ticks[l] < begin[l + 1];
+    }
+    if (within) nsvcd__cut_knot(motion, begin, ticks, out, cut);
+  }
+  nsvcd__cut_last_arc(motion, out, cut);
 
-  const nsvcd__v widest = nsvcd__v_load(cut->widest);
-  const nsvcd__v spread = nsvcd__v_sqrt(nsvcd__v_load(cut->spread));
-  const nsvcd__v arc_bulge = nsvcd__v_mul(nsvcd__v_mul(widest, widest), nsvcd__v_set(0.125f));
-  nsvcd__v_store(out->bulge, nsvcd__v_add(arc_bulge, nsvcd__v_sqrt(nsvcd__v_load(cut->bulge))));
-  nsvcd__v_store(out->drift, spread);
-  const nsvcd__v axis_bulge = nsvcd__v_sqrt(nsvcd__v_load(cut->axis_bulge));
-  nsvcd__v_store(out->bulge_along_axis, nsvcd__v_add(axis_bulge, nsvcd__v_load(cut->axis_turn)));
-  nsvcd__v_store(out->drift_along_axis, nsvcd__v_sqrt(nsvcd__v_load(cut->axis_drift)));
-  nsvcd__v_store(out->drift_off_way, nsvcd__v_sqrt(nsvcd__v_load(cut->way_drift)));
+  const nsvcd__v scale = nsvcd__v_set(motion->scale);
+  const nsvcd__v drift = nsvcd__v_add(nsvcd__v_sqrt(nsvcd__v_load(cut->most.spread)), nsvcd__v_load(cut->most.arc_drift));
+  const nsvcd__v arc_bulge = nsvcd__v_mul(scale, nsvcd__v_load(cut->most.arc_bulge));
+  const nsvcd__v bulge = nsvcd__v_add(arc_bulge, nsvcd__v_sqrt(nsvcd__v_load(cut->most.bulge)));
+  nsvcd__v_store(out->bulge, bulge);
+  nsvcd__v_store(out->drift, drift);
+  nsvcd__v_store(out->bulge_along_axis, bulge);
+  nsvcd__v_store(out->drift_along_axis, drift);
+  nsvcd__v_store(out->drift_off_way, drift);
+  if (!motion->fixed_moves) {
+    const nsvcd__v axis_turn = nsvcd__v_mul(scale, nsvcd__v_load(cut->most.axis_turn));
+    nsvcd__v_store(out->bulge_along_axis, nsvcd__v_add(nsvcd__v_sqrt(nsvcd__v_load(cut->most.axis_bulge)), axis_turn));
+    nsvcd__v_store(out->drift_along_axis, nsvcd__v_sqrt(nsvcd__v_load(cut->most.axis_drift)));
+    nsvcd__v_store(out->drift_off_way, nsvcd__v_sqrt(nsvcd__v_load(cut->most.way_drift)));
+  }
 
   const nsvcd__v3 start = nsvcd__v3_load(out->position);
   const nsvcd__v remote = nsvcd__v_add(nsvcd__v3_length(start),
                                        nsvcd__v3_length(nsvcd__v3_add(start, nsvcd__v3_load(out->moved))));
-  const nsvcd__v all = nsvcd__v_add(remote, nsvcd__v_add(spread, nsvcd__v_set(lengths)));
+  const nsvcd__v all = nsvcd__v_add(remote, nsvcd__v_add(drift, nsvcd__v_set(lengths)));
   const nsvcd__v rounding = nsvcd__v_mul(all, nsvcd__v_set(NSVCD__ROUNDING));
   nsvcd__v_store(out->rounding, rounding);
-  nsvcd__v_store(out->spread, nsvcd__v_add(rounding, spread));
-  memcpy(turn, cut->sum, sizeof cut->sum);
+  nsvcd__v_store(out->spread, nsvcd__v_add(rounding, drift));
+  memcpy(turn, cut->most.sum, sizeof cut->most.sum);
   for (size_t l = count; l < NSVCD__LANES; l++) out->spread[l] = NSVCD__NOWHERE;  // these meet nothing
 }
 
-// Fills workspace: segments, their poses in the fixed body's frame, and deviations. `lengths`: the bodies' extents.
-static void nsvcd__cut_motion(const nsvcd__motion *motion, float lengths, nsvcd__workspace *work) {
-  size_t per_arc;
-  uint32_t *begin = work->begin;
-  const size_t segments = nsvcd__segment_count(motion, &per_arc);
-  const nsvcd__samples samples = nsvcd__samples_of(motion, per_arc, work->between);
-  work->segments = segments, work->turn[0] = 0, work->per_arc = per_arc > 1 ? per_arc : 1;
+// Chooses the segments: how many, and when they begin.
+static void nsvcd__choose_segments(nsvcd__motion *motion, nsvcd__workspace *work) {
+  uint32_t parts;
+  nsvcd__motion_set_ticks(motion, 1);
+  work->segments = nsvcd__segment_count(motion, &parts);
+  work->scale = motion->scale;
+  nsvcd__motion_set_ticks(motion, parts);
+  const uint32_t segments = (uint32_t)work->segments;
+  const uint32_t each = motion->ticks / segments, over = motion->ticks % segments;
+  const double per_tick = 1 / (double)motion->ticks;
+  uint32_t tick = 0, rest = 0;
   for (size_t s = 0; s <= segments; s++) {
-    begin[s] = (uint32_t)(s * samples.last / segments);
-    work->time[s] = samples.last ? (float)begin[s] / (float)samples.last : (float)s;
+    work->begin[s] = tick;
+    work->time[s] = (float)((double)tick * per_tick);
+    rest += over;
+    tick += each + (rest >= segments);
+    rest -= rest >= segments ? segments : 0;
   }
-  for (size_t first = 0; first < segments; first += NSVCD__LANES) {
-    const size_t count = segments - first < NSVCD__LANES ? segments - first : NSVCD__LANES;
-    size_t ends[NSVCD__LANES + 1];
+  work->time[segments] = 1;
+}
+
+// Fills workspace: the chosen segments' poses in the fixed body's frame, and deviations. `lengths`: the bodies' extents.
+static void nsvcd__cut_segments(const nsvcd__motion *motion, float lengths, nsvcd__workspace *work) {
+  work->turn[0] = 0;
+  for (size_t first = 0; first < work->segments; first += NSVCD__LANES) {
+    const size_t left = work->segments - first;
+    const size_t count = left < NSVCD__LANES ? left : NSVCD__LANES;
+    uint32_t ends[NSVCD__LANES + 1];
     float turn[NSVCD__LANES];
-    for (size_t l = 0; l <= NSVCD__LANES; l++) ends[l] = begin[first + (l < count ? l : count)];
-    nsvcd__cut_block(motion, &samples, ends, count, lengths, &work->blocks[first / NSVCD__LANES], &work->cut, turn);
+    for (size_t l = 0; l <= NSVCD__LANES; l++) ends[l] = work->begin[first + (l < count ? l : count)];
+    nsvcd__cut_block(motion, ends, count, lengths, &work->blocks[first / NSVCD__LANES], &work->cut, turn);
     for (size_t l = 0; l < count; l++) work->turn[first + l + 1] = work->turn[first + l] + turn[l];
   }
 }
+
+#ifndef NSVCD_NO_NETWORK
+static void nsvcd__cut_motion(nsvcd__motion *motion, float lengths, nsvcd__workspace *work) {
+  nsvcd__choose_segments(motion, work);
+  nsvcd__cut_segments(motion, lengths, work);
+}
+#endif
 
 // Stores chords: x0 (3), v (3), reach. FLT_MIN keeps a chord of no length finite.
 static void nsvcd__chords_store(nsvcd__chords *c, const nsvcd__v *x, const nsvcd__v *v, nsvcd__v reach) {
@@ -4900,9 +5139,10 @@ static void nsvcd__chords_of_sphere(const nsvcd__segments *b, float x, float y, 
   nsvcd__chords_store(out, x0, v, nsvcd__v_add(deviation, nsvcd__v_set(r)));
 }
 
-// Chords of 16 spheres in one segment: lane s of a block. No centre is farther from the body's origin than `far`.
+// Chords of 16 spheres in one segment: lane s of a block. No centre is farther from the body's origin than `remote`, in
+// that body's own frame, as all that is given; scale: of the body.
 static void nsvcd__chords_of_members(const nsvcd__segments *b, size_t s, const float *x, const float *y, const float *z,
-                                     const float *r, float remote, nsvcd__chords *out) {
+                                     const float *r, float scale, float remote, nsvcd__chords *out) {
   const nsvcd__v centre[3] = {nsvcd__v_load(x), nsvcd__v_load(y), nsvcd__v_load(z)};
   nsvcd__v x0[3], v[3];
   for (size_t i = 0; i < 3; i++) {
@@ -4913,7 +5153,7 @@ static void nsvcd__chords_of_members(const nsvcd__segments *b, size_t s, const f
     }
   }
   const nsvcd__v deviation = nsvcd__v_set(b->spread[s] + b->bulge[s] * remote);
-  nsvcd__chords_store(out, x0, v, nsvcd__v_add(deviation, nsvcd__v_load(r)));
+  nsvcd__chords_store(out, x0, v, nsvcd__v_fma(nsvcd__v_set(scale), nsvcd__v_load(r), deviation));
 }
 
 // The square of a sum of radii, with its sign: a negative sum (padding) meets nothing.
@@ -5044,7 +5284,7 @@ static void nsvcd__runs_close(nsvcd__runs *runs, uint32_t lanes, const nsvcd__wo
                               size_t g, const nsvcd_body *fixed, size_t j, nsvcd__candidates *kept) {
   const float *time = work->time;
   const nsvcd__v zero = nsvcd__v_set(0), one = nsvcd__v_set(1);
-  const nsvcd__v r = nsvcd__v_load(nsvcd__body_r(moving) + NSVCD__GROUP * g);
+  const nsvcd__v r = nsvcd__v_mul(nsvcd__v_set(work->scale), nsvcd__v_load(nsvcd__body_r(moving) + NSVCD__GROUP * g));
   const nsvcd__v radii = nsvcd__v_max(nsvcd__v_add(r, nsvcd__v_set(nsvcd__body_r(fixed)[j])), nsvcd__v_set(1e-30f));
   float first[NSVCD__LANES], enter[NSVCD__LANES], leave[NSVCD__LANES], least_segment[NSVCD__LANES], least[NSVCD__LANES],
       depth[NSVCD__LANES];
@@ -5136,8 +5376,9 @@ static void nsvcd__members_against_patch(const nsvcd__workspace *work, const nsv
 
 static void nsvcd__chords_of_group(nsvcd__workspace *work, const nsvcd_body *moving, size_t g) {
   const float *x = nsvcd__body_group(moving, 0), *y = nsvcd__body_group(moving, 1), *z = nsvcd__body_group(moving, 2);
+  const float r = work->scale * nsvcd__body_group(moving, 3)[g];
   for (size_t b = 0; NSVCD__LANES * b < work->segments; b++) {
-    nsvcd__chords_of_sphere(&work->blocks[b], x[g], y[g], z[g], nsvcd__body_group(moving, 3)[g], &work->group[b]);
+    nsvcd__chords_of_sphere(&work->blocks[b], x[g], y[g], z[g], r, &work->group[b]);
   }
 }
 
@@ -5154,7 +5395,7 @@ static void nsvcd__boxes_of_groups(const nsvcd__workspace *work, const nsvcd_bod
     nsvcd__chords c;
     nsvcd__chords_of_members(&work->blocks[s / NSVCD__LANES], s % NSVCD__LANES, nsvcd__body_group(moving, 0) + first,
                              nsvcd__body_group(moving, 1) + first, nsvcd__body_group(moving, 2) + first,
-                             nsvcd__body_group(moving, 3) + first, moving->extent, &c);
+                             nsvcd__body_group(moving, 3) + first, work->scale, moving->extent, &c);
     const nsvcd__v x[3] = {nsvcd__v_load(c.x), nsvcd__v_load(c.y), nsvcd__v_load(c.z)};
     const nsvcd__v v[3] = {nsvcd__v_load(c.vx), nsvcd__v_load(c.vy), nsvcd__v_load(c.vz)};
     const nsvcd__v d[3] = {nsvcd__v_sub(x[0], nsvcd__v_set(fixed->centre[0])),
@@ -5213,8 +5454,8 @@ static size_t nsvcd__group_against_body(nsvcd__workspace *work, const nsvcd_body
 // to take.
 static int nsvcd__search_begin(const nsvcd_body *moving, const nsvcd_body *fixed, nsvcd__workspace *work) {
   for (size_t b = 0; NSVCD__LANES * b < work->segments; b++) {
-    nsvcd__chords_of_sphere(&work->blocks[b], moving->centre[0], moving->centre[1], moving->centre[2], moving->radius,
-                            &work->group[b]);
+    nsvcd__chords_of_sphere(&work->blocks[b], moving->centre[0], moving->centre[1], moving->centre[2],
+                            work->scale * moving->radius, &work->group[b]);
   }
   uint64_t wanted = ~(uint64_t)0 >> (NSVCD__MAX_SEGMENTS - work->segments);
   wanted = nsvcd__meet_in(work->group, wanted, fixed->centre[0], fixed->centre[1], fixed->centre[2], fixed->radius);
@@ -5244,8 +5485,8 @@ static void nsvcd__pose_members(nsvcd__workspace *work, const nsvcd_body *moving
   for (uint64_t missing = wanted & ~work->posed; missing; missing &= missing - 1) {
     const size_t s = nsvcd__lowest_bit(missing);
     nsvcd__chords_of_members(&work->blocks[s / NSVCD__LANES], s % NSVCD__LANES, nsvcd__body_x(moving) + i,
-                             nsvcd__body_y(moving) + i, nsvcd__body_z(moving) + i, nsvcd__body_r(moving) + i, work->remote,
-                             &work->members[s]);
+                             nsvcd__body_y(moving) + i, nsvcd__body_z(moving) + i, nsvcd__body_r(moving) + i, work->scale,
+                             work->remote, &work->members[s]);
   }
   work->posed |= wanted;
 }
@@ -5380,13 +5621,25 @@ typedef struct nsvcd__item {
   float share;      // of the segment, gone by at that time
 } nsvcd__item;
 
-// The motion between two samples, seen from the fixed body, in double.
-typedef struct nsvcd__arc {
-  size_t index;
-  double start[4], end[4];  // unit quaternions, on the shorter side
+// How a body turns over an arc.
+typedef struct nsvcd__leg {
+  double start[4], end[4];  // at its poses before and after: unit quaternions, on the shorter side
   double half_angle;        // between them as quaternions: half the angle of the turn
-  nsvcd__d3 axis;           // of the turn, unit
-  nsvcd__d3 from, moved;    // position at the start, and how it changes
+  double from, share;       // where between these poses the arc begins, and how much of the way it lasts
+} nsvcd__leg;
+
+// The motion between two knots, in double and in the fixed body's units.
+typedef struct nsvcd__arc {
+  uint32_t first, ticks;  // when it begins, and how long it lasts; no ticks: none
+  int fixed_moves;
+  double scale;           // of the moving body
+  nsvcd__leg moving;      // as the fixed body sees it; where that moves, in the world, and so is
+  nsvcd__leg fixed;       // the fixed body's own
+  nsvcd__d3 from, moved;  // from the fixed body's origin to the moving one's, and how it changes; in the same axes
+  nsvcd__d3 axis;         // of the turn, unit, if the fixed body does not turn
+  int has_axis;
+  double turn, speed;    // over the arc, as the fixed body sees it: radians, and the way of the moving origin, at most
+  double bulge, drift;   // what points one metre from the moving body's origin, and that itself, leave their chord by
 } nsvcd__arc;
 
 // A pose in double: rows of the rotation.
@@ -5434,7 +5687,7 @@ typedef enum nsvcd__verdict {
 
 // A pose that has been computed.
 typedef struct nsvcd__placed {
-  size_t arc;
+  uint32_t arc, ticks;  // as the arc has them
   double u;
   nsvcd__placement placement;
 } nsvcd__placed;
@@ -5446,10 +5699,11 @@ typedef struct nsvcd__height {
 } nsvcd__height;
 
 typedef struct nsvcd__proof {
-  const nsvcd__motion *motion;
+  nsvcd__motion *motion;
   nsvcd__facets moving, fixed;
+  // Lengths are in the fixed body's units.
   float lengths;         // extents of both bodies
-  double tolerance;      // metres, beyond the quanta
+  double tolerance;      // beyond the quanta
   size_t work, limit;    // units
   int undecided;         // something was left so
   int within;            // a component seems to be within the other body, but close to its surface
@@ -5498,7 +5752,8 @@ enum { NSVCD__BY_DISC, NSVCD__BY_HULL, NSVCD__BY_TRIANGLES };
 static void nsvcd__unit_quaternion(const float *q, double *out) {
   double square = 0;
   for (size_t k = 0; k < 4; k++) square += (double)q[k] * (double)q[k];
-  for (size_t k = 0; k < 4; k++) out[k] = (double)q[k] / sqrt(square);
+  const double inverse = 1 / sqrt(square);
+  for (size_t k = 0; k < 4; k++) out[k] = (double)q[k] * inverse;
 }
 
 // The conjugate of a, times b.
@@ -5529,61 +5784,153 @@ static nsvcd__d3 nsvcd__place_point(const nsvcd__placement *at, nsvcd__d3 a) {
   return nsvcd__d3_add(nsvcd__rotate(at->rows, a), at->position);
 }
 
-// Arc k of the motion, from sample k to the next.
-static const nsvcd__arc *nsvcd__arc_at(nsvcd__proof *p, size_t k) {
-  const nsvcd__motion *motion = p->motion;
-  nsvcd__arc *arc = &p->arc;
-  if (arc->index == k) return arc;
-  const nsvcd_pose *a = &motion->poses[k];
-  const nsvcd_pose *b = motion->count > 1 ? a + 1 : a;
-  double fixed[4], q[4];
-  nsvcd__d3 rows[3];
-  nsvcd__unit_quaternion(motion->fixed_pose->rotation, fixed);
-  nsvcd__unit_quaternion(a->rotation, q);
-  nsvcd__conjugate_times(fixed, q, arc->start);
-  nsvcd__unit_quaternion(b->rotation, q);
-  nsvcd__conjugate_times(fixed, q, arc->end);
+static double nsvcd__turn_weights(double half_angle, double u, double *after) {
+  *after = u;
+  if (!(half_angle > 1e-7)) return 1 - u;  // the difference is less than rounding
+  *after = sin(u * half_angle);
+  return sin((1 - u) * half_angle);
+}
+
+// The rotation a share u in [0,1] of the arc later than its start; q unit.
+static void nsvcd__leg_at(const nsvcd__leg *leg, double u, double *q) {
+  double after, square = 0;
+  const double before = nsvcd__turn_weights(leg->half_angle, leg->from + leg->share * u, &after);
+  for (size_t k = 0; k < 4; k++) {
+    q[k] = before * leg->start[k] + after * leg->end[k];
+    square += q[k] * q[k];
+  }
+  const double inverse = 1 / sqrt(square);
+  for (size_t k = 0; k < 4; k++) q[k] *= inverse;
+}
+
+// A track's leg of an arc, and its positions at both ends of it, metres.
+static void nsvcd__leg_init(const nsvcd__track *track, uint32_t first, uint32_t ticks, nsvcd__leg *leg,
+                            nsvcd__d3 *ends) {
+  if (track->count == 1) {
+    nsvcd__unit_quaternion(track->poses->rotation, leg->start);
+    memcpy(leg->end, leg->start, sizeof leg->end);
+    leg->half_angle = leg->from = 0;
+    leg->share = 1;
+    ends[0] = ends[1] = nsvcd__d3_load(track->poses->position);
+    return;
+  }
+  const uint32_t last = (uint32_t)(track->count - 2);
+  const uint32_t past = track->ticks == 1 ? first : first / track->ticks;
+  const uint32_t k = past < last ? past : last;
+  const nsvcd_pose *a = &track->poses[k];
+  const nsvcd_pose *b = a + 1;
+  const double per_tick = track->ticks == 1 ? 1 : 1 / (double)track->ticks;
+  leg->share = (double)ticks * per_tick;
+  leg->from = (double)(first - k * track->ticks) * per_tick;
+  const nsvcd__d3 start = nsvcd__d3_load(a->position);
+  const nsvcd__d3 way = nsvcd__d3_sub(nsvcd__d3_load(b->position), start);
+  ends[0] = nsvcd__d3_add(start, nsvcd__d3_scale(way, leg->from));
+  ends[1] = nsvcd__d3_add(start, nsvcd__d3_scale(way, leg->from + leg->share));
 
   const double sign = nsvcd__is_opposed(a->rotation, b->rotation) ? -1 : 1;
   double apart = 0, together = 0;
+  nsvcd__unit_quaternion(a->rotation, leg->start);
+  nsvcd__unit_quaternion(b->rotation, leg->end);
   for (size_t i = 0; i < 4; i++) {
-    arc->end[i] *= sign;
-    apart += (arc->start[i] - arc->end[i]) * (arc->start[i] - arc->end[i]);
-    together += (arc->start[i] + arc->end[i]) * (arc->start[i] + arc->end[i]);
+    leg->end[i] *= sign;
+    apart += (leg->start[i] - leg->end[i]) * (leg->start[i] - leg->end[i]);
+    together += (leg->start[i] + leg->end[i]) * (leg->start[i] + leg->end[i]);
   }
-  arc->half_angle = 2 * atan2(sqrt(apart), sqrt(together));
+  leg->half_angle = 2 * atan2(sqrt(apart), sqrt(together));
+}
 
-  const nsvcd__d3 u = nsvcd__d3_of(arc->start[0], arc->start[1], arc->start[2]);
-  const nsvcd__d3 v = nsvcd__d3_of(arc->end[0], arc->end[1], arc->end[2]);
-  const nsvcd__d3 difference = nsvcd__d3_sub(nsvcd__d3_scale(v, arc->start[3]), nsvcd__d3_scale(u, arc->end[3]));
-  const nsvcd__d3 turn = nsvcd__d3_add(difference, nsvcd__d3_cross(u, v));
-  const double sine = nsvcd__d3_length(turn);
-  arc->axis = sine > 0 ? nsvcd__d3_scale(turn, 1 / sine) : nsvcd__d3_of(1, 0, 0);
+// The rotation vector of a leg, over its arc.
+static nsvcd__d3 nsvcd__leg_turn(const nsvcd__leg *leg) {
+  const nsvcd__d3 u = nsvcd__d3_of(leg->start[0], leg->start[1], leg->start[2]);
+  const nsvcd__d3 v = nsvcd__d3_of(leg->end[0], leg->end[1], leg->end[2]);
+  const nsvcd__d3 difference = nsvcd__d3_sub(nsvcd__d3_scale(v, leg->start[3]), nsvcd__d3_scale(u, leg->end[3]));
+  const nsvcd__d3 across = nsvcd__d3_add(difference, nsvcd__d3_cross(u, v));
+  const double sine = nsvcd__d3_length(across);
+  return nsvcd__d3_scale(across, sine > 0 ? 2 * leg->half_angle * leg->share / sine : 0);
+}
 
-  nsvcd__rows_of(fixed, rows);
-  const nsvcd__d3 origin = nsvcd__d3_load(motion->fixed_pose->position);
-  const nsvcd__d3 from = nsvcd__d3_load(a->position);
-  arc->from = nsvcd__rotate_back(rows, nsvcd__d3_sub(from, origin));
-  arc->moved = nsvcd__rotate_back(rows, nsvcd__d3_sub(nsvcd__d3_load(b->position), from));
-  arc->index = k;
+// What both bodies' turns do to an arc: see nsvcd__cut_double_arc.
+static void nsvcd__arc_bend(nsvcd__arc *arc) {
+  const nsvcd__d3 fixed_turn = nsvcd__leg_turn(&arc->fixed);
+  const nsvcd__d3 turn = nsvcd__d3_sub(nsvcd__leg_turn(&arc->moving), fixed_turn);
+  const nsvcd__d3 to = nsvcd__d3_add(arc->from, arc->moved);
+  const double twist = nsvcd__d3_length(nsvcd__d3_cross(turn, fixed_turn));
+  const double angle = nsvcd__d3_length(fixed_turn);
+  const double swing = fmax(nsvcd__d3_length(nsvcd__d3_cross(fixed_turn, arc->from)),
+                            nsvcd__d3_length(nsvcd__d3_cross(fixed_turn, to)));
+  const double across = nsvcd__d3_length(nsvcd__d3_cross(fixed_turn, arc->moved));
+  arc->has_axis = !(angle > 0);
+  arc->turn = nsvcd__d3_length(turn);
+  arc->speed = nsvcd__d3_length(arc->moved) + swing;
+  arc->bulge = 0.1250001 * arc->scale * (arc->turn * arc->turn + twist);
+  arc->drift = 0.1250001 * (2 * across + angle * swing);
+  arc->axis = nsvcd__d3_unit(turn, nsvcd__d3_of(1, 0, 0));
+  if (arc->has_axis) {  // the fixed body only goes along: its axes are those of its start
+    nsvcd__d3 rows[3];
+    nsvcd__rows_of(arc->fixed.start, rows);
+    arc->axis = nsvcd__rotate_back(rows, arc->axis);
+  }
+}
+
+// The arc that begins at the knot `first`.
+static const nsvcd__arc *nsvcd__arc_at(nsvcd__proof *p, uint32_t first) {
+  const nsvcd__motion *motion = p->motion;
+  nsvcd__arc *arc = &p->arc;
+  const uint32_t ticks = nsvcd__next_knot(motion, first) - first;
+  if (arc->first == first && arc->ticks == ticks) return arc;
+  nsvcd__d3 ends[2], fixed_ends[2];
+  const double per_metre = 1 / (double)motion->unit;
+  arc->first = first;
+  arc->ticks = ticks;
+  arc->fixed_moves = motion->fixed_moves;
+  arc->scale = (double)motion->scale;
+  nsvcd__leg_init(&motion->moving, first, ticks, &arc->moving, ends);
+  nsvcd__leg_init(&motion->fixed, first, ticks, &arc->fixed, fixed_ends);
+  arc->from = nsvcd__d3_scale(nsvcd__d3_sub(ends[0], fixed_ends[0]), per_metre);
+  arc->moved = nsvcd__d3_scale(nsvcd__d3_sub(nsvcd__d3_sub(ends[1], fixed_ends[1]), nsvcd__d3_sub(ends[0], fixed_ends[0])),
+                               per_metre);
+  if (arc->fixed_moves) {
+    nsvcd__arc_bend(arc);
+    return arc;
+  }
+
+  nsvcd__d3 rows[3];
+  double start[4], end[4];
+  memcpy(start, arc->moving.start, sizeof start);
+  memcpy(end, arc->moving.end, sizeof end);
+  nsvcd__conjugate_times(arc->fixed.start, start, arc->moving.start);
+  nsvcd__conjugate_times(arc->fixed.start, end, arc->moving.end);
+  nsvcd__rows_of(arc->fixed.start, rows);
+  arc->from = nsvcd__rotate_back(rows, arc->from);
+  arc->moved = nsvcd__rotate_back(rows, arc->moved);
+  const nsvcd__d3 turn = nsvcd__leg_turn(&arc->moving);
+  arc->has_axis = 1;
+  arc->axis = nsvcd__d3_unit(turn, nsvcd__d3_of(1, 0, 0));
+  arc->turn = 2 * arc->moving.half_angle * arc->moving.share;
+  arc->speed = nsvcd__d3_length(arc->moved);
+  arc->bulge = 0.1250001 * arc->scale * arc->turn * arc->turn;
+  arc->drift = 0;
   return arc;
 }
 
-// The true pose, seen from the fixed body, a share u in [0,1] of the arc later than its start.
+// The true pose, seen from the fixed body, a share u in [0,1] of the arc later than its start. Rows are those of the
+// rotation times the moving body's scale.
 static nsvcd__placement nsvcd__placement_at(const nsvcd__arc *arc, double u) {
-  double before = 1 - u, after = u, q[4], square = 0;
-  if (arc->half_angle > 1e-7) {  // below, the difference is less than rounding
-    before = sin(before * arc->half_angle);
-    after = sin(after * arc->half_angle);
-  }
-  for (size_t k = 0; k < 4; k++) {
-    q[k] = before * arc->start[k] + after * arc->end[k];
-    square += q[k] * q[k];
-  }
-  for (size_t k = 0; k < 4; k++) q[k] /= sqrt(square);
+  double q[4];
   nsvcd__placement at;
-  nsvcd__rows_of(q, at.rows);
+  nsvcd__leg_at(&arc->moving, u, q);
   at.position = nsvcd__d3_add(arc->from, nsvcd__d3_scale(arc->moved, u));
+  if (arc->fixed_moves) {
+    double fixed[4], seen[4];
+    nsvcd__d3 rows[3];
+    nsvcd__leg_at(&arc->fixed, u, fixed);
+    nsvcd__rows_of(fixed, rows);
+    nsvcd__conjugate_times(fixed, q, seen);
+    memcpy(q, seen, sizeof q);
+    at.position = nsvcd__rotate_back(rows, at.position);
+  }
+  nsvcd__rows_of(q, at.rows);
+  for (size_t k = 0; k < 3; k++) at.rows[k] = nsvcd__d3_scale(at.rows[k], arc->scale);
   return at;
 }
 
@@ -5591,12 +5938,17 @@ static nsvcd__placement nsvcd__placement_at(const nsvcd__arc *arc, double u) {
 // asked for stay where they are.
 static const nsvcd__placement *nsvcd__placed_at(nsvcd__proof *p, double u) {
   size_t n = 0;
-  while (n < NSVCD__PLACED && !(p->placed[n].arc == p->arc.index && p->placed[n].u == u)) n++;
+  const nsvcd__arc *arc = &p->arc;
+  for (; n < NSVCD__PLACED; n++) {
+    const nsvcd__placed *known = &p->placed[n];
+    if (known->arc == arc->first && known->ticks == arc->ticks && known->u == u) break;
+  }
   if (n == NSVCD__PLACED) {
     n = p->next_placed;
-    p->placed[n].arc = p->arc.index;
+    p->placed[n].arc = arc->first;
+    p->placed[n].ticks = arc->ticks;
     p->placed[n].u = u;
-    p->placed[n].placement = nsvcd__placement_at(&p->arc, u);
+    p->placed[n].placement = nsvcd__placement_at(arc, u);
   }
   if (n == p->next_placed) p->next_placed = (n + 1) % NSVCD__PLACED;
   return &p->placed[n].placement;
@@ -5615,14 +5967,12 @@ static nsvcd__transform nsvcd__transform_of(const nsvcd__placement *at) {
 
 // ---- spans
 
-// Arcs of the motion: samples less one, at least one.
-static double nsvcd__arc_count(const nsvcd__motion *motion) {
-  return motion->count > 1 ? (double)(motion->count - 1) : 1;
-}
+// The time at which so many ticks have gone by.
+static double nsvcd__time_of(const nsvcd__proof *p, double ticks) { return ticks / (double)p->motion->ticks; }
 
-// A segment's share of the motion: where it begins, counted in arcs.
-static double nsvcd__segment_start(const nsvcd__workspace *work, size_t s) {
-  return (double)work->begin[s] / (double)work->per_arc;
+// The time a share u of the arc last asked for later than its start.
+static double nsvcd__time_in_arc(const nsvcd__proof *p, double u) {
+  return nsvcd__time_of(p, (double)p->arc.first + u * (double)p->arc.ticks);
 }
 
 static nsvcd__span nsvcd__span_of_segment(const nsvcd__motion *motion, const nsvcd__workspace *work, size_t s) {
@@ -5645,8 +5995,8 @@ static nsvcd__span nsvcd__span_of_segment(const nsvcd__motion *motion, const nsv
   span.bulge_along_axis = block->bulge_along_axis[l];
   span.drift_along_axis = block->drift_along_axis[l];
   span.drift_off_way = block->drift_off_way[l];
-  span.t_start = nsvcd__segment_start(work, s) / nsvcd__arc_count(motion);
-  span.t_end = motion->count > 1 ? nsvcd__segment_start(work, s + 1) / nsvcd__arc_count(motion) : 1;
+  span.t_start = (double)work->begin[s] / (double)motion->ticks;
+  span.t_end = (double)work->begin[s + 1] / (double)motion->ticks;
   return span;
 }
 
@@ -5657,25 +6007,26 @@ static const nsvcd__span *nsvcd__segment_span(nsvcd__proof *p, const nsvcd__work
   return &p->spans[s];
 }
 
-// From u0 to u1 of arc k.
-static nsvcd__span nsvcd__span_of_arc(nsvcd__proof *p, size_t k, double u0, double u1) {
-  const nsvcd__arc *arc = nsvcd__arc_at(p, k);
+// From u0 to u1 of an arc.
+static nsvcd__span nsvcd__span_of_arc(nsvcd__proof *p, uint32_t first, double u0, double u1) {
+  const nsvcd__arc *arc = nsvcd__arc_at(p, first);
   const nsvcd__placement start = nsvcd__placement_at(arc, u0);
   const nsvcd__placement end = nsvcd__placement_at(arc, u1);
-  const double angle = 2 * arc->half_angle * (u1 - u0);
+  const double square = (u1 - u0) * (u1 - u0);
   nsvcd__span span;
   span.start = nsvcd__transform_of(&start);
   span.end = nsvcd__transform_of(&end);
   const float remote = nsvcd__f3_length(span.start.position) + nsvcd__f3_length(span.end.position);
+  span.bulge = (float)(square * arc->bulge);
+  span.drift = (float)(square * arc->drift * 1.000001);
   span.rounding = NSVCD__ROUNDING * (remote + p->lengths);
-  span.spread = span.rounding;
-  span.bulge = (float)(angle * angle * 0.1250001);
-  span.drift = span.drift_along_axis = span.drift_off_way = 0;
+  span.spread = span.rounding + span.drift;
+  span.drift_along_axis = span.drift_off_way = span.drift;
   span.axis = nsvcd__f3_round(arc->axis);
-  span.way = span.axis;  // any: the way is straight
-  span.bulge_along_axis = 1e-6f * span.bulge;
-  span.t_start = ((double)k + u0) / nsvcd__arc_count(p->motion);
-  span.t_end = ((double)k + u1) / nsvcd__arc_count(p->motion);
+  span.way = span.axis;  // any
+  span.bulge_along_axis = arc->has_axis ? 1e-6f * span.bulge : span.bulge;
+  span.t_start = nsvcd__time_in_arc(p, u0);
+  span.t_end = nsvcd__time_in_arc(p, u1);
   return span;
 }
 
@@ -5738,7 +6089,12 @@ NSVCD__INLINE nsvcd__v nsvcd__v_deviation(const nsvcd__v_span *span, nsvcd__v3 n
   return nsvcd__v_fma(turn, nsvcd__v_set(reach), nsvcd__v_min(by_axis, by_way));
 }
 
-// No point of the patch's pieces is farther from the body's origin.
+// What stored triangles of two patches may be off by, both together.
+static float nsvcd__quanta_of(const nsvcd__proof *p, size_t i, size_t j) {
+  return p->motion->scale * p->moving.quanta[i] + p->fixed.quanta[j];
+}
+
+// No point of the patch's pieces is farther from the body's origin; in the body's own units, as bulges have it.
 static float nsvcd__patch_reach(const nsvcd__facets *f, size_t patch) {
   return 1.000001f * (nsvcd__f3_length(nsvcd__facet_centre(f, patch)) + nsvcd__body_r(f->body)[patch]);
 }
@@ -5770,8 +6126,9 @@ static inline nsvcd__f3 nsvcd__f3_rotate_back(const float *m, nsvcd__f3 a) {
 typedef struct nsvcd__approach {
   nsvcd__v3 from, chord;       // from the resting centre to the moving one, and its way
   nsvcd__v3 normal;            // of the moving disc, its body's frame
-  nsvcd__v low, high, across;  // of the moving disc
-  float reach;                 // no point of the group is farther from the body's origin
+  nsvcd__v low, high, across;  // of the moving disc, in its body's units
+  float scale, per_scale;      // of the moving body
+  float reach;                 // no point of the group is farther from the body's origin, in its body's units
 } nsvcd__approach;
 
 // Lanes that the plane normal to the resting disc parts: on the side of its normal, or on the other (`below`).
@@ -5800,16 +6157,19 @@ static uint32_t nsvcd__apart_by_fixed_disc(const nsvcd__approach *a, const nsvcd
 // normals make the same angle with w: along it they are |w|^2, across it no more than half of what they differ by.
 static uint32_t nsvcd__apart_by_moving_disc(const nsvcd__approach *a, const nsvcd__span *span, nsvcd__f3 normal,
                                             float low, float high, float across, nsvcd__v3 *plane, uint32_t *below) {
+  const float half = 0.5f * a->per_scale;  // rotations in a span are times the scale
+  const nsvcd__v scale = nsvcd__v_set(a->scale);
   nsvcd__transform middle, half_turn;
   for (size_t i = 0; i < 9; i++) {
-    half_turn.rotation[i] = 0.5f * (span->end.rotation[i] - span->start.rotation[i]);
-    middle.rotation[i] = 0.5f * (span->end.rotation[i] + span->start.rotation[i]);
+    half_turn.rotation[i] = half * (span->end.rotation[i] - span->start.rotation[i]);
+    middle.rotation[i] = half * (span->end.rotation[i] + span->start.rotation[i]);
   }
   middle.position = half_turn.position = nsvcd__f3_of(0, 0, 0);
   const nsvcd__v3 w = nsvcd__v3_transform(&middle, a->normal);
   const nsvcd__v3 n = nsvcd__v3_set(normal);
   const nsvcd__v turned = nsvcd__v3_length(nsvcd__v3_transform(&half_turn, a->normal));
-  const nsvcd__reach_along moving = nsvcd__disc_along(a->low, a->high, a->across, nsvcd__v3_dot(w, w), turned);
+  const nsvcd__reach_along moving = nsvcd__disc_along(
+      a->low, a->high, a->across, nsvcd__v_mul(scale, nsvcd__v3_dot(w, w)), nsvcd__v_mul(scale, turned));
   const nsvcd__reach_along fixed = nsvcd__disc_along(nsvcd__v_set(low), nsvcd__v_set(high), nsvcd__v_set(across),
                                                      nsvcd__v3_dot(w, n), nsvcd__v3_length(nsvcd__v3_cross(w, n)));
 
@@ -5860,6 +6220,8 @@ static uint32_t nsvcd__discs_meet(const nsvcd__proof *p, const nsvcd__chords *c,
   a.low = nsvcd__v_load(m + 3 * moving_padded);
   a.high = nsvcd__v_load(m + 4 * moving_padded);
   a.across = nsvcd__v_load(m + 5 * moving_padded);
+  a.scale = p->motion->scale;
+  a.per_scale = p->motion->per_scale;
   a.reach = reach;
 
   uint32_t below;
@@ -5911,8 +6273,8 @@ NSVCD__INLINE nsvcd__v3 nsvcd__v3_turned_back(float (*m)[NSVCD__LANES], nsvcd__f
 // Segments of a block in which discs part a moving group from a resting one. The planes are those of single discs,
 // nsvcd__apart_by_fixed_disc and nsvcd__apart_by_moving_disc, with all in lanes but the discs.
 static uint32_t nsvcd__groups_apart(nsvcd__segments *block, const nsvcd__chords *c, const nsvcd__disc *moving,
-                                    const nsvcd__disc *fixed, nsvcd__f3 fixed_centre, float reach, nsvcd__v3 *planes,
-                                    uint32_t *below) {
+                                    const nsvcd__disc *fixed, nsvcd__f3 fixed_centre, float scale, float reach,
+                                    nsvcd__v3 *planes, uint32_t *below) {
   const nsvcd__v_span spans = nsvcd__v_span_load(block);
   const nsvcd__v3 n = nsvcd__v3_set(fixed->normal);
   const nsvcd__v3 m = nsvcd__v3_set(moving->normal);
@@ -5934,10 +6296,11 @@ static uint32_t nsvcd__groups_apart(nsvcd__segments *block, const nsvcd__chords 
   below[0] = nsvcd__v_lt(highest, nsvcd__v_sub(nsvcd__v_set(fixed->low), deviation));
   const uint32_t by_fixed = nsvcd__v_lt(nsvcd__v_add(nsvcd__v_set(fixed->high), deviation), lowest) | below[0];
 
-  const nsvcd__v half = nsvcd__v_set(0.5f);
+  const nsvcd__v half = nsvcd__v_set(0.5f / scale), whole = nsvcd__v_set(1 / scale), size = nsvcd__v_set(scale);
   const nsvcd__v3 turned = nsvcd__v3_scale(nsvcd__v3_turned(block->turned, moving->normal), half);
-  const nsvcd__v3 w = nsvcd__v3_add(nsvcd__v3_turned(block->rotation, moving->normal), turned);
-  const nsvcd__reach_along own = nsvcd__one_disc_along(moving, nsvcd__v3_dot(w, w), nsvcd__v3_length(turned));
+  const nsvcd__v3 w = nsvcd__v3_fma(whole, nsvcd__v3_turned(block->rotation, moving->normal), turned);
+  const nsvcd__reach_along own = nsvcd__one_disc_along(moving, nsvcd__v_mul(size, nsvcd__v3_dot(w, w)),
+                                                       nsvcd__v_mul(size, nsvcd__v3_length(turned)));
   const nsvcd__reach_along other =
       nsvcd__one_disc_along(fixed, nsvcd__v3_dot(w, n), nsvcd__v3_length(nsvcd__v3_cross(w, n)));
   const nsvcd__v along = nsvcd__v3_dot(w, from);
@@ -6000,7 +6363,7 @@ static void nsvcd__part_groups(const nsvcd__proof *p, nsvcd__workspace *work, si
       if (!there) continue;
       NSVCD__TALLY(tests, 1);
       const uint32_t apart = there & nsvcd__groups_apart(&work->blocks[b], &work->group[b], &own, &disc, fixed_centre,
-                                                         reach, planes, below);
+                                                         work->scale, reach, planes, below);
       NSVCD__CERTIFY_GROUPS(p, work, b, g, h, apart, planes, below);
       *met &= ~((uint64_t)apart << (NSVCD__LANES * b));
     }
@@ -6071,7 +6434,7 @@ static void nsvcd__guess_normals(const nsvcd__proof *p, size_t i, size_t j, cons
 // Is there a plane between two patches over the whole span? After the guesses Gilbert's iteration (1966) towards the
 // point nearest to 0 of the differences of the two hulls; each of its directions is tried. p->held is what held.
 static NSVCD__APART int nsvcd__hulls_are_apart(nsvcd__proof *p, size_t i, size_t j, const nsvcd__span *span) {
-  const float slack = p->moving.slacks[i] + p->fixed.slacks[j] + span->rounding;
+  const float slack = p->motion->scale * p->moving.slacks[i] + p->fixed.slacks[j] + span->rounding;
   const float reach = nsvcd__patch_reach(&p->moving, i);
   nsvcd__f3 guesses[NSVCD__GUESSES];
   nsvcd__f3 nearest = {0, 0, 0};
@@ -6211,7 +6574,7 @@ static void nsvcd__place_triangle(const nsvcd__placement *at, const nsvcd__d3 *c
 typedef struct nsvcd__pair {
   size_t moving_patch, fixed_patch, moving_listing, fixed_listing;
   nsvcd__d3 moving[3], fixed[3];
-  double reach;   // of the moving one, from its body's origin
+  double reach;   // of the moving one, from its body's origin, in its body's units
   double slack;   // quanta, and rounding in double
   double rounding;
 } nsvcd__pair;
@@ -6225,7 +6588,7 @@ static nsvcd__pair nsvcd__pair_of(const nsvcd__proof *p, size_t i, size_t j, siz
     pair.reach = reach > pair.reach ? reach : pair.reach;
   }
   pair.rounding = NSVCD__SAME_PLACE * ((double)p->lengths + nsvcd__d3_length(p->arc.from));
-  pair.slack = (double)p->moving.quanta[i] + (double)p->fixed.quanta[j] + pair.rounding;
+  pair.slack = p->arc.scale * (double)p->moving.quanta[i] + (double)p->fixed.quanta[j] + pair.rounding;
   pair.slack += NSVCD__SAME_PLACE * nsvcd__d3_length(p->arc.moved);
   return pair;
 }
@@ -6248,15 +6611,15 @@ static int nsvcd__plane_parts(nsvcd__proof *p, const nsvcd__pair *pair, double u
   const nsvcd__arc *arc = &p->arc;
   const nsvcd__placement *start = nsvcd__placed_at(p, u0);
   const nsvcd__placement *end = nsvcd__placed_at(p, u1);
-  const double angle = 2 * arc->half_angle * (u1 - u0);
   double lowest = HUGE_VAL, highest = -HUGE_VAL;
   for (size_t k = 0; k < 3; k++) {
     lowest = fmin(lowest, nsvcd__d3_dot(normal, nsvcd__place_point(start, pair->moving[k])));
     lowest = fmin(lowest, nsvcd__d3_dot(normal, nsvcd__place_point(end, pair->moving[k])));
     highest = fmax(highest, nsvcd__d3_dot(normal, pair->fixed[k]));
   }
-  const double off_axis = nsvcd__d3_length(nsvcd__d3_cross(normal, arc->axis)) + 1e-6;
-  return lowest - highest > pair->slack + angle * angle * 0.1250001 * pair->reach * off_axis;
+  const double off_axis = arc->has_axis ? nsvcd__d3_length(nsvcd__d3_cross(normal, arc->axis)) + 1e-6 : 1;
+  const double deviation = (u1 - u0) * (u1 - u0) * (arc->bulge * pair->reach * off_axis + arc->drift);
+  return lowest - highest > pair->slack + deviation;
 }
 
 // A pair at three times: the moving triangle's corners.
@@ -6364,14 +6727,14 @@ static NSVCD__APART int nsvcd__find_passage(nsvcd__proof *p, const nsvcd__pair *
   nsvcd__d3 posed[3];
   nsvcd__place_triangle(nsvcd__placed_at(p, when), pair->moving, posed);
   const nsvcd__nearest nearest = nsvcd__triangles_nearest(posed, pair->fixed);
-  nsvcd__keep_contact(p, pair, ((double)p->arc.index + when) / nsvcd__arc_count(p->motion), nearest.on_b);
+  nsvcd__keep_contact(p, pair, nsvcd__time_in_arc(p, when), nearest.on_b);
   return 1;
 }
 
 static void nsvcd__certify_pair(const nsvcd__proof *p, const nsvcd__pair *pair, double u0, double u1) {
   const float normal[3] = {(float)p->parting.x, (float)p->parting.y, (float)p->parting.z};
-  const double start = ((double)p->arc.index + u0) / nsvcd__arc_count(p->motion);
-  const double end = ((double)p->arc.index + u1) / nsvcd__arc_count(p->motion);
+  const double start = nsvcd__time_in_arc(p, u0);
+  const double end = nsvcd__time_in_arc(p, u1);
   NSVCD__CERTIFY(NSVCD__BY_TRIANGLES, pair->moving_patch, pair->fixed_patch, pair->moving_listing, pair->fixed_listing,
                  start, end, normal);
   (void)normal;
@@ -6384,7 +6747,7 @@ static void nsvcd__certify_pair(const nsvcd__proof *p, const nsvcd__pair *pair, 
 // that parted a pair last or one at the middle's nearest points, or they meet there, or come too close to tell.
 static NSVCD__APART nsvcd__verdict nsvcd__settle_pair(nsvcd__proof *p, const nsvcd__pair *pair, double u0, double u1) {
   const nsvcd__arc *arc = &p->arc;
-  const double speed = nsvcd__d3_length(arc->moved) + 2 * arc->half_angle * pair->reach;
+  const double speed = arc->speed + arc->turn * arc->scale * pair->reach;
   double *ends = p->pair_ends;
   size_t left = 1;
   int undecided = 0;
@@ -6402,7 +6765,7 @@ static NSVCD__APART nsvcd__verdict nsvcd__settle_pair(nsvcd__proof *p, const nsv
       const nsvcd__nearest nearest = nsvcd__triangles_nearest(posed, pair->fixed);
       const double distance = sqrt(nearest.square);
       if (distance <= pair->rounding) {
-        nsvcd__keep_contact(p, pair, ((double)arc->index + middle) / nsvcd__arc_count(p->motion), nearest.on_a);
+        nsvcd__keep_contact(p, pair, nsvcd__time_in_arc(p, middle), nearest.on_a);
         return NSVCD__MEETS;
       }
       p->parting = nsvcd__d3_scale(nsvcd__d3_sub(nearest.on_a, nearest.on_b), 1 / distance);
@@ -6627,10 +6990,10 @@ static NSVCD__APART uint32_t nsvcd__row_left(nsvcd__proof *p, size_t i, size_t j
 
 // ---- witnesses
 
-// Among the moving block, posed `at`, and a block of the window: two triangles that meet a share u of arc k later than
+// Among the moving block, posed `at`, and a block of the window: two triangles that meet a share u of the arc later than
 // its start.
-static int nsvcd__find_witness_in(nsvcd__proof *p, size_t i, size_t j, size_t n, const nsvcd__placement *at, size_t k,
-                                  double u, float margin) {
+static int nsvcd__find_witness_in(nsvcd__proof *p, size_t i, size_t j, size_t n, const nsvcd__placement *at, double u,
+                                  float margin) {
   nsvcd__block *fixed = &p->fixed_blocks[n];
   uint32_t lanes = nsvcd__lanes_near(&p->moving_block, p->bounds[n], margin);
   for (; lanes; lanes &= lanes - 1) {
@@ -6645,7 +7008,7 @@ static int nsvcd__find_witness_in(nsvcd__proof *p, size_t i, size_t j, size_t n,
       nsvcd__d3 point;
       p->work++;
       if (!nsvcd__triangles_meet(posed, pair.fixed, &point)) continue;
-      nsvcd__keep_contact(p, &pair, ((double)k + u) / nsvcd__arc_count(p->motion), point);
+      nsvcd__keep_contact(p, &pair, nsvcd__time_in_arc(p, u), point);
       return 1;
     }
   }
@@ -6658,9 +7021,9 @@ static void nsvcd__moving_block_load(nsvcd__proof *p, size_t i, size_t first) {
   nsvcd__block_load(&p->moving, i, first, left < NSVCD__LANES ? left : NSVCD__LANES, &p->moving_block);
 }
 
-// Looks for two triangles of patches i and j that meet a share u of arc k later than its start.
-static int nsvcd__find_witness(nsvcd__proof *p, size_t i, size_t j, size_t k, double u) {
-  const nsvcd__arc *arc = nsvcd__arc_at(p, k);
+// Looks for two triangles of patches i and j that meet a share u of an arc later than its start.
+static int nsvcd__find_witness(nsvcd__proof *p, size_t i, size_t j, uint32_t first, double u) {
+  const nsvcd__arc *arc = nsvcd__arc_at(p, first);
   const nsvcd__placement at = nsvcd__placement_at(arc, u);
   const nsvcd__transform rounded = nsvcd__transform_of(&at);
   const float margin = NSVCD__ROUNDING * (p->lengths + nsvcd__f3_length(rounded.position));
@@ -6675,28 +7038,36 @@ static int nsvcd__find_witness(nsvcd__proof *p, size_t i, size_t j, size_t k, do
       for (size_t n = 0; n < p->window; n++) {
         p->work++;
         if (p->work > p->limit) return 0;
-        if (nsvcd__find_witness_in(p, i, j, n, &at, k, u, margin)) return 1;
+        if (nsvcd__find_witness_in(p, i, j, n, &at, u, margin)) return 1;
       }
     }
   }
   return 0;
 }
 
-// The arc and the share of it at a place of the motion counted in arcs.
-static size_t nsvcd__arc_and_share(const nsvcd__motion *motion, double at, double *share) {
-  const size_t last = motion->count > 1 ? motion->count - 2 : 0;
-  const size_t k = (size_t)at < last ? (size_t)at : last;
-  *share = motion->count > 1 ? at - (double)k : 0;
-  return k;
+// The last knot that is not after a tick before the end.
+static uint32_t nsvcd__knot_at(const nsvcd__motion *motion, uint32_t tick) {
+  const uint32_t past_a = tick % motion->moving.ticks;
+  const uint32_t past_b = tick % motion->fixed.ticks;
+  return tick - (past_a < past_b ? past_a : past_b);
+}
+
+// The arc, and the share of it, that a time counted in ticks is in.
+static uint32_t nsvcd__arc_and_share(const nsvcd__motion *motion, double at, double *share) {
+  const uint32_t last = motion->ticks - 1;
+  const uint32_t tick = at < (double)last ? (uint32_t)at : last;
+  const uint32_t first = nsvcd__knot_at(motion, tick);
+  *share = (at - (double)first) / (double)(nsvcd__next_knot(motion, first) - first);
+  return first;
 }
 
 static int nsvcd__seek_item(nsvcd__proof *p, const nsvcd__workspace *work, nsvcd__item *item) {
-  const double start = nsvcd__segment_start(work, item->segment);
-  const double end = nsvcd__segment_start(work, item->segment + 1u);
+  const double start = (double)work->begin[item->segment];
+  const double end = (double)work->begin[item->segment + 1u];
   double u;
-  const size_t k = nsvcd__arc_and_share(p->motion, start + (double)item->share * (end - start), &u);
+  const uint32_t first = nsvcd__arc_and_share(p->motion, start + (double)item->share * (end - start), &u);
   item->sought = 1;
-  return nsvcd__find_witness(p, item->moving, item->fixed, k, u);
+  return nsvcd__find_witness(p, item->moving, item->fixed, first, u);
 }
 
 // ---- what hulls leave
@@ -6707,7 +7078,7 @@ static int nsvcd__seek_item(nsvcd__proof *p, const nsvcd__workspace *work, nsvcd
 static nsvcd__verdict nsvcd__settle_row(nsvcd__proof *p, size_t i, size_t j, size_t l, size_t n,
                                         const nsvcd__span *span, float margin, double u0, double u1, size_t patience) {
   nsvcd__block *fixed = &p->fixed_blocks[n];
-  const float quanta = p->moving.quanta[i] + p->fixed.quanta[j];
+  const float quanta = nsvcd__quanta_of(p, i, j);
   const float reach = p->moving.body->extent + p->moving.quanta[i];
   nsvcd__verdict verdict = NSVCD__FREE;
   uint32_t below = 0;
@@ -6738,7 +7109,7 @@ static NSVCD__APART nsvcd__verdict nsvcd__settle_triangles(nsvcd__proof *p, size
                                                            size_t patience) {
   const size_t moving_end = p->moving.first_triangle[i + 1], fixed_end = p->fixed.first_triangle[j + 1];
   const float reach = p->moving.body->extent + p->moving.quanta[i];
-  const float margin = p->moving.quanta[i] + p->fixed.quanta[j] + span->spread + span->bulge * reach;
+  const float margin = nsvcd__quanta_of(p, i, j) + span->spread + span->bulge * reach;
   nsvcd__verdict verdict = NSVCD__FREE;
   p->parts = 0;
   for (size_t b = p->fixed.first_triangle[j]; b < fixed_end; b += NSVCD__WINDOW * NSVCD__LANES) {
@@ -6777,15 +7148,16 @@ static void nsvcd__certify_item(const nsvcd__proof *p, const nsvcd__span *span, 
   (void)item;
 }
 
-// An item from u0 to u1 of arc k, or from halves to halves of that: by a plane that fits it, or by its triangles.
-static nsvcd__verdict nsvcd__settle_arc(nsvcd__proof *p, const nsvcd__item *item, size_t k, double u0, double u1) {
+// An item from u0 to u1 of an arc, or from halves to halves of that: by a plane that fits it, or by its triangles.
+static nsvcd__verdict nsvcd__settle_arc(nsvcd__proof *p, const nsvcd__item *item, uint32_t first, double u0,
+                                        double u1) {
   double *ends = p->arc_ends;
   size_t left = 1;
   nsvcd__verdict verdict = NSVCD__FREE;
   ends[0] = u1;
   for (double u = u0; left > 0;) {
     const double end = ends[left - 1];
-    p->span = nsvcd__span_of_arc(p, k, u, end);
+    p->span = nsvcd__span_of_arc(p, first, u, end);
     if (nsvcd__hulls_are_apart(p, item->moving, item->fixed, &p->span)) {
       nsvcd__certify_item(p, &p->span, item);
     } else {
@@ -6807,15 +7179,15 @@ static nsvcd__verdict nsvcd__settle_arc(nsvcd__proof *p, const nsvcd__item *item
 
 // An item that no plane parts over its segment, arc by arc.
 static nsvcd__verdict nsvcd__settle_item(nsvcd__proof *p, const nsvcd__workspace *work, const nsvcd__item *item) {
-  const double start = nsvcd__segment_start(work, item->segment);
-  const double end = p->motion->count > 1 ? nsvcd__segment_start(work, item->segment + 1u) : 1;
+  const uint32_t end = work->begin[item->segment + 1u];
   nsvcd__verdict verdict = NSVCD__FREE;
-  for (double at = start; at < end;) {
+  for (uint32_t at = work->begin[item->segment]; at < end;) {
     double u0;
-    const size_t k = nsvcd__arc_and_share(p->motion, at, &u0);
-    const double next = end < (double)(k + 1) ? end : (double)(k + 1);
-    const double u1 = p->motion->count > 1 ? next - (double)k : 1;
-    const nsvcd__verdict part = nsvcd__settle_arc(p, item, k, u0, u1);
+    const uint32_t first = nsvcd__arc_and_share(p->motion, (double)at, &u0);
+    const uint32_t knot = nsvcd__next_knot(p->motion, first);
+    const uint32_t next = end < knot ? end : knot;
+    const double u1 = (double)(next - first) / (double)(knot - first);
+    const nsvcd__verdict part = nsvcd__settle_arc(p, item, first, u0, u1);
     if (part == NSVCD__MEETS || p->work > p->limit) return part;
     if (part == NSVCD__UNDECIDED) verdict = part;
     at = next;
@@ -6834,7 +7206,7 @@ static float nsvcd__least_height(nsvcd__proof *p, const nsvcd__span *span, size_
   const nsvcd__v at_start = nsvcd__v3_dot(n, nsvcd__v3_transform(&span->start, hull));
   const nsvcd__v at_end = nsvcd__v3_dot(n, nsvcd__v3_transform(&span->end, hull));
   const float lowest = nsvcd__v_least(nsvcd__v_min(at_start, at_end));
-  const float slack = (p->moving.slacks[i] + span->rounding) * nsvcd__f3_length(p->held);
+  const float slack = (p->motion->scale * p->moving.slacks[i] + span->rounding) * nsvcd__f3_length(p->held);
   known->plane = p->plane;
   known->key = key;
   known->height = lowest - slack - nsvcd__deviation(span, p->held, nsvcd__patch_reach(&p->moving, i));
@@ -7120,8 +7492,8 @@ static int nsvcd__surface_is_near(nsvcd__proof *p, const nsvcd__facets *f, nsvcd
 }
 
 // Does the body enclose a place of its frame, farther from its surface than rounding? Rays in directions that no mesh is
-// likely to be aligned with, the first one on the side of the body on which the place is.
-static int nsvcd__is_enclosed(nsvcd__proof *p, const nsvcd__facets *f, nsvcd__d3 place) {
+// likely to be aligned with, the first one on the side of the body on which the place is. unit: of its frame.
+static int nsvcd__is_enclosed(nsvcd__proof *p, const nsvcd__facets *f, double unit, nsvcd__d3 place) {
   static const double directions[8][3] = {
       {0.5359, 0.6013, 0.5927},   {-0.5741, 0.6229, 0.5314},  {0.6127, -0.5531, 0.5644},  {-0.5477, -0.5923, 0.5909},
       {0.6311, 0.5573, -0.5396},  {-0.6053, 0.5297, -0.5941}, {0.5623, -0.6217, -0.5452}, {-0.5849, -0.5407, -0.6047}};
@@ -7132,7 +7504,7 @@ static int nsvcd__is_enclosed(nsvcd__proof *p, const nsvcd__facets *f, nsvcd__d3
   const size_t best = (off.x < 0 ? 1u : 0u) + (off.y < 0 ? 2u : 0u) + (off.z < 0 ? 4u : 0u);
   nsvcd__ray ray;
   ray.from = place;
-  ray.margin = NSVCD__SAME_PLACE * (double)p->lengths;
+  ray.margin = NSVCD__SAME_PLACE * (double)p->lengths / unit;
   for (size_t n = 0; n < 8 && p->work <= p->limit; n++) {
     const double *d = directions[best ^ n];
     int unclear = 0;
@@ -7147,18 +7519,19 @@ static int nsvcd__is_enclosed(nsvcd__proof *p, const nsvcd__facets *f, nsvcd__d3
 }
 
 // Does some surface of a body lie outside of a sphere about the other? start: from the frame of the first to that of the
-// second.
-static int nsvcd__sticks_out(const nsvcd__facets *inner, const nsvcd__transform *start, const nsvcd_body *outer) {
+// second, in which the first is of this scale.
+static int nsvcd__sticks_out(const nsvcd__facets *inner, const nsvcd__transform *start, float scale,
+                             const nsvcd_body *outer) {
   const nsvcd_body *b = inner->body;
   const nsvcd__v3 centre = nsvcd__v3_set(nsvcd__f3_of(outer->centre[0], outer->centre[1], outer->centre[2]));
-  const float rounding = 4 * NSVCD__ROUNDING * (b->extent + outer->extent);
+  const float rounding = 4 * NSVCD__ROUNDING * (scale * b->extent + outer->extent);
   const nsvcd__v radius = nsvcd__v_set(outer->radius + rounding);
   for (size_t first = 0; first < b->padded; first += NSVCD__LANES) {
     const nsvcd__v3 own = nsvcd__v3_of(nsvcd__v_load(nsvcd__body_x(b) + first), nsvcd__v_load(nsvcd__body_y(b) + first),
                                        nsvcd__v_load(nsvcd__body_z(b) + first));
     const nsvcd__v3 d = nsvcd__v3_sub(nsvcd__v3_transform(start, own), centre);
     const nsvcd__v r = nsvcd__v_load(nsvcd__body_r(b) + first);
-    const nsvcd__v limit = nsvcd__v_add(radius, r);
+    const nsvcd__v limit = nsvcd__v_fma(nsvcd__v_set(scale), r, radius);
     uint32_t out = nsvcd__v_lt(nsvcd__v_mul(limit, limit), nsvcd__v3_dot(d, d));
     for (; out; out &= out - 1) {
       const size_t i = first + nsvcd__lowest_bit(out);
@@ -7169,7 +7542,7 @@ static int nsvcd__sticks_out(const nsvcd__facets *inner, const nsvcd__transform 
 }
 
 // Seeds first .. first + 15 that may be in the sphere and in the box about the other body.
-static uint32_t nsvcd__seeds_near(const nsvcd__facets *inner, size_t first, const nsvcd__transform *start,
+static uint32_t nsvcd__seeds_near(const nsvcd__facets *inner, size_t first, const nsvcd__transform *start, float scale,
                                   const nsvcd__facets *outer) {
   const nsvcd_body *o = outer->body;
   const size_t left = inner->components - first;
@@ -7180,7 +7553,7 @@ static uint32_t nsvcd__seeds_near(const nsvcd__facets *inner, size_t first, cons
   }
   const nsvcd__v3 seen = nsvcd__v3_transform(start, nsvcd__v3_load(lanes));
   const nsvcd__v3 d = nsvcd__v3_sub(seen, nsvcd__v3_set(nsvcd__f3_of(o->centre[0], o->centre[1], o->centre[2])));
-  const float remote = nsvcd__f3_length(start->position) + inner->body->extent + o->extent;
+  const float remote = nsvcd__f3_length(start->position) + scale * inner->body->extent + o->extent;
   const float rounding = 4 * NSVCD__ROUNDING * remote;
   const nsvcd__v radius = nsvcd__v_set(o->radius + rounding);
   uint32_t nearby = nsvcd__v_le(nsvcd__v3_dot(d, d), nsvcd__v_mul(radius, radius));
@@ -7192,12 +7565,14 @@ static uint32_t nsvcd__seeds_near(const nsvcd__facets *inner, size_t first, cons
   return nearby;
 }
 
-// The pose that takes the fixed body's frame to the moving one's.
-static nsvcd__placement nsvcd__inverse_placement(const nsvcd__placement *at) {
+// The pose that takes the fixed body's frame to the moving one's, which is of this scale: rows are those of the inverse
+// rotation, over it.
+static nsvcd__placement nsvcd__inverse_placement(const nsvcd__placement *at, double scale) {
+  const double inverse = 1 / (scale * scale);
   nsvcd__placement out;
-  out.rows[0] = nsvcd__d3_of(at->rows[0].x, at->rows[1].x, at->rows[2].x);
-  out.rows[1] = nsvcd__d3_of(at->rows[0].y, at->rows[1].y, at->rows[2].y);
-  out.rows[2] = nsvcd__d3_of(at->rows[0].z, at->rows[1].z, at->rows[2].z);
+  out.rows[0] = nsvcd__d3_scale(nsvcd__d3_of(at->rows[0].x, at->rows[1].x, at->rows[2].x), inverse);
+  out.rows[1] = nsvcd__d3_scale(nsvcd__d3_of(at->rows[0].y, at->rows[1].y, at->rows[2].y), inverse);
+  out.rows[2] = nsvcd__d3_scale(nsvcd__d3_of(at->rows[0].z, at->rows[1].z, at->rows[2].z), inverse);
   out.position = nsvcd__d3_scale(nsvcd__rotate(out.rows, at->position), -1);
   return out;
 }
@@ -7207,17 +7582,19 @@ static nsvcd__placement nsvcd__inverse_placement(const nsvcd__placement *at) {
 // the point, the stored surface and the true one, patch by patch on one side of a plane, agree, and it is within.
 static NSVCD__APART int nsvcd__starts_within(nsvcd__proof *p) {
   const nsvcd__placement at = nsvcd__placement_at(nsvcd__arc_at(p, 0), 0);
-  const nsvcd__placement back = nsvcd__inverse_placement(&at);
+  const nsvcd__placement back = nsvcd__inverse_placement(&at, p->arc.scale);
   for (size_t way = 0; way < 2; way++) {
     const nsvcd__facets *inner = way == 0 ? &p->moving : &p->fixed;
     const nsvcd__facets *outer = way == 0 ? &p->fixed : &p->moving;
     const nsvcd__placement *start = way == 0 ? &at : &back;
     const nsvcd__transform rounded = nsvcd__transform_of(start);
+    const float scale = way == 0 ? p->motion->scale : 1 / p->motion->scale;
+    const double unit = way == 0 ? 1 : p->arc.scale;  // of the outer body's frame
     if (outer->body->open) continue;
     uint32_t nearby = 0;
-    if (inner->components == 1 && nsvcd__sticks_out(inner, &rounded, outer->body)) continue;
+    if (inner->components == 1 && nsvcd__sticks_out(inner, &rounded, scale, outer->body)) continue;
     for (size_t n = 0; n < inner->components; n++) {
-      if (n % NSVCD__LANES == 0) nearby = nsvcd__seeds_near(inner, n, &rounded, outer);
+      if (n % NSVCD__LANES == 0) nearby = nsvcd__seeds_near(inner, n, &rounded, scale, outer);
       if (!(nearby >> n % NSVCD__LANES & 1)) continue;
       if (p->work > p->limit) {
         p->undecided = 1;
@@ -7225,13 +7602,13 @@ static NSVCD__APART int nsvcd__starts_within(nsvcd__proof *p) {
       }
       const nsvcd__d3 seed = nsvcd__d3_load(inner->seeds + 3 * n);
       const nsvcd__d3 seen = nsvcd__place_point(start, seed);
-      if (!nsvcd__is_enclosed(p, outer, seen)) continue;
+      if (!nsvcd__is_enclosed(p, outer, unit, seen)) continue;
       memset(&p->found, 0, sizeof p->found);
       p->found.point = way == 0 ? seen : seed;
       p->found.moving_triangle = NSVCD_NO_TRIANGLE;
       p->found.fixed_triangle = NSVCD_NO_TRIANGLE;
       p->within = 1;
-      if (!nsvcd__surface_is_near(p, outer, seen, p->tolerance)) return 1;
+      if (!nsvcd__surface_is_near(p, outer, seen, p->tolerance / unit)) return 1;
     }
   }
   return 0;
@@ -7245,7 +7622,8 @@ static void nsvcd__collect_items(nsvcd__proof *p, const nsvcd__workspace *work, 
   const nsvcd_body *moving = p->moving.body, *fixed = p->fixed.body;
   const nsvcd__v3 centre = nsvcd__v3_set(nsvcd__facet_centre(&p->fixed, j));
   const nsvcd__v r = nsvcd__v_set(nsvcd__body_r(fixed)[j]);
-  const nsvcd__v radii = nsvcd__v_add(nsvcd__v_load(nsvcd__body_r(moving) + NSVCD__GROUP * g), r);
+  const nsvcd__v own = nsvcd__v_load(nsvcd__body_r(moving) + NSVCD__GROUP * g);
+  const nsvcd__v radii = nsvcd__v_fma(nsvcd__v_set(work->scale), own, r);
   for (; *left && p->fresh_count + NSVCD__GROUP <= NSVCD__FRESH; *left &= *left - 1) {
     const size_t s = nsvcd__lowest_bit(*left);
     const nsvcd__chords *c = &work->members[s];
@@ -7311,8 +7689,9 @@ static NSVCD__APART int nsvcd__collect(nsvcd__proof *p, nsvcd__workspace *work) 
 
 static nsvcd__verdict nsvcd__prove(nsvcd__proof *p, nsvcd__workspace *work) {
   if (nsvcd__motion_is_far(p->motion, p->lengths)) return NSVCD__FREE;
+  nsvcd__choose_segments(p->motion, work);
   if (nsvcd__starts_within(p)) return NSVCD__WITHIN;
-  nsvcd__cut_motion(p->motion, p->lengths, work);
+  nsvcd__cut_segments(p->motion, p->lengths, work);
   nsvcd__search_begin(p->moving.body, p->fixed.body, work);
   for (int more = 1; more;) {
     more = nsvcd__collect(p, work);
@@ -7376,8 +7755,8 @@ static float nsvcd__winding_number(const nsvcd_body *body, const float *point) {
   return total / 12.5663706f;
 }
 
-// 1 if `inner`, at the pose (rotation, position) in the frame of `outer`, lies inside it.
-static int nsvcd__is_inside(const nsvcd_body *inner, const nsvcd_body *outer, const float *rotation,
+// 1 if `inner`, of this scale and at the pose (rotation, position) in the frame of `outer`, lies inside it.
+static int nsvcd__is_inside(const nsvcd_body *inner, const nsvcd_body *outer, float scale, const float *rotation,
                             const float *position) {
   float places[3][NSVCD__PROBES], clearance[NSVCD__PROBES], point[3];
   if (outer->open) return 0;
@@ -7386,7 +7765,7 @@ static int nsvcd__is_inside(const nsvcd_body *inner, const nsvcd_body *outer, co
     const size_t i = k * inner->points / NSVCD__PROBES;  // neighbours are stored together: equal steps spread over it
     const float p[3] = {nsvcd__body_x(inner)[i], nsvcd__body_y(inner)[i], nsvcd__body_z(inner)[i]};
     nsvcd__mul33_vec(rotation, p, point);
-    for (size_t n = 0; n < 3; n++) places[n][k] = point[n] + position[n];
+    for (size_t n = 0; n < 3; n++) places[n][k] = scale * point[n] + position[n];
   }
   for (size_t n = 0; n < 3; n++) {
     place[n] = nsvcd__v_load(places[n]);
@@ -7402,14 +7781,16 @@ static int nsvcd__is_inside(const nsvcd_body *inner, const nsvcd_body *outer, co
   return fabsf(nsvcd__winding_number(outer, point)) > 0.5f;  // -1 where the mesh is inside out
 }
 
-// 1 if one body lies inside the other, whichever, when the moving one is at (rotation, position) in the fixed frame.
-static int nsvcd__is_contained(const nsvcd_body *moving, const nsvcd_body *fixed, const float *rotation,
+// 1 if one body lies inside the other, whichever, when the moving one, of this scale, is at (rotation, position) in the
+// fixed frame.
+static int nsvcd__is_contained(const nsvcd_body *moving, const nsvcd_body *fixed, float scale, const float *rotation,
                                const float *position) {
   float back[9], from[3];
   nsvcd__transpose33(rotation, back);
   nsvcd__mul33_vec(back, position, from);
-  for (size_t k = 0; k < 3; k++) from[k] = -from[k];
-  return nsvcd__is_inside(moving, fixed, rotation, position) || nsvcd__is_inside(fixed, moving, back, from);
+  for (size_t k = 0; k < 3; k++) from[k] = -from[k] / scale;
+  return nsvcd__is_inside(moving, fixed, scale, rotation, position) ||
+         nsvcd__is_inside(fixed, moving, 1 / scale, back, from);
 }
 
 // ---------------------------------------------------------------------------------------------------- decoder
@@ -7467,47 +7848,74 @@ static void nsvcd__v_half_rotation(const nsvcd__v *q, nsvcd__v *w) {
   for (size_t k = 0; k < 3; k++) w[k] = nsvcd__v_mul(nsvcd__v_mul(sign, ratio), q[k]);
 }
 
-// Poses in the fixed body's frame at `count` times t in [0,1], one per lane: unit quaternions q (4), positions p (3).
-static void nsvcd__v_poses_at(const nsvcd__motion *motion, const float *t, size_t count, nsvcd__v *q, nsvcd__v *p) {
+// A track's poses at `count` times t in [0,1], one per lane: unit quaternions q (4), and positions from an origin, (3).
+static void nsvcd__track_poses_at(const nsvcd__track *track, const float *t, size_t count, const float *origin,
+                                  nsvcd__v *q, nsvcd__v *p) {
   float from[7][NSVCD__LANES] = {{0}}, to[7][NSVCD__LANES] = {{0}}, share[NSVCD__LANES] = {0};
-  const size_t last = motion->count > 1 ? motion->count - 2 : 0;
+  const size_t last = track->count > 1 ? track->count - 2 : 0;
   for (size_t l = count; l < NSVCD__LANES; l++) from[6][l] = 1;
   for (size_t l = 0; l < count; l++) {
-    const float at = motion->count > 1 ? t[l] * (float)(last + 1) : 0;
+    const float at = track->count > 1 ? t[l] * (float)(last + 1) : 0;
     const size_t k = (size_t)at < last ? (size_t)at : last;
-    const nsvcd_pose *a = &motion->poses[k], *b = motion->count > 1 ? a + 1 : a;
+    const nsvcd_pose *a = &track->poses[k];
+    const nsvcd_pose *b = track->count > 1 ? a + 1 : a;
     float slerped[4];
-    const float *qa = a->rotation, *qb = b->rotation, u = at - (float)k;
-    const float dot = qa[0] * qb[0] + qa[1] * qb[1] + qa[2] * qb[2] + qa[3] * qb[3], sign = dot < 0 ? -1.0f : 1.0f;
-    if (fabsf(dot) < 0.999f) nsvcd__slerp(qa, qb, u, slerped), qa = qb = slerped;
+    const float *qa = a->rotation, *qb = b->rotation;
+    const float u = at - (float)k;
+    const float dot = qa[0] * qb[0] + qa[1] * qb[1] + qa[2] * qb[2] + qa[3] * qb[3];
+    const float sign = dot < 0 ? -1.0f : 1.0f;
+    if (fabsf(dot) < 0.999f) {
+      nsvcd__slerp(qa, qb, u, slerped);
+      qa = qb = slerped;
+    }
     share[l] = u;
     for (size_t n = 0; n < 3; n++) {
-      from[n][l] = a->position[n] - motion->fixed_position[n], to[n][l] = b->position[n] - a->position[n];
+      from[n][l] = a->position[n] - origin[n];
+      to[n][l] = b->position[n] - a->position[n];
     }
     // Within 5 degrees the straight line, brought back to unit length, is the slerp to 2e-6 radians.
-    for (size_t n = 0; n < 4; n++) from[3 + n][l] = qa[n], to[3 + n][l] = qa == qb ? 0 : sign * qb[n] - qa[n];
+    for (size_t n = 0; n < 4; n++) {
+      from[3 + n][l] = qa[n];
+      to[3 + n][l] = qa == qb ? 0 : sign * qb[n] - qa[n];
+    }
   }
-  nsvcd__v mixed[7], square = nsvcd__v_set(0);
   const nsvcd__v u = nsvcd__v_load(share);
-  for (size_t n = 0; n < 7; n++) mixed[n] = nsvcd__v_fma(u, nsvcd__v_load(to[n]), nsvcd__v_load(from[n]));
-  for (size_t n = 3; n < 7; n++) square = nsvcd__v_fma(mixed[n], mixed[n], square);
-  const nsvcd__v length = nsvcd__v_sqrt(square);
-  for (size_t n = 3; n < 7; n++) mixed[n] = nsvcd__v_div(mixed[n], length);
-  nsvcd__v_to_fixed(motion, mixed + 3, mixed, q, p);
+  for (size_t n = 0; n < 3; n++) p[n] = nsvcd__v_fma(u, nsvcd__v_load(to[n]), nsvcd__v_load(from[n]));
+  for (size_t n = 0; n < 4; n++) q[n] = nsvcd__v_fma(u, nsvcd__v_load(to[3 + n]), nsvcd__v_load(from[3 + n]));
+  nsvcd__v_quat_normalize(q);
+}
+
+// Poses in the fixed body's frame at `count` times t in [0,1], one per lane: unit quaternions q (4), positions p (3).
+static void nsvcd__v_poses_at(const nsvcd__motion *motion, const float *t, size_t count, nsvcd__v *q, nsvcd__v *p) {
+  nsvcd__v_poses at;
+  nsvcd__track_poses_at(&motion->moving, t, count, motion->fixed_position, at.q, at.p);
+  if (motion->fixed_moves) {
+    nsvcd__v fixed_p[3];
+    nsvcd__track_poses_at(&motion->fixed, t, count, motion->fixed_position, at.fixed_q, fixed_p);
+    for (size_t k = 0; k < 3; k++) at.p[k] = nsvcd__v_sub(at.p[k], fixed_p[k]);
+  }
+  nsvcd__v_seen(motion, &at, q, p);
 }
 
 // The pairs of `count` candidates, 1 to 16. What is in the lanes beyond does not matter.
 static void nsvcd__pairs_of(const nsvcd_body *moving, const nsvcd_body *fixed, const nsvcd__motion *motion,
                             nsvcd__candidate *const *candidates, size_t count, nsvcd__pairs *pairs) {
   float lanes[8][NSVCD__LANES] = {{0}}, enter[NSVCD__LANES], leave[NSVCD__LANES], middle[NSVCD__LANES];
+  const float scale = motion->scale;
   for (size_t l = 0; l < count; l++) {
     const nsvcd__candidate *candidate = candidates[l];
     const size_t i = candidate->moving, j = candidate->fixed;
-    lanes[0][l] = nsvcd__body_x(moving)[i], lanes[1][l] = nsvcd__body_y(moving)[i],
-    lanes[2][l] = nsvcd__body_z(moving)[i];
-    lanes[3][l] = nsvcd__body_x(fixed)[j], lanes[4][l] = nsvcd__body_y(fixed)[j], lanes[5][l] = nsvcd__body_z(fixed)[j];
-    lanes[6][l] = nsvcd__body_r(moving)[i], lanes[7][l] = nsvcd__body_r(fixed)[j];
-    enter[l] = candidate->t_enter, leave[l] = candidate->t_exit, middle[l] = 0.5f * (enter[l] + leave[l]);
+    lanes[0][l] = scale * nsvcd__body_x(moving)[i];
+    lanes[1][l] = scale * nsvcd__body_y(moving)[i];
+    lanes[2][l] = scale * nsvcd__body_z(moving)[i];
+    lanes[3][l] = nsvcd__body_x(fixed)[j];
+    lanes[4][l] = nsvcd__body_y(fixed)[j];
+    lanes[5][l] = nsvcd__body_z(fixed)[j];
+    lanes[6][l] = scale * nsvcd__body_r(moving)[i];
+    lanes[7][l] = nsvcd__body_r(fixed)[j];
+    enter[l] = candidate->t_enter;
+    leave[l] = candidate->t_exit;
+    middle[l] = 0.5f * (enter[l] + leave[l]);
     pairs->z1[l] = nsvcd__body_latents(moving) + NSVCD__LATENT * i;
     pairs->z2[l] = nsvcd__body_latents(fixed) + NSVCD__LATENT * j;
   }
@@ -8139,25 +8547,29 @@ typedef struct nsvcd__decisive {
 
 #endif  // NSVCD_NO_NETWORK
 
-typedef struct nsvcd__question {
+// A question that has been checked.
+typedef struct nsvcd__task {
   const nsvcd_body *moving, *fixed;
   nsvcd__motion motion;
+  int swapped;          // the moving body is b, not a
+  float lengths;        // extents of both bodies, in the fixed one's units
   nsvcd_method method;  // PROOF or NETWORK
   size_t work;
-  float tolerance;
+  float tolerance;  // in the fixed body's units
 #ifndef NSVCD_NO_NETWORK
-  nsvcd__settings settings;
-  nsvcd__decisive *decisive;  // written unless NULL
+  const nsvcd_sweep_options *options;  // the caller's
+  nsvcd__settings settings;            // by these
+  nsvcd__decisive *decisive;           // written unless NULL
 #endif
-} nsvcd__question;
+} nsvcd__task;
 
 static nsvcd_answer nsvcd__answer_free(void) {
   nsvcd_answer answer;
   memset(&answer, 0, sizeof answer);
   answer.logit = -NSVCD_LOGIT_CERTAIN;
   answer.status = NSVCD_STATUS_CERTIFIED_FREE;
-  answer.moving_triangle = NSVCD_NO_TRIANGLE;
-  answer.fixed_triangle = NSVCD_NO_TRIANGLE;
+  answer.triangle_a = NSVCD_NO_TRIANGLE;
+  answer.triangle_b = NSVCD_NO_TRIANGLE;
   return answer;
 }
 
@@ -8187,15 +8599,15 @@ static nsvcd_result nsvcd__settings_of(const nsvcd_sweep_options *options, size_
   return nsvcd__threshold(model, o->recall, points1, points2, &settings->threshold) ? NSVCD_OK : NSVCD_ERROR_ARGUMENT;
 }
 
-static int nsvcd__starts_inside(const nsvcd__question *ask) {
+static int nsvcd__starts_inside(const nsvcd__task *ask) {
   float rotation[9], position[3];
   nsvcd__motion_pose(&ask->motion, 0, rotation, position);
-  return nsvcd__is_contained(ask->moving, ask->fixed, rotation, position);
+  return nsvcd__is_contained(ask->moving, ask->fixed, ask->motion.scale, rotation, position);
 }
 
 // Scores candidates that have no score yet, `most` at most: the deeper ones, roughly, because a heap ends with them.
 // Returns 0, and does nothing, if there are fewer than `least`.
-static int nsvcd__score(const nsvcd__question *ask, nsvcd__candidates *kept, size_t least, size_t most) {
+static int nsvcd__score(const nsvcd__task *ask, nsvcd__candidates *kept, size_t least, size_t most) {
   nsvcd__candidate *batch[NSVCD__BATCH];
   size_t count = 0, left = 0;
   for (size_t k = 0; k < kept->count; k++) left += kept->items[k].score <= NSVCD__NO_SCORE;
@@ -8225,10 +8637,12 @@ static void nsvcd__best_first(nsvcd__candidate *items, size_t count, size_t of) 
   }
 }
 
-static void nsvcd__answer_with(const nsvcd__question *ask, const nsvcd__candidate *candidate, const nsvcd__head *head,
+static void nsvcd__answer_with(const nsvcd__task *ask, const nsvcd__candidate *candidate, const nsvcd__head *head,
                                nsvcd_answer *answer) {
-  answer->logit = candidate->score - ask->settings.threshold, answer->time = candidate->t_least;
-  answer->moving_patch = candidate->moving, answer->fixed_patch = candidate->fixed;
+  answer->logit = candidate->score - ask->settings.threshold;
+  answer->contact_time = candidate->t_least;
+  answer->patch_a = candidate->moving;
+  answer->patch_b = candidate->fixed;
   if (ask->decisive) ask->decisive->candidate = *candidate, ask->decisive->head = head;
 }
 
@@ -8240,7 +8654,7 @@ static int nsvcd__is_harmless(const nsvcd__candidate *candidate, float threshold
 // Is the most suspicious of the candidates scored so far clearly a collision, or, where they are all, clearly none?
 // Then no other head needs to look: 35,000 answers on the validation sets, N = 128 to 512, are the same as with twice
 // the margin, but for one, which is better.
-static int nsvcd__is_clear(const nsvcd__question *ask, const nsvcd__candidates *kept, int all, nsvcd_answer *answer) {
+static int nsvcd__is_clear(const nsvcd__task *ask, const nsvcd__candidates *kept, int all, nsvcd_answer *answer) {
   const float threshold = ask->settings.threshold;
   const nsvcd__candidate *most = &kept->items[0];
   for (size_t k = 1; k < kept->count; k++) most = kept->items[k].score > most->score ? &kept->items[k] : most;
@@ -8252,7 +8666,7 @@ static int nsvcd__is_clear(const nsvcd__question *ask, const nsvcd__candidates *
 
 // The verdict on the `pairs` most suspicious of the scored candidates, but for the harmless ones, 4 at a time, until
 // one is clearly positive.
-static void nsvcd__judge(const nsvcd__question *ask, nsvcd__candidates *kept, nsvcd_answer *answer) {
+static void nsvcd__judge(const nsvcd__task *ask, nsvcd__candidates *kept, nsvcd_answer *answer) {
   const nsvcd__settings *settings = &ask->settings;
   size_t count = kept->count < settings->pairs ? kept->count : settings->pairs;
   nsvcd__best_first(kept->items, count, kept->count);
@@ -8279,7 +8693,7 @@ typedef struct nsvcd__hint {
 } nsvcd__hint;
 
 // Does this motion, cut already, clearly collide where the hint says?
-static int nsvcd__collides_again(const nsvcd__question *ask, const nsvcd__hint *hint, nsvcd__query *query,
+static int nsvcd__collides_again(const nsvcd__task *ask, const nsvcd__hint *hint, nsvcd__query *query,
                                  nsvcd_answer *answer) {
   const nsvcd__settings *settings = &ask->settings;
   nsvcd__candidates kept;
@@ -8295,16 +8709,17 @@ static int nsvcd__collides_again(const nsvcd__question *ask, const nsvcd__hint *
 }
 
 // Asks the network about a motion that has been prepared. hint: NULL, or that of a batch.
-static void nsvcd__answer(const nsvcd__question *ask, nsvcd__query *query, nsvcd__hint *hint, nsvcd_answer *answer) {
+static void nsvcd__answer(nsvcd__task *ask, nsvcd__query *query, nsvcd__hint *hint, nsvcd_answer *answer) {
   nsvcd__workspace *work = &query->broad_phase;
   nsvcd__candidates kept;
+  (void)nsvcd__settings_of(ask->options, ask->moving->points, ask->fixed->points, &ask->settings);  // checked before
   const nsvcd_answer none = nsvcd__answer_free();
   nsvcd_answer found = none;
-  if (nsvcd__motion_is_far(&ask->motion, ask->moving->extent + ask->fixed->extent)) {
+  if (nsvcd__motion_is_far(&ask->motion, ask->lengths)) {
     *answer = found;
     return;
   }
-  nsvcd__cut_motion(&ask->motion, ask->moving->extent + ask->fixed->extent, work);
+  nsvcd__cut_motion(&ask->motion, ask->lengths, work);
   int clear = hint && hint->known && nsvcd__collides_again(ask, hint, query, &found);
   if (!clear) {
     size_t worth = ask->settings.shortlist < NSVCD__PROBE ? ask->settings.shortlist : NSVCD__PROBE;
@@ -8329,12 +8744,14 @@ static void nsvcd__answer(const nsvcd__question *ask, nsvcd__query *query, nsvcd
     }
   }
   if (hint && found.logit >= NSVCD__CLEAR_LOGIT) {
-    const nsvcd__hint here = {1, 0, found.moving_patch, found.fixed_patch};
+    const nsvcd__hint here = {1, 0, found.patch_a, found.patch_b};
     *hint = here;
   }
   if (nsvcd__starts_inside(ask)) {  // a body inside another need not touch anything
-    found.status = NSVCD_STATUS_INSIDE, found.logit = NSVCD_LOGIT_CERTAIN, found.time = 0;
-    found.moving_patch = found.fixed_patch = 0;
+    found.status = NSVCD_STATUS_INSIDE;
+    found.logit = NSVCD_LOGIT_CERTAIN;
+    found.contact_time = 0;
+    found.patch_a = found.patch_b = 0;
   }
   found.collides = found.logit > 0;
   *answer = found;
@@ -8345,38 +8762,52 @@ static void nsvcd__answer(const nsvcd__question *ask, nsvcd__query *query, nsvcd
 // ---- by proof
 
 #ifndef NSVCD_NO_PROOF
-// From the fixed body's frame to the world.
-static nsvcd__d3 nsvcd__to_world(const nsvcd_pose *fixed_pose, nsvcd__d3 a, int is_direction) {
-  double q[4];
-  nsvcd__d3 rows[3];
-  nsvcd__unit_quaternion(fixed_pose->rotation, q);
-  nsvcd__rows_of(q, rows);
-  const nsvcd__d3 turned = nsvcd__rotate(rows, a);
-  return is_direction ? turned : nsvcd__d3_add(turned, nsvcd__d3_load(fixed_pose->position));
+// From the fixed body's frame and units to the world, at time t.
+typedef struct nsvcd__to_world {
+  nsvcd__d3 rows[3], position;
+  double unit;
+} nsvcd__to_world;
+
+static nsvcd__to_world nsvcd__to_world_at(const nsvcd__motion *motion, double t) {
+  nsvcd__to_world out;
+  nsvcd__d3 ends[2];
+  double u, q[4];
+  const uint32_t first = nsvcd__arc_and_share(motion, t * (double)motion->ticks, &u);
+  nsvcd__leg leg;
+  nsvcd__leg_init(&motion->fixed, first, nsvcd__next_knot(motion, first) - first, &leg, ends);
+  nsvcd__leg_at(&leg, u, q);
+  nsvcd__rows_of(q, out.rows);
+  out.position = nsvcd__d3_mix(ends[0], ends[1], u);
+  out.unit = (double)motion->unit;
+  return out;
 }
 
 static void nsvcd__answer_with_contact(const nsvcd__proof *p, nsvcd_answer *answer) {
   const nsvcd__contact *found = &p->found;
-  const nsvcd__f3 point = nsvcd__f3_round(nsvcd__to_world(p->motion->fixed_pose, found->point, 0));
-  const nsvcd__f3 normal = nsvcd__f3_round(nsvcd__to_world(p->motion->fixed_pose, found->normal, 1));
+  const int rests = p->motion->moving.count == 1 && !p->motion->fixed_moves;
+  const double time = rests ? 0 : found->time;
+  const nsvcd__to_world world = nsvcd__to_world_at(p->motion, time);
+  const nsvcd__d3 turned = nsvcd__rotate(world.rows, nsvcd__d3_scale(found->point, world.unit));
+  const nsvcd__f3 point = nsvcd__f3_round(nsvcd__d3_add(turned, world.position));
+  const nsvcd__f3 normal = nsvcd__f3_round(nsvcd__rotate(world.rows, found->normal));
   answer->logit = NSVCD_LOGIT_CERTAIN;
   answer->collides = 1;
-  answer->time = (float)found->time;
-  answer->moving_patch = found->moving_patch;
-  answer->fixed_patch = found->fixed_patch;
-  answer->moving_triangle = found->moving_triangle;
-  answer->fixed_triangle = found->fixed_triangle;
+  answer->contact_time = (float)time;
+  answer->patch_a = found->moving_patch;
+  answer->patch_b = found->fixed_patch;
+  answer->triangle_a = found->moving_triangle;
+  answer->triangle_b = found->fixed_triangle;
   memcpy(answer->point, &point, sizeof answer->point);
   memcpy(answer->normal, &normal, sizeof answer->normal);
 }
 
 // Proves a question whose motion has been prepared, if it can; else the answer is UNDECIDED and says yes.
-static void nsvcd__answer_by_proof(const nsvcd__question *ask, nsvcd__query *query, nsvcd_answer *answer) {
+static void nsvcd__answer_by_proof(nsvcd__task *ask, nsvcd__query *query, nsvcd_answer *answer) {
   nsvcd__proof *p = &query->by.proof;
   p->motion = &ask->motion;
   p->moving = nsvcd__facets_of(nsvcd__triangles_of(ask->moving));
   p->fixed = nsvcd__facets_of(nsvcd__triangles_of(ask->fixed));
-  p->lengths = p->moving.body->extent + p->fixed.body->extent;
+  p->lengths = ask->motion.scale * p->moving.body->extent + p->fixed.body->extent;
   p->tolerance = (double)ask->tolerance;
   p->limit = ask->work;
   p->work = p->count = p->fresh_count = 0;
@@ -8384,12 +8815,12 @@ static void nsvcd__answer_by_proof(const nsvcd__question *ask, nsvcd__query *que
   p->held = nsvcd__f3_of(0, 0, 0);
   p->plane = 0;
   p->undecided = p->within = 0;
-  p->arc.index = (size_t)-1;
+  p->arc.ticks = 0;
   p->in_group = p->in_pair = 0;
   p->misses = 0;
   p->parting = nsvcd__d3_of(0, 0, 0);
   p->next_placed = 0;
-  for (size_t n = 0; n < NSVCD__PLACED; n++) p->placed[n].arc = (size_t)-1;
+  for (size_t n = 0; n < NSVCD__PLACED; n++) p->placed[n].ticks = 0;
   const nsvcd__verdict verdict = nsvcd__prove(p, &query->broad_phase);
 
   nsvcd_answer found = nsvcd__answer_free();
@@ -8406,11 +8837,24 @@ static void nsvcd__answer_by_proof(const nsvcd__question *ask, nsvcd__query *que
 }
 #endif
 
-// Answers a question whose motion has been prepared. hint: NULL, or that of a batch, for the network.
-static void nsvcd__answer_question(const nsvcd__question *ask, nsvcd__query *query, void *hint, nsvcd_answer *answer) {
+// What was found out about moving and fixed, said about a and b.
+static void nsvcd__turn_answer(nsvcd_answer *answer) {
+  const uint32_t patch = answer->patch_a;
+  const uint32_t triangle = answer->triangle_a;
+  answer->patch_a = answer->patch_b;
+  answer->patch_b = patch;
+  answer->triangle_a = answer->triangle_b;
+  answer->triangle_b = triangle;
+  for (size_t k = 0; k < 3; k++) answer->normal[k] = 0 - answer->normal[k];
+}
+
+// Answers a question that has been checked. hint: NULL, or that of a batch, for the network.
+static void nsvcd__answer_task(nsvcd__task *ask, nsvcd__query *query, void *hint, nsvcd_answer *answer) {
+  int proven = 0;
 #ifndef NSVCD_NO_PROOF
   if (ask->method == NSVCD_METHOD_PROOF) {
     nsvcd__answer_by_proof(ask, query, answer);
+    proven = 1;
 #ifndef NSVCD_NO_NETWORK
     if (answer->status == NSVCD_STATUS_UNDECIDED && ask->moving->weights_id && ask->fixed->weights_id) {
       const size_t work = answer->work;
@@ -8419,14 +8863,14 @@ static void nsvcd__answer_question(const nsvcd__question *ask, nsvcd__query *que
       answer->work = work;
     }
 #endif
-    return;
   }
 #endif
 #ifndef NSVCD_NO_NETWORK
-  nsvcd__answer(ask, query, (nsvcd__hint *)hint, answer);
-#else
-  (void)hint;
+  if (!proven) nsvcd__answer(ask, query, (nsvcd__hint *)hint, answer);
 #endif
+  (void)hint;
+  (void)proven;
+  if (ask->swapped) nsvcd__turn_answer(answer);
 }
 
 // The method that answers, or DEFAULT where there is none.
@@ -8444,60 +8888,99 @@ static nsvcd_method nsvcd__method_of(const nsvcd_body *moving, const nsvcd_body 
   return NSVCD_METHOD_DEFAULT;
 }
 
-// Checks all that a query is given but its motions, and fills in `ask`, but for its motion.
-static nsvcd_result nsvcd__prepare(const nsvcd_body *moving, const nsvcd_body *fixed,
-                                   const nsvcd_sweep_options *options, void *workspace, size_t workspace_size,
-                                   const nsvcd_answer *answers, nsvcd__question *ask) {
-  if (!moving || !fixed || !answers) return NSVCD_ERROR_ARGUMENT;
-  if (!workspace || workspace_size < sizeof(nsvcd__query) || !nsvcd__is_aligned(workspace))
-    return NSVCD_ERROR_WORKSPACE;
-  const nsvcd_method wanted = options ? options->method : NSVCD_METHOD_DEFAULT;
-  if ((unsigned)wanted > (unsigned)NSVCD_METHOD_NETWORK) return NSVCD_ERROR_ARGUMENT;
-  ask->moving = moving;
-  ask->fixed = fixed;
-  ask->work = options && options->work ? options->work : NSVCD_DEFAULT_WORK;
-  ask->tolerance = options ? options->tolerance : 0;
-  if (!nsvcd__is_finite(ask->tolerance) || ask->tolerance < 0) return NSVCD_ERROR_ARGUMENT;
-  ask->method = nsvcd__method_of(moving, fixed, wanted);
-  if (ask->method == NSVCD_METHOD_DEFAULT) return NSVCD_ERROR_BODY;
+// Is b to be the one that moves, and a the one in whose frame that is seen? The one that rests is that, else the larger
+// one; where they are equal, any rule that does not depend on which is a: then both ways of asking are answered alike.
+static int nsvcd__is_swapped(const nsvcd_mover *a, const nsvcd_mover *b) {
+  const size_t count_a = nsvcd__pose_count(a), count_b = nsvcd__pose_count(b);
+  if ((count_a > 1) != (count_b > 1)) return count_b > 1;
+  const float size_a = (a->scale > 0 ? a->scale : 1) * a->body->extent;
+  const float size_b = (b->scale > 0 ? b->scale : 1) * b->body->extent;
+  if (size_a < size_b || size_b < size_a) return size_b < size_a;
+  if (a->body->checksum != b->body->checksum) return b->body->checksum < a->body->checksum;
+  if (count_a != count_b) return count_b < count_a;
+  const nsvcd_pose *poses_a = a->poses ? a->poses : &nsvcd__at_origin;
+  const nsvcd_pose *poses_b = b->poses ? b->poses : &nsvcd__at_origin;
+  return memcmp(poses_b, poses_a, count_a * sizeof *poses_a) < 0;
+}
+
+// Are both sides one and the same body in the same motion? Then something was passed twice.
+static int nsvcd__is_itself(const nsvcd_question *question) {
+  const nsvcd_mover *a = &question->a, *b = &question->b;
+  const int same_size = !(a->scale < b->scale) && !(b->scale < a->scale);
+  return a->body == b->body && a->poses == b->poses && a->count == b->count && same_size;
+}
+
+static nsvcd_result nsvcd__question_check(const nsvcd_question *question) {
+  nsvcd_result result = nsvcd__mover_check(&question->a);
+  if (!result) result = nsvcd__mover_check(&question->b);
+  if (result) return result;
+  if (nsvcd__is_itself(question)) return NSVCD_ERROR_SAME;
+  const nsvcd_sweep_options *options = &question->options;
+  if ((unsigned)options->method > (unsigned)NSVCD_METHOD_NETWORK) return NSVCD_ERROR_ARGUMENT;
+  if (!nsvcd__is_finite(options->tolerance) || options->tolerance < 0) return NSVCD_ERROR_ARGUMENT;
+  if (nsvcd__method_of(question->a.body, question->b.body, options->method) == NSVCD_METHOD_DEFAULT) {
+    return NSVCD_ERROR_BODY;
+  }
 #ifndef NSVCD_NO_NETWORK
-  ask->decisive = NULL;
-  return nsvcd__settings_of(options, moving->points, fixed->points, &ask->settings);
+  nsvcd__settings unused;
+  return nsvcd__settings_of(options, question->a.body->points, question->b.body->points, &unused);
 #else
   return NSVCD_OK;
 #endif
 }
 
-NSVCDDEF nsvcd_result nsvcd_sweep(const nsvcd_body *moving, const nsvcd_pose *poses, size_t count,
-                                  const nsvcd_body *fixed, const nsvcd_pose *fixed_pose,
-                                  const nsvcd_sweep_options *options, void *workspace, size_t workspace_size,
-                                  nsvcd_answer *answer) {
-  nsvcd__question ask;
-  nsvcd_result result = nsvcd__prepare(moving, fixed, options, workspace, workspace_size, answer, &ask);
-  if (!result) result = nsvcd__motions_check(poses, count, 1, fixed_pose);
-  if (result) return result;
-  nsvcd__motion_init(poses, count, fixed_pose, &ask.motion);
-  nsvcd__answer_question(&ask, (nsvcd__query *)workspace, NULL, answer);
-  return NSVCD_OK;
+// The task of a question that is in order.
+static void nsvcd__task_of(const nsvcd_question *question, nsvcd__task *ask) {
+  const nsvcd_sweep_options *options = &question->options;
+  ask->swapped = nsvcd__is_swapped(&question->a, &question->b);
+  const nsvcd_mover *moving = ask->swapped ? &question->b : &question->a;
+  const nsvcd_mover *fixed = ask->swapped ? &question->a : &question->b;
+  nsvcd__motion_init(moving, fixed, &ask->motion);
+  ask->moving = moving->body;
+  ask->fixed = fixed->body;
+  ask->lengths = ask->motion.scale * ask->moving->extent + ask->fixed->extent;
+  ask->work = options->work ? options->work : NSVCD_DEFAULT_WORK;
+  ask->tolerance = options->tolerance / ask->motion.unit;
+  ask->method = nsvcd__method_of(ask->moving, ask->fixed, options->method);
+#ifndef NSVCD_NO_NETWORK
+  ask->decisive = NULL;
+  ask->options = options;
+#endif
 }
 
-NSVCDDEF nsvcd_result nsvcd_sweep_batch(const nsvcd_body *moving, const nsvcd_pose *poses, size_t count, size_t motions,
-                                        const nsvcd_body *fixed, const nsvcd_pose *fixed_pose,
-                                        const nsvcd_sweep_options *options, void *workspace, size_t workspace_size,
-                                        nsvcd_answer *answers) {
-  nsvcd__question ask;
+static nsvcd_result nsvcd__workspace_check(const void *workspace, size_t workspace_size) {
+  const int fits = workspace && workspace_size >= sizeof(nsvcd__query) && nsvcd__is_aligned(workspace);
+  return fits ? NSVCD_OK : NSVCD_ERROR_WORKSPACE;
+}
+
+NSVCDDEF nsvcd_result nsvcd_sweep(const nsvcd_question *question, void *workspace, size_t workspace_size,
+                                  nsvcd_answer *answer) {
+  return question ? nsvcd_sweep_batch(question, 1, workspace, workspace_size, answer) : NSVCD_ERROR_ARGUMENT;
+}
+
+NSVCDDEF nsvcd_result nsvcd_sweep_batch(const nsvcd_question *questions, size_t count, void *workspace,
+                                        size_t workspace_size, nsvcd_answer *answers) {
+  if (count > 0 && (!questions || !answers)) return NSVCD_ERROR_ARGUMENT;
+  nsvcd_result result = nsvcd__workspace_check(workspace, workspace_size);
+  for (size_t k = 0; !result && k < count; k++) result = nsvcd__question_check(&questions[k]);
+  if (result) return result;
+  nsvcd__query *query = (nsvcd__query *)workspace;
   void *with = NULL;
 #ifndef NSVCD_NO_NETWORK
   nsvcd__hint hint = {0, 0, 0, 0};
   with = &hint;
 #endif
-  nsvcd_result result = nsvcd__prepare(moving, fixed, options, workspace, workspace_size, answers, &ask);
-  if (!result) result = nsvcd__motions_check(poses, count, motions, fixed_pose);
-  for (size_t k = 0; !result && k < motions; k++) {
-    nsvcd__motion_init(poses + count * k, count, fixed_pose, &ask.motion);
-    nsvcd__answer_question(&ask, (nsvcd__query *)workspace, with, &answers[k]);
+  for (size_t k = 0; k < count; k++) {
+    nsvcd__task ask;
+    nsvcd__task_of(&questions[k], &ask);
+#ifndef NSVCD_NO_NETWORK
+    const int other = k > 0 && (questions[k].a.body != questions[k - 1].a.body ||
+                                questions[k].b.body != questions[k - 1].b.body);
+    if (other) hint.known = hint.misled = 0;
+#endif
+    nsvcd__answer_task(&ask, query, with, &answers[k]);
   }
-  return result;
+  return NSVCD_OK;
 }
 
 #ifndef NSVCD_NO_GRADIENT
@@ -8711,37 +9194,68 @@ static void nsvcd__by_invariants(const nsvcd__pairs *pairs, const float *x, cons
 
 // ---- samples
 
-// From a force and a torque on the body at time t, fixed body's axes, to `gradient`, by the samples before and after t.
-// Returns the derivative by t. With R = exp(2 u h n) A, the shorter arc from A to B = exp(2 h n) A, small rotations a
-// of A and b of B (on the left) turn R along n by (1 - u) a + u b, and across n by
+// From a force and a torque on a body at time t, in the world, to `gradient` (count, 6), unless that is NULL, by its poses
+// before and after t. Returns the derivative by t. With R = exp(2 u h n) A, the shorter arc from A to B = exp(2 h n) A,
+// small rotations a of A and b of B (on the left) turn R along n by (1 - u) a + u b, and across n by
 //   sin((1 - u) h) / sin h of a turned by u h about n, and sin(u h) / sin h of b turned by -(1 - u) h.
-static float nsvcd__by_samples(const nsvcd__motion *motion, float t, const float *fixed_force,
-                               const float *fixed_torque, float *gradient) {
-  float from_fixed[9], force[3], torque[3], qa[4], qb[4], n[3], moved[3];
-  nsvcd__transpose33(motion->to_fixed, from_fixed);
-  nsvcd__mul33_vec(from_fixed, fixed_force, force), nsvcd__mul33_vec(from_fixed, fixed_torque, torque);
-  const size_t arcs = motion->count - 1;
+static float nsvcd__by_poses(const nsvcd__track *track, float t, const float *force, const float *torque,
+                             float *gradient) {
+  float qa[4], qb[4], n[3], moved[3];
+  const size_t arcs = track->count - 1;
   if (arcs == 0) {
-    nsvcd__add_scaled3(1, force, gradient), nsvcd__add_scaled3(1, torque, gradient + 3);
+    if (gradient) nsvcd__add_scaled3(1, force, gradient);
+    if (gradient) nsvcd__add_scaled3(1, torque, gradient + 3);
     return 0;
   }
   const float at = t * (float)arcs;
   const size_t k = (size_t)at < arcs - 1 ? (size_t)at : arcs - 1;
   const float u = at - (float)k;
-  const nsvcd_pose *a = &motion->poses[k], *b = a + 1;
-  nsvcd__quat_normalize(a->rotation, qa), nsvcd__quat_normalize(b->rotation, qb);
+  const nsvcd_pose *a = &track->poses[k], *b = a + 1;
+  nsvcd__quat_normalize(a->rotation, qa);
+  nsvcd__quat_normalize(b->rotation, qb);
   const float h = nsvcd__quat_half_angle(qa, qb, nsvcd__is_opposed(a->rotation, b->rotation));
   for (size_t i = 0; i < 3; i++) n[i] = qa[3] * qb[i] - qb[3] * qa[i];
   nsvcd__add_cross3(qa, qb, n);  // sin(h) times the axis of B A^-1
   const float sine = nsvcd__length3(n), inverse = sine > 0 ? 1 / sine : 0;
   for (size_t i = 0; i < 3; i++) n[i] *= inverse;
-  const float wa = h > 1e-3f ? sinf((1 - u) * h) * inverse : 1 - u, wb = h > 1e-3f ? sinf(u * h) * inverse : u;
-  float *row = gradient + 6 * k;
-  nsvcd__add_scaled3(1 - u, force, row), nsvcd__add_scaled3(u, force, row + 6);
-  nsvcd__add_turned3(torque, n, 1 - u, wa, -u * h, row + 3);
-  nsvcd__add_turned3(torque, n, u, wb, (1 - u) * h, row + 9);
+  const float wa = h > 1e-3f ? sinf((1 - u) * h) * inverse : 1 - u;
+  const float wb = h > 1e-3f ? sinf(u * h) * inverse : u;
+  if (gradient) {
+    float *row = gradient + 6 * k;
+    nsvcd__add_scaled3(1 - u, force, row);
+    nsvcd__add_scaled3(u, force, row + 6);
+    nsvcd__add_turned3(torque, n, 1 - u, wa, -u * h, row + 3);
+    nsvcd__add_turned3(torque, n, u, wb, (1 - u) * h, row + 9);
+  }
   nsvcd__sub3(b->position, a->position, moved);
   return (float)arcs * (nsvcd__dot3(force, moved) + 2 * h * nsvcd__dot3(torque, n));
+}
+
+// The derivatives by both bodies' poses; NULL: not wanted.
+typedef struct nsvcd__gradients {
+  float *moving, *fixed;  // (count, 6)
+} nsvcd__gradients;
+
+// The same from a force and a torque on the moving body in the fixed one's axes and units. What they do to one body they
+// do to the other the opposite way.
+static float nsvcd__by_motion(const nsvcd__motion *motion, float t, const float *seen_force, const float *seen_torque,
+                              const nsvcd__gradients *out) {
+  float from_fixed[9], force[3], torque[3], q[4], d[3], back[3], back_torque[3];
+  double p[3], fixed_p[3];
+  nsvcd__track_pose_at(&motion->moving, t, q, p);
+  nsvcd__track_pose_at(&motion->fixed, t, q, fixed_p);
+  nsvcd__quat_to_matrix(q, from_fixed);
+  nsvcd__mul33_vec(from_fixed, seen_force, force);
+  nsvcd__mul33_vec(from_fixed, seen_torque, torque);
+  for (size_t k = 0; k < 3; k++) {
+    force[k] /= motion->unit;
+    d[k] = (float)(p[k] - fixed_p[k]);
+    back[k] = -force[k];
+    back_torque[k] = -torque[k];
+  }
+  nsvcd__add_cross3(d, back, back_torque);
+  const float by_time = nsvcd__by_poses(&motion->moving, t, force, torque, out->moving);
+  return by_time + nsvcd__by_poses(&motion->fixed, t, back, back_torque, out->fixed);
 }
 
 // ---- instants and contact
@@ -8753,7 +9267,7 @@ typedef struct nsvcd__instants {
   int enters, leaves;                  // does it within the segment? else at one of its ends, and these do not move
 } nsvcd__instants;
 
-static void nsvcd__instants_of(const nsvcd__question *ask, const nsvcd__candidate *candidate, const float *time,
+static void nsvcd__instants_of(const nsvcd__task *ask, const nsvcd__candidate *candidate, const float *time,
                                nsvcd__instants *at) {
   const float t0 = candidate->t_enter, t1 = candidate->t_exit;
   const nsvcd_body *moving = ask->moving;
@@ -8765,8 +9279,9 @@ static void nsvcd__instants_of(const nsvcd__question *ask, const nsvcd__candidat
   memcpy(at->t, t, sizeof t);
   at->enters = time[a] < t0 && t0 < time[a + 1];
   at->leaves = time[b] < t1 && t1 < time[b + 1];
-  const nsvcd__v c[3] = {nsvcd__v_set(nsvcd__body_x(moving)[i]), nsvcd__v_set(nsvcd__body_y(moving)[i]),
-                         nsvcd__v_set(nsvcd__body_z(moving)[i])};
+  const float scale = ask->motion.scale;
+  const nsvcd__v c[3] = {nsvcd__v_set(scale * nsvcd__body_x(moving)[i]), nsvcd__v_set(scale * nsvcd__body_y(moving)[i]),
+                         nsvcd__v_set(scale * nsvcd__body_z(moving)[i])};
   nsvcd__v q[4], p[3], r[9], arm[3];
   float lanes[NSVCD__LANES], places[NSVCD__LANES];
   nsvcd__v_poses_at(&ask->motion, t, 7, q, p);
@@ -8778,19 +9293,19 @@ static void nsvcd__instants_of(const nsvcd__question *ask, const nsvcd__candidat
 }
 
 // A force on the patch's centre at instant l, and a torque on the body (or NULL). Returns the derivative by the time.
-static float nsvcd__by_instant(const nsvcd__question *ask, const nsvcd__instants *at, size_t l, const float *force,
-                               const float *torque, float *gradient) {
+static float nsvcd__by_instant(const nsvcd__task *ask, const nsvcd__instants *at, size_t l, const float *force,
+                               const float *torque, const nsvcd__gradients *gradients) {
   float sum[3] = {0};
   if (torque) nsvcd__add_scaled3(1, torque, sum);
   nsvcd__add_cross3(at->arm[l], force, sum);
-  return nsvcd__by_samples(&ask->motion, at->t[l], force, sum, gradient);
+  return nsvcd__by_motion(&ask->motion, at->t[l], force, sum, gradients);
 }
 
 // The adjoint of the time at which the spheres meet (l = 0) or part (l = 1): |y| = reach with y = x0 + tau x - c, from
 // the chord x of the segment; so y.(dy + x dtau) = 0. Spheres that only graze (y across x) do so for a time whose
 // derivative has no limit: it is bounded where float32 has no digits left.
-static void nsvcd__by_contact(const nsvcd__question *ask, const nsvcd__instants *at, size_t l, const float *centre,
-                              float by_time, float *gradient) {
+static void nsvcd__by_contact(const nsvcd__task *ask, const nsvcd__instants *at, size_t l, const float *centre,
+                              float by_time, const nsvcd__gradients *gradients) {
   const size_t s = 3 + 2 * l;
   const float length = at->t[s + 1] - at->t[s], tau = (at->t[l] - at->t[s]) / length;
   float chord[3], y[3], before[3], after[3];
@@ -8800,13 +9315,13 @@ static void nsvcd__by_contact(const nsvcd__question *ask, const nsvcd__instants 
   if (!(least > 0)) return;
   const float rate = (l == 0 ? length : -length) * by_time / (dot > least ? dot : least);
   for (size_t k = 0; k < 3; k++) before[k] = (1 - tau) * rate * y[k], after[k] = tau * rate * y[k];
-  nsvcd__by_instant(ask, at, s, before, NULL, gradient);
-  nsvcd__by_instant(ask, at, s + 1, after, NULL, gradient);
+  nsvcd__by_instant(ask, at, s, before, NULL, gradients);
+  nsvcd__by_instant(ask, at, s + 1, after, NULL, gradients);
 }
 
-// The derivative of the decisive logit by the poses, added to `gradient` (count, 6). time: of the segments' ends.
-static void nsvcd__gradient(const nsvcd__question *ask, const nsvcd__decisive *decisive, const float *time,
-                            float *gradient) {
+// The derivative of the decisive logit by the poses, added to the gradients. time: of the segments' ends.
+static void nsvcd__gradient(const nsvcd__task *ask, const nsvcd__decisive *decisive, const float *time,
+                            const nsvcd__gradients *gradients) {
   nsvcd__candidate candidate = decisive->candidate, *one = &candidate;
   nsvcd__pairs pairs;
   nsvcd__by_pair by;
@@ -8834,34 +9349,34 @@ static void nsvcd__gradient(const nsvcd__question *ask, const nsvcd__decisive *d
   nsvcd__add_turned3(by.w, n, -0.5f, -half, -h, torque0);
   nsvcd__add_turned3(by.w, n, 0.5f, half, h, torque1);
 
-  const float by_middle = nsvcd__by_instant(ask, &at, 2, by.p1, by.rotation, gradient);
-  const float by_enter = 0.5f * by_middle + nsvcd__by_instant(ask, &at, 0, enter, torque0, gradient);
-  const float by_exit = 0.5f * by_middle + nsvcd__by_instant(ask, &at, 1, leave, torque1, gradient);
-  if (at.enters) nsvcd__by_contact(ask, &at, 0, centre, by_enter, gradient);
-  if (at.leaves) nsvcd__by_contact(ask, &at, 1, centre, by_exit, gradient);
+  const float by_middle = nsvcd__by_instant(ask, &at, 2, by.p1, by.rotation, gradients);
+  const float by_enter = 0.5f * by_middle + nsvcd__by_instant(ask, &at, 0, enter, torque0, gradients);
+  const float by_exit = 0.5f * by_middle + nsvcd__by_instant(ask, &at, 1, leave, torque1, gradients);
+  if (at.enters) nsvcd__by_contact(ask, &at, 0, centre, by_enter, gradients);
+  if (at.leaves) nsvcd__by_contact(ask, &at, 1, centre, by_exit, gradients);
 }
 
-NSVCDDEF nsvcd_result nsvcd_sweep_gradient(const nsvcd_body *moving, const nsvcd_pose *poses, size_t count,
-                                           const nsvcd_body *fixed, const nsvcd_pose *fixed_pose,
-                                           const nsvcd_sweep_options *options, void *workspace, size_t workspace_size,
-                                           nsvcd_answer *answer, float *gradient) {
-  nsvcd__question ask;
-  nsvcd__decisive decisive;
+NSVCDDEF nsvcd_result nsvcd_sweep_gradient(const nsvcd_question *question, void *workspace, size_t workspace_size,
+                                           nsvcd_answer *answer, float *gradient_a, float *gradient_b) {
   nsvcd__query *query = (nsvcd__query *)workspace;
-  if (!gradient || (options && options->method == NSVCD_METHOD_PROOF)) return NSVCD_ERROR_ARGUMENT;
-  nsvcd_sweep_options by_network;
-  memset(&by_network, 0, sizeof by_network);
-  if (options) by_network = *options;
-  by_network.method = NSVCD_METHOD_NETWORK;
-  nsvcd_result result = nsvcd__prepare(moving, fixed, &by_network, workspace, workspace_size, answer, &ask);
-  if (!result) result = nsvcd__motions_check(poses, count, 1, fixed_pose);
+  if (!question || !answer || (!gradient_a && !gradient_b)) return NSVCD_ERROR_ARGUMENT;
+  if (question->options.method == NSVCD_METHOD_PROOF) return NSVCD_ERROR_ARGUMENT;
+  nsvcd_question by_network = *question;
+  by_network.options.method = NSVCD_METHOD_NETWORK;
+  nsvcd_result result = nsvcd__workspace_check(workspace, workspace_size);
+  if (!result) result = nsvcd__question_check(&by_network);
   if (result) return result;
-  nsvcd__motion_init(poses, count, fixed_pose, &ask.motion);
+
+  nsvcd__task ask;
+  nsvcd__decisive decisive;
+  nsvcd__task_of(&by_network, &ask);
   ask.decisive = &decisive;
-  nsvcd__answer(&ask, query, NULL, answer);
-  memset(gradient, 0, 6 * count * sizeof *gradient);
+  nsvcd__answer_task(&ask, query, NULL, answer);
+  const nsvcd__gradients out = {ask.swapped ? gradient_b : gradient_a, ask.swapped ? gradient_a : gradient_b};
+  if (out.moving) memset(out.moving, 0, 6 * ask.motion.moving.count * sizeof(float));
+  if (out.fixed) memset(out.fixed, 0, 6 * ask.motion.fixed.count * sizeof(float));
   if (answer->status == NSVCD_STATUS_OK || answer->status == NSVCD_STATUS_LIMIT) {
-    nsvcd__gradient(&ask, &decisive, query->broad_phase.time, gradient);
+    nsvcd__gradient(&ask, &decisive, query->broad_phase.time, &out);
   }
   return NSVCD_OK;
 }
@@ -9294,19 +9809,23 @@ static nsvcd_answer nsvcd__ask(nsvcd__planner *p, uint32_t k, size_t first, size
                                float *gradient) {
   const nsvcd_body_pair *pair = &p->problem->pairs[k];
   const nsvcd_body *a = p->problem->bodies[pair->a], *b = p->problem->bodies[pair->b];
-  const nsvcd_pose origin = {{0, 0, 0}, {0, 0, 0, 1}};
   nsvcd_pose motion[NSVCD__RUN + 1];
+  nsvcd_question question;
   nsvcd_answer answer = nsvcd__answer_free();
   for (size_t n = 0; n <= segments; n++) {
     const nsvcd_pose *row = p->poses + (first + n) * p->problem->body_count;
     nsvcd__relative_pose(&row[pair->a], &row[pair->b], &motion[n]);
   }
-  nsvcd_sweep_options options = p->options.sweep;
-  if (!at_end) options.method = NSVCD_METHOD_NETWORK;
-  const nsvcd_result error = gradient ? nsvcd_sweep_gradient(a, motion, segments + 1, b, &origin, &options, p->query,
-                                                             sizeof *p->query, &answer, gradient)
-                                      : nsvcd_sweep(a, motion, segments + 1, b, &origin, &options, p->query,
-                                                    sizeof *p->query, &answer);
+  memset(&question, 0, sizeof question);
+  question.a.body = a;
+  question.a.poses = motion;
+  question.a.count = segments + 1;
+  question.b.body = b;
+  question.options = p->options.sweep;
+  if (!at_end) question.options.method = NSVCD_METHOD_NETWORK;
+  const nsvcd_result error =
+      gradient ? nsvcd_sweep_gradient(&question, p->query, sizeof *p->query, &answer, gradient, NULL)
+               : nsvcd_sweep(&question, p->query, sizeof *p->query, &answer);
   if (error) p->error = error;
   p->sweeps++;
   return answer;
@@ -9340,7 +9859,7 @@ static float nsvcd__network_cost(nsvcd__planner *p, size_t samples, float limit,
       if (worst && answer.logit > worst->logit) {
         worst->logit = answer.logit, worst->pair = k;
         worst->proven = answer.collides && answer.status >= NSVCD_STATUS_WITNESS;
-        worst->time = samples > 1 ? ((float)s + (float)stride * answer.time) / (float)(samples - 1) : 0;
+        worst->time = samples > 1 ? ((float)s + (float)stride * answer.contact_time) / (float)(samples - 1) : 0;
       }
       *collides |= answer.collides;
       sum += nsvcd__cost_of_logit(answer.logit, p->options.margin, &slope);

@@ -238,7 +238,7 @@ static void picture_scene(FILE *svg, const nsvcd_mesh *moving, const nsvcd_mesh 
   const nsvcd_answer *a = &panel->answer;
   const picture_colour *colour = a->collides ? &picture_red : &picture_green;
   size_t count, last = panel->count - 1;
-  size_t shown = a->collides ? (size_t)((double)a->time * (double)last + 0.5) : last;
+  size_t shown = a->collides ? (size_t)((double)a->contact_time * (double)last + 0.5) : last;
   picture_triangle *triangles = picture_sort(fixed, &origin, &count);
   if (!triangles) return;
   picture_shadow(svg, fixed, &origin);
@@ -272,12 +272,12 @@ static void picture_captions(FILE *svg, const picture_panel *panel) {
   fprintf(svg, "<rect y=\"%d\" width=\"%d\" height=\"44\" fill=\"#fff\" fill-opacity=\".9\"/>\n", PICTURE_HEIGHT - 44,
           PICTURE_WIDTH);
   fprintf(svg, "<text x=\"24\" y=\"%d\" font-size=\"15\" fill=\"#4a5564\">", PICTURE_HEIGHT - 17);
-  if (a->collides) fprintf(svg, "at t = %.2f of the way, ", (double)a->time);
+  if (a->collides) fprintf(svg, "at t = %.2f of the way, ", (double)a->contact_time);
   if (a->status == NSVCD_STATUS_CERTIFIED_FREE) {
     fprintf(svg, "certified free");
   } else if (a->status == NSVCD_STATUS_WITNESS) {
-    fprintf(svg, "triangle %lu meets triangle %lu", (unsigned long)a->moving_triangle,
-            (unsigned long)a->fixed_triangle);
+    fprintf(svg, "triangle %lu meets triangle %lu", (unsigned long)a->triangle_a,
+            (unsigned long)a->triangle_b);
   } else {
     fprintf(svg, "%s", nsvcd_status_string(a->status));
   }

@@ -5,8 +5,10 @@
 //
 //   nsvcd-problems 1
 //   mesh NAME PATH                        # OBJ, relative to the problem file
-//   problem ID MOVING SCALE FIXED SCALE  x y z qx qy qz qw  LABEL MARGIN COUNT
+//   problem ID MOVING SCALE FIXED SCALE  x y z qx qy qz qw  LABEL MARGIN COUNT [FIXED_COUNT]
 //   x y z qx qy qz qw                     # COUNT lines: pose of the moving body at t = i/(COUNT-1)
+//   x y z qx qy qz qw                     # FIXED_COUNT lines: the same of the other body, which then moves too; the pose
+//                                         # on the problem line, else its pose, does not count
 //
 // LABEL: 1 collides, 0 free, -1 unknown. MARGIN in metres: least distance if free, minus the depth if not, or nan.
 #ifndef NSVCD_EXAMPLES_PROBLEM_FILE_H
@@ -118,6 +120,7 @@ typedef struct problem {
   float moving_scale, fixed_scale;
   nsvcd_pose fixed_pose;
   size_t first_pose, count;  // of the motion
+  size_t fixed_count;        // poses of the other body, behind those; 0: it rests at fixed_pose
   int label;                 // 1, 0 or -1
   double margin;             // metres, or nan
 } problem;
@@ -133,13 +136,14 @@ typedef struct problem_file {
 
 #define POSE_FIELDS 7
 #define PROBLEM_FIELDS 16
+#define MOST_FIELDS (PROBLEM_FIELDS + 1)
 
 typedef struct reader {
   const char *path;
   char *next;   // text still to be read
   size_t line;  // of the fields, from 1
-  char *fields[PROBLEM_FIELDS];
-  size_t field_count;  // may exceed PROBLEM_FIELDS: then those beyond are not kept
+  char *fields[MOST_FIELDS];
+  size_t field_count;  // may exceed MOST_FIELDS: then those beyond are not kept
 } reader;
 
 // Splits the next line that is not empty into fields. 0 at the end of the file.
@@ -151,7 +155,7 @@ static int next_line(reader *r) {
     line[strcspn(line, "#")] = 0;
     r->line++, r->field_count = 0;
     for (char *field = strtok(line, " \t\r"); field; field = strtok(NULL, " \t\r"), r->field_count++) {
-      if (r->field_count < PROBLEM_FIELDS) r->fields[r->field_count] = field;
+      if (r->field_count < MOST_FIELDS) r->fields[r->field_count] = field;
     }
     if (r->field_count) return 1;
   }
@@ -216,12 +220,13 @@ static int read_label(const reader *r, char *const *fields, problem *p) {
   return 1;
 }
 
-// The COUNT lines below a problem.
-static int read_motion(reader *r, problem_file *file, problem *p) {
+// The COUNT lines below a problem, and the FIXED_COUNT ones below these.
+static int read_motions(reader *r, problem_file *file, problem *p) {
+  const size_t count = p->count + p->fixed_count;
   p->first_pose = file->pose_count;
-  for (size_t i = 0; i < p->count; i++) {
+  for (size_t i = 0; i < count; i++) {
     if (!next_line(r) || strcmp(r->fields[0], "problem") == 0 || strcmp(r->fields[0], "mesh") == 0)
-      return complain("%s:%zu: problem %s has %zu of its %zu poses", r->path, p->line, p->id, i, p->count);
+      return complain("%s:%zu: problem %s has %zu of its %zu poses", r->path, p->line, p->id, i, count);
     if (r->field_count != POSE_FIELDS) return refuse(r, "expected a pose: x y z qx qy qz qw");
     file->poses = (nsvcd_pose *)room_for_one(file->poses, file->pose_count, &file->pose_capacity, sizeof *file->poses);
     if (!read_pose(r, r->fields, &file->poses[file->pose_count++])) return 0;
@@ -233,8 +238,9 @@ static int read_problem(reader *r, problem_file *file) {
   problem p;
   memset(&p, 0, sizeof p);
   char **fields = r->fields;
-  if (r->field_count != PROBLEM_FIELDS)
-    return refuse(r, "expected: problem ID MOVING SCALE FIXED SCALE x y z qx qy qz qw LABEL MARGIN COUNT");
+  if (r->field_count != PROBLEM_FIELDS && r->field_count != MOST_FIELDS) {
+    return refuse(r, "expected: problem ID MOVING SCALE FIXED SCALE x y z qx qy qz qw LABEL MARGIN COUNT [FIXED_COUNT]");
+  }
   p.id = fields[1], p.line = r->line;
   if (!read_body_fields(r, file, fields + 2, &p.moving, &p.moving_scale)) return 0;
   if (!read_body_fields(r, file, fields + 4, &p.fixed, &p.fixed_scale)) return 0;
@@ -242,7 +248,10 @@ static int read_problem(reader *r, problem_file *file) {
   if (!read_label(r, fields + 13, &p)) return 0;
   if (!parse_count(fields[15], 1, NSVCD_MAX_POSES, &p.count))
     return refuse_field(r, "COUNT is not in 1..65536", fields[15]);
-  if (!read_motion(r, file, &p)) return 0;
+  if (r->field_count == MOST_FIELDS && !parse_count(fields[16], 1, NSVCD_MAX_POSES, &p.fixed_count)) {
+    return refuse_field(r, "FIXED_COUNT is not in 1..65536", fields[16]);
+  }
+  if (!read_motions(r, file, &p)) return 0;
   file->problems =
       (problem *)room_for_one(file->problems, file->problem_count, &file->problem_capacity, sizeof *file->problems);
   file->problems[file->problem_count++] = p;
@@ -272,6 +281,19 @@ static int read_problems(const char *path, problem_file *file) {
 
 static void free_problems(problem_file *file) {
   free(file->text), free(file->meshes), free(file->problems), free(file->poses);
+}
+
+// The problem as a question, but for the bodies: the moving one is a.
+static nsvcd_question question_of_problem(const problem_file *file, const problem *p) {
+  nsvcd_question question;
+  memset(&question, 0, sizeof question);
+  question.a.poses = file->poses + p->first_pose;
+  question.a.count = p->count;
+  question.a.scale = p->moving_scale;
+  question.b.poses = p->fixed_count ? question.a.poses + p->count : &p->fixed_pose;
+  question.b.count = p->fixed_count ? p->fixed_count : 1;
+  question.b.scale = p->fixed_scale;
+  return question;
 }
 
 // ------------------------------------------------------------------------------------------------------- statistics

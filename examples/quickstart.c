@@ -63,19 +63,23 @@ int main(void) {
 
   const char *const names[2] = {"carried low", "carried high"};
   const float heights[2] = {0.15f, 0.36f};
-  const nsvcd_pose rack_pose = {{0, 0, 0}, {0, 0, 0, 1}};
   picture_panel panels[2];
   for (int i = 0; i < 2; i++) {
     nsvcd_pose motion[POSES];
     nsvcd_answer answer;
     carry(heights[i], motion);
 
-    // Once per question.
+    // Once per question: zero is the default of everything but the bodies, and so the rack rests at the origin.
+    nsvcd_question question = {0};
+    question.a.body = mug;
+    question.a.poses = motion;
+    question.a.count = POSES;
+    question.b.body = rack;
     nsvcd_result result = NSVCD_OK;
     double least = HUGE_VAL;
     for (int run = 0; run < 20 && !result; run++) {  // many times only to time it
       double start = microseconds();
-      result = nsvcd_sweep(mug, motion, POSES, rack, &rack_pose, NULL, workspace, workspace_size, &answer);
+      result = nsvcd_sweep(&question, workspace, workspace_size, &answer);
       least = fmin(least, microseconds() - start);
     }
     if (result) return fprintf(stderr, "%s\n", nsvcd_result_string(result)), 1;
@@ -84,7 +88,7 @@ int main(void) {
            nsvcd_status_string(answer.status), least);
     if (answer.collides) {
       const float *p = answer.point, *n = answer.normal;
-      printf(" at t = %.2f, (%.3f, %.3f, %.3f), normal (%.2f, %.2f, %.2f)", (double)answer.time, (double)p[0],
+      printf(" at t = %.2f, (%.3f, %.3f, %.3f), normal (%.2f, %.2f, %.2f)", (double)answer.contact_time, (double)p[0],
              (double)p[1], (double)p[2], (double)n[0], (double)n[1], (double)n[2]);
     }
     printf("\n");

@@ -33,7 +33,7 @@ typedef struct encoded {
   double seconds;          // that encoding took
 } encoded;
 
-// Every mesh once, in the units of its file: nsvcd_body_scale makes the rest. bodies: (mesh_count), zeroed.
+// Every mesh once, in the units of its file: a question has its scale. bodies: (mesh_count), zeroed.
 static int encode_meshes(const problem_file *file, const nsvcd_encode_options *options, encoded *bodies) {
   const char *slash = strrchr(file->path, '/');
   size_t folder = slash ? (size_t)(slash - file->path) + 1 : 0;
@@ -57,12 +57,6 @@ typedef struct check_options {
   const char *path;
 } check_options;
 
-// Memory that all queries share: two scaled bodies and the workspace.
-typedef struct scratch {
-  void *moving, *fixed, *workspace;
-  size_t body_size, workspace_size;
-} scratch;
-
 typedef struct outcome {  // of a problem
   nsvcd_answer answer;
   double microseconds;
@@ -76,17 +70,16 @@ typedef struct session {
 
 // Answers one problem: once to warm up, then --repeat times by the clock. The shortest time counts: what is longer is
 // the machine doing something else.
-static int answer(const session *s, const check_options *options, scratch *b, const problem *p, outcome *out) {
-  const nsvcd_body *moving, *fixed;
-  nsvcd_result result = nsvcd_body_scale(s->bodies[p->moving].body, p->moving_scale, b->moving, b->body_size, &moving);
-  if (!result) result = nsvcd_body_scale(s->bodies[p->fixed].body, p->fixed_scale, b->fixed, b->body_size, &fixed);
-  if (result) return complain("%s:%zu: scale: %s", s->file.path, p->line, nsvcd_result_string(result));
+static int answer(const session *s, const check_options *options, void *workspace, const problem *p, outcome *out) {
+  nsvcd_question question = question_of_problem(&s->file, p);
+  question.a.body = s->bodies[p->moving].body;
+  question.b.body = s->bodies[p->fixed].body;
+  question.options = options->sweep;
   out->microseconds = HUGE_VAL;
   for (size_t i = 0; i <= options->repeat; i++) {
-    double start = seconds();
-    result = nsvcd_sweep(moving, s->file.poses + p->first_pose, p->count, fixed, &p->fixed_pose, &options->sweep,
-                         b->workspace, b->workspace_size, &out->answer);
-    double taken = 1e6 * (seconds() - start);
+    const double start = seconds();
+    const nsvcd_result result = nsvcd_sweep(&question, workspace, nsvcd_sweep_workspace_size(), &out->answer);
+    const double taken = 1e6 * (seconds() - start);
     if (result) return complain("%s:%zu: problem %s: %s", s->file.path, p->line, p->id, nsvcd_result_string(result));
     if (i > 0) out->microseconds = fmin(out->microseconds, taken);
   }
@@ -94,18 +87,12 @@ static int answer(const session *s, const check_options *options, scratch *b, co
 }
 
 static int answer_all(session *s, const check_options *options) {
-  scratch b;
-  b.body_size = 1;
-  for (size_t i = 0; i < s->file.mesh_count; i++) {
-    const size_t size = nsvcd_body_describe(s->bodies[i].body).size;
-    b.body_size = size > b.body_size ? size : b.body_size;
-  }
-  b.workspace_size = nsvcd_sweep_workspace_size();
-  b.moving = allocate(b.body_size), b.fixed = allocate(b.body_size), b.workspace = allocate(b.workspace_size);
+  void *workspace = allocate(nsvcd_sweep_workspace_size());
   int good = 1;
-  for (size_t i = 0; i < s->file.problem_count && good; i++)
-    good = answer(s, options, &b, &s->file.problems[i], &s->outcomes[i]);
-  free(b.moving), free(b.fixed), free(b.workspace);
+  for (size_t i = 0; i < s->file.problem_count && good; i++) {
+    good = answer(s, options, workspace, &s->file.problems[i], &s->outcomes[i]);
+  }
+  free(workspace);
   return good;
 }
 
@@ -113,7 +100,7 @@ static int print_answers(const session *s) {
   for (size_t i = 0; i < s->file.problem_count; i++) {
     const nsvcd_answer *a = &s->outcomes[i].answer;
     printf("%s\t%.9g\t%d\t%.9g\t%lu\t%lu\t%s\t%.2f\n", s->file.problems[i].id, (double)a->logit, a->collides,
-           (double)a->time, (unsigned long)a->moving_patch, (unsigned long)a->fixed_patch,
+           (double)a->contact_time, (unsigned long)a->patch_a, (unsigned long)a->patch_b,
            nsvcd_status_string(a->status), s->outcomes[i].microseconds);
   }
   if (fflush(stdout) == 0 && !ferror(stdout)) return 1;
@@ -309,13 +296,18 @@ static int recall_is_known(const nsvcd_sweep_options *options) {
   uint32_t indices[3] = {0, 1, 2};
   nsvcd_mesh mesh = {positions, indices, 3, 1};
   nsvcd_encode_options one_point = {1, 0, 0, 0};
-  nsvcd_pose pose = {{0, 0, 0}, {0, 0, 0, 1}};
+  const nsvcd_pose pose = {{0, 0, 0}, {0, 0, 0, 1}};
   nsvcd_answer unused;
   const nsvcd_body *body;
   void *workspace = allocate(nsvcd_sweep_workspace_size());
   nsvcd_result result = nsvcd_encode(&mesh, &one_point, NULL, NULL, 0, &body);
   if (!result) {
-    result = nsvcd_sweep(body, &pose, 1, body, &pose, options, workspace, nsvcd_sweep_workspace_size(), &unused);
+    nsvcd_question question = {0};
+    question.a.body = question.b.body = body;
+    question.a.poses = &pose;
+    question.a.count = 1;
+    question.options = *options;
+    result = nsvcd_sweep(&question, workspace, nsvcd_sweep_workspace_size(), &unused);
     nsvcd_body_free(body, NULL);
   }
   free(workspace);

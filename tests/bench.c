@@ -487,8 +487,7 @@ static void run_ours(table *t, const problem_set *set, const char *method, const
   double *times = (double *)allocate(setting_count * set->problems * sizeof *times);
   shelf s;
   fill_shelf(set, encode, &s);
-  const size_t size = s.largest;
-  void *moving_memory = allocate(size), *fixed_memory = allocate(size), *workspace = allocate(workspace_size);
+  void *workspace = allocate(workspace_size);
   for (size_t k = 0; k < setting_count; k++) {
     row *r = new_row(t, method);
     name_setting(&settings[k], encode->points, r->setting, sizeof r->setting);
@@ -497,14 +496,15 @@ static void run_ours(table *t, const problem_set *set, const char *method, const
   for (size_t i = 0; i < set->problems; i++) {
     size_t f;
     const problem *p = get_problem(set, i, &f);
-    const nsvcd_body *moving = NULL, *fixed = NULL;
-    nsvcd_result result = nsvcd_body_scale(s.bodies[f][p->moving], p->moving_scale, moving_memory, size, &moving);
-    if (!result) result = nsvcd_body_scale(s.bodies[f][p->fixed], p->fixed_scale, fixed_memory, size, &fixed);
+    nsvcd_result result = NSVCD_OK;
+    nsvcd_question question = question_of_problem(&set->files[f], p);
+    question.a.body = s.bodies[f][p->moving];
+    question.b.body = s.bodies[f][p->fixed];
     for (size_t k = 0; k < setting_count && !result; k++) {
       nsvcd_answer a;
+      question.options = settings[k];
       TIME(times[k * set->problems + i],
-           result = nsvcd_sweep(moving, set->files[f].poses + p->first_pose, p->count, fixed, &p->fixed_pose,
-                                &settings[k], workspace, workspace_size, &a));
+           result = nsvcd_sweep(&question, workspace, workspace_size, &a));
       t->rows[first + k].counts[p->label == 1][a.collides]++;
       t->rows[first + k].undecided += a.status == NSVCD_STATUS_UNDECIDED;
     }
@@ -513,7 +513,8 @@ static void run_ours(table *t, const problem_set *set, const char *method, const
   }
   for (size_t k = 0; k < setting_count; k++) set_times(&t->rows[first + k], times + k * set->problems, set->problems);
   free_shelf(set, &s);
-  free(times), free(moving_memory), free(fixed_memory), free(workspace);
+  free(times);
+  free(workspace);
 }
 
 // The proof, at several resolutions.
@@ -617,12 +618,12 @@ static void run_neural_cut(table *t, const problem_set *set) {
     if (!result) result = nsvcd_encode(&part, &open, NULL, memory[1], size, &fixed);
     r->prepare += clock_ms(start) / (double)set->problems;
     if (!result) result = nsvcd_encode(&set->meshes[f][p->moving], &whole, NULL, memory[0], size, &moving);
-    if (!result) result = nsvcd_body_scale(moving, p->moving_scale, memory[0], size, &moving);
-    if (!result) result = nsvcd_body_scale(fixed, p->fixed_scale, memory[1], size, &fixed);
     if (result) complain("problem %s: %s", p->id, nsvcd_result_string(result)), exit(REFUSED);
     nsvcd_mesh_free(&part, NULL);
-    TIME(times[i], result = nsvcd_sweep(moving, set->files[f].poses + p->first_pose, p->count, fixed, &p->fixed_pose,
-                                        NULL, workspace, workspace_size, &a));
+    nsvcd_question question = question_of_problem(&set->files[f], p);
+    question.a.body = moving;
+    question.b.body = fixed;
+    TIME(times[i], result = nsvcd_sweep(&question, workspace, workspace_size, &a));
     r->counts[p->label == 1][a.collides]++;
     r->bytes += (double)nsvcd_body_describe(fixed).size / (double)set->problems;
     progress(set->name, "NeuralSVCD, cut", i + 1, set->problems);

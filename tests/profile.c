@@ -16,6 +16,7 @@ static struct {
 #define PROGRAM "profile"
 #include "../examples/problem_file.h"
 #include "../examples/shapes.h"
+#include "ask.h"
 
 enum { INIT, CUT, BEGIN, STEPS, PAIRS, INVARIANTS, TINY, BASE, BASE_INT8, INSIDE, ALL, STAGES };
 static const char *const names[STAGES] = {
@@ -42,8 +43,9 @@ static void run_stages(const question *q, nsvcd__query *work, double *times) {
   static float x[NSVCD__BATCH * NSVCD__DECODER_IN], logits[NSVCD__BATCH];
   float rotation[9], position[3];
   double start = seconds();
-  (void)nsvcd__motions_check(q->poses, q->count, 1, q->fixed_pose);
-  nsvcd__motion_init(q->poses, q->count, q->fixed_pose, &motion);
+  const nsvcd_question asked = question_of(q->moving, q->poses, q->count, q->fixed, q->fixed_pose, NULL);
+  (void)nsvcd__question_check(&asked);
+  nsvcd__motion_init(&asked.a, &asked.b, &motion);
   keep_least(times, INIT, start), start = seconds();
   nsvcd__cut_motion(&motion, q->moving->extent + q->fixed->extent, &work->broad_phase);
   keep_least(times, CUT, start), start = seconds();
@@ -54,7 +56,7 @@ static void run_stages(const question *q, nsvcd__query *work, double *times) {
   while (more) more = nsvcd__search_step(&work->broad_phase, q->moving, q->fixed, &kept);
   keep_least(times, STEPS, start), start = seconds();
   nsvcd__motion_pose(&motion, 0, rotation, position);
-  (void)nsvcd__is_contained(q->moving, q->fixed, rotation, position);
+  (void)nsvcd__is_contained(q->moving, q->fixed, 1, rotation, position);
   keep_least(times, INSIDE, start);
   if (!kept.count) return;
   for (size_t k = 0; k < NSVCD__BATCH; k++) batch[k] = &kept.items[k % kept.count];
@@ -97,6 +99,7 @@ static void time_rollouts(const question *q, nsvcd__query *work, uint64_t *rando
                           size_t *alike) {
   static nsvcd_pose poses[ROLLOUTS * 64];
   static nsvcd_answer one[ROLLOUTS], many[ROLLOUTS];
+  static nsvcd_question questions[ROLLOUTS];
   const float radius = 0.1f * nsvcd_body_describe(q->moving).radius;
   double least[2] = {1e9, 1e9};
   if (q->count > 64) return;
@@ -116,14 +119,16 @@ static void time_rollouts(const question *q, nsvcd__query *work, uint64_t *rando
       for (size_t k = 0; k < 3; k++) poses[m * q->count + t].position[k] += bump[k] * (float)(4 * u * (1 - u));
     }
   }
+  for (size_t m = 0; m < ROLLOUTS; m++) {
+    questions[m] = question_of(q->moving, poses + m * q->count, q->count, q->fixed, q->fixed_pose, NULL);
+  }
   for (int run = 0; run < 3; run++) {
     double start = seconds();
     for (size_t m = 0; m < ROLLOUTS; m++) {
-      nsvcd_sweep(q->moving, poses + m * q->count, q->count, q->fixed, q->fixed_pose, NULL, work, sizeof *work,
-                  &one[m]);
+      nsvcd_sweep(&questions[m], work, sizeof *work, &one[m]);
     }
     least[0] = fmin(least[0], seconds() - start), start = seconds();
-    nsvcd_sweep_batch(q->moving, poses, q->count, ROLLOUTS, q->fixed, q->fixed_pose, NULL, work, sizeof *work, many);
+    nsvcd_sweep_batch(questions, ROLLOUTS, work, sizeof *work, many);
     least[1] = fmin(least[1], seconds() - start);
   }
   for (size_t m = 0; m < ROLLOUTS; m++) *alike += one[m].collides == many[m].collides;
@@ -187,7 +192,7 @@ static void profile(const problem_file *file, size_t points) {
     for (int run = 0; run < 5; run++) run_stages(&q, work, one);
     for (int run = 0; run < 5; run++) {
       double start = seconds();
-      nsvcd_sweep(q.moving, q.poses, q.count, q.fixed, q.fixed_pose, NULL, work, sizeof *work, &answer);
+      ask(q.moving, q.poses, q.count, q.fixed, q.fixed_pose, NULL, work, sizeof *work, &answer);
       keep_least(one, ALL, start);
     }
     if (i % 10 == 0) time_rollouts(&q, work, &random, &single, &batch, &alike), rolled++;
@@ -218,7 +223,7 @@ static void add_proof(const question *q, nsvcd__query *work, verdict_sum *sums, 
   for (int run = 0; run < 5; run++) {
     memset(&tally, 0, sizeof tally);
     const double start = seconds();
-    nsvcd_sweep(q->moving, q->poses, q->count, q->fixed, q->fixed_pose, NULL, work, sizeof *work, &answer);
+    ask(q->moving, q->poses, q->count, q->fixed, q->fixed_pose, NULL, work, sizeof *work, &answer);
     keep_least(least, 0, start);
   }
   verdict_sum *sum = &sums[answer.status];

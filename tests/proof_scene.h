@@ -366,13 +366,18 @@ static void proof_free(proof_body *b) {
 // -------------------------------------------------------------------------------------------------
 // motions
 
-typedef struct proof_motion {
-  nsvcd_pose raw[PROOF_POSES], raw_fixed;  // as asked
-  oracle_pose poses[PROOF_POSES], fixed;   // the same in double, quaternions of unit length
+typedef struct proof_track {
+  nsvcd_pose raw[PROOF_POSES];     // as asked
+  oracle_pose poses[PROOF_POSES];  // the same in double, quaternions of unit length
   size_t count;
+  float scale;  // of the body
+} proof_track;
+
+typedef struct proof_motion {
+  proof_track moving, fixed;  // "fixed" is the body in whose frame the library looks at the other
 } proof_motion;
 
-// x -> matrix x + position: from the moving body's frame to the fixed one's.
+// x -> matrix x + position: from the moving body's frame to the fixed one's, in units of the fixed body's mesh.
 typedef struct proof_place {
   double matrix[9], position[3];
 } proof_place;
@@ -397,15 +402,18 @@ static oracle_pose proof_widened(const nsvcd_pose *pose) {
 }
 
 // Rounds the poses to float, and takes them as they then are.
+static void proof_track_set(proof_track *track, const oracle_pose *poses, size_t count) {
+  track->count = count;
+  track->scale = 1;
+  for (size_t i = 0; i < count; i++) {
+    track->raw[i] = proof_rounded(&poses[i]);
+    track->poses[i] = proof_widened(&track->raw[i]);
+  }
+}
 static void proof_motion_set(proof_motion *m, const oracle_pose *poses, size_t count,
                              const oracle_pose *fixed) {
-  m->count = count;
-  m->raw_fixed = proof_rounded(fixed);
-  m->fixed = proof_widened(&m->raw_fixed);
-  for (size_t i = 0; i < count; i++) {
-    m->raw[i] = proof_rounded(&poses[i]);
-    m->poses[i] = proof_widened(&m->raw[i]);
-  }
+  proof_track_set(&m->moving, poses, count);
+  proof_track_set(&m->fixed, fixed, 1);
 }
 
 static proof_place proof_relative(const oracle_pose *pose, const oracle_pose *fixed) {
@@ -426,7 +434,7 @@ static proof_place proof_relative(const oracle_pose *pose, const oracle_pose *fi
 
 // The pose at t. As oracle_pose_at, but where samples are exactly half a turn apart and both arcs
 // are as short: there the sign is that of the floats' own product, and 0 leaves them as they are.
-static oracle_pose proof_pose_at(const proof_motion *m, double t) {
+static oracle_pose proof_pose_at(const proof_track *m, double t) {
   if (m->count == 1) return m->poses[0];
   const double at = t * (double)(m->count - 1);
   const size_t last = m->count - 2;
@@ -452,8 +460,13 @@ static oracle_pose proof_pose_at(const proof_motion *m, double t) {
   return out;
 }
 static proof_place proof_place_at(const proof_motion *m, double t) {
-  const oracle_pose pose = proof_pose_at(m, t);
-  return proof_relative(&pose, &m->fixed);
+  const oracle_pose pose = proof_pose_at(&m->moving, t);
+  const oracle_pose fixed = proof_pose_at(&m->fixed, t);
+  const double scale = (double)m->moving.scale / (double)m->fixed.scale;
+  proof_place at = proof_relative(&pose, &fixed);
+  for (int k = 0; k < 9; k++) at.matrix[k] *= scale;
+  for (int k = 0; k < 3; k++) at.position[k] /= (double)m->fixed.scale;
+  return at;
 }
 static void proof_apply(const proof_place *at, const double *x, double *out) {
   double turned[3];

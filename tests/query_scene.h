@@ -4,6 +4,7 @@
 #define QUERY_SCENE_H
 
 #include "../examples/shapes.h"
+#include "ask.h"
 #include "check.h"
 
 #include <stdlib.h>
@@ -81,7 +82,7 @@ static nsvcd_answer query_ask(const nsvcd_body *moving, const nsvcd_pose *poses,
                               const nsvcd_pose *fixed_pose, const nsvcd_sweep_options *options) {
   nsvcd_answer answer;
   memset(&answer, 0, sizeof answer);
-  CHECK_EQ(nsvcd_sweep(moving, poses, count, fixed, fixed_pose, options, query_workspace(),
+  CHECK_EQ(ask(moving, poses, count, fixed, fixed_pose, options, query_workspace(),
                        nsvcd_sweep_workspace_size(), &answer),
            NSVCD_OK);
   return answer;
@@ -159,8 +160,8 @@ static nsvcd_answer query_scene_ask(const query_scene *s) {
   return query_ask(s->moving, s->motion, QUERY_POSES, s->fixed, &s->fixed_pose, NULL);
 }
 static int query_same_answer(const nsvcd_answer *a, const nsvcd_answer *b) {  // to the bit
-  return memcmp(&a->logit, &b->logit, sizeof a->logit) == 0 && memcmp(&a->time, &b->time, sizeof a->time) == 0 &&
-         a->collides == b->collides && a->moving_patch == b->moving_patch && a->fixed_patch == b->fixed_patch &&
+  return memcmp(&a->logit, &b->logit, sizeof a->logit) == 0 && memcmp(&a->contact_time, &b->contact_time, sizeof a->contact_time) == 0 &&
+         a->collides == b->collides && a->patch_a == b->patch_a && a->patch_b == b->patch_b &&
          a->status == b->status && a->overlapping == b->overlapping;
 }
 

@@ -3,6 +3,7 @@
 #define NEURALSVCD_IMPLEMENTATION
 #include "../neuralsvcd.h"
 
+#include "ask.h"
 #include "check.h"
 
 #include <time.h>
@@ -203,11 +204,14 @@ static void body_scale(void) {
 
 // ----------------------------------------------------------------------------------------------------- the motion
 
-// As nsvcd_sweep does.
+// As nsvcd_sweep does; bodies do not matter to it.
 static nsvcd_result motion_init(const nsvcd_pose *samples, size_t count, const nsvcd_pose *fixed_pose,
                                 nsvcd__motion *motion) {
-  nsvcd_result result = nsvcd__motions_check(samples, count, 1, fixed_pose);
-  if (!result) nsvcd__motion_init(samples, count, fixed_pose, motion);
+  static const struct nsvcd_body any = {0};
+  const nsvcd_question question = question_of(&any, samples, count, &any, fixed_pose, NULL);
+  nsvcd_result result = nsvcd__mover_check(&question.a);
+  if (!result) result = nsvcd__mover_check(&question.b);
+  if (!result) nsvcd__motion_init(&question.a, &question.b, motion);
   return result;
 }
 
@@ -220,7 +224,7 @@ static int deepest_first(const void *a, const void *b) {
 }
 
 // The whole search: counts all runs, keeps the `limit` deepest in `found`, deepest first.
-static void search(const nsvcd_body *moving, const nsvcd_body *fixed, const nsvcd__motion *motion,
+static void search(const nsvcd_body *moving, const nsvcd_body *fixed, nsvcd__motion *motion,
                    nsvcd__workspace *space, nsvcd__candidate *found, size_t limit, nsvcd__candidates *kept) {
   nsvcd__cut_motion(motion, moving->extent + fixed->extent, space);
   int more = nsvcd__search_begin(moving, fixed, space);
@@ -394,7 +398,6 @@ static void bad_poses(void) {
   CHECK_EQ(motion_init(poses, 0, &good, &motion), NSVCD_ERROR_ARGUMENT);
   CHECK_EQ(motion_init(poses, (size_t)NSVCD_MAX_POSES + 1, &good, &motion), NSVCD_ERROR_ARGUMENT);
   CHECK_EQ(motion_init(NULL, 5, &good, &motion), NSVCD_ERROR_ARGUMENT);
-  CHECK_EQ(motion_init(poses, 5, NULL, &motion), NSVCD_ERROR_ARGUMENT);
   const float bad[6] = {(float)NAN, (float)INFINITY, -(float)INFINITY, 3e38f, 2e6f, 1e30f};
   for (int at = 0; at < 7; at++) {
     for (int n = 0; n < 6; n++) {
@@ -677,19 +680,19 @@ static void containment(void) {
       if (clearance >= 0.75) error[bin] = fmax(error[bin], off);
       clear += clearance >= (double)NSVCD__CLEARANCE, rough += clearance >= (double)NSVCD__CLEARANCE && off > 0.3;
       // In the clear: exactly when it is inside. On the surface: anything. Outside: never.
-      if (distance < 1 - 0.1 - r) CHECK(nsvcd__is_contained(inner, outer, rotation, at));
+      if (distance < 1 - 0.1 - r) CHECK(nsvcd__is_contained(inner, outer, 1, rotation, at));
       if (distance < 1 - 0.1 - r) {
         float back[9], from[3];
         nsvcd__transpose33(rotation, back);
         nsvcd__mul33_vec(back, at, from);
         for (int k = 0; k < 3; k++) from[k] = -from[k];
-        CHECK(nsvcd__is_contained(outer, inner, back, from));
+        CHECK(nsvcd__is_contained(outer, inner, 1, back, from));
       }
-      if (distance > 1.1) CHECK(!nsvcd__is_contained(inner, outer, rotation, at));
+      if (distance > 1.1) CHECK(!nsvcd__is_contained(inner, outer, 1, rotation, at));
     }
     const float far[3] = {30, 0, 0}, none[3] = {0, 0, 0};
-    CHECK(!nsvcd__is_contained(inner, outer, eye, far));
-    CHECK(nsvcd__is_contained(inner, outer, eye, none));
+    CHECK(!nsvcd__is_contained(inner, outer, 1, eye, far));
+    CHECK(nsvcd__is_contained(inner, outer, 1, eye, none));
   }
   printf(
       "  winding number, worst error from 0.75 / 1 / 1.5 / 2 patch radii on: %.3f %.3f %.3f %.4f; over 0.3: %zu of "
@@ -712,9 +715,9 @@ static void containment_in_a_cavity(void) {
   for (size_t n = 0; n < 256; n++) radii[256 + n] = inner_radii[n];
   const nsvcd_body *hollow = build(512, &blob_a_memory), *ball = shell_body(32, 0.02, &blob_b_memory);
   const float middle[3] = {0, 0, 0}, wall[3] = {0, 0.8f, 0}, outside[3] = {1.4f, 0, 0};
-  CHECK(!nsvcd__is_contained(ball, hollow, eye, middle));
-  CHECK(nsvcd__is_contained(ball, hollow, eye, wall));
-  CHECK(!nsvcd__is_contained(ball, hollow, eye, outside));
+  CHECK(!nsvcd__is_contained(ball, hollow, 1, eye, middle));
+  CHECK(nsvcd__is_contained(ball, hollow, 1, eye, wall));
+  CHECK(!nsvcd__is_contained(ball, hollow, 1, eye, outside));
 }
 
 // ------------------------------------------------------------------------------------------------------------ speed

@@ -33,7 +33,8 @@ static size_t cost_search(const query_scene *s) {
   static nsvcd__query query;
   nsvcd__motion motion;
   nsvcd__candidates kept;
-  nsvcd__motion_init(s->motion, QUERY_POSES, &s->fixed_pose, &motion);
+  const nsvcd_question question = question_of(s->moving, s->motion, QUERY_POSES, s->fixed, &s->fixed_pose, NULL);
+  nsvcd__motion_init(&question.a, &question.b, &motion);
   nsvcd__candidates_start(&kept, query.by.kept, 32);
   nsvcd__cut_motion(&motion, s->moving->extent + s->fixed->extent, &query.broad_phase);
   int more = nsvcd__search_begin(s->moving, s->fixed, &query.broad_phase);
@@ -107,8 +108,11 @@ static void cost_open(cost_batch *b, uint64_t seed) {
 static nsvcd_result cost_ask_batch(const cost_batch *b, const nsvcd_sweep_options *options, void *workspace,
                                    nsvcd_answer *answers) {
   const query_scene *s = &b->scene;
-  return nsvcd_sweep_batch(s->moving, b->poses, QUERY_POSES, COST_MOTIONS, s->fixed, &s->fixed_pose, options, workspace,
-                           nsvcd_sweep_workspace_size(), answers);
+  nsvcd_question questions[COST_MOTIONS];
+  for (size_t m = 0; m < COST_MOTIONS; m++) {
+    questions[m] = question_of(s->moving, b->poses + m * QUERY_POSES, QUERY_POSES, s->fixed, &s->fixed_pose, options);
+  }
+  return nsvcd_sweep_batch(questions, COST_MOTIONS, workspace, nsvcd_sweep_workspace_size(), answers);
 }
 
 // An answer of a batch is nsvcd_sweep's, or both are collisions and the batch's is clear.
@@ -150,17 +154,15 @@ static void cost_batch_refuses_as_a_query_does(void) {
   memset(b.batch, 0x5a, sizeof b.batch), memcpy(before, b.batch, sizeof before);
   b.poses[COST_MOTIONS * QUERY_POSES - 1].rotation[0] = 2;  // the very last
   CHECK_EQ(cost_ask_batch(&b, NULL, w, b.batch), NSVCD_ERROR_POSE);
-  CHECK_EQ(nsvcd_sweep_batch(s->moving, NULL, 2, 2, s->fixed, &s->fixed_pose, NULL, w, size, b.batch),
-           NSVCD_ERROR_ARGUMENT);
-  CHECK_EQ(nsvcd_sweep_batch(s->moving, b.poses, 0, 2, s->fixed, &s->fixed_pose, NULL, w, size, b.batch),
-           NSVCD_ERROR_ARGUMENT);
-  CHECK_EQ(nsvcd_sweep_batch(s->moving, b.poses, 2, SIZE_MAX / 2, s->fixed, &s->fixed_pose, NULL, w, size, b.batch),
-           NSVCD_ERROR_ARGUMENT);
-  CHECK_EQ(nsvcd_sweep_batch(s->moving, b.poses, 2, 2, s->fixed, &s->fixed_pose, NULL, w, size, NULL),
-           NSVCD_ERROR_ARGUMENT);
-  CHECK_EQ(nsvcd_sweep_batch(s->moving, b.poses, 2, 2, s->fixed, &s->fixed_pose, NULL, w, size - 1, b.batch),
-           NSVCD_ERROR_WORKSPACE);
-  CHECK_EQ(nsvcd_sweep_batch(s->moving, b.poses, 2, 0, s->fixed, &s->fixed_pose, NULL, w, size, b.batch), NSVCD_OK);
+  nsvcd_question questions[2];
+  for (size_t k = 0; k < 2; k++) questions[k] = question_of(s->moving, b.poses, 2, s->fixed, &s->fixed_pose, NULL);
+  questions[1].a.count = 0;
+  CHECK_EQ(nsvcd_sweep_batch(questions, 2, w, size, b.batch), NSVCD_ERROR_ARGUMENT);
+  questions[1].a.count = 2;
+  CHECK_EQ(nsvcd_sweep_batch(NULL, 2, w, size, b.batch), NSVCD_ERROR_ARGUMENT);
+  CHECK_EQ(nsvcd_sweep_batch(questions, 2, w, size, NULL), NSVCD_ERROR_ARGUMENT);
+  CHECK_EQ(nsvcd_sweep_batch(questions, 2, w, size - 1, b.batch), NSVCD_ERROR_WORKSPACE);
+  CHECK_EQ(nsvcd_sweep_batch(questions, 0, w, size, b.batch), NSVCD_OK);
   CHECK(memcmp(before, b.batch, sizeof before) == 0);
   query_scene_close(&b.scene);
 }
@@ -183,7 +185,7 @@ static void *cost_run(void *argument) {
   t->result = NSVCD_OK;
   for (int round = 0; round < 5 && !t->result; round++) {
     for (size_t m = 0; m < COST_MOTIONS && !t->result; m++) {
-      t->result = nsvcd_sweep(s->moving, t->work->poses + m * QUERY_POSES, QUERY_POSES, s->fixed, &s->fixed_pose, NULL,
+      t->result = ask(s->moving, t->work->poses + m * QUERY_POSES, QUERY_POSES, s->fixed, &s->fixed_pose, NULL,
                               memory.at, nsvcd_sweep_workspace_size(), &t->single[m]);
     }
     if (!t->result) t->result = cost_ask_batch(t->work, NULL, memory.at, t->batch);
@@ -263,7 +265,7 @@ typedef struct cost_asker {
 static void *cost_ask(void *argument) {
   cost_asker *a = (cost_asker *)argument;
   if (a->asks) {
-    nsvcd_sweep(a->bodies[0], a->motion, QUERY_POSES, a->bodies[1], &a->fixed_pose, NULL, a->workspace,
+    ask(a->bodies[0], a->motion, QUERY_POSES, a->bodies[1], &a->fixed_pose, NULL, a->workspace,
                 nsvcd_sweep_workspace_size(), &a->answer);
   }
   return NULL;

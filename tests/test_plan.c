@@ -516,7 +516,7 @@ static uint64_t plan_decisive(nsvcd__planner *p, const nsvcd__stage *stage, cons
       const nsvcd_answer answer = nsvcd__ask(p, k, s, 1, 0, NULL);
       if (answer.logit <= -p->options.margin) continue;
       hash = (hash ^ (k * 4096 + s)) * 1099511628211u;
-      hash = (hash ^ (answer.moving_patch * 512 + answer.fixed_patch)) * 1099511628211u;
+      hash = (hash ^ (answer.patch_a * 512 + answer.patch_b)) * 1099511628211u;
     }
   }
   return hash;

@@ -44,8 +44,8 @@ static void query_answers_make_sense(void) {
     nsvcd_answer a = query_scene_ask(&s);
     CHECK(isfinite(a.logit) && fabsf(a.logit) <= NSVCD_LOGIT_CERTAIN);
     CHECK_EQ(a.collides, a.logit > 0);
-    CHECK(a.time >= 0 && a.time <= 1);
-    CHECK(a.moving_patch < nsvcd_body_describe(s.moving).points && a.fixed_patch < nsvcd_body_describe(s.fixed).points);
+    CHECK(a.contact_time >= 0 && a.contact_time <= 1);
+    CHECK(a.patch_a < nsvcd_body_describe(s.moving).points && a.patch_b < nsvcd_body_describe(s.fixed).points);
     CHECK_EQ(a.status == NSVCD_STATUS_CERTIFIED_FREE, a.overlapping == 0 && a.status != NSVCD_STATUS_INSIDE);
     CHECK_EQ(a.status == NSVCD_STATUS_LIMIT, a.overlapping > 8 && a.status != NSVCD_STATUS_INSIDE);
     certified += a.status == NSVCD_STATUS_CERTIFIED_FREE, answered += a.overlapping > 0;
@@ -249,7 +249,7 @@ static void query_far_apart_is_certified(void) {
   CHECK_EQ(a.logit, -NSVCD_LOGIT_CERTAIN);
   CHECK_EQ(a.collides, 0);
   CHECK_EQ(a.overlapping, 0);
-  CHECK_EQ(a.moving_patch + a.fixed_patch, 0);
+  CHECK_EQ(a.patch_a + a.patch_b, 0);
   poses[1] = query_pose(-1, 0, 0);  // right through: the spheres must meet
   a = query_ask(body, poses, 2, body, &origin, NULL);
   CHECK(a.status == NSVCD_STATUS_OK || a.status == NSVCD_STATUS_LIMIT);
@@ -268,7 +268,7 @@ static void query_inside_is_inside(void) {
   CHECK_EQ(a.status, NSVCD_STATUS_INSIDE);
   CHECK_EQ(a.collides, 1);
   CHECK_EQ(a.logit, NSVCD_LOGIT_CERTAIN);
-  CHECK_EQ(a.time, 0);
+  CHECK_EQ(a.contact_time, 0);
   a = query_ask(outer, poses, 2, inner, &origin, NULL);  // and the other way round
   CHECK_EQ(a.status, NSVCD_STATUS_INSIDE);
   a = query_ask(inner, poses, 1, outer, &origin, NULL);  // one pose
@@ -368,6 +368,107 @@ static void query_standing_still_is_one_pose(void) {
   }
 }
 
+// A scene in which both move: what it was, carried along by a common motion.
+static nsvcd_question query_carried(const query_scene *s, uint64_t seed, double angle, nsvcd_pose *poses,
+                                    nsvcd_pose *others) {
+  shapes_rng rng = {seed};
+  nsvcd_question question = question_of(s->moving, poses, QUERY_POSES, s->fixed, others, NULL);
+  double axis[3], along[3];
+  question.b.count = QUERY_POSES;
+  shapes_direction(&rng, axis);
+  shapes_direction(&rng, along);
+  for (int i = 0; i < QUERY_POSES; i++) {
+    const double t = (double)i / (QUERY_POSES - 1), half = 0.5 * angle * t;
+    nsvcd_pose common;
+    for (int k = 0; k < 3; k++) common.position[k] = (float)(0.5 * t * along[k]);
+    for (int k = 0; k < 3; k++) common.rotation[k] = (float)(sin(half) * axis[k]);
+    common.rotation[3] = (float)cos(half);
+    poses[i] = query_moved(&common, &s->motion[i]);
+    others[i] = query_moved(&common, &s->fixed_pose);
+  }
+  return question;
+}
+
+// Carried along without a turn, two bodies are to each other what they were; with one, at their poses, and hardly
+// otherwise between these.
+static void query_both_may_move(void) {
+  size_t same = 0, compared = 0;
+  for (uint64_t seed = 1; seed <= 60; seed++) {
+    query_scene s;
+    nsvcd_pose poses[QUERY_POSES], others[QUERY_POSES];
+    nsvcd_answer answer;
+    query_scene_open(&s, seed);
+    const nsvcd_answer before = query_scene_ask(&s);
+    const double angle = seed % 2 ? 1.6 : 0;
+    const nsvcd_question question = query_carried(&s, seed, angle, poses, others);
+    CHECK_EQ(nsvcd_sweep(&question, query_workspace(), nsvcd_sweep_workspace_size(), &answer), NSVCD_OK);
+    if (before.overlapping > 0 && !nsvcd__is_swapped(&question.a, &question.b)) {  // seen from the same body
+      compared++;
+      same += answer.collides == before.collides;
+      if (seed % 2 == 0) CHECK_NEAR(answer.logit, before.logit, 1e-3 * (1 + fabs((double)before.logit)));
+    }
+    query_scene_close(&s);
+  }
+  CHECK_GE(compared, 20);
+  CHECK_GE(same + 1, compared);
+}
+
+// Which body is a and which b does not matter: the answer is the same, said the other way round.
+static void query_sides_do_not_matter(void) {
+  for (uint64_t seed = 1; seed <= 40; seed++) {
+    query_scene s;
+    nsvcd_pose poses[QUERY_POSES], others[QUERY_POSES];
+    nsvcd_answer one, other;
+    query_scene_open(&s, seed);
+    nsvcd_question question = query_carried(&s, seed, 1.6, poses, others);
+    if (seed % 4 == 0) question.b.count = 1;
+    if (seed % 4 == 1) question.a.count = 1;
+    if (seed % 4 == 2) question.b.body = question.a.body;
+    if (seed % 8 == 3) question.a.scale = 1.5f;
+    const nsvcd_mover a = question.a;
+    CHECK_EQ(nsvcd_sweep(&question, query_workspace(), nsvcd_sweep_workspace_size(), &one), NSVCD_OK);
+    question.a = question.b;
+    question.b = a;
+    CHECK_EQ(nsvcd_sweep(&question, query_workspace(), nsvcd_sweep_workspace_size(), &other), NSVCD_OK);
+    const uint32_t patch = other.patch_a;
+    other.patch_a = other.patch_b;
+    other.patch_b = patch;
+    CHECK(query_same_answer(&one, &other));
+    query_scene_close(&s);
+  }
+}
+
+// A scale in the question is a scaled body: the logit is the same, to rounding.
+static void query_scales_in_the_question(void) {
+  for (uint64_t seed = 1; seed <= 20; seed++) {
+    query_scene s;
+    nsvcd_answer one, other;
+    query_scene_open(&s, seed);
+    nsvcd_question question = question_of(s.moving, s.motion, QUERY_POSES, s.fixed, &s.fixed_pose, NULL);
+    const float scales[2] = {seed % 2 ? 1 : 1.3f, seed % 3 ? 0.8f : 1};
+    query_memory memory[2];
+    for (int b = 0; b < 2; b++) {
+      nsvcd_mover *mover = b ? &question.b : &question.a;
+      const size_t size = nsvcd_body_describe(mover->body).size;
+      memory[b] = query_reserve(size);
+      mover->scale = scales[b];
+    }
+    CHECK_EQ(nsvcd_sweep(&question, query_workspace(), nsvcd_sweep_workspace_size(), &one), NSVCD_OK);
+    for (int b = 0; b < 2; b++) {
+      nsvcd_mover *mover = b ? &question.b : &question.a;
+      const size_t size = nsvcd_body_describe(mover->body).size;
+      CHECK_EQ(nsvcd_body_scale(mover->body, scales[b], memory[b].at, size, &mover->body), NSVCD_OK);
+      mover->scale = 0;
+    }
+    CHECK_EQ(nsvcd_sweep(&question, query_workspace(), nsvcd_sweep_workspace_size(), &other), NSVCD_OK);
+    CHECK_EQ(one.status, other.status);
+    CHECK_NEAR(one.logit, other.logit, 1e-3 * (1 + fabs((double)one.logit)));
+    query_release(&memory[0]);
+    query_release(&memory[1]);
+    query_scene_close(&s);
+  }
+}
+
 // Once every pair that overlaps is looked at, a greater K changes nothing, to the bit. This for all models.
 static void query_all_pairs_are_enough(void) {
   int compared = 0;
@@ -438,7 +539,7 @@ static nsvcd_answer query_untouched(void) {
 static void query_refuses(const query_scene *s, const nsvcd_pose *poses, size_t count, const nsvcd_pose *fixed_pose,
                           const nsvcd_sweep_options *options, nsvcd_result expected) {
   nsvcd_answer answer = query_untouched(), before = query_untouched();
-  CHECK_EQ(nsvcd_sweep(s->moving, poses, count, s->fixed, fixed_pose, options, query_workspace(),
+  CHECK_EQ(ask(s->moving, poses, count, s->fixed, fixed_pose, options, query_workspace(),
                        nsvcd_sweep_workspace_size(), &answer),
            expected);
   CHECK(memcmp(&answer, &before, sizeof answer) == 0);
@@ -448,14 +549,13 @@ static void query_refuses_bad_arguments(void) {
   query_scene s;
   query_scene_open(&s, 1);
   query_refuses(&s, NULL, QUERY_POSES, &s.fixed_pose, NULL, NSVCD_ERROR_ARGUMENT);
-  query_refuses(&s, s.motion, QUERY_POSES, NULL, NULL, NSVCD_ERROR_ARGUMENT);
   query_refuses(&s, s.motion, 0, &s.fixed_pose, NULL, NSVCD_ERROR_ARGUMENT);
   query_refuses(&s, s.motion, (size_t)NSVCD_MAX_POSES + 1, &s.fixed_pose, NULL, NSVCD_ERROR_ARGUMENT);
   query_scene no_moving = s, no_fixed = s;
   no_moving.moving = NULL, no_fixed.fixed = NULL;
   query_refuses(&no_moving, s.motion, QUERY_POSES, &s.fixed_pose, NULL, NSVCD_ERROR_ARGUMENT);
   query_refuses(&no_fixed, s.motion, QUERY_POSES, &s.fixed_pose, NULL, NSVCD_ERROR_ARGUMENT);
-  CHECK_EQ(nsvcd_sweep(s.moving, s.motion, QUERY_POSES, s.fixed, &s.fixed_pose, NULL, query_workspace(),
+  CHECK_EQ(ask(s.moving, s.motion, QUERY_POSES, s.fixed, &s.fixed_pose, NULL, query_workspace(),
                        nsvcd_sweep_workspace_size(), NULL),
            NSVCD_ERROR_ARGUMENT);
 
@@ -469,6 +569,46 @@ static void query_refuses_bad_arguments(void) {
   bad[6] = query_options(0, NSVCD_MODEL_DEFAULT, 0);
   bad[6].precision = (nsvcd_precision)(NSVCD_PRECISION_INT8 + 1);
   for (int i = 0; i < 7; i++) query_refuses(&s, s.motion, QUERY_POSES, &s.fixed_pose, &bad[i], NSVCD_ERROR_ARGUMENT);
+  query_scene_close(&s);
+}
+
+// The same with a question.
+static void query_refuses_question(const nsvcd_question *question, nsvcd_result expected) {
+  nsvcd_answer answer = query_untouched(), before = query_untouched();
+  CHECK_EQ(nsvcd_sweep(question, query_workspace(), nsvcd_sweep_workspace_size(), &answer), expected);
+  CHECK(memcmp(&answer, &before, sizeof answer) == 0);
+}
+
+static void query_refuses_bad_questions(void) {
+  const float scales[8] = {NAN, INFINITY, -INFINITY, -1, -1e-30f, 1e-7f, 1e7f, 1e30f};
+  query_scene s;
+  query_scene_open(&s, 1);
+  const nsvcd_question good = question_of(s.moving, s.motion, QUERY_POSES, s.fixed, &s.fixed_pose, NULL);
+  nsvcd_question bad;
+  memset(&bad, 0, sizeof bad);
+  query_refuses_question(&bad, NSVCD_ERROR_ARGUMENT);
+  query_refuses_question(NULL, NSVCD_ERROR_ARGUMENT);
+  for (int side = 0; side < 2; side++) {
+    for (int i = 0; i < 8; i++) {
+      bad = good;
+      *(side ? &bad.b.scale : &bad.a.scale) = scales[i];
+      query_refuses_question(&bad, NSVCD_ERROR_SCALE);
+    }
+    bad = good;
+    (side ? &bad.b : &bad.a)->poses = NULL;  // with a count
+    query_refuses_question(&bad, NSVCD_ERROR_ARGUMENT);
+    bad = good;
+    (side ? &bad.b : &bad.a)->count = 0;  // with poses
+    query_refuses_question(&bad, NSVCD_ERROR_ARGUMENT);
+  }
+  bad = good;
+  bad.b = bad.a;
+  query_refuses_question(&bad, NSVCD_ERROR_SAME);
+  const nsvcd_pose elsewhere = query_pose(0.01, 0, 0);
+  bad.b.poses = &elsewhere;  // the same body at another place is a question like any other
+  bad.b.count = 1;
+  nsvcd_answer answer;
+  CHECK_EQ(nsvcd_sweep(&bad, query_workspace(), nsvcd_sweep_workspace_size(), &answer), NSVCD_OK);
   query_scene_close(&s);
 }
 
@@ -507,7 +647,7 @@ static void query_refuses_a_bad_workspace(void) {
   for (int i = 0; i < 4; i++) {
     void *workspace = i == 0 ? NULL : i == 1 ? memory.at : (void *)((char *)memory.at + (i == 2 ? 1 : 4));
     nsvcd_answer answer = query_untouched(), before = query_untouched();
-    CHECK_EQ(nsvcd_sweep(s.moving, s.motion, QUERY_POSES, s.fixed, &s.fixed_pose, NULL, workspace,
+    CHECK_EQ(ask(s.moving, s.motion, QUERY_POSES, s.fixed, &s.fixed_pose, NULL, workspace,
                          i == 1 ? size - 1 : size, &answer),
              NSVCD_ERROR_WORKSPACE);
     CHECK(memcmp(&answer, &before, sizeof answer) == 0);
@@ -776,10 +916,14 @@ void test_query(void) {
   RUN(query_sizes_at_the_limits);
   RUN(query_a_cavity_is_not_inside);
   RUN(query_standing_still_is_one_pose);
+  RUN(query_both_may_move);
+  RUN(query_sides_do_not_matter);
+  RUN(query_scales_in_the_question);
   RUN(query_all_pairs_are_enough);
   RUN(query_more_pairs_never_lose_a_collision);
   RUN(query_recall_raises_the_logit);
   RUN(query_refuses_bad_arguments);
+  RUN(query_refuses_bad_questions);
   RUN(query_refuses_bad_poses);
   RUN(query_refuses_a_bad_workspace);
   RUN(query_encode_allocates);
