@@ -125,6 +125,7 @@ typedef enum nsvcd_result {
   NSVCD_ERROR_TOO_LARGE,  // more vertices, triangles or bytes than can be counted
   NSVCD_ERROR_POSE,       // a pose is not finite, or its quaternion is not of unit length to 1e-4
   NSVCD_ERROR_SCALE,      // a scale is not finite, negative, or out of range, or makes a body larger or smaller than may be
+  NSVCD_ERROR_TOLERANCE,  // a tolerance, a clearance or the like is negative, not finite, or beyond the scene
   NSVCD_ERROR_SAME,       // both sides of a question are the same body in the same motion: something was passed twice
   NSVCD_ERROR_BODY,       // a body blob is damaged, cut short, misaligned, of another version or model, or has not
                           // what the method asked for needs
@@ -298,6 +299,12 @@ typedef struct nsvcd_sweep_options {
                     // patches, 16 triangles against the box of 16, one of them against these, a pair of triangles at
                     // one time, or a ray against 16: up to 0.5 microseconds
   float tolerance;  // metres, at least 0: surfaces that come closer than this, and do not meet, may be left undecided
+  // By proof only:
+  float clearance;  // metres: to come as close as this counts as a collision; 0: to meet does
+  float first;      // share of the motion, up to 1: contact_time is that of the first contact, to this, and all before is
+                    // proven free. 0: of any contact
+  float measure;    // metres: clearance_low and clearance_high are the least distance over the motion, to this, but for
+                    // what the stored triangles are off by (nsvcd_body_facts.quantum). 0: unasked. Not with `first`
 } nsvcd_sweep_options;
 
 // A body in a scene: how it moves, and how large it is. Many may share one body.
@@ -321,8 +328,13 @@ typedef struct nsvcd_answer {
                        // decoder, which ranks the pairs, is clear (beyond +-3), it is the one that answers. Of a
                        // proof: +-NSVCD_LOGIT_CERTAIN; where it is undecided, the network's
   int collides;        // logit > 0. UNDECIDED: the network's opinion, or, where there is no network, yes
-  float contact_time;  // in [0,1]. WITNESS: when the triangles meet, which need not be the first time; INSIDE: 0; by the
-                       // network: where the most suspicious pair comes closest
+  float contact_time;  // in [0,1]. WITNESS: when the triangles meet; with options.first that is the first contact, and 0
+                       // if they meet at the start; INSIDE: 0; by the network: where the most suspicious pair comes closest
+  float free_until;    // in [0,1]. By proof: no contact is before that. CERTIFIED_FREE: 1; WITNESS: 0, or with
+                       // options.first no less than contact_time - first; UNDECIDED with it: when doubt begins
+  float clearance_low;   // metres. By proof: they stay farther apart than this until free_until;
+  float clearance_high;  // and come this near, at contact_time; what stored triangles are off by is allowed for, and so it
+                         // is not 0 where they meet. HUGE_VALF where it is not known
   uint32_t patch_a;    // the pair; 0, 0 where there is none
   uint32_t patch_b;
   nsvcd_status status;
@@ -970,6 +982,8 @@ NSVCDDEF const char *nsvcd_result_string(nsvcd_result result) {
       return "a pose is not finite, or its quaternion is not of unit length";
     case NSVCD_ERROR_SCALE:
       return "a scale is not finite, negative or out of range, or makes a body too small or too large";
+    case NSVCD_ERROR_TOLERANCE:
+      return "a tolerance or a clearance is negative, not finite or beyond the scene";
     case NSVCD_ERROR_SAME:
       return "both sides are the same body in the same motion";
     case NSVCD_ERROR_BODY:
@@ -4349,6 +4363,7 @@ typedef struct nsvcd__motion {
   float to_fixed_q[4];      // the same as a quaternion
   float low[3];             // of the moving body's origin less the fixed one's, in world axes, metres
   float high[3];
+  float lift[3];  // by which the moving body is held off its poses, as the fixed one sees it, in its units
 } nsvcd__motion;
 
 // |x| as bits, in the order of |x|; infinity and NaN are above all numbers.
@@ -4504,6 +4519,7 @@ static void nsvcd__motion_init(const nsvcd_mover *moving, const nsvcd_mover *fix
   for (size_t k = 0; k < 3; k++) {
     motion->low[k] = low[k] - fixed_high[k];
     motion->high[k] = high[k] - fixed_low[k];
+    motion->lift[k] = 0;
   }
 }
 
@@ -4605,7 +4621,7 @@ static void nsvcd__v_seen(const nsvcd__motion *motion, const nsvcd__v_poses *at,
   }
   nsvcd__v_quat_mul(turn, at->q, q);
   nsvcd__v_mul33_vec(m, at->p, p);
-  for (size_t k = 0; k < 3; k++) p[k] = nsvcd__v_mul(per_metre, p[k]);
+  for (size_t k = 0; k < 3; k++) p[k] = nsvcd__v_fma(per_metre, p[k], nsvcd__v_set(motion->lift[k]));
 }
 
 #ifndef NSVCD_NO_NETWORK
@@ -4636,6 +4652,7 @@ static void nsvcd__motion_pose(const nsvcd__motion *motion, float t, float *rota
   for (size_t k = 0; k < 3; k++) d[k] = (float)((p[k] - fixed_p[k]) / (double)motion->unit);
   nsvcd__mul33(to_fixed, r, rotation);
   nsvcd__mul33_vec(to_fixed, d, position);
+  for (size_t k = 0; k < 3; k++) position[k] += motion->lift[k];
 }
 #endif
 
@@ -4736,6 +4753,7 @@ typedef struct nsvcd__workspace {
   nsvcd__chords group[NSVCD__BLOCKS];                     // a moving group's
   nsvcd__chords members[NSVCD__MAX_SEGMENTS];             // its 16 members', per segment
   uint64_t nearby[NSVCD__MAX_GROUPS][NSVCD__MAX_GROUPS];  // moving groups, fixed groups
+  uint64_t wanted;                                        // segments to search; all, but where contacts are sought in order
   uint16_t order[NSVCD__MAX_GROUPS];                      // moving groups that are near any, in the order of the search
   size_t steps, step;                                     // how many they are, and which of them is being searched
   uint32_t waiting;                                       // fixed groups that it has yet to be searched against
@@ -4902,21 +4920,26 @@ static void nsvcd__v_keep_most(float *most, nsvcd__v value) {
   nsvcd__v_store(most, nsvcd__v_max(nsvcd__v_load(most), value));
 }
 
-// Poses at the ends of 16 segments, whose ticks are begin[0..16]. Starts the visit of the knots within.
-static NSVCD__APART void nsvcd__cut_ends(const nsvcd__motion *motion, const uint32_t *begin, nsvcd__segments *out,
-                                         nsvcd__cut *cut) {
-  nsvcd__v seen[4], m[9], p[3], last_seen[4];
+// Poses at the starts of 16 segments, whose ticks are begin[0..16]. Starts the visit of the knots within.
+static NSVCD__APART void nsvcd__cut_starts(const nsvcd__motion *motion, const uint32_t *begin, nsvcd__segments *out,
+                                           nsvcd__cut *cut) {
+  nsvcd__v seen[4], m[9], p[3];
   const nsvcd__v scale = nsvcd__v_set(motion->scale);
   memset(&cut->most, 0, sizeof cut->most);
   nsvcd__knots_read(motion, begin, NSVCD__LANES + 1, &cut->here);
-  nsvcd__v_poses at = nsvcd__knots_load(motion, &cut->here, 0);
-  nsvcd__v_seen(motion, &at, last_seen, p);
-  nsvcd__v_matrix(last_seen, m);
-  nsvcd__knots_keep(motion, &at, last_seen, &cut->last);
+  const nsvcd__v_poses at = nsvcd__knots_load(motion, &cut->here, 0);
+  nsvcd__v_seen(motion, &at, seen, p);
+  nsvcd__v_matrix(seen, m);
+  nsvcd__knots_keep(motion, &at, seen, &cut->last);
   for (size_t i = 0; i < 9; i++) nsvcd__v_store(out->rotation[i], nsvcd__v_mul(scale, m[i]));
   for (size_t i = 0; i < 3; i++) nsvcd__v_store(out->position[i], p[i]);
+}
 
-  at = nsvcd__knots_load(motion, &cut->here, 1);
+// And at their ends, of which the starts are known.
+static NSVCD__APART void nsvcd__cut_ends(const nsvcd__motion *motion, nsvcd__segments *out, nsvcd__cut *cut) {
+  nsvcd__v seen[4], m[9], p[3], last_seen[4];
+  const nsvcd__v scale = nsvcd__v_set(motion->scale);
+  const nsvcd__v_poses at = nsvcd__knots_load(motion, &cut->here, 1);
   nsvcd__v_seen(motion, &at, seen, p);
   nsvcd__v_matrix(seen, m);
   nsvcd__knots_keep(motion, &at, seen, &cut->end);
@@ -4924,6 +4947,7 @@ static NSVCD__APART void nsvcd__cut_ends(const nsvcd__motion *motion, const uint
     nsvcd__v_store(out->turned[i], nsvcd__v_sub(nsvcd__v_mul(scale, m[i]), nsvcd__v_load(out->rotation[i])));
   }
   for (size_t i = 0; i < 3; i++) nsvcd__v_store(out->moved[i], nsvcd__v_sub(p[i], nsvcd__v_load(out->position[i])));
+  nsvcd__v_load_all(cut->last.seen, last_seen, 4);
   nsvcd__v3_store(out->axis, nsvcd__v3_unit(nsvcd__v_turn_between(last_seen, seen)));
   nsvcd__v3_store(out->way, nsvcd__v3_unit(nsvcd__v3_load(out->moved)));
 }
@@ -5032,7 +5056,8 @@ static NSVCD__APART void nsvcd__cut_knot(const nsvcd__motion *motion, const uint
 static void nsvcd__cut_block(const nsvcd__motion *motion, const uint32_t *begin, size_t count, float lengths,
                              nsvcd__segments *out, nsvcd__cut *cut, float *turn) {
   uint32_t ticks[NSVCD__LANES];
-  nsvcd__cut_ends(motion, begin, out, cut);
+  nsvcd__cut_starts(motion, begin, out, cut);
+  nsvcd__cut_ends(motion, out, cut);
   memcpy(ticks, begin, sizeof ticks);
   for (int within = 1; within;) {
     within = 0;
@@ -5093,8 +5118,9 @@ static void nsvcd__choose_segments(nsvcd__motion *motion, nsvcd__workspace *work
   work->time[segments] = 1;
 }
 
-// Fills workspace: the chosen segments' poses in the fixed body's frame, and deviations. `lengths`: the bodies' extents.
-static void nsvcd__cut_segments(const nsvcd__motion *motion, float lengths, nsvcd__workspace *work) {
+// Fills workspace: the chosen segments' poses in the fixed body's frame, and deviations. `lengths`: the bodies' extents;
+// clearance: spheres that come so near are to count as meeting.
+static void nsvcd__cut_segments(const nsvcd__motion *motion, float lengths, float clearance, nsvcd__workspace *work) {
   work->turn[0] = 0;
   for (size_t first = 0; first < work->segments; first += NSVCD__LANES) {
     const size_t left = work->segments - first;
@@ -5102,7 +5128,9 @@ static void nsvcd__cut_segments(const nsvcd__motion *motion, float lengths, nsvc
     uint32_t ends[NSVCD__LANES + 1];
     float turn[NSVCD__LANES];
     for (size_t l = 0; l <= NSVCD__LANES; l++) ends[l] = work->begin[first + (l < count ? l : count)];
-    nsvcd__cut_block(motion, ends, count, lengths, &work->blocks[first / NSVCD__LANES], &work->cut, turn);
+    nsvcd__segments *block = &work->blocks[first / NSVCD__LANES];
+    nsvcd__cut_block(motion, ends, count, lengths, block, &work->cut, turn);
+    for (size_t l = 0; l < count; l++) block->spread[l] += clearance;
     for (size_t l = 0; l < count; l++) work->turn[first + l + 1] = work->turn[first + l] + turn[l];
   }
 }
@@ -5110,7 +5138,7 @@ static void nsvcd__cut_segments(const nsvcd__motion *motion, float lengths, nsvc
 #ifndef NSVCD_NO_NETWORK
 static void nsvcd__cut_motion(nsvcd__motion *motion, float lengths, nsvcd__workspace *work) {
   nsvcd__choose_segments(motion, work);
-  nsvcd__cut_segments(motion, lengths, work);
+  nsvcd__cut_segments(motion, lengths, 0, work);
 }
 #endif
 
@@ -5462,6 +5490,7 @@ static int nsvcd__search_begin(const nsvcd_body *moving, const nsvcd_body *fixed
   size_t meetings[NSVCD__MAX_GROUPS];
   nsvcd__boxes boxes;
   work->steps = work->step = 0, work->waiting = 0;
+  work->wanted = ~(uint64_t)0;
   for (size_t g = 0; wanted && g < nsvcd__body_groups(moving); g++) {
     if (g % NSVCD__LANES == 0) nsvcd__boxes_of_groups(work, moving, g, fixed, wanted, &boxes);
     const uint32_t groups = nsvcd__groups_at_box(&boxes, g % NSVCD__LANES, fixed);
@@ -5514,12 +5543,12 @@ static uint32_t nsvcd__group_against_members(const nsvcd__workspace *work, const
 static size_t nsvcd__search_group(nsvcd__workspace *work, const nsvcd_body *moving, const nsvcd_body *fixed) {
   const uint64_t *nearby = work->nearby[work->order[work->step]];
   size_t longest = 0, most = 0;
-  nsvcd__chords_of_group(work, moving, work->order[work->step]);
   for (size_t h = 0; h < nsvcd__body_groups(fixed); h++) {
-    const size_t count = nsvcd__bit_count(nearby[h]);
+    const size_t count = nsvcd__bit_count(nearby[h] & work->wanted);
     if (count > 0) work->waiting |= (uint32_t)1 << h;
     if (count > most) most = count, longest = h;
   }
+  if (work->waiting) nsvcd__chords_of_group(work, moving, work->order[work->step]);
   work->posed = 0;
   return longest;
 }
@@ -5606,6 +5635,7 @@ static void nsvcd__candidates_start(nsvcd__candidates *kept, nsvcd__candidate *i
 #define NSVCD__DEEP 0.2f         // depth from which on an item is worth a look for a witness before any plane
 #define NSVCD__WINDOW 8          // blocks of a resting patch, loaded at once
 #define NSVCD__HOPE 8            // so many looks for a witness come before triangles are tried over a whole segment
+#define NSVCD__IN_ORDER 4        // segments that are searched together, where the first contact is sought
 #define NSVCD__HALVINGS 40       // of a span for a pair of triangles, at most
 #define NSVCD__PATIENCE_TO_PART 12  // parts of a span that pairs of triangles ask for, before all go on with its halves,
 #define NSVCD__SHORTEST 0.015    // if it is longer than this share of an arc
@@ -5636,6 +5666,7 @@ typedef struct nsvcd__arc {
   nsvcd__leg moving;      // as the fixed body sees it; where that moves, in the world, and so is
   nsvcd__leg fixed;       // the fixed body's own
   nsvcd__d3 from, moved;  // from the fixed body's origin to the moving one's, and how it changes; in the same axes
+  nsvcd__d3 lift;         // what is added to that as the fixed body sees it
   nsvcd__d3 axis;         // of the turn, unit, if the fixed body does not turn
   int has_axis;
   double turn, speed;    // over the arc, as the fixed body sees it: radians, and the way of the moving origin, at most
@@ -5671,7 +5702,8 @@ typedef struct nsvcd__box {
 } nsvcd__box;
 
 typedef struct nsvcd__contact {
-  double time;
+  double tick;      // when
+  double distance;  // of the triangles
   nsvcd__d3 point, normal;  // the fixed body's frame; out of the fixed body
   uint32_t moving_triangle, fixed_triangle;
   uint16_t moving_patch, fixed_patch;
@@ -5682,7 +5714,8 @@ typedef enum nsvcd__verdict {
   NSVCD__MEETS,
   NSVCD__UNDECIDED,
   NSVCD__WITHIN,
-  NSVCD__TOO_LONG  // a span that had better be halved
+  NSVCD__TOO_LONG,  // a span that had better be halved
+  NSVCD__TAKEN      // a contact was found that changes what is asked: ask again
 } nsvcd__verdict;
 
 // A pose that has been computed.
@@ -5704,10 +5737,20 @@ typedef struct nsvcd__proof {
   // Lengths are in the fixed body's units.
   float lengths;         // extents of both bodies
   double tolerance;      // beyond the quanta
+  // What is asked. A contact is two triangles that come within the clearance. With `measure` each contact makes that the
+  // distance of its triangles, less this; with `first` each ends the motion so many ticks before it. So what is proven in
+  // the end holds for the rest.
+  double clearance, measure, first;
+  double end;            // ticks: what begins then or later does not matter
+  double clipped_end;    // what that was when a segment was clipped last,
+  uint64_t clipped;      // and those that were
+  double unsure;         // ticks: when the first doubt begins, two triangles that came too near to tell
+  int lost;              // something else was left undecided
+  int has_contact;
   size_t work, limit;    // units
-  int undecided;         // something was left so
   int within;            // a component seems to be within the other body, but close to its surface
-  nsvcd__contact found;  // if MEETS or WITHIN
+  nsvcd__contact found;  // if there is a contact, or WITHIN
+  nsvcd__contact doubt;   // what the first doubt is about
   nsvcd__arc arc;        // the last one asked for
   uint64_t spans_known;  // segments
   nsvcd__span spans[NSVCD__MAX_SEGMENTS];
@@ -5719,7 +5762,7 @@ typedef struct nsvcd__proof {
   size_t fresh_count, count;
   nsvcd__item fresh[NSVCD__FRESH];  // as the search finds them
   nsvcd__item items[NSVCD__ITEMS];  // that no plane parts over their segment
-  float start[3][NSVCD__LANES], end[3][NSVCD__LANES], rest[3][NSVCD__LANES];  // hulls, posed
+  float hull_start[3][NSVCD__LANES], hull_end[3][NSVCD__LANES], hull_rest[3][NSVCD__LANES];  // posed
   nsvcd__f3 held;    // normal of the last plane that held,
   uint32_t plane;    // and how many held before; 0: none
   nsvcd__height heights[NSVCD__HEIGHTS], rest_heights[NSVCD__REST_HEIGHTS];
@@ -5884,6 +5927,7 @@ static const nsvcd__arc *nsvcd__arc_at(nsvcd__proof *p, uint32_t first) {
   arc->ticks = ticks;
   arc->fixed_moves = motion->fixed_moves;
   arc->scale = (double)motion->scale;
+  arc->lift = nsvcd__d3_load(motion->lift);
   nsvcd__leg_init(&motion->moving, first, ticks, &arc->moving, ends);
   nsvcd__leg_init(&motion->fixed, first, ticks, &arc->fixed, fixed_ends);
   arc->from = nsvcd__d3_scale(nsvcd__d3_sub(ends[0], fixed_ends[0]), per_metre);
@@ -5929,6 +5973,7 @@ static nsvcd__placement nsvcd__placement_at(const nsvcd__arc *arc, double u) {
     memcpy(q, seen, sizeof q);
     at.position = nsvcd__rotate_back(rows, at.position);
   }
+  at.position = nsvcd__d3_add(at.position, arc->lift);
   nsvcd__rows_of(q, at.rows);
   for (size_t k = 0; k < 3; k++) at.rows[k] = nsvcd__d3_scale(at.rows[k], arc->scale);
   return at;
@@ -5986,7 +6031,7 @@ static nsvcd__span nsvcd__span_of_segment(const nsvcd__motion *motion, const nsv
   span.start.position = nsvcd__f3_of(block->position[0][l], block->position[1][l], block->position[2][l]);
   const nsvcd__f3 moved = nsvcd__f3_of(block->moved[0][l], block->moved[1][l], block->moved[2][l]);
   span.end.position = nsvcd__f3_add(span.start.position, moved);
-  span.spread = block->spread[l];
+  span.spread = block->rounding[l] + block->drift[l];
   span.bulge = block->bulge[l];
   span.rounding = block->rounding[l];
   span.drift = block->drift[l];
@@ -6002,7 +6047,10 @@ static nsvcd__span nsvcd__span_of_segment(const nsvcd__motion *motion, const nsv
 
 // Kept once it has been made.
 static const nsvcd__span *nsvcd__segment_span(nsvcd__proof *p, const nsvcd__workspace *work, size_t s) {
-  if (!(p->spans_known >> s & 1)) p->spans[s] = nsvcd__span_of_segment(p->motion, work, s);
+  if (!(p->spans_known >> s & 1)) {
+    p->spans[s] = nsvcd__span_of_segment(p->motion, work, s);
+    p->spans[s].t_end = fmin(p->spans[s].t_end, nsvcd__time_of(p, p->end));
+  }
   p->spans_known |= (uint64_t)1 << s;
   return &p->spans[s];
 }
@@ -6089,6 +6137,9 @@ NSVCD__INLINE nsvcd__v nsvcd__v_deviation(const nsvcd__v_span *span, nsvcd__v3 n
   return nsvcd__v_fma(turn, nsvcd__v_set(reach), nsvcd__v_min(by_axis, by_way));
 }
 
+// The clearance, in float: not less.
+static float nsvcd__clearance_of(const nsvcd__proof *p) { return 1.000001f * (float)p->clearance; }
+
 // What stored triangles of two patches may be off by, both together.
 static float nsvcd__quanta_of(const nsvcd__proof *p, size_t i, size_t j) {
   return p->motion->scale * p->moving.quanta[i] + p->fixed.quanta[j];
@@ -6129,6 +6180,7 @@ typedef struct nsvcd__approach {
   nsvcd__v low, high, across;  // of the moving disc, in its body's units
   float scale, per_scale;      // of the moving body
   float reach;                 // no point of the group is farther from the body's origin, in its body's units
+  float clearance;
 } nsvcd__approach;
 
 // Lanes that the plane normal to the resting disc parts: on the side of its normal, or on the other (`below`).
@@ -6148,7 +6200,7 @@ static uint32_t nsvcd__apart_by_fixed_disc(const nsvcd__approach *a, const nsvcd
   const nsvcd__v height_end = nsvcd__v_add(height, nsvcd__v3_dot(n, a->chord));
   const nsvcd__v lowest = nsvcd__v_min(nsvcd__v_add(height, start.low), nsvcd__v_add(height_end, end.low));
   const nsvcd__v highest = nsvcd__v_max(nsvcd__v_add(height, start.high), nsvcd__v_add(height_end, end.high));
-  const float deviation = span->rounding + nsvcd__deviation(span, normal, a->reach);
+  const float deviation = a->clearance + span->rounding + nsvcd__deviation(span, normal, a->reach);
   *below = nsvcd__v_lt(highest, nsvcd__v_set(low - deviation));
   return nsvcd__v_lt(nsvcd__v_set(high + deviation), lowest) | *below;
 }
@@ -6176,7 +6228,8 @@ static uint32_t nsvcd__apart_by_moving_disc(const nsvcd__approach *a, const nsvc
   const nsvcd__v height = nsvcd__v3_dot(w, a->from);
   const nsvcd__v height_end = nsvcd__v_add(height, nsvcd__v3_dot(w, a->chord));
   const nsvcd__v_span spans = nsvcd__v_span_set(span);
-  const nsvcd__v deviation = nsvcd__v_add(spans.rounding, nsvcd__v_deviation(&spans, w, a->reach));
+  const nsvcd__v allowed = nsvcd__v_set(span->rounding + a->clearance);
+  const nsvcd__v deviation = nsvcd__v_add(allowed, nsvcd__v_deviation(&spans, w, a->reach));
   const nsvcd__v lowest = nsvcd__v_add(nsvcd__v_min(height, height_end), moving.low);
   const nsvcd__v highest = nsvcd__v_add(nsvcd__v_max(height, height_end), moving.high);
   *plane = w;
@@ -6223,6 +6276,7 @@ static uint32_t nsvcd__discs_meet(const nsvcd__proof *p, const nsvcd__chords *c,
   a.scale = p->motion->scale;
   a.per_scale = p->motion->per_scale;
   a.reach = reach;
+  a.clearance = nsvcd__clearance_of(p);
 
   uint32_t below;
   uint32_t apart = nsvcd__apart_by_fixed_disc(&a, span, normal, low, high, &below) & met;
@@ -6274,8 +6328,9 @@ NSVCD__INLINE nsvcd__v3 nsvcd__v3_turned_back(float (*m)[NSVCD__LANES], nsvcd__f
 // nsvcd__apart_by_fixed_disc and nsvcd__apart_by_moving_disc, with all in lanes but the discs.
 static uint32_t nsvcd__groups_apart(nsvcd__segments *block, const nsvcd__chords *c, const nsvcd__disc *moving,
                                     const nsvcd__disc *fixed, nsvcd__f3 fixed_centre, float scale, float reach,
-                                    nsvcd__v3 *planes, uint32_t *below) {
+                                    float clearance, nsvcd__v3 *planes, uint32_t *below) {
   const nsvcd__v_span spans = nsvcd__v_span_load(block);
+  const nsvcd__v allowed = nsvcd__v_add(spans.rounding, nsvcd__v_set(clearance));
   const nsvcd__v3 n = nsvcd__v3_set(fixed->normal);
   const nsvcd__v3 m = nsvcd__v3_set(moving->normal);
   const nsvcd__v3 from = nsvcd__v3_sub(nsvcd__v3_of(nsvcd__v_load(c->x), nsvcd__v_load(c->y), nsvcd__v_load(c->z)),
@@ -6292,7 +6347,7 @@ static uint32_t nsvcd__groups_apart(nsvcd__segments *block, const nsvcd__chords 
   const nsvcd__v height_end = nsvcd__v_add(height, nsvcd__v3_dot(n, chord));
   const nsvcd__v lowest = nsvcd__v_min(nsvcd__v_add(height, start.low), nsvcd__v_add(height_end, end.low));
   const nsvcd__v highest = nsvcd__v_max(nsvcd__v_add(height, start.high), nsvcd__v_add(height_end, end.high));
-  const nsvcd__v deviation = nsvcd__v_add(spans.rounding, nsvcd__v_deviation(&spans, n, reach));
+  const nsvcd__v deviation = nsvcd__v_add(allowed, nsvcd__v_deviation(&spans, n, reach));
   below[0] = nsvcd__v_lt(highest, nsvcd__v_sub(nsvcd__v_set(fixed->low), deviation));
   const uint32_t by_fixed = nsvcd__v_lt(nsvcd__v_add(nsvcd__v_set(fixed->high), deviation), lowest) | below[0];
 
@@ -6305,7 +6360,7 @@ static uint32_t nsvcd__groups_apart(nsvcd__segments *block, const nsvcd__chords 
       nsvcd__one_disc_along(fixed, nsvcd__v3_dot(w, n), nsvcd__v3_length(nsvcd__v3_cross(w, n)));
   const nsvcd__v along = nsvcd__v3_dot(w, from);
   const nsvcd__v along_end = nsvcd__v_add(along, nsvcd__v3_dot(w, chord));
-  const nsvcd__v stray = nsvcd__v_add(spans.rounding, nsvcd__v_deviation(&spans, w, reach));
+  const nsvcd__v stray = nsvcd__v_add(allowed, nsvcd__v_deviation(&spans, w, reach));
   const nsvcd__v low = nsvcd__v_add(nsvcd__v_min(along, along_end), own.low);
   const nsvcd__v high = nsvcd__v_add(nsvcd__v_max(along, along_end), own.high);
   below[1] = nsvcd__v_lt(high, nsvcd__v_sub(other.low, stray));
@@ -6363,7 +6418,7 @@ static void nsvcd__part_groups(const nsvcd__proof *p, nsvcd__workspace *work, si
       if (!there) continue;
       NSVCD__TALLY(tests, 1);
       const uint32_t apart = there & nsvcd__groups_apart(&work->blocks[b], &work->group[b], &own, &disc, fixed_centre,
-                                                         work->scale, reach, planes, below);
+                                                         work->scale, reach, nsvcd__clearance_of(p), planes, below);
       NSVCD__CERTIFY_GROUPS(p, work, b, g, h, apart, planes, below);
       *met &= ~((uint64_t)apart << (NSVCD__LANES * b));
     }
@@ -6376,9 +6431,9 @@ static void nsvcd__part_groups(const nsvcd__proof *p, nsvcd__workspace *work, si
 // The hulls of an item's patches, posed, into the workspace.
 static void nsvcd__pose_hulls(nsvcd__proof *p, size_t i, size_t j, const nsvcd__span *span) {
   const nsvcd__v3 moving = nsvcd__facet_vertices(&p->moving, i, 0, p->moving.hull_counts[i]);
-  nsvcd__v3_store(p->start, nsvcd__v3_transform(&span->start, moving));
-  nsvcd__v3_store(p->end, nsvcd__v3_transform(&span->end, moving));
-  nsvcd__v3_store(p->rest, nsvcd__facet_vertices(&p->fixed, j, 0, p->fixed.hull_counts[j]));
+  nsvcd__v3_store(p->hull_start, nsvcd__v3_transform(&span->start, moving));
+  nsvcd__v3_store(p->hull_end, nsvcd__v3_transform(&span->end, moving));
+  nsvcd__v3_store(p->hull_rest, nsvcd__facet_vertices(&p->fixed, j, 0, p->fixed.hull_counts[j]));
 }
 
 static nsvcd__f3 nsvcd__lane_of(float (*lanes)[NSVCD__LANES], size_t l) {
@@ -6395,9 +6450,9 @@ typedef struct nsvcd__support {
 
 NSVCD__INLINE nsvcd__support nsvcd__support_along(nsvcd__proof *p, nsvcd__f3 normal) {
   const nsvcd__v3 n = nsvcd__v3_set(normal);
-  const nsvcd__v at_start = nsvcd__v3_dot(n, nsvcd__v3_load(p->start));
-  const nsvcd__v at_end = nsvcd__v3_dot(n, nsvcd__v3_load(p->end));
-  const nsvcd__v at_rest = nsvcd__v_negate(nsvcd__v3_dot(n, nsvcd__v3_load(p->rest)));
+  const nsvcd__v at_start = nsvcd__v3_dot(n, nsvcd__v3_load(p->hull_start));
+  const nsvcd__v at_end = nsvcd__v3_dot(n, nsvcd__v3_load(p->hull_end));
+  const nsvcd__v at_rest = nsvcd__v_negate(nsvcd__v3_dot(n, nsvcd__v3_load(p->hull_rest)));
   const nsvcd__v at_either = nsvcd__v_min(at_start, at_end);
   const float lowest = nsvcd__v_least(at_either);
   const float highest = -nsvcd__v_least(at_rest);
@@ -6405,8 +6460,8 @@ NSVCD__INLINE nsvcd__support nsvcd__support_along(nsvcd__proof *p, nsvcd__f3 nor
   const size_t a = nsvcd__lowest_bit(nsvcd__v_le(at_either, nsvcd__v_set(lowest)) | 0x8000);
   const size_t b = nsvcd__lowest_bit(nsvcd__v_le(at_rest, nsvcd__v_set(-highest)) | 0x8000);
   const int is_start = (nsvcd__v_le(at_start, at_end) >> a & 1) != 0;
-  const nsvcd__f3 moving = nsvcd__lane_of(is_start ? p->start : p->end, a);
-  const nsvcd__support out = {lowest - highest, nsvcd__f3_sub(moving, nsvcd__lane_of(p->rest, b))};
+  const nsvcd__f3 moving = nsvcd__lane_of(is_start ? p->hull_start : p->hull_end, a);
+  const nsvcd__support out = {lowest - highest, nsvcd__f3_sub(moving, nsvcd__lane_of(p->hull_rest, b))};
   return out;
 }
 
@@ -6434,7 +6489,8 @@ static void nsvcd__guess_normals(const nsvcd__proof *p, size_t i, size_t j, cons
 // Is there a plane between two patches over the whole span? After the guesses Gilbert's iteration (1966) towards the
 // point nearest to 0 of the differences of the two hulls; each of its directions is tried. p->held is what held.
 static NSVCD__APART int nsvcd__hulls_are_apart(nsvcd__proof *p, size_t i, size_t j, const nsvcd__span *span) {
-  const float slack = p->motion->scale * p->moving.slacks[i] + p->fixed.slacks[j] + span->rounding;
+  const float slacks = p->motion->scale * p->moving.slacks[i] + p->fixed.slacks[j];
+  const float slack = slacks + span->rounding + nsvcd__clearance_of(p);
   const float reach = nsvcd__patch_reach(&p->moving, i);
   nsvcd__f3 guesses[NSVCD__GUESSES];
   nsvcd__f3 nearest = {0, 0, 0};
@@ -6593,18 +6649,55 @@ static nsvcd__pair nsvcd__pair_of(const nsvcd__proof *p, size_t i, size_t j, siz
   return pair;
 }
 
-static void nsvcd__keep_contact(nsvcd__proof *p, const nsvcd__pair *pair, double time, nsvcd__d3 point) {
+// Two triangles come within the clearance a share u of the arc later than its start. MEETS if that is an answer, TAKEN if
+// there may be a better one.
+static nsvcd__verdict nsvcd__take_contact(nsvcd__proof *p, const nsvcd__pair *pair, double u,
+                                          const nsvcd__nearest *nearest) {
   const nsvcd__d3 *t = pair->fixed;
-  const nsvcd__d3 normal = nsvcd__d3_cross(nsvcd__d3_sub(t[1], t[0]), nsvcd__d3_sub(t[2], t[0]));
-  const double length = nsvcd__d3_length(normal);
-  p->found.time = time;
-  p->found.point = point;
-  p->found.normal = length > 0 ? nsvcd__d3_scale(normal, 1 / length) : nsvcd__d3_of(0, 0, 0);
+  const nsvcd__d3 face = nsvcd__d3_cross(nsvcd__d3_sub(t[1], t[0]), nsvcd__d3_sub(t[2], t[0]));
+  const double distance = sqrt(nearest->square);
+  const int touches = distance <= pair->rounding;
+  p->has_contact = 1;
+  p->found.tick = (double)p->arc.first + u * (double)p->arc.ticks;
+  p->found.distance = touches ? 0 : distance;
+  p->found.point = nearest->on_b;
+  p->found.normal = nsvcd__d3_unit(touches ? face : nsvcd__d3_sub(nearest->on_a, nearest->on_b), nsvcd__d3_of(0, 0, 0));
   p->found.moving_triangle = nsvcd__facet_number(&p->moving, pair->moving_patch, pair->moving_listing);
   p->found.fixed_triangle = nsvcd__facet_number(&p->fixed, pair->fixed_patch, pair->fixed_listing);
   p->found.moving_patch = (uint16_t)pair->moving_patch;
   p->found.fixed_patch = (uint16_t)pair->fixed_patch;
+  if (p->measure > 0) {
+    p->clearance = touches ? 0 : fmax(0, distance - p->measure);
+    return touches ? NSVCD__MEETS : NSVCD__TAKEN;
+  }
+  if (p->first > 0) {
+    p->end = fmin(p->found.tick - p->first, p->unsure);
+    return p->end > 0 ? NSVCD__TAKEN : NSVCD__MEETS;
+  }
+  return NSVCD__MEETS;
 }
+
+// Two triangles come so near from u0 to u1 of the arc that it cannot be told whether they touch. Where a contact follows,
+// it begins here.
+static NSVCD__APART void nsvcd__take_doubt(nsvcd__proof *p, const nsvcd__pair *pair, double u0, double u1) {
+  const double tick = (double)p->arc.first + u0 * (double)p->arc.ticks;
+  if (!(tick < p->unsure)) return;
+  const nsvcd__contact found = p->found;
+  const double end = p->end;
+  const int has_contact = p->has_contact;
+  nsvcd__d3 posed[3];
+  nsvcd__place_triangle(nsvcd__placed_at(p, 0.5 * (u0 + u1)), pair->moving, posed);
+  const nsvcd__nearest nearest = nsvcd__triangles_nearest(posed, pair->fixed);
+  (void)nsvcd__take_contact(p, pair, 0.5 * (u0 + u1), &nearest);
+  p->doubt = p->found;
+  p->found = found;
+  p->has_contact = has_contact;
+  p->unsure = tick;
+  p->end = p->first > 0 && has_contact ? fmin(end, tick) : end;
+}
+
+// What of the arc matters: the share of it at which the rest does not.
+static double nsvcd__arc_limit(const nsvcd__proof *p) { return (p->end - (double)p->arc.first) / (double)p->arc.ticks; }
 
 // Does the plane with this unit normal part the pair from u0 to u1 of the arc?
 static int nsvcd__plane_parts(nsvcd__proof *p, const nsvcd__pair *pair, double u0, double u1, nsvcd__d3 normal) {
@@ -6619,7 +6712,7 @@ static int nsvcd__plane_parts(nsvcd__proof *p, const nsvcd__pair *pair, double u
   }
   const double off_axis = arc->has_axis ? nsvcd__d3_length(nsvcd__d3_cross(normal, arc->axis)) + 1e-6 : 1;
   const double deviation = (u1 - u0) * (u1 - u0) * (arc->bulge * pair->reach * off_axis + arc->drift);
-  return lowest - highest > pair->slack + deviation;
+  return lowest - highest > p->clearance + pair->slack + deviation;
 }
 
 // A pair at three times: the moving triangle's corners.
@@ -6711,10 +6804,10 @@ static int nsvcd__pair_passes(nsvcd__proof *p, const nsvcd__pair *pair, double u
   return nsvcd__triangles_pass(&passage, pair->fixed, pair->rounding);
 }
 
-// Where a pair has met by passing, the time is narrowed down to rounding, and is the contact's.
-static NSVCD__APART int nsvcd__find_passage(nsvcd__proof *p, const nsvcd__pair *pair, double u0, double u1,
-                                            double speed) {
-  if (!nsvcd__pair_passes(p, pair, u0, u1, speed)) return 0;
+// Where a pair has met by passing, the time is narrowed down to rounding, and is the contact's. FREE where it has not.
+static NSVCD__APART nsvcd__verdict nsvcd__find_passage(nsvcd__proof *p, const nsvcd__pair *pair, double u0, double u1,
+                                                       double speed) {
+  if (!nsvcd__pair_passes(p, pair, u0, u1, speed)) return NSVCD__FREE;
   for (size_t n = 0; n < NSVCD__HALVINGS; n++) {
     const double middle = 0.5 * (u0 + u1);
     p->work++;
@@ -6726,9 +6819,9 @@ static NSVCD__APART int nsvcd__find_passage(nsvcd__proof *p, const nsvcd__pair *
   const double when = 0.5 * (u0 + u1);
   nsvcd__d3 posed[3];
   nsvcd__place_triangle(nsvcd__placed_at(p, when), pair->moving, posed);
-  const nsvcd__nearest nearest = nsvcd__triangles_nearest(posed, pair->fixed);
-  nsvcd__keep_contact(p, pair, nsvcd__time_in_arc(p, when), nearest.on_b);
-  return 1;
+  nsvcd__nearest nearest = nsvcd__triangles_nearest(posed, pair->fixed);
+  nearest.square = 0;
+  return nsvcd__take_contact(p, pair, when, &nearest);
 }
 
 static void nsvcd__certify_pair(const nsvcd__proof *p, const nsvcd__pair *pair, double u0, double u1) {
@@ -6744,16 +6837,18 @@ static void nsvcd__certify_pair(const nsvcd__proof *p, const nsvcd__pair *pair, 
 }
 
 // Settles a pair of triangles from u0 to u1 of the arc: halves the time until a plane parts them in each part, the one
-// that parted a pair last or one at the middle's nearest points, or they meet there, or come too close to tell.
+// that parted a pair last or one at the middle's nearest points, or there is a contact, or they come too close to tell.
 static NSVCD__APART nsvcd__verdict nsvcd__settle_pair(nsvcd__proof *p, const nsvcd__pair *pair, double u0, double u1) {
   const nsvcd__arc *arc = &p->arc;
   const double speed = arc->speed + arc->turn * arc->scale * pair->reach;
+  const double close = pair->slack + p->tolerance;
   double *ends = p->pair_ends;
   size_t left = 1;
-  int undecided = 0;
+  int undecided = 0, taken = 0;
   ends[0] = u1;
   for (double u = u0; left > 0;) {
-    const double end = ends[left - 1];
+    const double end = fmin(ends[left - 1], nsvcd__arc_limit(p));
+    if (!(u < end)) break;  // what was in doubt may be the end
     const double middle = 0.5 * (u + end);
     p->work++;
     NSVCD__TALLY(pairs, 1);
@@ -6764,27 +6859,37 @@ static NSVCD__APART nsvcd__verdict nsvcd__settle_pair(nsvcd__proof *p, const nsv
       nsvcd__place_triangle(nsvcd__placed_at(p, middle), pair->moving, posed);
       const nsvcd__nearest nearest = nsvcd__triangles_nearest(posed, pair->fixed);
       const double distance = sqrt(nearest.square);
-      if (distance <= pair->rounding) {
-        nsvcd__keep_contact(p, pair, nsvcd__time_in_arc(p, middle), nearest.on_a);
-        return NSVCD__MEETS;
+      if (distance <= p->clearance + pair->rounding) {
+        if (nsvcd__take_contact(p, pair, middle, &nearest) == NSVCD__MEETS) return NSVCD__MEETS;
+        taken = 1;
+        continue;
       }
       p->parting = nsvcd__d3_scale(nsvcd__d3_sub(nearest.on_a, nearest.on_b), 1 / distance);
       apart = nsvcd__plane_parts(p, pair, u, end, p->parting);
     }
     if (apart) nsvcd__certify_pair(p, pair, u, end);
-    const double close = pair->slack + p->tolerance;
     const int tiny = speed * (end - u) <= 0.25 * close || left > NSVCD__HALVINGS;
     if (!apart && !tiny) {
       ends[left++] = middle;
       p->parts++;
       continue;
     }
-    if (!apart && nsvcd__find_passage(p, pair, u, end, speed)) return NSVCD__MEETS;
-    undecided |= !apart;
+    if (!apart) {
+      const nsvcd__verdict passage = nsvcd__find_passage(p, pair, u, end, speed);
+      if (passage == NSVCD__MEETS) return passage;
+      taken |= passage == NSVCD__TAKEN;
+      if (passage == NSVCD__TAKEN) continue;
+      if (p->measure > 0 && p->clearance > 0) {  // say less, but for certain
+        p->clearance = fmax(0, p->clearance - 2 * close);
+        continue;
+      }
+      undecided = 1;
+      nsvcd__take_doubt(p, pair, u, end);
+    }
     u = end;
     left--;
   }
-  return undecided ? NSVCD__UNDECIDED : NSVCD__FREE;
+  return taken ? NSVCD__TAKEN : undecided ? NSVCD__UNDECIDED : NSVCD__FREE;
 }
 
 // ---- blocks of triangles
@@ -6990,10 +7095,25 @@ static NSVCD__APART uint32_t nsvcd__row_left(nsvcd__proof *p, size_t i, size_t j
 
 // ---- witnesses
 
-// Among the moving block, posed `at`, and a block of the window: two triangles that meet a share u of the arc later than
-// its start.
-static int nsvcd__find_witness_in(nsvcd__proof *p, size_t i, size_t j, size_t n, const nsvcd__placement *at, double u,
-                                  float margin) {
+// The nearest points of a posed triangle and another, if they come within the clearance; NULL square: HUGE_VAL if not.
+static nsvcd__nearest nsvcd__contact_of(const nsvcd__proof *p, const nsvcd__d3 *posed, const nsvcd__pair *pair) {
+  nsvcd__nearest out = {HUGE_VAL, {0, 0, 0}, {0, 0, 0}};
+  nsvcd__d3 point;
+  if (nsvcd__triangles_meet(posed, pair->fixed, &point)) {
+    out.square = 0;
+    out.on_a = point;
+    out.on_b = point;
+  } else if (p->clearance > 0) {
+    const nsvcd__nearest nearest = nsvcd__triangles_nearest(posed, pair->fixed);
+    if (nearest.square <= p->clearance * p->clearance) out = nearest;
+  }
+  return out;
+}
+
+// Among the moving block, posed `at`, and a block of the window: looks for a contact a share u of the arc later than its
+// start. FREE: there is none.
+static nsvcd__verdict nsvcd__find_witness_in(nsvcd__proof *p, size_t i, size_t j, size_t n, const nsvcd__placement *at,
+                                             double u, float margin) {
   nsvcd__block *fixed = &p->fixed_blocks[n];
   uint32_t lanes = nsvcd__lanes_near(&p->moving_block, p->bounds[n], margin);
   for (; lanes; lanes &= lanes - 1) {
@@ -7005,14 +7125,17 @@ static int nsvcd__find_witness_in(nsvcd__proof *p, size_t i, size_t j, size_t n,
       const nsvcd__pair pair = nsvcd__pair_of(p, i, j, listing, fixed->first + nsvcd__lowest_bit(met));
       nsvcd__d3 posed[3];
       nsvcd__place_triangle(at, pair.moving, posed);
-      nsvcd__d3 point;
       p->work++;
-      if (!nsvcd__triangles_meet(posed, pair.fixed, &point)) continue;
-      nsvcd__keep_contact(p, &pair, nsvcd__time_in_arc(p, u), point);
-      return 1;
+      const nsvcd__nearest nearest = nsvcd__contact_of(p, posed, &pair);
+      if (!(nearest.square < HUGE_VAL)) continue;
+      const nsvcd__verdict verdict = nsvcd__take_contact(p, &pair, u, &nearest);
+      if (verdict == NSVCD__MEETS) return verdict;
+      // The pair may touch sooner, or come closer.
+      const nsvcd__verdict better = nsvcd__settle_pair(p, &pair, 0, 1);
+      return better == NSVCD__MEETS ? better : verdict;
     }
   }
-  return 0;
+  return NSVCD__FREE;
 }
 
 // Loads 16 triangles of moving patch i, from listing `first` on.
@@ -7021,12 +7144,13 @@ static void nsvcd__moving_block_load(nsvcd__proof *p, size_t i, size_t first) {
   nsvcd__block_load(&p->moving, i, first, left < NSVCD__LANES ? left : NSVCD__LANES, &p->moving_block);
 }
 
-// Looks for two triangles of patches i and j that meet a share u of an arc later than its start.
-static int nsvcd__find_witness(nsvcd__proof *p, size_t i, size_t j, uint32_t first, double u) {
+// Looks for a contact of triangles of patches i and j a share u of an arc later than its start. FREE: there is none.
+static nsvcd__verdict nsvcd__find_witness(nsvcd__proof *p, size_t i, size_t j, uint32_t first, double u) {
   const nsvcd__arc *arc = nsvcd__arc_at(p, first);
   const nsvcd__placement at = nsvcd__placement_at(arc, u);
   const nsvcd__transform rounded = nsvcd__transform_of(&at);
-  const float margin = NSVCD__ROUNDING * (p->lengths + nsvcd__f3_length(rounded.position));
+  const float rounding = NSVCD__ROUNDING * (p->lengths + nsvcd__f3_length(rounded.position));
+  const float margin = rounding + nsvcd__clearance_of(p);
   const size_t moving_end = p->moving.first_triangle[i + 1], fixed_end = p->fixed.first_triangle[j + 1];
   NSVCD__TALLY(tries, 1);
   for (size_t b = p->fixed.first_triangle[j]; b < fixed_end; b += NSVCD__WINDOW * NSVCD__LANES) {
@@ -7037,12 +7161,13 @@ static int nsvcd__find_witness(nsvcd__proof *p, size_t i, size_t j, uint32_t fir
       nsvcd__block_box(p, 1);
       for (size_t n = 0; n < p->window; n++) {
         p->work++;
-        if (p->work > p->limit) return 0;
-        if (nsvcd__find_witness_in(p, i, j, n, &at, u, margin)) return 1;
+        if (p->work > p->limit) return NSVCD__FREE;
+        const nsvcd__verdict verdict = nsvcd__find_witness_in(p, i, j, n, &at, u, margin);
+        if (verdict != NSVCD__FREE) return verdict;
       }
     }
   }
-  return 0;
+  return NSVCD__FREE;
 }
 
 // The last knot that is not after a tick before the end.
@@ -7061,12 +7186,15 @@ static uint32_t nsvcd__arc_and_share(const nsvcd__motion *motion, double at, dou
   return first;
 }
 
-static int nsvcd__seek_item(nsvcd__proof *p, const nsvcd__workspace *work, nsvcd__item *item) {
+// Looks for a contact of an item where its spheres are nearest, if that still matters. FREE: there is none.
+static nsvcd__verdict nsvcd__seek_item(nsvcd__proof *p, const nsvcd__workspace *work, nsvcd__item *item) {
   const double start = (double)work->begin[item->segment];
-  const double end = (double)work->begin[item->segment + 1u];
+  const double end = fmin((double)work->begin[item->segment + 1u], p->clipped_end);
+  const double tick = start + (double)item->share * (end - start);
   double u;
-  const uint32_t first = nsvcd__arc_and_share(p->motion, start + (double)item->share * (end - start), &u);
   item->sought = 1;
+  if (!(tick < p->end)) return NSVCD__FREE;
+  const uint32_t first = nsvcd__arc_and_share(p->motion, tick, &u);
   return nsvcd__find_witness(p, item->moving, item->fixed, first, u);
 }
 
@@ -7087,7 +7215,7 @@ static nsvcd__verdict nsvcd__settle_row(nsvcd__proof *p, size_t i, size_t j, siz
   for (; met; met &= met - 1) {
     const nsvcd__f3 last = nsvcd__f3_round(p->parting);
     const nsvcd__v3 normal = nsvcd__v3_set(last);
-    const float along = quanta + span->rounding + nsvcd__deviation(span, last, reach);
+    const float along = quanta + span->rounding + nsvcd__clearance_of(p) + nsvcd__deviation(span, last, reach);
     const uint32_t apart = nsvcd__normals_part(p, l, fixed, 2, along, normal, &below) & met;
     NSVCD__CERTIFY_BLOCK(p, i, j, l, fixed, span, apart, &normal, below);
     met &= ~apart;
@@ -7096,7 +7224,7 @@ static nsvcd__verdict nsvcd__settle_row(nsvcd__proof *p, size_t i, size_t j, siz
     const size_t listing = p->moving_block.first + l;
     const nsvcd__pair pair = nsvcd__pair_of(p, i, j, listing, fixed->first + nsvcd__lowest_bit(met));
     const nsvcd__verdict one = nsvcd__settle_pair(p, &pair, u0, u1);
-    if (one == NSVCD__MEETS || p->work > p->limit) return one;
+    if (one == NSVCD__MEETS || one == NSVCD__TAKEN || p->work > p->limit) return one;
     if (one == NSVCD__UNDECIDED) verdict = one;
     if (p->parts > patience) return NSVCD__TOO_LONG;
   }
@@ -7109,7 +7237,7 @@ static NSVCD__APART nsvcd__verdict nsvcd__settle_triangles(nsvcd__proof *p, size
                                                            size_t patience) {
   const size_t moving_end = p->moving.first_triangle[i + 1], fixed_end = p->fixed.first_triangle[j + 1];
   const float reach = p->moving.body->extent + p->moving.quanta[i];
-  const float margin = nsvcd__quanta_of(p, i, j) + span->spread + span->bulge * reach;
+  const float margin = nsvcd__quanta_of(p, i, j) + span->spread + nsvcd__clearance_of(p) + span->bulge * reach;
   nsvcd__verdict verdict = NSVCD__FREE;
   p->parts = 0;
   for (size_t b = p->fixed.first_triangle[j]; b < fixed_end; b += NSVCD__WINDOW * NSVCD__LANES) {
@@ -7129,7 +7257,7 @@ static NSVCD__APART nsvcd__verdict nsvcd__settle_triangles(nsvcd__proof *p, size
             continue;
           }
           const nsvcd__verdict row = nsvcd__settle_row(p, i, j, l, n, span, margin, u0, u1, patience);
-          if (row == NSVCD__MEETS || row == NSVCD__TOO_LONG) return row;
+          if (row == NSVCD__MEETS || row == NSVCD__TOO_LONG || row == NSVCD__TAKEN) return row;
           if (p->work > p->limit) return NSVCD__UNDECIDED;
           if (row == NSVCD__UNDECIDED) verdict = row;
         }
@@ -7155,8 +7283,10 @@ static nsvcd__verdict nsvcd__settle_arc(nsvcd__proof *p, const nsvcd__item *item
   size_t left = 1;
   nsvcd__verdict verdict = NSVCD__FREE;
   ends[0] = u1;
+  nsvcd__arc_at(p, first);
   for (double u = u0; left > 0;) {
-    const double end = ends[left - 1];
+    const double end = fmin(ends[left - 1], nsvcd__arc_limit(p));
+    if (!(u < end)) break;
     p->span = nsvcd__span_of_arc(p, first, u, end);
     if (nsvcd__hulls_are_apart(p, item->moving, item->fixed, &p->span)) {
       nsvcd__certify_item(p, &p->span, item);
@@ -7165,6 +7295,7 @@ static nsvcd__verdict nsvcd__settle_arc(nsvcd__proof *p, const nsvcd__item *item
       const size_t patience = may_halve ? NSVCD__PATIENCE_TO_PART : (size_t)-1;
       const nsvcd__verdict part = nsvcd__settle_triangles(p, item->moving, item->fixed, &p->span, u, end, patience);
       if (part == NSVCD__MEETS || p->work > p->limit) return part;
+      if (part == NSVCD__TAKEN) continue;
       if (part == NSVCD__TOO_LONG) {
         ends[left++] = 0.5 * (u + end);
         continue;
@@ -7181,7 +7312,7 @@ static nsvcd__verdict nsvcd__settle_arc(nsvcd__proof *p, const nsvcd__item *item
 static nsvcd__verdict nsvcd__settle_item(nsvcd__proof *p, const nsvcd__workspace *work, const nsvcd__item *item) {
   const uint32_t end = work->begin[item->segment + 1u];
   nsvcd__verdict verdict = NSVCD__FREE;
-  for (uint32_t at = work->begin[item->segment]; at < end;) {
+  for (uint32_t at = work->begin[item->segment]; at < end && (double)at < p->end;) {
     double u0;
     const uint32_t first = nsvcd__arc_and_share(p->motion, (double)at, &u0);
     const uint32_t knot = nsvcd__next_knot(p->motion, first);
@@ -7229,7 +7360,8 @@ static float nsvcd__greatest_height(nsvcd__proof *p, size_t j) {
 static int nsvcd__held_again(nsvcd__proof *p, const nsvcd__workspace *work, const nsvcd__item *item) {
   const nsvcd__span *span = nsvcd__segment_span(p, work, item->segment);
   const float least = nsvcd__least_height(p, span, item->moving, item->segment);
-  if (!(least > nsvcd__greatest_height(p, item->fixed))) return 0;
+  const float clearance = nsvcd__clearance_of(p) * nsvcd__f3_length(p->held);
+  if (!(least > nsvcd__greatest_height(p, item->fixed) + clearance)) return 0;
   nsvcd__certify_item(p, span, item);
   return 1;
 }
@@ -7248,48 +7380,94 @@ static int nsvcd__triangles_are_parted(nsvcd__proof *p, const nsvcd__workspace *
   return nsvcd__settle_triangles(p, item->moving, item->fixed, span, 0, 0, 0) == NSVCD__FREE;
 }
 
-// Puts the deepest items first.
-static void nsvcd__sort_items(nsvcd__item *items, size_t count) {
+// Does an item come before another: is it deeper; with `first`, once there is a contact, earlier?
+static int nsvcd__comes_first(const nsvcd__proof *p, const nsvcd__item *a, const nsvcd__item *b) {
+  const int by_time = p->first > 0 && p->has_contact && a->segment != b->segment;
+  return by_time ? a->segment < b->segment : a->depth > b->depth;
+}
+static void nsvcd__sort_items(const nsvcd__proof *p, nsvcd__item *items, size_t count) {
   for (size_t n = 1; n < count; n++) {
     const nsvcd__item item = items[n];
     size_t at = n;
-    for (; at > 0 && items[at - 1].depth < item.depth; at--) items[at] = items[at - 1];
+    for (; at > 0 && nsvcd__comes_first(p, &item, &items[at - 1]); at--) items[at] = items[at - 1];
     items[at] = item;
   }
 }
 
-// Settles the items that no plane parts, the deepest first.
-static NSVCD__APART nsvcd__verdict nsvcd__settle_items(nsvcd__proof *p, const nsvcd__workspace *work) {
-  nsvcd__sort_items(p->items, p->count);
+// Does a segment still matter?
+static int nsvcd__matters(const nsvcd__proof *p, const nsvcd__workspace *work, size_t segment) {
+  return (double)work->begin[segment] < p->end;
+}
+
+// Where the end of what matters lies within a segment, that segment is cut off there. What leaves a chord by some length
+// leaves that of a part of the time by no more than twice that, along any direction.
+static NSVCD__APART void nsvcd__clip_segment(nsvcd__proof *p, nsvcd__workspace *work) {
+  size_t s = 0;
+  double u;
+  if (!(p->end < p->clipped_end)) return;
+  p->clipped_end = p->end;
+  while (s < work->segments && !((double)work->begin[s + 1] > p->end)) s++;
+  if (s == work->segments || !((double)work->begin[s] < p->end)) return;
+  nsvcd__segments *block = &work->blocks[s / NSVCD__LANES];
+  const size_t l = s % NSVCD__LANES;
+  const uint32_t first = nsvcd__arc_and_share(p->motion, p->end, &u);
+  const nsvcd__placement at = nsvcd__placement_at(nsvcd__arc_at(p, first), u);
+  const nsvcd__transform end = nsvcd__transform_of(&at);
+  const float position[3] = {end.position.x, end.position.y, end.position.z};
+  for (size_t k = 0; k < 9; k++) block->turned[k][l] = end.rotation[k] - block->rotation[k][l];
+  for (size_t k = 0; k < 3; k++) block->moved[k][l] = position[k] - block->position[k][l];
+  if (!(p->clipped >> s & 1)) {
+    block->spread[l] += block->drift[l];
+    block->bulge[l] *= 2;
+    block->drift[l] *= 2;
+    block->bulge_along_axis[l] *= 2;
+    block->drift_along_axis[l] *= 2;
+    block->drift_off_way[l] *= 2;
+  }
+  p->clipped |= (uint64_t)1 << s;
+  p->spans_known &= ~((uint64_t)1 << s);
+  work->posed &= ~((uint64_t)1 << s);
+  p->plane += p->plane > 0;  // heights over the plane that held last are not what they were
+}
+
+// Settles the items that no plane parts, the best first.
+static NSVCD__APART nsvcd__verdict nsvcd__settle_items(nsvcd__proof *p, nsvcd__workspace *work) {
+  nsvcd__sort_items(p, p->items, p->count);
   for (size_t n = 0; n < p->count; n++) {
     if (p->work > p->limit) return NSVCD__UNDECIDED;
-    const nsvcd__verdict verdict = nsvcd__settle_item(p, work, &p->items[n]);
-    if (verdict == NSVCD__MEETS) return verdict;
-    if (verdict == NSVCD__UNDECIDED) p->undecided = 1;
+    nsvcd__clip_segment(p, work);
+    if (!nsvcd__matters(p, work, p->items[n].segment)) continue;
+    if (p->clipped >> p->items[n].segment & 1 && nsvcd__item_is_parted(p, work, &p->items[n])) continue;
+    if (nsvcd__settle_item(p, work, &p->items[n]) == NSVCD__MEETS) return NSVCD__MEETS;
   }
   p->count = 0;
   return p->work > p->limit ? NSVCD__UNDECIDED : NSVCD__FREE;
 }
 
-// Looks at fresh items, the deepest first: parts those that planes can part, looks for a witness in the others, and
+// Looks at fresh items, the best first: parts those that planes can part, looks for a witness in the others, and
 // keeps them. The last plane that held is tried on all before anything else: it often holds for neighbours.
-static NSVCD__APART nsvcd__verdict nsvcd__sift_items(nsvcd__proof *p, const nsvcd__workspace *work) {
+static NSVCD__APART nsvcd__verdict nsvcd__sift_items(nsvcd__proof *p, nsvcd__workspace *work) {
   size_t count = 0;
+  nsvcd__clip_segment(p, work);
   for (size_t n = 0; n < p->fresh_count; n++) {
     if (p->plane && nsvcd__held_again(p, work, &p->fresh[n])) continue;
     p->fresh[count++] = p->fresh[n];
   }
   p->fresh_count = 0;
-  nsvcd__sort_items(p->fresh, count);
-  if (count > 0 && p->fresh[0].depth > NSVCD__DEEP && nsvcd__seek_item(p, work, &p->fresh[0])) return NSVCD__MEETS;
+  nsvcd__sort_items(p, p->fresh, count);
+  if (count > 0 && p->fresh[0].depth > NSVCD__DEEP && nsvcd__seek_item(p, work, &p->fresh[0]) == NSVCD__MEETS) {
+    return NSVCD__MEETS;
+  }
 
   for (size_t n = 0; n < count; n++) {
     nsvcd__item *item = &p->fresh[n];
     if (p->work > p->limit) return NSVCD__UNDECIDED;
+    nsvcd__clip_segment(p, work);
+    if (!nsvcd__matters(p, work, item->segment)) continue;
     if (p->plane && nsvcd__held_again(p, work, item)) continue;
     if (nsvcd__item_is_parted(p, work, item)) continue;
     if (p->misses >= NSVCD__HOPE && nsvcd__triangles_are_parted(p, work, item)) continue;
-    if (!item->sought && nsvcd__seek_item(p, work, item)) return NSVCD__MEETS;
+    if (!item->sought && nsvcd__seek_item(p, work, item) == NSVCD__MEETS) return NSVCD__MEETS;
     p->misses++;
     if (p->count == NSVCD__ITEMS) {
       const nsvcd__verdict verdict = nsvcd__settle_items(p, work);
@@ -7514,7 +7692,7 @@ static int nsvcd__is_enclosed(nsvcd__proof *p, const nsvcd__facets *f, double un
     if (unclear) continue;
     return crossings != 0;
   }
-  p->undecided = 1;
+  p->lost = 1;
   return 0;
 }
 
@@ -7597,7 +7775,7 @@ static NSVCD__APART int nsvcd__starts_within(nsvcd__proof *p) {
       if (n % NSVCD__LANES == 0) nearby = nsvcd__seeds_near(inner, n, &rounded, scale, outer);
       if (!(nearby >> n % NSVCD__LANES & 1)) continue;
       if (p->work > p->limit) {
-        p->undecided = 1;
+        p->lost = 1;
         return 0;
       }
       const nsvcd__d3 seed = nsvcd__d3_load(inner->seeds + 3 * n);
@@ -7616,6 +7794,14 @@ static NSVCD__APART int nsvcd__starts_within(nsvcd__proof *p) {
 
 // ---- all of it
 
+// Segments that are searched now, and still matter.
+static uint64_t nsvcd__segments_that_matter(const nsvcd__proof *p, const nsvcd__workspace *work) {
+  size_t s = work->segments;
+  if (!(p->first > 0) || !p->has_contact) return work->wanted;
+  while (s > 0 && !nsvcd__matters(p, work, s - 1)) s--;
+  return s == 64 ? work->wanted : work->wanted & (((uint64_t)1 << s) - 1);
+}
+
 // Adds the items of moving group g and resting patch j in the segments `left`, and clears these, as long as there is room
 // for 16 more.
 static void nsvcd__collect_items(nsvcd__proof *p, const nsvcd__workspace *work, size_t g, size_t j, uint64_t *left) {
@@ -7624,6 +7810,7 @@ static void nsvcd__collect_items(nsvcd__proof *p, const nsvcd__workspace *work, 
   const nsvcd__v r = nsvcd__v_set(nsvcd__body_r(fixed)[j]);
   const nsvcd__v own = nsvcd__v_load(nsvcd__body_r(moving) + NSVCD__GROUP * g);
   const nsvcd__v radii = nsvcd__v_fma(nsvcd__v_set(work->scale), own, r);
+  *left &= nsvcd__segments_that_matter(p, work);
   for (; *left && p->fresh_count + NSVCD__GROUP <= NSVCD__FRESH; *left &= *left - 1) {
     const size_t s = nsvcd__lowest_bit(*left);
     const nsvcd__chords *c = &work->members[s];
@@ -7667,7 +7854,8 @@ static NSVCD__APART int nsvcd__collect(nsvcd__proof *p, nsvcd__workspace *work) 
     while (work->waiting) {
       const size_t h = nsvcd__lowest_bit(work->waiting);
       if (!p->in_pair) {
-        p->met = nsvcd__group_against_members(work, fixed, h, work->nearby[g][h], p->met_in);
+        const uint64_t wanted = work->nearby[g][h] & nsvcd__segments_that_matter(p, work);
+        p->met = nsvcd__group_against_members(work, fixed, h, wanted, p->met_in);
         p->in_pair = 1;
       }
       for (; p->met; p->met &= p->met - 1) {
@@ -7687,20 +7875,101 @@ static NSVCD__APART int nsvcd__collect(nsvcd__proof *p, nsvcd__workspace *work) 
   return 0;
 }
 
-static nsvcd__verdict nsvcd__prove(nsvcd__proof *p, nsvcd__workspace *work) {
-  if (nsvcd__motion_is_far(p->motion, p->lengths)) return NSVCD__FREE;
-  nsvcd__choose_segments(p->motion, work);
-  if (nsvcd__starts_within(p)) return NSVCD__WITHIN;
-  nsvcd__cut_segments(p->motion, p->lengths, work);
-  nsvcd__search_begin(p->moving.body, p->fixed.body, work);
-  for (int more = 1; more;) {
-    more = nsvcd__collect(p, work);
-    const nsvcd__verdict verdict = nsvcd__sift_items(p, work);
-    if (verdict != NSVCD__FREE) return verdict;
+// How near the bodies come for certain, and a little more: the least distance between the vertices of two patches that are
+// near each other at a time when the bodies are. Where `measure` begins.
+static NSVCD__APART double nsvcd__guess_clearance(nsvcd__proof *p, const nsvcd__workspace *work) {
+  const nsvcd__d3 centre = nsvcd__d3_load(p->moving.body->centre);
+  const nsvcd__d3 other = nsvcd__d3_load(p->fixed.body->centre);
+  double least = HUGE_VAL;
+  nsvcd__placement nearest;
+  memset(&nearest, 0, sizeof nearest);
+  for (size_t s = 0; s <= work->segments; s++) {
+    double u;
+    const uint32_t first = nsvcd__arc_and_share(p->motion, (double)work->begin[s], &u);
+    const nsvcd__placement at = nsvcd__placement_at(nsvcd__arc_at(p, first), u);
+    const double square = nsvcd__d3_gap(nsvcd__place_point(&at, centre), other);
+    if (square < least) nearest = at;
+    least = fmin(least, square);
   }
-  const nsvcd__verdict verdict = nsvcd__settle_items(p, work);
-  if (verdict != NSVCD__FREE) return verdict;
-  return p->undecided ? NSVCD__UNDECIDED : p->within ? NSVCD__WITHIN : NSVCD__FREE;
+  const nsvcd__transform pose = nsvcd__transform_of(&nearest);
+  nsvcd__f3 target = nsvcd__f3_round(other);
+  size_t i = 0, j = 0;
+  for (size_t round = 0; round < 2; round++) {  // from one body to the other, and again
+    float best = HUGE_VALF;
+    nsvcd__f3 on_moving = target;
+    for (size_t k = 0; k < p->moving.body->points; k++) {
+      const nsvcd__f3 place = nsvcd__f3_transform(&pose, nsvcd__facet_centre(&p->moving, k));
+      const float distance = nsvcd__f3_length(nsvcd__f3_sub(place, target));
+      if (p->moving.hull_counts[k] == 0 || distance >= best) continue;
+      best = distance;
+      on_moving = place;
+      i = k;
+    }
+    best = HUGE_VALF;
+    for (size_t k = 0; k < p->fixed.body->points; k++) {
+      const nsvcd__f3 place = nsvcd__facet_centre(&p->fixed, k);
+      const float distance = nsvcd__f3_length(nsvcd__f3_sub(place, on_moving));
+      if (p->fixed.hull_counts[k] == 0 || distance >= best) continue;
+      best = distance;
+      target = place;
+      j = k;
+    }
+  }
+  float lanes[3][NSVCD__LANES], least_square = HUGE_VALF;
+  const nsvcd__v3 rest = nsvcd__facet_vertices(&p->fixed, j, 0, p->fixed.hull_counts[j]);
+  const nsvcd__v3 moving = nsvcd__facet_vertices(&p->moving, i, 0, p->moving.hull_counts[i]);
+  nsvcd__v3_store(lanes, nsvcd__v3_transform(&pose, moving));
+  for (size_t l = 0; l < NSVCD__LANES; l++) {
+    const nsvcd__v3 d = nsvcd__v3_sub(rest, nsvcd__v3_set(nsvcd__f3_of(lanes[0][l], lanes[1][l], lanes[2][l])));
+    least_square = fminf(least_square, nsvcd__v_least(nsvcd__v3_dot(d, d)));
+  }
+  const float rounding = 4 * NSVCD__ROUNDING * (p->lengths + nsvcd__f3_length(pose.position));
+  return 1.0001 * sqrt((double)least_square) + (double)rounding;
+}
+
+// All that has been found in the segments that are wanted.
+static nsvcd__verdict nsvcd__prove_segments(nsvcd__proof *p, nsvcd__workspace *work) {
+  nsvcd__verdict verdict = NSVCD__FREE;
+  for (int more = 1; more && verdict == NSVCD__FREE;) {
+    more = nsvcd__collect(p, work);
+    verdict = nsvcd__sift_items(p, work);
+  }
+  return verdict == NSVCD__FREE ? nsvcd__settle_items(p, work) : verdict;
+}
+
+// Some segments after the other, until there is a contact: then it is the first.
+static nsvcd__verdict nsvcd__prove_in_order(nsvcd__proof *p, nsvcd__workspace *work) {
+  const uint64_t few = ((uint64_t)1 << NSVCD__IN_ORDER) - 1;
+  nsvcd__verdict verdict = NSVCD__FREE;
+  for (size_t s = 0; s < work->segments && verdict == NSVCD__FREE && !p->has_contact; s += NSVCD__IN_ORDER) {
+    work->wanted = few << s;
+    work->step = 0;
+    work->waiting = 0;
+    p->in_group = p->in_pair = 0;
+    verdict = nsvcd__prove_segments(p, work);
+  }
+  return verdict;
+}
+
+static nsvcd__verdict nsvcd__prove(nsvcd__proof *p, nsvcd__workspace *work) {
+  if (!(p->measure > 0) && nsvcd__motion_is_far(p->motion, p->lengths + nsvcd__clearance_of(p))) {
+    return NSVCD__FREE;
+  }
+  nsvcd__choose_segments(p->motion, work);
+  p->first *= (double)p->motion->ticks;
+  if (nsvcd__starts_within(p)) return NSVCD__WITHIN;
+  if (p->measure > 0) p->clearance = nsvcd__guess_clearance(p, work);
+  nsvcd__cut_segments(p->motion, p->lengths, nsvcd__clearance_of(p), work);
+  nsvcd__search_begin(p->moving.body, p->fixed.body, work);
+  const nsvcd__verdict verdict = p->first > 0 ? nsvcd__prove_in_order(p, work) : nsvcd__prove_segments(p, work);
+  p->lost |= verdict == NSVCD__UNDECIDED;
+  if (p->first > 0 && p->has_contact && p->unsure <= p->end) {  // a doubt that ends in a contact is its beginning
+    p->found = p->doubt;
+    p->end = p->unsure;
+  }
+  if (verdict == NSVCD__MEETS) return verdict;
+  if (p->lost || p->unsure < p->end) return NSVCD__UNDECIDED;
+  return p->within ? NSVCD__WITHIN : p->has_contact ? NSVCD__MEETS : NSVCD__FREE;
 }
 #endif  // NSVCD_NO_PROOF
 
@@ -8486,20 +8755,6 @@ NSVCDDEF const char *nsvcd_status_string(nsvcd_status status) {
 
 #endif  // NSVCD_NO_NETWORK
 
-typedef struct nsvcd__query {
-  nsvcd__workspace broad_phase;
-  union {  // of one method after the other
-#ifndef NSVCD_NO_NETWORK
-    nsvcd__candidate kept[NSVCD__SHORTLIST * NSVCD_MAX_PAIRS];
-#endif
-#ifndef NSVCD_NO_PROOF
-    nsvcd__proof proof;
-#endif
-  } by;
-} nsvcd__query;
-
-NSVCDDEF size_t nsvcd_sweep_workspace_size(void) { return sizeof(nsvcd__query); }
-
 #ifndef NSVCD_NO_NETWORK
 
 // The threshold to subtract from the logit. weights.h has one per head, recall and N = 32, 64, ..., 512; between those,
@@ -8555,13 +8810,29 @@ typedef struct nsvcd__task {
   float lengths;        // extents of both bodies, in the fixed one's units
   nsvcd_method method;  // PROOF or NETWORK
   size_t work;
-  float tolerance;  // in the fixed body's units
-#ifndef NSVCD_NO_NETWORK
+  float tolerance, clearance, measure;  // in the fixed body's units
+  float first;
   const nsvcd_sweep_options *options;  // the caller's
-  nsvcd__settings settings;            // by these
-  nsvcd__decisive *decisive;           // written unless NULL
+#ifndef NSVCD_NO_NETWORK
+  nsvcd__settings settings;   // by these
+  nsvcd__decisive *decisive;  // written unless NULL
 #endif
 } nsvcd__task;
+
+typedef struct nsvcd__query {
+  nsvcd__workspace broad_phase;
+  nsvcd__task task;
+  union {  // of one method after the other
+#ifndef NSVCD_NO_NETWORK
+    nsvcd__candidate kept[NSVCD__SHORTLIST * NSVCD_MAX_PAIRS];
+#endif
+#ifndef NSVCD_NO_PROOF
+    nsvcd__proof proof;
+#endif
+  } by;
+} nsvcd__query;
+
+NSVCDDEF size_t nsvcd_sweep_workspace_size(void) { return sizeof(nsvcd__query); }
 
 static nsvcd_answer nsvcd__answer_free(void) {
   nsvcd_answer answer;
@@ -8579,8 +8850,7 @@ static nsvcd_answer nsvcd__answer_free(void) {
 
 static nsvcd_result nsvcd__settings_of(const nsvcd_sweep_options *options, size_t points1, size_t points2,
                                        nsvcd__settings *settings) {
-  const nsvcd_sweep_options none = {0, NSVCD_MODEL_DEFAULT, NSVCD_PRECISION_FLOAT, 0, NSVCD_METHOD_DEFAULT, 0, 0};
-  const nsvcd_sweep_options *o = options ? options : &none;
+  const nsvcd_sweep_options *o = options;
   if (o->pairs > NSVCD_MAX_PAIRS || (unsigned)o->model > (unsigned)NSVCD_MODEL_BASE) return NSVCD_ERROR_ARGUMENT;
   if (o->precision != NSVCD_PRECISION_FLOAT && o->precision != NSVCD_PRECISION_INT8) return NSVCD_ERROR_ARGUMENT;
   const size_t model = (size_t)(o->model ? o->model : NSVCD__LARGEST_MODEL) - (size_t)NSVCD_MODEL_TINY;
@@ -8785,13 +9055,11 @@ static nsvcd__to_world nsvcd__to_world_at(const nsvcd__motion *motion, double t)
 static void nsvcd__answer_with_contact(const nsvcd__proof *p, nsvcd_answer *answer) {
   const nsvcd__contact *found = &p->found;
   const int rests = p->motion->moving.count == 1 && !p->motion->fixed_moves;
-  const double time = rests ? 0 : found->time;
+  const double time = rests ? 0 : found->tick / (double)p->motion->ticks;
   const nsvcd__to_world world = nsvcd__to_world_at(p->motion, time);
   const nsvcd__d3 turned = nsvcd__rotate(world.rows, nsvcd__d3_scale(found->point, world.unit));
   const nsvcd__f3 point = nsvcd__f3_round(nsvcd__d3_add(turned, world.position));
   const nsvcd__f3 normal = nsvcd__f3_round(nsvcd__rotate(world.rows, found->normal));
-  answer->logit = NSVCD_LOGIT_CERTAIN;
-  answer->collides = 1;
   answer->contact_time = (float)time;
   answer->patch_a = found->moving_patch;
   answer->patch_b = found->fixed_patch;
@@ -8799,6 +9067,71 @@ static void nsvcd__answer_with_contact(const nsvcd__proof *p, nsvcd_answer *answ
   answer->triangle_b = found->fixed_triangle;
   memcpy(answer->point, &point, sizeof answer->point);
   memcpy(answer->normal, &normal, sizeof answer->normal);
+}
+
+// What is proven of clearances and times.
+static void nsvcd__answer_with_bounds(const nsvcd__proof *p, nsvcd__verdict verdict, nsvcd_answer *answer) {
+  const double unit = (double)p->motion->unit;
+  const double until = p->lost ? 0 : fmin(p->end, p->unsure) / (double)p->motion->ticks;
+  const int is_free = verdict == NSVCD__FREE;
+  const double proven = is_free ? 1 : p->first > 0 && verdict != NSVCD__WITHIN ? fmin(fmax(until, 0), 1) : 0;
+  const int measured = p->measure > 0 && verdict != NSVCD__WITHIN && verdict != NSVCD__UNDECIDED;
+  const double low = measured || is_free ? p->clearance : 0;
+  answer->free_until = (float)(proven < 1 ? proven * (1 - 1e-7) : 1);
+  answer->clearance_low = (float)(low * unit * (1 - 1e-6));
+  answer->clearance_high = HUGE_VALF;
+  if (verdict == NSVCD__WITHIN) {
+    answer->clearance_high = 0;
+  } else if (p->has_contact) {
+    const float quanta = nsvcd__quanta_of(p, p->found.moving_patch, p->found.fixed_patch);
+    answer->clearance_high = (float)((p->found.distance + (double)quanta) * unit * (1 + 1e-6));
+  }
+}
+
+// A proof that knows nothing yet of its motion.
+static void nsvcd__proof_restart(nsvcd__proof *p) {
+  p->end = p->clipped_end = p->unsure = HUGE_VAL;
+  p->clipped = 0;
+  p->has_contact = 0;
+  p->lost = 0;
+  p->within = 0;
+  p->count = p->fresh_count = 0;
+  p->spans_known = 0;
+  p->held = nsvcd__f3_of(0, 0, 0);
+  p->plane = 0;
+  p->arc.ticks = 0;
+  p->in_group = p->in_pair = 0;
+  p->misses = 0;
+  p->parting = nsvcd__d3_of(0, 0, 0);
+  p->next_placed = 0;
+  for (size_t n = 0; n < NSVCD__PLACED; n++) p->placed[n].ticks = 0;
+}
+
+// A contact so early that it may be one at the start already: then it is that.
+static NSVCD__APART nsvcd__verdict nsvcd__prove_start(nsvcd__proof *p, nsvcd__workspace *work) {
+  nsvcd__motion *whole = p->motion;
+  nsvcd__motion start = *whole;
+  const nsvcd__contact found = p->found;
+  const double first = p->first;
+  start.moving.count = start.fixed.count = 1;
+  start.fixed_moves = 0;
+  p->motion = &start;
+  p->first = 0;
+  nsvcd__proof_restart(p);
+  nsvcd__verdict verdict = nsvcd__prove(p, work);
+  if (verdict != NSVCD__MEETS && verdict != NSVCD__WITHIN) {
+    p->found = found;
+    verdict = NSVCD__MEETS;
+  } else {
+    p->found.tick = 0;
+  }
+  p->motion = whole;
+  p->first = first;
+  p->has_contact = 1;
+  p->end = 0;
+  p->unsure = HUGE_VAL;
+  p->lost = 0;
+  return verdict;
 }
 
 // Proves a question whose motion has been prepared, if it can; else the answer is UNDECIDED and says yes.
@@ -8809,30 +9142,33 @@ static void nsvcd__answer_by_proof(nsvcd__task *ask, nsvcd__query *query, nsvcd_
   p->fixed = nsvcd__facets_of(nsvcd__triangles_of(ask->fixed));
   p->lengths = ask->motion.scale * p->moving.body->extent + p->fixed.body->extent;
   p->tolerance = (double)ask->tolerance;
+  p->clearance = (double)ask->clearance;
+  p->measure = (double)ask->measure;
+  p->first = (double)ask->first;
   p->limit = ask->work;
-  p->work = p->count = p->fresh_count = 0;
-  p->spans_known = 0;
-  p->held = nsvcd__f3_of(0, 0, 0);
-  p->plane = 0;
-  p->undecided = p->within = 0;
-  p->arc.ticks = 0;
-  p->in_group = p->in_pair = 0;
-  p->misses = 0;
-  p->parting = nsvcd__d3_of(0, 0, 0);
-  p->next_placed = 0;
-  for (size_t n = 0; n < NSVCD__PLACED; n++) p->placed[n].ticks = 0;
-  const nsvcd__verdict verdict = nsvcd__prove(p, &query->broad_phase);
+  p->work = 0;
+  nsvcd__proof_restart(p);
+  nsvcd__verdict verdict = nsvcd__prove(p, &query->broad_phase);
+  if (verdict == NSVCD__MEETS && p->first > 0 && p->found.tick > 0 && p->end <= 0) {
+    verdict = nsvcd__prove_start(p, &query->broad_phase);
+  }
 
   nsvcd_answer found = nsvcd__answer_free();
   found.work = p->work;
-  if (verdict == NSVCD__MEETS || verdict == NSVCD__WITHIN) {
-    found.status = verdict == NSVCD__MEETS ? NSVCD_STATUS_WITNESS : NSVCD_STATUS_INSIDE;
-    nsvcd__answer_with_contact(p, &found);
-  } else if (verdict == NSVCD__UNDECIDED) {
-    found.status = NSVCD_STATUS_UNDECIDED;
-    found.collides = 1;
-    found.logit = NSVCD_LOGIT_CERTAIN;
+  if (p->has_contact || verdict == NSVCD__WITHIN) nsvcd__answer_with_contact(p, &found);
+  nsvcd__answer_with_bounds(p, verdict, &found);
+  if (p->measure > 0 && verdict != NSVCD__WITHIN && verdict != NSVCD__UNDECIDED) {
+    const double asked = (double)ask->clearance;
+    const int is_near = p->has_contact && p->found.distance <= asked;
+    const int is_clear = asked > 0 ? p->clearance > asked : !is_near;
+    verdict = is_near ? NSVCD__MEETS : is_clear ? NSVCD__FREE : NSVCD__UNDECIDED;
   }
+  found.status = verdict == NSVCD__MEETS     ? NSVCD_STATUS_WITNESS
+                 : verdict == NSVCD__WITHIN  ? NSVCD_STATUS_INSIDE
+                 : verdict == NSVCD__FREE    ? NSVCD_STATUS_CERTIFIED_FREE
+                                             : NSVCD_STATUS_UNDECIDED;
+  found.collides = verdict != NSVCD__FREE;
+  found.logit = found.collides ? NSVCD_LOGIT_CERTAIN : -NSVCD_LOGIT_CERTAIN;
   *answer = found;
 }
 #endif
@@ -8848,6 +9184,11 @@ static void nsvcd__turn_answer(nsvcd_answer *answer) {
   for (size_t k = 0; k < 3; k++) answer->normal[k] = 0 - answer->normal[k];
 }
 
+// Is something asked that the network knows nothing of?
+static int nsvcd__needs_proof(const nsvcd_sweep_options *options) {
+  return options->clearance > 0 || options->measure > 0 || options->first > 0;
+}
+
 // Answers a question that has been checked. hint: NULL, or that of a batch, for the network.
 static void nsvcd__answer_task(nsvcd__task *ask, nsvcd__query *query, void *hint, nsvcd_answer *answer) {
   int proven = 0;
@@ -8856,11 +9197,15 @@ static void nsvcd__answer_task(nsvcd__task *ask, nsvcd__query *query, void *hint
     nsvcd__answer_by_proof(ask, query, answer);
     proven = 1;
 #ifndef NSVCD_NO_NETWORK
-    if (answer->status == NSVCD_STATUS_UNDECIDED && ask->moving->weights_id && ask->fixed->weights_id) {
-      const size_t work = answer->work;
+    const int has_opinion = ask->moving->weights_id && ask->fixed->weights_id && !nsvcd__needs_proof(ask->options);
+    if (answer->status == NSVCD_STATUS_UNDECIDED && has_opinion) {
+      const nsvcd_answer proof = *answer;
       nsvcd__answer(ask, query, NULL, answer);
       answer->status = NSVCD_STATUS_UNDECIDED;
-      answer->work = work;
+      answer->work = proof.work;
+      answer->free_until = proof.free_until;
+      answer->clearance_low = proof.clearance_low;
+      answer->clearance_high = proof.clearance_high;
     }
 #endif
   }
@@ -8917,10 +9262,16 @@ static nsvcd_result nsvcd__question_check(const nsvcd_question *question) {
   if (nsvcd__is_itself(question)) return NSVCD_ERROR_SAME;
   const nsvcd_sweep_options *options = &question->options;
   if ((unsigned)options->method > (unsigned)NSVCD_METHOD_NETWORK) return NSVCD_ERROR_ARGUMENT;
-  if (!nsvcd__is_finite(options->tolerance) || options->tolerance < 0) return NSVCD_ERROR_ARGUMENT;
-  if (nsvcd__method_of(question->a.body, question->b.body, options->method) == NSVCD_METHOD_DEFAULT) {
-    return NSVCD_ERROR_BODY;
+  const float lengths[3] = {options->tolerance, options->clearance, options->measure};
+  for (size_t k = 0; k < 3; k++) {
+    const int fits = nsvcd__is_finite(lengths[k]) && lengths[k] >= 0 && lengths[k] <= NSVCD_MAX_COORDINATE;
+    if (!fits) return NSVCD_ERROR_TOLERANCE;
   }
+  if (!nsvcd__is_finite(options->first) || options->first < 0 || options->first > 1) return NSVCD_ERROR_TOLERANCE;
+  if (options->first > 0 && options->measure > 0) return NSVCD_ERROR_ARGUMENT;
+  if (nsvcd__needs_proof(options) && options->method == NSVCD_METHOD_NETWORK) return NSVCD_ERROR_ARGUMENT;
+  const nsvcd_method wanted = nsvcd__needs_proof(options) ? NSVCD_METHOD_PROOF : options->method;
+  if (nsvcd__method_of(question->a.body, question->b.body, wanted) == NSVCD_METHOD_DEFAULT) return NSVCD_ERROR_BODY;
 #ifndef NSVCD_NO_NETWORK
   nsvcd__settings unused;
   return nsvcd__settings_of(options, question->a.body->points, question->b.body->points, &unused);
@@ -8941,10 +9292,13 @@ static void nsvcd__task_of(const nsvcd_question *question, nsvcd__task *ask) {
   ask->lengths = ask->motion.scale * ask->moving->extent + ask->fixed->extent;
   ask->work = options->work ? options->work : NSVCD_DEFAULT_WORK;
   ask->tolerance = options->tolerance / ask->motion.unit;
+  ask->clearance = options->clearance / ask->motion.unit;
+  ask->measure = options->measure / ask->motion.unit;
+  ask->first = options->first;
   ask->method = nsvcd__method_of(ask->moving, ask->fixed, options->method);
+  ask->options = options;
 #ifndef NSVCD_NO_NETWORK
   ask->decisive = NULL;
-  ask->options = options;
 #endif
 }
 
@@ -8971,14 +9325,13 @@ NSVCDDEF nsvcd_result nsvcd_sweep_batch(const nsvcd_question *questions, size_t 
   with = &hint;
 #endif
   for (size_t k = 0; k < count; k++) {
-    nsvcd__task ask;
-    nsvcd__task_of(&questions[k], &ask);
+    nsvcd__task_of(&questions[k], &query->task);
 #ifndef NSVCD_NO_NETWORK
     const int other = k > 0 && (questions[k].a.body != questions[k - 1].a.body ||
                                 questions[k].b.body != questions[k - 1].b.body);
     if (other) hint.known = hint.misled = 0;
 #endif
-    nsvcd__answer_task(&ask, query, with, &answers[k]);
+    nsvcd__answer_task(&query->task, query, with, &answers[k]);
   }
   return NSVCD_OK;
 }
@@ -9367,16 +9720,16 @@ NSVCDDEF nsvcd_result nsvcd_sweep_gradient(const nsvcd_question *question, void 
   if (!result) result = nsvcd__question_check(&by_network);
   if (result) return result;
 
-  nsvcd__task ask;
+  nsvcd__task *ask = &query->task;
   nsvcd__decisive decisive;
-  nsvcd__task_of(&by_network, &ask);
-  ask.decisive = &decisive;
-  nsvcd__answer_task(&ask, query, NULL, answer);
-  const nsvcd__gradients out = {ask.swapped ? gradient_b : gradient_a, ask.swapped ? gradient_a : gradient_b};
-  if (out.moving) memset(out.moving, 0, 6 * ask.motion.moving.count * sizeof(float));
-  if (out.fixed) memset(out.fixed, 0, 6 * ask.motion.fixed.count * sizeof(float));
+  nsvcd__task_of(&by_network, ask);
+  ask->decisive = &decisive;
+  nsvcd__answer_task(ask, query, NULL, answer);
+  const nsvcd__gradients out = {ask->swapped ? gradient_b : gradient_a, ask->swapped ? gradient_a : gradient_b};
+  if (out.moving) memset(out.moving, 0, 6 * ask->motion.moving.count * sizeof(float));
+  if (out.fixed) memset(out.fixed, 0, 6 * ask->motion.fixed.count * sizeof(float));
   if (answer->status == NSVCD_STATUS_OK || answer->status == NSVCD_STATUS_LIMIT) {
-    nsvcd__gradient(&ask, &decisive, query->broad_phase.time, &out);
+    nsvcd__gradient(ask, &decisive, query->broad_phase.time, &out);
   }
   return NSVCD_OK;
 }

@@ -231,7 +231,7 @@ static void print_summary(const session *s) {
 static int usage(void) {
   fprintf(stderr,
           "svcd check [--method proof|network] [--points N] [--pairs K] [--model tiny|small|base] [--int8]\n"
-          "           [--recall R] [--work LIMIT] [--repeat R] FILE\n"
+          "           [--recall R] [--clearance METRES] [--first TOLERANCE] [--work LIMIT] [--repeat R] FILE\n"
           "    answers the problems of FILE, a line each on standard output, separated by tabs:\n"
           "    ID LOGIT COLLIDES TIME MOVING_PATCH FIXED_PATCH STATUS MICROSECONDS; a summary on standard error.\n"
           "      --method M   proof: a witness or a certificate; network: an opinion (proof)\n"
@@ -239,6 +239,8 @@ static int usage(void) {
           "      --pairs K    pairs of patches that the network looks at, 1..%d (8)\n"
           "      --model M    decoder (base)\n"
           "      --recall R   share of collisions to be found: 0.99, 0.999, 0.9999 or 0: balanced errors (0)\n"
+          "      --clearance METRES  to come as close as this is a collision (0: to meet is)\n"
+          "      --first TOLERANCE   TIME is that of the first contact, to this share of the motion (0: of any contact)\n"
           "      --work LIMIT units that a proof may take (%d)\n"
           "      --repeat R   time every query R times, report the least (5)\n"
           "      --int8       the decoder in 8-bit integers\n"
@@ -271,6 +273,10 @@ static int parse_method(const char *name, nsvcd_method *method) {
   return proof || strcmp(name, "network") == 0;
 }
 
+static int parse_share(const char *text, float most, float *out) {
+  return parse_float(text, out) && *out >= 0 && *out <= most;
+}
+
 // Returns DONE or USAGE.
 static int parse_check_option(const char *key, const char *value, check_options *options) {
   if (strcmp(key, "--points") == 0)
@@ -283,6 +289,10 @@ static int parse_check_option(const char *key, const char *value, check_options 
     return parse_model(value, &options->sweep.model) ? DONE : usage_error(key, "none of tiny, small, base");
   if (strcmp(key, "--recall") == 0)
     return parse_float(value, &options->sweep.recall) ? DONE : usage_error(key, "not a number");
+  if (strcmp(key, "--clearance") == 0)
+    return parse_share(value, NSVCD_MAX_COORDINATE, &options->sweep.clearance) ? DONE : usage_error(key, "out of range");
+  if (strcmp(key, "--first") == 0)
+    return parse_share(value, 1, &options->sweep.first) ? DONE : usage_error(key, "not in 0..1");
   if (strcmp(key, "--work") == 0)
     return parse_count(value, 1, 1000000000, &options->sweep.work) ? DONE : usage_error(key, "out of range");
   if (strcmp(key, "--method") == 0)
@@ -334,6 +344,9 @@ static int parse_check(int argc, char **argv, check_options *options) {
   }
   if (!options->path) return usage();
   options->encode.no_triangles = options->sweep.method == NSVCD_METHOD_NETWORK;
+  if (options->encode.no_triangles && (options->sweep.clearance > 0 || options->sweep.first > 0)) {
+    return usage_error("--method network", "it knows neither --clearance nor --first");
+  }
   if (!recall_is_known(&options->sweep)) return usage_error("--recall", "none of 0, 0.99, 0.999, 0.9999");
   return DONE;
 }

@@ -257,6 +257,7 @@ static void cost_reads_numbers_once(void) {
 typedef struct cost_asker {
   const nsvcd_body *bodies[2];
   nsvcd_pose motion[QUERY_POSES], fixed_pose;
+  nsvcd_question question;
   void *workspace;
   nsvcd_answer answer;
   int asks;
@@ -265,8 +266,8 @@ typedef struct cost_asker {
 static void *cost_ask(void *argument) {
   cost_asker *a = (cost_asker *)argument;
   if (a->asks) {
-    ask(a->bodies[0], a->motion, QUERY_POSES, a->bodies[1], &a->fixed_pose, NULL, a->workspace,
-                nsvcd_sweep_workspace_size(), &a->answer);
+    a->question = question_of(a->bodies[0], a->motion, QUERY_POSES, a->bodies[1], &a->fixed_pose, NULL);
+    nsvcd_sweep(&a->question, a->workspace, nsvcd_sweep_workspace_size(), &a->answer);
   }
   return NULL;
 }

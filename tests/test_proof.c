@@ -521,6 +521,7 @@ static void proof_report(const char *name, const replay *sum) {
 
 static struct {
   size_t count;
+  int may_be_doubts;  // a doubt that ends in a contact is its beginning: then triangles are near each other
   double worst_gap, worst_normal;  // over what is allowed
   size_t no_normal, off[3];  // normals that are 0, or off by more than 0.001, 0.01, 0.1 radians
 } witnesses;
@@ -628,17 +629,18 @@ static void proof_check_witness(const attack *a) {
   // Half a unit in the last place of a float in [0.5, 1].
   const double moved = proof_speed_bound(a, (double)w->contact_time, 3e-8) + 1e-12 * (size + far);
   const double rounded = 6e-8 * (oracle_length(point.v[0])) + 1e-30;
-  const double allowed = quantum_x + quantum_y + moved;
+  const int meets = !witnesses.may_be_doubts;
+  const double allowed = fmax(quantum_x + quantum_y, (double)w->clearance_high) + moved;
   const double gap = proof_triangle_distance(&x, &y);
   CHECK_LE(gap, allowed);
-  CHECK_LE(proof_triangle_distance(&x, &point), quantum_x + moved + rounded);
+  CHECK_LE(proof_triangle_distance(&x, &point), (meets ? quantum_x : allowed) + moved + rounded);
   const double fixed_moved =
       proof_track_speed(&a->motion.fixed, a->fixed->size, (double)w->contact_time, 3e-8) + 1e-12 * (size + far);
   CHECK_LE(proof_triangle_distance(&y, &point), quantum_y + rounded + fixed_moved);
   witnesses.count++;
   witnesses.worst_gap = fmax(witnesses.worst_gap, gap / allowed);
 
-  proof_check_normal(a, &y);
+  if (meets) proof_check_normal(a, &y);
 }
 
 // -------------------------------------------------------------------------------------------------
@@ -1169,6 +1171,197 @@ static void proof_spans_hold_along_directions(void) {
 }
 
 // -------------------------------------------------------------------------------------------------
+// first contact, clearance, and the least of it: against conservative advancement in double
+
+static double proof_distance_at(const attack *a, double t) {
+  const oracle_pose pose = proof_pose_at(&a->motion.moving, t);
+  const oracle_pose fixed = proof_pose_at(&a->motion.fixed, t);
+  return oracle_distance(&a->moving->oracle, &pose, &a->fixed->oracle, &fixed, NULL, NULL);
+}
+
+// How fast points of a body may be from t until its next pose, at *next.
+static double proof_track_rate(const proof_track *m, double size, double t, double *next) {
+  const double arcs = (double)(m->count - 1);
+  double moved[3], axis[3];
+  *next = 1;
+  if (m->count < 2) return 0;
+  const size_t k = (size_t)(t * arcs) < m->count - 2 ? (size_t)(t * arcs) : m->count - 2;
+  oracle_sub(m->poses[k + 1].position, m->poses[k].position, moved);
+  *next = (double)(k + 1) / arcs;
+  return (oracle_length(moved) + size * oracle_quat_arc(m->poses[k].rotation, m->poses[k + 1].rotation, axis)) * arcs;
+}
+
+// The first time from which it cannot be said that surfaces are farther apart than `clearance`: they come within that and
+// `hair` more. 2 if they never do.
+static double proof_first_approach(const attack *a, double clearance, double hair) {
+  for (double t = 0; t <= 1;) {
+    double next, fixed_next;
+    const double room = proof_distance_at(a, t) - clearance;
+    if (room <= hair) return t;
+    if (t >= 1) break;
+    const double rate = proof_track_rate(&a->motion.moving, a->moving->size, t, &next) +
+                        proof_track_rate(&a->motion.fixed, a->fixed->size, t, &fixed_next);
+    const double until = fmin(fmin(next, fixed_next), 1);
+    const double step = rate > 0 ? room / rate : 1;
+    t = t + step < until ? t + step : until + (until < 1 ? 1e-15 : 0);
+  }
+  return 2;
+}
+
+// Is there a time before `until` at which surfaces are within the clearance by more than `hair`? From the first approach
+// on at many times, not all.
+static int proof_comes_within(const attack *a, double clearance, double until, double hair) {
+  const double from = proof_first_approach(a, clearance, hair);
+  for (int k = 0; k <= 100 && from < until; k++) {
+    const double t = from + (until - from) * k / 100;
+    const double distance = proof_distance_at(a, t);
+    if (clearance > 0 ? distance < clearance - hair : !(distance > 0)) return 1;
+  }
+  return 0;
+}
+
+typedef struct timing_sum {
+  size_t asked, contacts, free, inside, undecided, at_start, wrong;
+  double worst;  // of the tolerance
+} timing_sum;
+
+static void proof_check_first(attack *a, float tolerance, timing_sum *sum) {
+  const double size = a->moving->size + a->fixed->size;
+  nsvcd_sweep_options options = proof_options();
+  proof_ask(a);
+  const nsvcd_answer plain = a->answer;
+  options.first = tolerance;
+  CHECK_EQ(proof_ask_with(a, &options), NSVCD_OK);
+  const nsvcd_answer *first = &a->answer;
+  sum->asked++;
+  sum->contacts += first->status == NSVCD_STATUS_WITNESS;
+  sum->free += first->status == NSVCD_STATUS_CERTIFIED_FREE;
+  sum->inside += first->status == NSVCD_STATUS_INSIDE;
+  sum->undecided += first->status == NSVCD_STATUS_UNDECIDED;
+  if (plain.status != NSVCD_STATUS_UNDECIDED && first->status != NSVCD_STATUS_UNDECIDED) {
+    CHECK_EQ(plain.status, first->status);
+  }
+  CHECK(first->free_until >= 0 && first->free_until <= 1);
+  if (first->status == NSVCD_STATUS_INSIDE) return;
+  sum->wrong += proof_comes_within(a, 0, (double)first->free_until, 1e-6 * size);
+  if (first->status == NSVCD_STATUS_CERTIFIED_FREE) CHECK_EQ(first->free_until, 1);
+  if (first->status != NSVCD_STATUS_WITNESS) return;
+  witnesses.may_be_doubts = 1;
+  proof_check_witness(a);
+  witnesses.may_be_doubts = 0;
+  const int at_start = !(proof_distance_at(a, 0) > 0);
+  sum->at_start += at_start;
+  if (at_start) CHECK_EQ(first->contact_time, 0);
+  const double late = (double)first->contact_time - (double)first->free_until;
+  sum->worst = fmax(sum->worst, late / (double)tolerance);
+  CHECK_LE(late, (double)tolerance * 1.00001 + 3e-7);
+}
+
+// A scene in which bodies hit, or nearly, alone or carried along.
+static int proof_timing_scene(shapes_rng *rng, attack *a) {
+  a->moving = proof_shared(0, (size_t)shapes_pick(rng, MAKES));
+  a->fixed = proof_shared(0, (size_t)shapes_pick(rng, MAKES));
+  const double gap = shapes_pick(rng, 2) ? -0.05 : pow(10, shapes_uniform(rng, -6, -1));
+  if (!proof_scene(rng, a, gap, 0.3)) return 0;
+  const double size = a->moving->size + a->fixed->size;
+  if (shapes_pick(rng, 2)) proof_carry(rng, a, shapes_uniform(rng, 0, 6), shapes_uniform(rng, 0, 2) * size);
+  return 1;
+}
+
+static void proof_finds_first_contacts(void) {
+  static const float tolerances[4] = {0.1f, 0.01f, 1e-3f, 1e-4f};
+  const size_t wanted = (size_t)(200 * proof_many());
+  shapes_rng rng = {88};
+  timing_sum sum;
+  memset(&sum, 0, sizeof sum);
+  while (sum.asked < wanted) {
+    attack a;
+    if (proof_timing_scene(&rng, &a)) proof_check_first(&a, tolerances[shapes_pick(&rng, 4)], &sum);
+  }
+  printf("  %zu questions: first contacts %zu, %zu of them at the start; free %zu, inside %zu, undecided %zu; %zu wrong; "
+         "late by %.3f of the tolerance\n",
+         sum.asked, sum.contacts, sum.at_start, sum.free, sum.inside, sum.undecided, sum.wrong, sum.worst);
+  CHECK_EQ(sum.wrong, 0);
+  CHECK_GE(sum.contacts, sum.asked / 4);
+  CHECK_GE(sum.at_start, 10);
+  CHECK_LE(sum.undecided, sum.asked / 20);
+}
+
+static void proof_check_clearance(attack *a, float clearance, timing_sum *sum) {
+  const double size = a->moving->size + a->fixed->size;
+  nsvcd_sweep_options options = proof_options();
+  options.clearance = clearance;
+  CHECK_EQ(proof_ask_with(a, &options), NSVCD_OK);
+  const nsvcd_answer *w = &a->answer;
+  sum->asked++;
+  sum->contacts += w->status == NSVCD_STATUS_WITNESS;
+  sum->free += w->status == NSVCD_STATUS_CERTIFIED_FREE;
+  sum->inside += w->status == NSVCD_STATUS_INSIDE;
+  sum->undecided += w->status == NSVCD_STATUS_UNDECIDED;
+  if (w->status == NSVCD_STATUS_CERTIFIED_FREE) {
+    sum->wrong += proof_comes_within(a, (double)clearance, 1, 1e-6 * size);
+    CHECK_LE(fabs((double)w->clearance_low / (double)clearance - 1), 1e-5);
+    CHECK_EQ(w->free_until, 1);
+  }
+  if (w->status != NSVCD_STATUS_WITNESS) return;
+  const double moved = proof_speed_bound(a, (double)w->contact_time, 6e-8);
+  const double distance = proof_distance_at(a, (double)w->contact_time);
+  CHECK_LE(distance, (double)w->clearance_high + moved + 1e-9 * size);
+  const double quanta = (double)nsvcd_body_describe(a->moving->body).quantum +
+                        (double)nsvcd_body_describe(a->fixed->body).quantum;
+  CHECK_LE((double)w->clearance_high, (double)clearance * (1 + 1e-5) + quanta);
+}
+
+static void proof_check_measure(attack *a, float tolerance, timing_sum *sum) {
+  const double size = a->moving->size + a->fixed->size;
+  nsvcd_sweep_options options = proof_options();
+  options.measure = tolerance;
+  CHECK_EQ(proof_ask_with(a, &options), NSVCD_OK);
+  const nsvcd_answer *w = &a->answer;
+  sum->asked++;
+  sum->contacts += w->status == NSVCD_STATUS_WITNESS;
+  sum->free += w->status == NSVCD_STATUS_CERTIFIED_FREE;
+  sum->inside += w->status == NSVCD_STATUS_INSIDE;
+  sum->undecided += w->status == NSVCD_STATUS_UNDECIDED;
+  CHECK(w->clearance_low >= 0 && w->clearance_low <= w->clearance_high);
+  if (w->status == NSVCD_STATUS_INSIDE) return;
+  if (w->clearance_low > 0) sum->wrong += proof_comes_within(a, (double)w->clearance_low, 1, 1e-6 * size);
+  const double moved = proof_speed_bound(a, (double)w->contact_time, 6e-8);
+  if (w->clearance_high > 0) {
+    CHECK_LE(proof_distance_at(a, (double)w->contact_time), (double)w->clearance_high + moved + 1e-9 * size);
+  }
+  const double quanta = (double)nsvcd_body_describe(a->moving->body).quantum +
+                        (double)nsvcd_body_describe(a->fixed->body).quantum;
+  const double wide = (double)w->clearance_high - (double)w->clearance_low;
+  if (w->status == NSVCD_STATUS_UNDECIDED) return;
+  sum->worst = fmax(sum->worst, wide / ((double)tolerance + 8 * quanta + 1e-5 * size));
+}
+
+static void proof_keeps_clearances(void) {
+  shapes_rng rng = {89};
+  timing_sum sums[2];
+  memset(sums, 0, sizeof sums);
+  while (sums[0].asked < (size_t)(400 * proof_many())) {
+    attack a;
+    if (!proof_timing_scene(&rng, &a)) continue;
+    const double size = a.moving->size + a.fixed->size;
+    proof_check_clearance(&a, (float)(size * pow(10, shapes_uniform(&rng, -5, 0.3))), &sums[0]);
+    proof_check_measure(&a, (float)(size * pow(10, shapes_uniform(&rng, -5, -1))), &sums[1]);
+  }
+  for (int k = 0; k < 2; k++) {
+    const timing_sum *sum = &sums[k];
+    printf("  %s: %zu questions, near %zu, free %zu, inside %zu, undecided %zu; %zu wrong", k ? "least" : "clearance",
+           sum->asked, sum->contacts, sum->free, sum->inside, sum->undecided, sum->wrong);
+    printf(k ? "; brackets up to %.2f of the tolerance and eight quanta\n" : "\n", sum->worst);
+    CHECK_EQ(sum->wrong, 0);
+    CHECK_GE(sum->free, 50);
+    CHECK_GE(sum->contacts, 50);
+    CHECK_LE(sum->undecided, sum->asked / 10);
+  }
+  CHECK_LE(sums[1].worst, 1);
+}
+
+// -------------------------------------------------------------------------------------------------
 // containment
 
 typedef struct within_sum {
@@ -1397,9 +1590,24 @@ static void proof_refuses(void) {
   CHECK(proof_scene(&rng, &a, 0.01, 0));
   const float bad[4] = {-1, -1e-30f, NAN, INFINITY};
   for (int k = 0; k < 4; k++) {
-    options.tolerance = bad[k];
-    CHECK_EQ(proof_ask_with(&a, &options), NSVCD_ERROR_ARGUMENT);
+    for (int which = 0; which < 4; which++) {
+      options = proof_options();
+      float *number = which == 0   ? &options.tolerance
+                      : which == 1 ? &options.clearance
+                      : which == 2 ? &options.measure
+                                   : &options.first;
+      *number = bad[k];
+      CHECK_EQ(proof_ask_with(&a, &options), NSVCD_ERROR_TOLERANCE);
+      *number = which == 3 ? 1.01f : 2e6f;
+      CHECK_EQ(proof_ask_with(&a, &options), NSVCD_ERROR_TOLERANCE);
+    }
   }
+  options = proof_options();
+  options.first = options.measure = 0.1f;
+  CHECK_EQ(proof_ask_with(&a, &options), NSVCD_ERROR_ARGUMENT);
+  options.measure = 0;
+  options.method = NSVCD_METHOD_NETWORK;
+  CHECK_EQ(proof_ask_with(&a, &options), NSVCD_ERROR_ARGUMENT);
   options = proof_options();
   options.method = (nsvcd_method)3;
   CHECK_EQ(proof_ask_with(&a, &options), NSVCD_ERROR_ARGUMENT);
@@ -1977,6 +2185,8 @@ void test_proof(void) {
   RUN(proof_crossings_are_never_free);
   RUN(proof_spans_hold_the_motion);
   RUN(proof_spans_hold_along_directions);
+  RUN(proof_finds_first_contacts);
+  RUN(proof_keeps_clearances);
   RUN(proof_knows_what_is_within);
   RUN(proof_answers_are_the_same_again);
   RUN(proof_keeps_its_limit);
