@@ -305,6 +305,9 @@ typedef struct nsvcd_sweep_options {
                     // proven free. 0: of any contact
   float measure;    // metres: clearance_low and clearance_high are the least distance over the motion, to this, but for
                     // what the stored triangles are off by (nsvcd_body_facts.quantum). 0: unasked. Not with `first`
+  float skin;       // metres: what touches at the start, or is nearer than the clearance, by no more than this, does not
+                    // stop a body that rests on it, slides along it or leaves it: the question is asked as if a were lifted
+                    // off it, by this much along the normals of all that it touches. See answer.lift
 } nsvcd_sweep_options;
 
 // A body in a scene: how it moves, and how large it is. Many may share one body.
@@ -345,6 +348,9 @@ typedef struct nsvcd_answer {
                         // triangle has no area, 0
   uint32_t triangle_a;  // WITNESS: as numbered in the caller's meshes; else NSVCD_NO_TRIANGLE
   uint32_t triangle_b;
+  float lift[3];  // metres, world, at the start: by what a was lifted off b for options.skin; it turns with b. The answer is
+                  // about the motion so displaced. 0: nothing was touched, or a is pressed in deeper than the skin, or
+                  // held from all sides
   size_t work;  // units that the proof took
 } nsvcd_answer;
 
@@ -5635,6 +5641,8 @@ static void nsvcd__candidates_start(nsvcd__candidates *kept, nsvcd__candidate *i
 #define NSVCD__DEEP 0.2f         // depth from which on an item is worth a look for a witness before any plane
 #define NSVCD__WINDOW 8          // blocks of a resting patch, loaded at once
 #define NSVCD__HOPE 8            // so many looks for a witness come before triangles are tried over a whole segment
+#define NSVCD__TOUCHES 32        // contacts at the start, looked at together
+#define NSVCD__LIFTS 6           // directions in which they are undone, at most
 #define NSVCD__IN_ORDER 4        // segments that are searched together, where the first contact is sought
 #define NSVCD__HALVINGS 40       // of a span for a pair of triangles, at most
 #define NSVCD__PATIENCE_TO_PART 12  // parts of a span that pairs of triangles ask for, before all go on with its halves,
@@ -5709,6 +5717,11 @@ typedef struct nsvcd__contact {
   uint16_t moving_patch, fixed_patch;
 } nsvcd__contact;
 
+// Two triangles that touch at the start, as the fixed body sees them.
+typedef struct nsvcd__touch {
+  nsvcd__d3 moving[3], fixed[3];
+} nsvcd__touch;
+
 typedef enum nsvcd__verdict {
   NSVCD__FREE,
   NSVCD__MEETS,
@@ -5741,6 +5754,11 @@ typedef struct nsvcd__proof {
   // distance of its triangles, less this; with `first` each ends the motion so many ticks before it. So what is proven in
   // the end holds for the rest.
   double clearance, measure, first;
+  double skin;
+  int gathers;           // contacts are not taken, but gathered: those that a lift along no normal known undoes
+  nsvcd__touch touches[NSVCD__TOUCHES];
+  nsvcd__d3 normals[NSVCD__LIFTS];  // unit, of what the moving body touches, towards it
+  size_t touch_count, normal_count;
   double end;            // ticks: what begins then or later does not matter
   double clipped_end;    // what that was when a segment was clipped last,
   uint64_t clipped;      // and those that were
@@ -7110,6 +7128,43 @@ static nsvcd__nearest nsvcd__contact_of(const nsvcd__proof *p, const nsvcd__d3 *
   return out;
 }
 
+// How far a triangle must go along n until it is beyond the other; negative if it is already.
+static double nsvcd__lift_along(nsvcd__d3 n, const nsvcd__d3 *moving, const nsvcd__d3 *fixed) {
+  double lowest = HUGE_VAL, highest = -HUGE_VAL;
+  for (size_t k = 0; k < 3; k++) {
+    lowest = fmin(lowest, nsvcd__d3_dot(n, moving[k]));
+    highest = fmax(highest, nsvcd__d3_dot(n, fixed[k]));
+  }
+  return highest - lowest;
+}
+
+// Normals of a touch: of the moving triangle, turned about, and of the fixed one; both point to where the moving body is.
+static void nsvcd__touch_normals(const nsvcd__touch *t, nsvcd__d3 *out) {
+  const nsvcd__d3 none = nsvcd__d3_of(0, 0, 0);
+  const nsvcd__d3 *a = t->moving, *b = t->fixed;
+  out[0] = nsvcd__d3_unit(nsvcd__d3_cross(nsvcd__d3_sub(a[2], a[0]), nsvcd__d3_sub(a[1], a[0])), none);
+  out[1] = nsvcd__d3_unit(nsvcd__d3_cross(nsvcd__d3_sub(b[1], b[0]), nsvcd__d3_sub(b[2], b[0])), none);
+}
+
+// Does a lift along n undo a touch, and push it through neither face?
+static int nsvcd__undoes(const nsvcd__proof *p, nsvcd__d3 n, const nsvcd__touch *t) {
+  nsvcd__d3 normals[2];
+  if (nsvcd__lift_along(n, t->moving, t->fixed) + p->clearance > p->skin) return 0;
+  nsvcd__touch_normals(t, normals);
+  return nsvcd__d3_dot(n, normals[0]) > -0.01 && nsvcd__d3_dot(n, normals[1]) > -0.01;
+}
+
+// Keeps two triangles that are within the clearance at the start, unless a direction that is known undoes that.
+static void nsvcd__gather_contact(nsvcd__proof *p, const nsvcd__pair *pair, const nsvcd__d3 *posed) {
+  nsvcd__touch touch;
+  memcpy(touch.moving, posed, sizeof touch.moving);
+  memcpy(touch.fixed, pair->fixed, sizeof touch.fixed);
+  for (size_t k = 0; k < p->normal_count; k++) {
+    if (nsvcd__undoes(p, p->normals[k], &touch)) return;
+  }
+  if (p->touch_count < NSVCD__TOUCHES) p->touches[p->touch_count++] = touch;
+}
+
 // Among the moving block, posed `at`, and a block of the window: looks for a contact a share u of the arc later than its
 // start. FREE: there is none.
 static nsvcd__verdict nsvcd__find_witness_in(nsvcd__proof *p, size_t i, size_t j, size_t n, const nsvcd__placement *at,
@@ -7128,6 +7183,10 @@ static nsvcd__verdict nsvcd__find_witness_in(nsvcd__proof *p, size_t i, size_t j
       p->work++;
       const nsvcd__nearest nearest = nsvcd__contact_of(p, posed, &pair);
       if (!(nearest.square < HUGE_VAL)) continue;
+      if (p->gathers) {
+        nsvcd__gather_contact(p, &pair, posed);
+        continue;
+      }
       const nsvcd__verdict verdict = nsvcd__take_contact(p, &pair, u, &nearest);
       if (verdict == NSVCD__MEETS) return verdict;
       // The pair may touch sooner, or come closer.
@@ -7952,7 +8011,9 @@ static nsvcd__verdict nsvcd__prove_in_order(nsvcd__proof *p, nsvcd__workspace *w
 }
 
 static nsvcd__verdict nsvcd__prove(nsvcd__proof *p, nsvcd__workspace *work) {
-  if (!(p->measure > 0) && nsvcd__motion_is_far(p->motion, p->lengths + nsvcd__clearance_of(p))) {
+  const float lifted = nsvcd__f3_length(nsvcd__f3_of(p->motion->lift[0], p->motion->lift[1], p->motion->lift[2]));
+  const float apart = p->lengths + nsvcd__clearance_of(p) + 1.0001f * lifted;
+  if (!(p->measure > 0) && nsvcd__motion_is_far(p->motion, apart)) {
     return NSVCD__FREE;
   }
   nsvcd__choose_segments(p->motion, work);
@@ -7970,6 +8031,146 @@ static nsvcd__verdict nsvcd__prove(nsvcd__proof *p, nsvcd__workspace *work) {
   if (verdict == NSVCD__MEETS) return verdict;
   if (p->lost || p->unsure < p->end) return NSVCD__UNDECIDED;
   return p->within ? NSVCD__WITHIN : p->has_contact ? NSVCD__MEETS : NSVCD__FREE;
+}
+// A proof that knows nothing yet of its motion.
+static void nsvcd__proof_restart(nsvcd__proof *p) {
+  p->end = p->clipped_end = p->unsure = HUGE_VAL;
+  p->clipped = 0;
+  p->has_contact = 0;
+  p->lost = 0;
+  p->within = 0;
+  p->count = p->fresh_count = 0;
+  p->spans_known = 0;
+  p->held = nsvcd__f3_of(0, 0, 0);
+  p->plane = 0;
+  p->arc.ticks = 0;
+  p->in_group = p->in_pair = 0;
+  p->misses = 0;
+  p->parting = nsvcd__d3_of(0, 0, 0);
+  p->next_placed = 0;
+  for (size_t n = 0; n < NSVCD__PLACED; n++) p->placed[n].ticks = 0;
+}
+
+// ---- leaving a contact
+// What carries a body must not stop it. Which contacts are those? The body is asked about as if it were lifted off all that
+// it touches at the start, by a vector v that has the skin's length along every normal there. That is a motion like any
+// other, and what is proven of it is proven: the body stays clear of everything when displaced by v, so that, undisplaced,
+// it goes no deeper than |v| into anything. What presses in deeper than the skin at the start has no such v, nor has what is
+// held from opposite sides, and is hit as ever. v is constant as the fixed body sees it.
+
+// Gathers what the moving body touches at the start.
+static void nsvcd__gather_contacts(nsvcd__proof *p, nsvcd__workspace *work) {
+  p->touch_count = 0;
+  nsvcd__choose_segments(p->motion, work);
+  nsvcd__cut_segments(p->motion, p->lengths, nsvcd__clearance_of(p), work);
+  nsvcd__search_begin(p->moving.body, p->fixed.body, work);
+  for (int more = 1; more && p->work <= p->limit;) {
+    more = nsvcd__collect(p, work);
+    for (size_t n = 0; n < p->fresh_count; n++) {
+      const nsvcd__item *item = &p->fresh[n];
+      if (p->plane && nsvcd__held_again(p, work, item)) continue;
+      if (nsvcd__item_is_parted(p, work, item)) continue;
+      (void)nsvcd__find_witness(p, item->moving, item->fixed, 0, 0);
+    }
+    p->fresh_count = 0;
+  }
+}
+
+// How many touches a lift along n undoes.
+static size_t nsvcd__undone(const nsvcd__proof *p, nsvcd__d3 n) {
+  size_t count = 0;
+  for (size_t k = 0; k < p->touch_count; k++) count += nsvcd__undoes(p, n, &p->touches[k]) != 0;
+  return count;
+}
+
+// Of the normals of what touches, and across an edge of each, one that undoes the most; `best` as it is if none undoes any.
+static size_t nsvcd__best_lift(const nsvcd__proof *p, nsvcd__d3 *best) {
+  const nsvcd__d3 none = nsvcd__d3_of(0, 0, 0);
+  size_t most = 0;
+  for (size_t k = 0; k < p->touch_count && most < p->touch_count; k++) {
+    nsvcd__d3 normals[2];
+    nsvcd__touch_normals(&p->touches[k], normals);
+    for (size_t i = 0; i < 2; i++) {
+      const int known = most > 0 && nsvcd__d3_dot(normals[i], *best) > 0.99999;
+      const size_t count = known ? 0 : nsvcd__undone(p, normals[i]);
+      if (count > most) *best = normals[i];
+      most = count > most ? count : most;
+    }
+  }
+  for (size_t k = 0; k < 9 && most == 0; k++) {  // an edge on an edge
+    const nsvcd__touch *t = &p->touches[0];
+    const nsvcd__d3 u = nsvcd__d3_sub(t->moving[(k + 1) % 3], t->moving[k % 3]);
+    const nsvcd__d3 v = nsvcd__d3_sub(t->fixed[(k / 3 + 1) % 3], t->fixed[k / 3]);
+    const nsvcd__d3 n = nsvcd__d3_unit(nsvcd__d3_cross(u, v), none);
+    nsvcd__d3 normals[2];
+    nsvcd__touch_normals(t, normals);
+    const double side = nsvcd__d3_dot(n, nsvcd__d3_add(normals[0], normals[1])) < 0 ? -1 : 1;
+    const nsvcd__d3 outward = nsvcd__d3_scale(n, side);
+    const size_t count = nsvcd__d3_dot(n, n) > 0.5 ? nsvcd__undone(p, outward) : 0;
+    if (count > most) *best = outward;
+    most = count > most ? count : most;
+  }
+  return most;
+}
+
+// Finds directions that undo all that was gathered. 0: there are none for something, or too many.
+static int nsvcd__choose_lifts(nsvcd__proof *p) {
+  while (p->touch_count > 0) {
+    nsvcd__d3 best = {0, 0, 0};
+    if (p->normal_count == NSVCD__LIFTS || nsvcd__best_lift(p, &best) == 0) return 0;
+    p->normals[p->normal_count++] = best;
+    size_t left = 0;
+    for (size_t k = 0; k < p->touch_count; k++) {
+      if (!nsvcd__undoes(p, best, &p->touches[k])) p->touches[left++] = p->touches[k];
+    }
+    p->touch_count = left;
+  }
+  return 1;
+}
+
+// The shortest vector, nearly, that has the skin's length along all normals that were gathered. 0 if there is none of less
+// than four skins.
+static nsvcd__d3 nsvcd__lift_off(const nsvcd__proof *p) {
+  nsvcd__d3 lift = {0, 0, 0};
+  for (size_t round = 0; round < 64; round++) {
+    double most = 0;
+    for (size_t k = 0; k < p->normal_count; k++) {
+      const double lacks = p->skin - nsvcd__d3_dot(lift, p->normals[k]);
+      most = fmax(most, lacks);
+      if (lacks > 0) lift = nsvcd__d3_add(lift, nsvcd__d3_scale(p->normals[k], lacks));
+    }
+    if (nsvcd__d3_length(lift) > 4 * p->skin) break;
+    if (most <= 0.01 * p->skin) return lift;
+  }
+  return nsvcd__d3_of(0, 0, 0);
+}
+
+// Lifts the motion off what it touches at its start.
+static NSVCD__APART void nsvcd__lift_motion(nsvcd__proof *p, nsvcd__workspace *work) {
+  nsvcd__motion *whole = p->motion;
+  nsvcd__motion start = *whole;
+  start.moving.count = start.fixed.count = 1;
+  start.fixed_moves = 0;
+  const double clearance = p->clearance;
+  p->motion = &start;
+  p->normal_count = 0;
+  p->clearance += 0.05 * p->skin;  // what is about to touch is lifted off too
+  p->gathers = 1;
+  int liftable = 1;
+  for (int more = 1; more && liftable;) {  // as many times as there are too many contacts to look at at once
+    nsvcd__proof_restart(p);
+    nsvcd__gather_contacts(p, work);
+    more = p->touch_count > 0;
+    liftable = nsvcd__choose_lifts(p);
+  }
+  p->gathers = 0;
+  p->clearance = clearance;
+  p->motion = whole;
+  const nsvcd__f3 lift = nsvcd__f3_round(liftable ? nsvcd__lift_off(p) : nsvcd__d3_of(0, 0, 0));
+  whole->lift[0] = lift.x;
+  whole->lift[1] = lift.y;
+  whole->lift[2] = lift.z;
+  nsvcd__proof_restart(p);
 }
 #endif  // NSVCD_NO_PROOF
 
@@ -8810,7 +9011,7 @@ typedef struct nsvcd__task {
   float lengths;        // extents of both bodies, in the fixed one's units
   nsvcd_method method;  // PROOF or NETWORK
   size_t work;
-  float tolerance, clearance, measure;  // in the fixed body's units
+  float tolerance, clearance, measure, skin;  // in the fixed body's units
   float first;
   const nsvcd_sweep_options *options;  // the caller's
 #ifndef NSVCD_NO_NETWORK
@@ -9088,25 +9289,6 @@ static void nsvcd__answer_with_bounds(const nsvcd__proof *p, nsvcd__verdict verd
   }
 }
 
-// A proof that knows nothing yet of its motion.
-static void nsvcd__proof_restart(nsvcd__proof *p) {
-  p->end = p->clipped_end = p->unsure = HUGE_VAL;
-  p->clipped = 0;
-  p->has_contact = 0;
-  p->lost = 0;
-  p->within = 0;
-  p->count = p->fresh_count = 0;
-  p->spans_known = 0;
-  p->held = nsvcd__f3_of(0, 0, 0);
-  p->plane = 0;
-  p->arc.ticks = 0;
-  p->in_group = p->in_pair = 0;
-  p->misses = 0;
-  p->parting = nsvcd__d3_of(0, 0, 0);
-  p->next_placed = 0;
-  for (size_t n = 0; n < NSVCD__PLACED; n++) p->placed[n].ticks = 0;
-}
-
 // A contact so early that it may be one at the start already: then it is that.
 static NSVCD__APART nsvcd__verdict nsvcd__prove_start(nsvcd__proof *p, nsvcd__workspace *work) {
   nsvcd__motion *whole = p->motion;
@@ -9146,8 +9328,11 @@ static void nsvcd__answer_by_proof(nsvcd__task *ask, nsvcd__query *query, nsvcd_
   p->measure = (double)ask->measure;
   p->first = (double)ask->first;
   p->limit = ask->work;
+  p->skin = (double)ask->skin;
+  p->gathers = 0;
   p->work = 0;
   nsvcd__proof_restart(p);
+  if (p->skin > 0) nsvcd__lift_motion(p, &query->broad_phase);
   nsvcd__verdict verdict = nsvcd__prove(p, &query->broad_phase);
   if (verdict == NSVCD__MEETS && p->first > 0 && p->found.tick > 0 && p->end <= 0) {
     verdict = nsvcd__prove_start(p, &query->broad_phase);
@@ -9167,6 +9352,10 @@ static void nsvcd__answer_by_proof(nsvcd__task *ask, nsvcd__query *query, nsvcd_
                  : verdict == NSVCD__WITHIN  ? NSVCD_STATUS_INSIDE
                  : verdict == NSVCD__FREE    ? NSVCD_STATUS_CERTIFIED_FREE
                                              : NSVCD_STATUS_UNDECIDED;
+  const nsvcd__to_world start = nsvcd__to_world_at(p->motion, 0);
+  const nsvcd__d3 lift = nsvcd__rotate(start.rows, nsvcd__d3_load(p->motion->lift));
+  const nsvcd__f3 lifted = nsvcd__f3_round(nsvcd__d3_scale(lift, p->skin > 0 ? start.unit : 0));
+  memcpy(found.lift, &lifted, sizeof found.lift);
   found.collides = verdict != NSVCD__FREE;
   found.logit = found.collides ? NSVCD_LOGIT_CERTAIN : -NSVCD_LOGIT_CERTAIN;
   *answer = found;
@@ -9182,11 +9371,12 @@ static void nsvcd__turn_answer(nsvcd_answer *answer) {
   answer->triangle_a = answer->triangle_b;
   answer->triangle_b = triangle;
   for (size_t k = 0; k < 3; k++) answer->normal[k] = 0 - answer->normal[k];
+  for (size_t k = 0; k < 3; k++) answer->lift[k] = 0 - answer->lift[k];
 }
 
 // Is something asked that the network knows nothing of?
 static int nsvcd__needs_proof(const nsvcd_sweep_options *options) {
-  return options->clearance > 0 || options->measure > 0 || options->first > 0;
+  return options->clearance > 0 || options->measure > 0 || options->first > 0 || options->skin > 0;
 }
 
 // Answers a question that has been checked. hint: NULL, or that of a batch, for the network.
@@ -9262,8 +9452,8 @@ static nsvcd_result nsvcd__question_check(const nsvcd_question *question) {
   if (nsvcd__is_itself(question)) return NSVCD_ERROR_SAME;
   const nsvcd_sweep_options *options = &question->options;
   if ((unsigned)options->method > (unsigned)NSVCD_METHOD_NETWORK) return NSVCD_ERROR_ARGUMENT;
-  const float lengths[3] = {options->tolerance, options->clearance, options->measure};
-  for (size_t k = 0; k < 3; k++) {
+  const float lengths[4] = {options->tolerance, options->clearance, options->measure, options->skin};
+  for (size_t k = 0; k < 4; k++) {
     const int fits = nsvcd__is_finite(lengths[k]) && lengths[k] >= 0 && lengths[k] <= NSVCD_MAX_COORDINATE;
     if (!fits) return NSVCD_ERROR_TOLERANCE;
   }
@@ -9294,6 +9484,7 @@ static void nsvcd__task_of(const nsvcd_question *question, nsvcd__task *ask) {
   ask->tolerance = options->tolerance / ask->motion.unit;
   ask->clearance = options->clearance / ask->motion.unit;
   ask->measure = options->measure / ask->motion.unit;
+  ask->skin = options->skin / ask->motion.unit;
   ask->first = options->first;
   ask->method = nsvcd__method_of(ask->moving, ask->fixed, options->method);
   ask->options = options;

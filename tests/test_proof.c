@@ -1362,6 +1362,145 @@ static void proof_keeps_clearances(void) {
 }
 
 // -------------------------------------------------------------------------------------------------
+// leaving a contact
+
+// A floor, and with `wall` a wall on its far side (x > 0.5), of many triangles or few.
+static proof_body proof_floor(int wall, int cuts) {
+  shapes_mesh shape;
+  nsvcd_result result;
+  memset(&shape, 0, sizeof shape);
+  shapes_box(&shape, 2, 2, 0.1, cuts);
+  for (size_t i = 0; i < shape.vertices; i++) shape.positions[3 * i + 2] -= 0.05;  // its top is z = 0
+  if (wall) shapes_box_at(&shape, 0.55, 0, 0.5, 0.1, 2, 1);
+  proof_body b = proof_encode(&shape, 1, NULL, &result);
+  CHECK_EQ(result, NSVCD_OK);
+  shapes_free(&shape);
+  return b;
+}
+static proof_body proof_crate(int cuts) {
+  shapes_mesh shape;
+  nsvcd_result result;
+  memset(&shape, 0, sizeof shape);
+  shapes_box(&shape, 0.2, 0.2, 0.2, cuts);
+  proof_body b = proof_encode(&shape, 1, NULL, &result);
+  CHECK_EQ(result, NSVCD_OK);
+  shapes_free(&shape);
+  return b;
+}
+
+// Asks about a crate whose lowest points go from z0 to z1 and which goes from x0 to x1; everything turned and moved along.
+static nsvcd_answer proof_push(attack *a, shapes_rng *rng, double x0, double x1, double z0, double z1, float skin,
+                               float clearance, float first) {
+  nsvcd_sweep_options options = proof_options();
+  oracle_pose fixed = {{0, 0, 0}, {0, 0, 0, 1}}, poses[3];
+  if (shapes_pick(rng, 2)) shapes_quaternion(rng, fixed.rotation);
+  if (shapes_pick(rng, 2)) {
+    for (int k = 0; k < 3; k++) fixed.position[k] = shapes_uniform(rng, -1, 1);
+  }
+  for (int n = 0; n < 3; n++) {
+    const double t = 0.5 * n;
+    oracle_pose seen = {{x0 + t * (x1 - x0), 0.1, 0.1 + z0 + t * (z1 - z0)}, {0, 0, 0, 1}};
+    poses[n] = oracle_compose(&fixed, &seen);
+  }
+  proof_motion_set(&a->motion, poses, 3, &fixed);
+  if (shapes_pick(rng, 2)) proof_carry(rng, a, 0, 1);  // a turn would press it in between poses
+  options.skin = skin;
+  options.clearance = clearance;
+  options.first = first;
+  CHECK_EQ(proof_ask_with(a, &options), NSVCD_OK);
+  return a->answer;
+}
+
+// A crate that rests on a floor, is pushed along it, lifted off it, pressed into it, pushed against a wall.
+static void proof_leaves_contacts(void) {
+  const float skin = 1e-3f;
+  shapes_rng rng = {90};
+  for (int make = 0; make < 8; make++) {
+    const int wall = make % 2;
+    proof_body floor = proof_floor(wall, make & 2 ? 2 : 12);
+    proof_body crate = proof_crate(make & 4 ? 1 : 6);
+    attack a;
+    for (int trial = 0; trial < 12 * 12; trial++) {
+      const int k = trial % 12;
+      static const double heights[12][2] = {{0, 0},       {0, 0},        {0, 0.1},   {-5e-4, -5e-4}, {-3e-3, -3e-3}, {0, -5e-3},
+                                            {2e-5, 2e-5}, {8e-4, 8e-4}, {0, 0},     {0, 0},         {-3e-3, 0.1},   {0, -5e-4}};
+      const float clearance = k == 7 || k == 9 ? 1e-3f : 0;  // there the skin is all of it: as near as touching
+      const double far_end = k == 8 && wall ? 0.45 : 0.2;
+      a.moving = &crate;
+      a.fixed = &floor;
+      const nsvcd_answer answer = proof_push(&a, &rng, k == 1 ? -0.3 : 0, k == 1 ? -0.3 : far_end, heights[k][0],
+                                             heights[k][1], k == 9 ? 2 * skin : skin, clearance, 0.01f);
+      const double lift = sqrt((double)(answer.lift[0] * answer.lift[0] + answer.lift[1] * answer.lift[1] +
+                                        answer.lift[2] * answer.lift[2]));
+      const int pressed = k == 4 || k == 10;
+      const int hits = pressed || k == 5 || (k == 8 && wall);
+      CHECK_EQ(answer.collides, hits);
+      CHECK_EQ(answer.status == NSVCD_STATUS_CERTIFIED_FREE, !hits);
+      if (pressed) CHECK_EQ(lift, 0);
+      if (pressed) CHECK_EQ(answer.contact_time, 0);
+      if (!pressed) CHECK_NEAR(lift, k == 9 ? 2 * skin : skin, 1e-5);
+      if (k == 5) CHECK_NEAR(answer.contact_time, 0.2, 0.012);  // a skin deep of five
+      if (k == 8 && wall) CHECK_NEAR(answer.contact_time, 0.4 / 0.45, 0.012);
+    }
+    proof_free(&floor);
+    proof_free(&crate);
+  }
+}
+
+// The distance at t when the moving body is displaced by the lift, which turns with the fixed one.
+static double proof_lifted_distance(const attack *a, const double *lift, double t) {
+  const oracle_pose start = proof_pose_at(&a->motion.fixed, 0);
+  const oracle_pose fixed = proof_pose_at(&a->motion.fixed, t);
+  oracle_pose pose = proof_pose_at(&a->motion.moving, t);
+  double at_start[9], now[9], seen[3], turned[3];
+  oracle_matrix(start.rotation, at_start);
+  oracle_matrix(fixed.rotation, now);
+  oracle_rotate_back(at_start, lift, seen);
+  oracle_rotate(now, seen, turned);
+  for (int k = 0; k < 3; k++) pose.position[k] += turned[k];
+  return oracle_distance(&a->moving->oracle, &pose, &a->fixed->oracle, &fixed, NULL, NULL);
+}
+
+// Any bodies that touch at the start: what is said to be free is free when lifted, and the lift is short.
+static void proof_lifts_are_true(void) {
+  shapes_rng rng = {91};
+  size_t asked = 0, lifted = 0, free_then = 0, wrong = 0;
+  while (asked < 600) {
+    attack a;
+    a.moving = proof_shared(0, (size_t)shapes_pick(&rng, MAKES));
+    a.fixed = proof_shared(0, (size_t)shapes_pick(&rng, MAKES));
+    const double size = a.moving->size + a.fixed->size;
+    const float skin = (float)(size * pow(10, shapes_uniform(&rng, -4, -2)));
+    const double gap = shapes_uniform(&rng, -0.5, 0.5) * (double)skin / size;
+    nsvcd_sweep_options options = proof_options();
+    oracle_pose fixed, pose, poses[PROOF_POSES];
+    double point[3], away[3], lift[3];
+    shapes_quaternion(&rng, fixed.rotation);
+    for (int k = 0; k < 3; k++) fixed.position[k] = shapes_uniform(&rng, -1, 1) * size;
+    if (!proof_near_contact(&rng, &a, &fixed, gap * size, &pose, point, away)) continue;
+    for (int n = 0; n < 3; n++) {  // away from it, and a little along
+      poses[n] = pose;
+      for (int k = 0; k < 3; k++) poses[n].position[k] += 0.1 * n * size * (away[k] + 0.5 * away[(k + 1) % 3]);
+    }
+    proof_motion_set(&a.motion, poses, 3, &fixed);
+    if (shapes_pick(&rng, 2)) proof_carry(&rng, &a, 1, size);
+    options.skin = skin;
+    CHECK_EQ(proof_ask_with(&a, &options), NSVCD_OK);
+    for (int k = 0; k < 3; k++) lift[k] = (double)a.answer.lift[k];
+    asked++;
+    lifted += oracle_length(lift) > 0;
+    CHECK_LE(oracle_length(lift), 4.001 * (double)skin);
+    if (a.answer.status != NSVCD_STATUS_CERTIFIED_FREE) continue;
+    free_then++;
+    for (int k = 0; k <= 20; k++) wrong += !(proof_lifted_distance(&a, lift, k / 20.0) > 0);
+  }
+  printf("  %zu bodies that touch: %zu lifted, %zu free then; %zu wrong\n", asked, lifted, free_then, wrong);
+  CHECK_EQ(wrong, 0);
+  CHECK_GE(lifted, asked / 3);
+  CHECK_GE(free_then, asked / 4);
+}
+
+// -------------------------------------------------------------------------------------------------
 // containment
 
 typedef struct within_sum {
@@ -1590,15 +1729,13 @@ static void proof_refuses(void) {
   CHECK(proof_scene(&rng, &a, 0.01, 0));
   const float bad[4] = {-1, -1e-30f, NAN, INFINITY};
   for (int k = 0; k < 4; k++) {
-    for (int which = 0; which < 4; which++) {
+    for (int which = 0; which < 5; which++) {
       options = proof_options();
-      float *number = which == 0   ? &options.tolerance
-                      : which == 1 ? &options.clearance
-                      : which == 2 ? &options.measure
-                                   : &options.first;
+      float *const numbers[5] = {&options.tolerance, &options.clearance, &options.measure, &options.skin, &options.first};
+      float *number = numbers[which];
       *number = bad[k];
       CHECK_EQ(proof_ask_with(&a, &options), NSVCD_ERROR_TOLERANCE);
-      *number = which == 3 ? 1.01f : 2e6f;
+      *number = which == 4 ? 1.01f : 2e6f;
       CHECK_EQ(proof_ask_with(&a, &options), NSVCD_ERROR_TOLERANCE);
     }
   }
@@ -2187,6 +2324,8 @@ void test_proof(void) {
   RUN(proof_spans_hold_along_directions);
   RUN(proof_finds_first_contacts);
   RUN(proof_keeps_clearances);
+  RUN(proof_leaves_contacts);
+  RUN(proof_lifts_are_true);
   RUN(proof_knows_what_is_within);
   RUN(proof_answers_are_the_same_again);
   RUN(proof_keeps_its_limit);
