@@ -26,12 +26,12 @@ ifeq ($(BENCH),quick)
 COUNT ?= 200
 endif
 
-.PHONY: race mutants bench-plan preview profile instructions sizes bench check-extremes all demo test assets problems accuracy weights format clean help check-header check-examples check-problems check-gradient
+.PHONY: race mutants bench-plan preview profile instructions sizes bench check-extremes all demo test assets problems accuracy weights format clean help check-header check-examples check-problems check-gradient check-motions
 .DELETE_ON_ERROR:
 
 PLANNERS = build/dish_insertion build/bimanual_insertion build/mining_site
 
-all: build/svcd build/quickstart $(PLANNERS)  ## the examples: build/svcd, build/quickstart and three that plan motions
+all: build/svcd build/quickstart build/game $(PLANNERS)  ## the examples: build/svcd, build/quickstart, build/game and three that plan motions
 
 help:  ## this list
 	@sed -n 's/^\([a-z][a-z-]*\):.*##/\1:/p' $(MAKEFILE_LIST) | sort
@@ -45,6 +45,8 @@ build/svcd: examples/svcd.c examples/problem_file.h $(LIBRARY) | build
 	$(CC) $(ALL_CFLAGS) -o $@ examples/svcd.c -lm
 build/quickstart: examples/quickstart.c examples/picture.h $(LIBRARY) | build
 	$(CC) $(ALL_CFLAGS) -o $@ examples/quickstart.c -lm
+build/game: examples/game.c examples/problem_file.h examples/draw.h examples/tasks.h examples/shapes.h tests/oracle.h $(LIBRARY) | build
+	$(CC) $(ALL_CFLAGS) -Wno-unused-function -o $@ examples/game.c -lm
 $(PLANNERS): build/%: examples/%.c examples/task_planner.h examples/draw.h examples/tasks.h examples/shapes.h tests/oracle.h $(LIBRARY) | build
 	$(CC) $(ALL_CFLAGS) -o $@ $< -lm
 build/tasks_preview: examples/tasks_preview.c examples/draw.h examples/tasks.h examples/shapes.h tests/oracle.h $(LIBRARY) | build
@@ -52,8 +54,9 @@ build/tasks_preview: examples/tasks_preview.c examples/draw.h examples/tasks.h e
 build/make_assets: examples/make_assets.c examples/shapes.h | build
 	$(CC) $(ALL_CFLAGS) -o $@ examples/make_assets.c -lm
 
-demo: build/quickstart $(PLANNERS)  ## the examples, seconds each: what they find, and a picture each in build/
+demo: build/quickstart build/game $(PLANNERS)  ## the examples, seconds each: what they find, and a picture each in build/
 	build/quickstart
+	build/game
 	build/dish_insertion
 	build/bimanual_insertion
 	build/mining_site
@@ -71,7 +74,7 @@ TEST_OBJECTS = $(TESTS:%=build/%.o)
 # Each test file holds its own copy of the header, and uses only a part of its private functions.
 TEST_WARNINGS = -Wall -Wextra -Werror -Wno-unused-function
 
-build/%.o: tests/%.c tests/check.h tests/oracle.h tests/query_scene.h tests/proof_scene.h tests/gradient_reference.h examples/shapes.h examples/tasks.h tests/plan_spheres.h tests/bench_spheres.h tests/bench_mesh.h tests/method.h $(wildcard tests/data/*.h) $(LIBRARY) | build
+build/%.o: tests/%.c tests/check.h tests/ask.h tests/oracle.h tests/query_scene.h tests/proof_scene.h tests/gradient_reference.h examples/shapes.h examples/tasks.h tests/plan_spheres.h tests/bench_spheres.h tests/bench_mesh.h tests/method.h $(wildcard tests/data/*.h) $(LIBRARY) | build
 	$(CC) $(CFLAGS) -pthread -std=c99 $(TEST_WARNINGS) $(CCD_CFLAGS) -c -o $@ $<
 build/tests: $(TEST_OBJECTS)
 	$(CC) $(CFLAGS) -pthread -o $@ $(TEST_OBJECTS) $(CCD_LIBS) -lm
@@ -96,10 +99,22 @@ build/test_proof: tests/test_proof.c tests/proof_scene.h tests/check.h tests/ora
 mutants:  ## the header with one mistake at a time: the tests of the proof must catch each; minutes
 	CC="$(CC)" tests/mutants.sh
 
+# What moving things ask, against conservative advancement in double: pairs of the game, and with MOTIONS="FILE ..." problem
+# files; FIRST: tolerance of first contacts, a share of the motion. FRAMES=1000 for more.
+FRAMES = 60
+FIRST = 0.01
+build/check_motions: tests/check_motions.c examples/problem_file.h tests/oracle.h $(LIBRARY) | build
+	$(CC) $(ALL_CFLAGS) -Wno-unused-function -o $@ tests/check_motions.c -lm
+check-motions: build/check_motions build/game  ## first contacts, clearances and two movers against an oracle
+	@mkdir -p build/motions
+	build/game --frames $(FRAMES) --problems build/motions
+	build/check_motions build/motions/game.txt 0.002 $(FIRST)
+	@for file in $(MOTIONS); do echo $$file; build/check_motions $$file 0 $(FIRST) || exit 1; done
+
 check-extremes: build/problems build/svcd  # tiny, huge, far, thin, spinning ...
 	tests/extremes.sh
 
-test: build/tests check-header check-gradient check-examples check-problems check-extremes  ## everything; the last line is `N passed, N failed`
+test: build/tests check-header check-gradient check-examples check-motions check-problems check-extremes  ## everything; the last line is `N passed, N failed`
 	build/tests
 
 # ---------------------------------------------------------------------------------------------------------- accuracy

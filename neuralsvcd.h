@@ -5720,6 +5720,7 @@ typedef struct nsvcd__contact {
 // Two triangles that touch at the start, as the fixed body sees them.
 typedef struct nsvcd__touch {
   nsvcd__d3 moving[3], fixed[3];
+  nsvcd__d3 apart;  // unit, from the fixed one's nearest point to the moving one's; 0: they meet
 } nsvcd__touch;
 
 typedef enum nsvcd__verdict {
@@ -7138,20 +7139,24 @@ static double nsvcd__lift_along(nsvcd__d3 n, const nsvcd__d3 *moving, const nsvc
   return highest - lowest;
 }
 
-// Normals of a touch: of the moving triangle, turned about, and of the fixed one; both point to where the moving body is.
+// Directions that may undo a touch: the normals of the moving triangle, turned about, and of the fixed one; and, if they are
+// apart, that from point to point. All point to where the moving body is.
 static void nsvcd__touch_normals(const nsvcd__touch *t, nsvcd__d3 *out) {
   const nsvcd__d3 none = nsvcd__d3_of(0, 0, 0);
   const nsvcd__d3 *a = t->moving, *b = t->fixed;
   out[0] = nsvcd__d3_unit(nsvcd__d3_cross(nsvcd__d3_sub(a[2], a[0]), nsvcd__d3_sub(a[1], a[0])), none);
   out[1] = nsvcd__d3_unit(nsvcd__d3_cross(nsvcd__d3_sub(b[1], b[0]), nsvcd__d3_sub(b[2], b[0])), none);
+  out[2] = t->apart;
 }
 
-// Does a lift along n undo a touch, and push it through neither face?
+// Does a lift along n undo a touch? If it has to push anything, then through neither face.
 static int nsvcd__undoes(const nsvcd__proof *p, nsvcd__d3 n, const nsvcd__touch *t) {
-  nsvcd__d3 normals[2];
-  if (nsvcd__lift_along(n, t->moving, t->fixed) + p->clearance > p->skin) return 0;
+  nsvcd__d3 normals[3];
+  const double lift = nsvcd__lift_along(n, t->moving, t->fixed);
+  if (!(nsvcd__d3_dot(n, n) > 0.5) || lift + p->clearance > p->skin) return 0;
+  if (lift < 0) return 1;
   nsvcd__touch_normals(t, normals);
-  return nsvcd__d3_dot(n, normals[0]) > -0.01 && nsvcd__d3_dot(n, normals[1]) > -0.01;
+  return nsvcd__d3_dot(n, normals[0]) > -0.3 && nsvcd__d3_dot(n, normals[1]) > -0.3;
 }
 
 // Keeps two triangles that are within the clearance at the start, unless a direction that is known undoes that.
@@ -7159,6 +7164,10 @@ static void nsvcd__gather_contact(nsvcd__proof *p, const nsvcd__pair *pair, cons
   nsvcd__touch touch;
   memcpy(touch.moving, posed, sizeof touch.moving);
   memcpy(touch.fixed, pair->fixed, sizeof touch.fixed);
+  const nsvcd__nearest nearest = nsvcd__triangles_nearest(posed, pair->fixed);
+  const int are_apart = nearest.square > 1e6 * pair->rounding * pair->rounding;
+  const nsvcd__d3 way = nsvcd__d3_sub(nearest.on_a, nearest.on_b);
+  touch.apart = nsvcd__d3_scale(way, are_apart ? 1 / sqrt(nearest.square) : 0);
   for (size_t k = 0; k < p->normal_count; k++) {
     if (nsvcd__undoes(p, p->normals[k], &touch)) return;
   }
@@ -8088,9 +8097,9 @@ static size_t nsvcd__best_lift(const nsvcd__proof *p, nsvcd__d3 *best) {
   const nsvcd__d3 none = nsvcd__d3_of(0, 0, 0);
   size_t most = 0;
   for (size_t k = 0; k < p->touch_count && most < p->touch_count; k++) {
-    nsvcd__d3 normals[2];
+    nsvcd__d3 normals[3];
     nsvcd__touch_normals(&p->touches[k], normals);
-    for (size_t i = 0; i < 2; i++) {
+    for (size_t i = 0; i < 3; i++) {
       const int known = most > 0 && nsvcd__d3_dot(normals[i], *best) > 0.99999;
       const size_t count = known ? 0 : nsvcd__undone(p, normals[i]);
       if (count > most) *best = normals[i];
@@ -8102,7 +8111,7 @@ static size_t nsvcd__best_lift(const nsvcd__proof *p, nsvcd__d3 *best) {
     const nsvcd__d3 u = nsvcd__d3_sub(t->moving[(k + 1) % 3], t->moving[k % 3]);
     const nsvcd__d3 v = nsvcd__d3_sub(t->fixed[(k / 3 + 1) % 3], t->fixed[k / 3]);
     const nsvcd__d3 n = nsvcd__d3_unit(nsvcd__d3_cross(u, v), none);
-    nsvcd__d3 normals[2];
+    nsvcd__d3 normals[3];
     nsvcd__touch_normals(t, normals);
     const double side = nsvcd__d3_dot(n, nsvcd__d3_add(normals[0], normals[1])) < 0 ? -1 : 1;
     const nsvcd__d3 outward = nsvcd__d3_scale(n, side);
