@@ -12,22 +12,34 @@
 //
 // With NSVCD_NO_NETWORK defined before that the proof is all there is, and weights.h is not needed.
 //
-// Ask a question:
+// Ask a question, a program as it stands:
 //
-//   nsvcd_mesh mesh;                                 // once per mesh
-//   const nsvcd_body *mug, *rack;
-//   nsvcd_obj_load("mug.obj", NULL, &mesh, NULL);
-//   nsvcd_encode(&mesh, NULL, NULL, NULL, 0, &mug);  // the same for the rack
+//   #define NEURALSVCD_IMPLEMENTATION
+//   #include "neuralsvcd.h"
+//   #include <stdio.h>
+//   #include <stdlib.h>
 //
-//   nsvcd_pose path[2] = {{{0, 0, 0.5f}, {0, 0, 0, 1}}, {{0.2f, 0, 0}, {0, 0, 0, 1}}};
-//   nsvcd_question question = {0};                   // zero is the default of everything but the bodies
-//   question.a.body = mug;
-//   question.a.poses = path;
-//   question.a.count = 2;
-//   question.b.body = rack;                          // which rests at the origin
-//   nsvcd_answer answer;
-//   nsvcd_sweep(&question, workspace, workspace_size, &answer);
-//   if (answer.collides) printf("hits at t = %g\n", answer.contact_time);
+//   int main(void) {
+//     nsvcd_mesh mesh;
+//     const nsvcd_body *mug;  // once per mesh
+//     if (nsvcd_obj_load("mug.obj", NULL, &mesh, NULL)) return 1;
+//     if (nsvcd_encode(&mesh, NULL, NULL, NULL, 0, &mug)) return 1;
+//
+//     const nsvcd_pose path[2] = {{{0, 0, 0.5f}, {0, 0, 0, 1}}, {{0, 0, -0.5f}, {0, 0, 0, 1}}};
+//     nsvcd_question question = {0};  // zero is the default of everything but the bodies
+//     question.a.body = mug;
+//     question.a.poses = path;
+//     question.a.count = 2;
+//     question.b.body = mug;  // the same mesh, twice as large, rests at the origin
+//     question.b.scale = 2;
+//     question.options.first = 0.01f;
+//
+//     nsvcd_answer answer;
+//     const size_t size = nsvcd_sweep_workspace_size();
+//     if (nsvcd_sweep(&question, malloc(size), size, &answer)) return 1;
+//     if (answer.collides) printf("hits at t = %g\n", (double)answer.contact_time);
+//     return 0;
+//   }
 //
 // Or plan a motion that hits nothing: nsvcd_plan, below.
 //
@@ -71,7 +83,8 @@
 //   every scale, tested from 3e-11 to 3e5 m. They allow for float32 with NSVCD__ROUNDING, two millionths, of the distances
 //   and extents involved: so much room must be between the surfaces of what is to be certified free, and little more; 2 um
 //   for bodies of 0.3 m, 80 um where one of them measures 20 m. Positions are taken relative to the fixed body first, so a
-//   scene 10 km from the origin loses what its own coordinates lose, about 1 mm.
+//   scene 10 km from the origin loses what its own coordinates lose, about 1 mm. All is reckoned in the frame of one of the
+//   two bodies, the one that rests or is the larger, in units of its scale.
 //   For the network, resolution is the limit: a patch must not be much larger than the clearance in question. With 512
 //   patches each, a body of 5 cm against one of 0.3, 1, 3 and 20 m is judged right in 98.5, 93.5, 74 and 54 % of
 //   problems near contact; with the large mesh cut to what the motion can reach (nsvcd_mesh_cut), in 99 %.
@@ -4667,15 +4680,16 @@ static void nsvcd__motion_pose(const nsvcd__motion *motion, float t, float *rota
 // Conservative: a pair whose spheres meet at time t is always in a candidate with t in [t_enter, t_exit]; if there
 // is no candidate, the bodies' covering spheres never meet, and that is a proof.
 //
-// Time is cut into S segments. Within one, every sphere centre c of the moving body (body frame) is taken along
-// the chord between its places at the two ends, x0 + tau v, tau in [0,1], and the radius grows by
+// Time is cut into S segments. Within one, every sphere centre c of the moving body (its frame) is taken along the chord
+// between its places at the two ends, x0 + tau v, tau in [0,1], and the radius grows by
 //   dev(c) = spread + bulge |c|
-// so that it covers the true place (R(t) c + p(t)) at every t. Why: let M(t) = R(t), L(t) its linear interpolation
-// between the segment's ends, K(t) the piecewise linear one through the samples inside. Along an arc of angle h,
-// |d2M/du2 c| <= h^2 |c| with u in [0,1], and a chord misses a curve by at most max|second derivative| / 8, so
-// ||M - K|| <= h^2 / 8. K - L is piecewise linear, its norm convex, so it is largest at a sample. Hence
-//   bulge  = max over arcs h^2 / 8  +  max over samples ||R_k - L(t_k)||  (Frobenius, not less than the 2-norm)
-//   spread = max over samples |p_k - its linear interpolation|  +  rounding
+// so that it covers the true place (M(t) c + p(t)) at every t, M being the rotation times the scale. Why: let L(t) be the
+// linear interpolation of M between the segment's ends, K(t) the piecewise linear one through the knots inside. Between
+// two knots a chord misses a curve by at most max|second derivative| / 8, with time from 0 to 1 there. Where only one body
+// moves, that is h^2 |c| / 8 on an arc of angle h, and its origin goes straight. Where both do, what the fixed body sees
+// bends more: nsvcd__cut_double_arc. K - L is piecewise linear, its norm convex, so it is largest at a knot. Hence
+//   bulge  = max over arcs of what they bend by per metre  +  max over knots ||M_k - L(t_k)||  (Frobenius >= 2-norm)
+//   spread = max over arcs of what the origin bends by  +  max over knots |p_k - its linear interpolation|  +  rounding
 // A group or a whole body is a sphere like any other: its sphere, truly posed, contains its members', truly posed.
 //
 // Hierarchy: body x body; groups near the body, in boxes, x groups; group x group; group x 16 spheres; 16 spheres x
@@ -5600,9 +5614,9 @@ static void nsvcd__candidates_start(nsvcd__candidates *kept, nsvcd__candidate *i
 // In: two bodies of triangles and a motion. Out: a witness (two triangles that meet, and when), a certificate that the
 // surfaces never do, or neither: undecided.
 //
-// THEOREM. Let the moving body be posed by the motion of section *motion*: between two samples its position is linear in
-// t and its rotation a slerp. If the proof ends in CERTIFIED_FREE, then at no t in [0,1] do the surfaces of the two
-// meshes share a point, and no component of one lies within the other.
+// THEOREM. Let both bodies be scaled and posed by the motions of section *motion*: between two poses the position is linear
+// in t and the rotation a slerp. If the proof ends in CERTIFIED_FREE, then at no t in [0,1] do the surfaces of the two
+// meshes come within the clearance of each other, and no component of one lies within the other.
 //   1. Every point of a surface lies in a piece of some patch (section *surface*). So it is enough to part each patch of
 //      one body from each of the other, at all times.
 //   2. The broad phase leaves out only patches and segments of time in which the spheres over the pieces stay apart. What
@@ -5610,9 +5624,10 @@ static void nsvcd__candidates_start(nsvcd__candidates *kept, nsvcd__candidate *i
 //      verdict is not CERTIFIED_FREE.
 //   3. A *span* is a stretch of the motion: a segment or a part of one. In it the true place of a point x of the moving
 //      body (body frame) leaves the chord between its places at the ends by no more than nsvcd__deviation along any
-//      direction: that is the bulge of section *broad phase*, taken along a plane's normal (within one arc of angle h it
-//      is h^2 / 8 |x|, and nothing along the axis). A plane that has the moving side's places at both ends on one side, by
-//      more than that, has their chords there too, for a chord is convex, and so all places between.
+//      direction: that is the bulge of section *broad phase*, taken along a plane's normal (within one arc of angle h of
+//      one body it is h^2 / 8 |x|, and nothing along the axis). A plane that has the moving side's places at both ends on
+//      one side, by more than that and the clearance, has their chords there too, for a chord is convex, and so all places
+//      between.
 //   4. Discs: the plane is normal to a patch, or to a group of 16; what each side reaches along it follows from its disc.
 //      Hulls: any plane; a patch's pieces are within its slack of the hull of its first vertices.
 //      Triangles: a plane for a pair of listed triangles. A patch lists all triangles of its pieces, whole or in parts.
@@ -5627,6 +5642,13 @@ static void nsvcd__candidates_start(nsvcd__candidates *kept, nsvcd__candidate *i
 // numbers miss: there, a corner that is on one side of the other triangle at one time and on the other at another, and
 // within its edges all the while, has met it between (an edge and an edge likewise), and halving finds when. UNDECIDED:
 // two triangles come closer than their quanta and the tolerance without meeting, or the limit of work was reached.
+//
+// FIRST CONTACT. Contacts end the motion: whenever one is found, only what is more than the tolerance before it matters from
+// then on, and is proven free or gives an earlier contact. Segments are searched some at a time, in their order, so that
+// the first ones found are early ones. THE LEAST DISTANCE. Contacts lower the clearance: it begins as a distance that two
+// vertices have, and whenever triangles are found nearer than that, it becomes their distance less the tolerance. What
+// has been parted stays parted, by more than that. So both are one search whose question shrinks, and in the end all of
+// the motion that matters is proven free at the clearance that matters.
 //
 // Work is counted in units: a plane sought for two hulls, 16 triangles against the box of 16, one of them against these, a
 // pair of triangles at one time, a ray against 16 triangles. A query stops within one patch's listings, or one ray, of its

@@ -66,6 +66,16 @@ for without in PROOF NETWORK "NETWORK ENCODER" "PROOF ENCODER" ENCODER OBJ SMALL
   compile "${CC:-cc}" c c99 "$(printf ' -DNSVCD_NO_%s' $without) -O0"
 done
 
+# The header's first example is a program as it stands.
+sed -n '/^\/\/ Ask a question/,/^\/\/ Or plan/{/^\/\/   /s/^\/\/   //p;/^\/\/$/s/.*//p;}' neuralsvcd.h >"$dir/example.c"
+grep -q 'int main' "$dir/example.c" || fail "the header has no first example"
+"${CC:-cc}" -std=c99 -Wall -Wextra -Werror -I"$here" -O0 "$dir/example.c" -o "$dir/example" -lm || fail "the header's first example, in C"
+"${CXX:-c++}" -std=c++11 -Wall -I"$here" -O0 -x c++ "$dir/example.c" -o "$dir/example_cc" -lm || fail "the header's first example, in C++"
+cp examples/assets/mug.obj "$dir/"
+said=$(cd "$dir" && ./example)
+case $said in "hits at t = "*) ;; *) fail "the header's first example says: $said" ;; esac
+echo "header: the first example, $said"
+
 # The proof alone needs no weights.h.
 mkdir "$dir/alone"
 cp "$here/neuralsvcd.h" "$dir/alone/"
