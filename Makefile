@@ -26,7 +26,7 @@ ifeq ($(BENCH),quick)
 COUNT ?= 200
 endif
 
-.PHONY: race mutants bench-plan preview profile instructions sizes bench check-extremes all demo test assets problems accuracy weights format clean help check-header check-examples check-problems check-gradient check-motions
+.PHONY: bench-asks race mutants bench-plan preview profile instructions sizes bench check-extremes all demo test assets problems accuracy weights format clean help check-header check-examples check-problems check-gradient check-motions
 .DELETE_ON_ERROR:
 
 PLANNERS = build/dish_insertion build/bimanual_insertion build/mining_site
@@ -208,6 +208,16 @@ BENCH_FILES = $(if $(REAL),$(REAL:%=$(DATA)/%.txt),$(DATA)/standard.txt) $(DATA)
 endif
 comma := ,
 space := $(subst x,,x x)
+
+build/bench_asks: tests/bench_asks.c examples/problem_file.h $(LIBRARY) | build
+	$(CC) $(ALL_CFLAGS) -Wno-unused-function -o $@ tests/bench_asks.c -lm
+bench-asks: build/bench_asks build/game $(DATA)/standard.txt $(DATA)/hollow.txt $(DATA)/rest.txt  ## what first contacts, clearances and skins cost
+	@mkdir -p build/motions
+	build/game --frames 300 --problems build/motions
+	build/bench_asks build/motions/game.txt 0.002
+	build/bench_asks $(DATA)/standard.txt
+	build/bench_asks $(DATA)/hollow.txt
+	build/bench_asks $(DATA)/rest.txt
 
 build/profile: tests/profile.c examples/problem_file.h examples/shapes.h $(LIBRARY) | build
 	$(CC) $(ALL_CFLAGS) -Wno-unused-function -o $@ tests/profile.c -lm

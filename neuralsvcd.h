@@ -343,7 +343,8 @@ typedef struct nsvcd_answer {
                        // The greatest of the pairs looked at; the search ends at the first above 3. Where the tiny
                        // decoder, which ranks the pairs, is clear (beyond +-3), it is the one that answers. Of a
                        // proof: +-NSVCD_LOGIT_CERTAIN; where it is undecided, the network's
-  int collides;        // logit > 0. UNDECIDED: the network's opinion, or, where there is no network, yes
+  int collides;        // logit > 0. UNDECIDED: the network's opinion on whether they meet, or yes where there is none or
+                       // something else is asked
   float contact_time;  // in [0,1]. WITNESS: when the triangles meet; with options.first that is the first contact, and 0
                        // if they meet at the start; INSIDE: 0; by the network: where the most suspicious pair comes closest
   float free_until;    // in [0,1]. By proof: no contact is before that. CERTIFIED_FREE: 1; WITNESS: 0, or with
@@ -8089,15 +8090,15 @@ static void nsvcd__proof_restart(nsvcd__proof *p) {
 // it goes no deeper than |v| into anything. What presses in deeper than the skin at the start has no such v, nor has what is
 // held from opposite sides, and is hit as ever. v is constant as the fixed body sees it.
 
-// Gathers what the moving body touches at the start.
+// Gathers what the moving body touches at the start, or as much of it as can be looked at together.
 static void nsvcd__gather_contacts(nsvcd__proof *p, nsvcd__workspace *work) {
   p->touch_count = 0;
   nsvcd__choose_segments(p->motion, work);
   nsvcd__cut_segments(p->motion, p->lengths, nsvcd__clearance_of(p), work);
   nsvcd__search_begin(p->moving.body, p->fixed.body, work);
-  for (int more = 1; more && p->work <= p->limit;) {
+  for (int more = 1; more && p->touch_count < NSVCD__TOUCHES && p->work <= p->limit;) {
     more = nsvcd__collect(p, work);
-    for (size_t n = 0; n < p->fresh_count; n++) {
+    for (size_t n = 0; n < p->fresh_count && p->touch_count < NSVCD__TOUCHES; n++) {
       const nsvcd__item *item = &p->fresh[n];
       if (p->plane && nsvcd__held_again(p, work, item)) continue;
       if (nsvcd__item_is_parted(p, work, item)) continue;
@@ -9418,7 +9419,9 @@ static void nsvcd__answer_task(nsvcd__task *ask, nsvcd__query *query, void *hint
     nsvcd__answer_by_proof(ask, query, answer);
     proven = 1;
 #ifndef NSVCD_NO_NETWORK
-    const int has_opinion = ask->moving->weights_id && ask->fixed->weights_id && !nsvcd__needs_proof(ask->options);
+    const nsvcd_sweep_options *options = ask->options;
+    const int is_plain = !(options->clearance > 0 || options->measure > 0 || options->skin > 0);
+    const int has_opinion = ask->moving->weights_id && ask->fixed->weights_id && is_plain;
     if (answer->status == NSVCD_STATUS_UNDECIDED && has_opinion) {
       const nsvcd_answer proof = *answer;
       nsvcd__answer(ask, query, NULL, answer);

@@ -59,7 +59,8 @@ program() {  # NUMBER TEXT: the n-th one, and what its output begins with
   head -1 "$dir/out" | grep -q "^$2" || fail "program $1 in README says: $(cat "$dir/out")"
 }
 program 1 'hit, '
-program 2 'converged, '
+program 2 'witness at 0'
+program 3 'converged, '
 
 # svcd encode, info.
 expect 0 '' build/svcd encode examples/assets/mug.obj "$dir/mug.body"
@@ -110,12 +111,25 @@ test "$(cut -f1 "$dir/out" | tr -d '\n')" = abc || fail "identifiers"
 test "$(sed -n 2p "$dir/out" | cut -f2,3,7)" = "$(printf -- '-100\t0\tcertified-free')" || fail "b is certified free"
 cut -f1-7 "$dir/out" >"$dir/first"
 for options in '--method proof' '--method network' '--method network --model tiny' '--model small --pairs 32' \
-  '--recall 0.999' '--points 512 --pairs 1' --int8 '--work 1'; do
+  '--recall 0.999' '--points 512 --pairs 1' --int8 '--work 1' '--first 0.01' '--clearance 0.01'; do
   # shellcheck disable=SC2086
   expect 0 '3 problems' build/svcd check $options --repeat 1 "$dir/good.txt"
 done
 (cd "$dir" && "$OLDPWD/build/svcd" check --repeat 2 good.txt 2>/dev/null) | cut -f1-7 | cmp -s - "$dir/first" ||
   fail "another folder or --repeat, another answer"
+
+# Two movers: they meet half way, and the first contact is before that; a clearance is met sooner.
+printf 'nsvcd-problems 1\nmesh m my.obj\nproblem two m 1 m 1 %s 1 nan 2 2\n0 0 0 0 0 0 1\n1 0 0 0 0 0 1\n1 0 0 0 0 0 1\n0 0 0 0 0 0 1\n' "$pose" >"$dir/two.txt"
+for options in '' '--first 0.001' '--first 0.001 --clearance 0.05'; do
+  # shellcheck disable=SC2086
+  expect 0 '1 of 1 right' build/svcd check --repeat 1 $options "$dir/two.txt"
+  cut -f4 "$dir/out" >>"$dir/times"
+done
+awk '{ t[NR] = $1 } END { exit !(NR == 3 && t[2] <= t[1] && t[3] < t[2] && t[2] < 0.5 && t[3] > 0.3) }' "$dir/times" ||
+  fail "times of contact: $(cat "$dir/times")"
+expect 2 'out of range' build/svcd check --clearance -1 "$dir/two.txt"
+expect 2 'not in 0..1' build/svcd check --first 2 "$dir/two.txt"
+expect 2 'neither' build/svcd check --method network --first 0.1 "$dir/two.txt"
 
 # Problem files that must be refused, with file, line and reason. refused LINE REASON TEXT
 head='nsvcd-problems 1\nmesh m my.obj\n'

@@ -8,7 +8,7 @@ cd "$(dirname "$0")/.." || exit 1
 work=build/mutants
 mkdir -p $work/tests $work/examples
 cp weights.h $work/
-cp tests/test_proof.c tests/proof_scene.h tests/check.h tests/oracle.h $work/tests/
+cp tests/test_proof.c tests/proof_scene.h tests/ask.h tests/check.h tests/oracle.h $work/tests/
 cp examples/shapes.h $work/examples/
 
 # name | text (occurs once) | what it becomes. Not here: axis_turn left out of bulge_along_axis. The theorem needs it, but no
@@ -16,12 +16,14 @@ cp examples/shapes.h $work/examples/
 cat >$work/list <<'LIST'
 none|||
 hull without deviation|nsvcd__f3_length(normal) + nsvcd__deviation(span, normal, reach)|nsvcd__f3_length(normal)
-hull without slack|p->moving.slacks[i] + p->fixed.slacks[j] + span->rounding|span->rounding
+hull without slack|const float slack = slacks + span->rounding + nsvcd__clearance_of(p);|const float slack = 0 * slacks + span->rounding + nsvcd__clearance_of(p);
+hull without the slack's scale|p->motion->scale * p->moving.slacks[i] + p->fixed.slacks[j];|0.1f * p->moving.slacks[i] + p->fixed.slacks[j];
+hull without clearance|slacks + span->rounding + nsvcd__clearance_of(p);|slacks + span->rounding;
 hull at the start only|const nsvcd__v at_either = nsvcd__v_min(at_start, at_end);|const nsvcd__v at_either = at_start;
 deviation without drift|return drift + reach * (along|return 0 * drift + reach * (along
 deviation without bulge|along * span->bulge_along_axis + across * span->bulge);|along * span->bulge_along_axis + 0 * across);
 deviation along the axis|reach * (along * span->bulge_along_axis + across * span->bulge)|reach * (across * span->bulge)
-chords off the axis|nsvcd__v_add(axis_bulge, nsvcd__v_load(cut->axis_turn))|nsvcd__v_load(cut->axis_turn)
+chords off the axis|nsvcd__v_add(nsvcd__v_sqrt(nsvcd__v_load(cut->most.axis_bulge)), axis_turn)|axis_turn
 lanes without bulge|return nsvcd__v_fma(turn, nsvcd__v_set(reach), nsvcd__v_min(by_axis, by_way));|return nsvcd__v_fma(turn, nsvcd__v_set(0 * reach), nsvcd__v_min(by_axis, by_way));
 lanes without drift|return nsvcd__v_fma(turn, nsvcd__v_set(reach), nsvcd__v_min(by_axis, by_way));|return nsvcd__v_mul(turn, nsvcd__v_set(reach));
 disc without across|nsvcd__v_mul(radius_across, across);|nsvcd__v_mul(nsvcd__v_set(0), nsvcd__v_mul(radius_across, across));
@@ -30,16 +32,19 @@ group's disc at the start only|const nsvcd__v3 at_end = nsvcd__v3_add(at_start, 
 held plane without deviation|lowest - slack - nsvcd__deviation(span, p->held, nsvcd__patch_reach(\&p->moving, i));|lowest - slack;
 held plane without slack|highest + p->fixed.slacks[j] * nsvcd__f3_length(p->held);|highest;
 heights over another plane|if (known->plane == p->plane \&\& known->key == key) return|if (known->key == key) return
-pair without quanta|pair.slack = (double)p->moving.quanta[i] + (double)p->fixed.quanta[j] + pair.rounding;|pair.slack = pair.rounding;
-pair without bulge|> pair->slack + angle * angle * 0.1250001 * pair->reach * off_axis;|> pair->slack + 0 * angle * off_axis;
+pair without quanta|pair.slack = p->arc.scale * (double)p->moving.quanta[i] + (double)p->fixed.quanta[j] + pair.rounding;|pair.slack = pair.rounding;
+pair without bulge|(arc->bulge * pair->reach * off_axis + arc->drift);|(0 * off_axis + arc->drift);
+pair without drift|(arc->bulge * pair->reach * off_axis + arc->drift);|(arc->bulge * pair->reach * off_axis);
+pair without clearance|> p->clearance + pair->slack + deviation;|> pair->slack + deviation;
 pair at the start only|lowest = fmin(lowest, nsvcd__d3_dot(normal, nsvcd__place_point(end, pair->moving[k])));|(void)end;
-block without quanta|p->moving.quanta[i] + p->fixed.quanta[j] + span->spread + span->bulge * reach;|span->spread + span->bulge * reach;
-block without bulge|p->fixed.quanta[j] + span->spread + span->bulge * reach;|p->fixed.quanta[j] + span->spread + 0 * reach;
+block without quanta|nsvcd__quanta_of(p, i, j) + span->spread + nsvcd__clearance_of(p) + span->bulge * reach;|span->spread + nsvcd__clearance_of(p) + span->bulge * reach;
+block without clearance|span->spread + nsvcd__clearance_of(p) + span->bulge * reach;|span->spread + span->bulge * reach;
+block without bulge|nsvcd__clearance_of(p) + span->bulge * reach;|nsvcd__clearance_of(p) + 0 * reach;
 block at the start only|nsvcd__row_left(p, i, j, l, fixed, 2, span, margin)|nsvcd__row_left(p, i, j, l, fixed, 1, span, margin)
 parting plane at the start only|nsvcd__normals_part(p, l, fixed, 2, along, normal, &below)|nsvcd__normals_part(p, l, fixed, 1, along, normal, &below)
-parting plane without deviation|quanta + span->rounding + nsvcd__deviation(span, last, reach);|quanta + span->rounding + 0 * reach;
-parting plane without quanta|quanta + span->rounding + nsvcd__deviation(span, last, reach);|0 * quanta + span->rounding + nsvcd__deviation(span, last, reach);
-pose of another arc|p->placed[n].arc == p->arc.index \&\& p->placed[n].u == u|p->placed[n].u == u
+parting plane without deviation|quanta + span->rounding + nsvcd__clearance_of(p) + nsvcd__deviation(span, last, reach);|quanta + span->rounding + nsvcd__clearance_of(p) + 0 * reach;
+parting plane without quanta|quanta + span->rounding + nsvcd__clearance_of(p) + nsvcd__deviation(span, last, reach);|0 * quanta + span->rounding + nsvcd__clearance_of(p) + nsvcd__deviation(span, last, reach);
+pose of another arc|known->arc == arc->first \&\& known->ticks == arc->ticks \&\& known->u == u|known->ticks == arc->ticks \&\& known->u == u
 first half only|        ends[left++] = 0.5 * (u + end);\n|        ends[left - 1] = 0.5 * (u + end);\n
 a window forgotten|b < fixed_end; b += NSVCD__WINDOW * NSVCD__LANES) {\n    nsvcd__window_load(p, j, b);\n    for (size_t a = p->moving.first_triangle[i]; a < moving_end; a += NSVCD__LANES) {\n      nsvcd__moving_block_load(p, i, a);\n      nsvcd__block_pose(p, \&span->start, 0);|b < fixed_end; b += 2 * NSVCD__WINDOW * NSVCD__LANES) {\n    nsvcd__window_load(p, j, b);\n    for (size_t a = p->moving.first_triangle[i]; a < moving_end; a += NSVCD__LANES) {\n      nsvcd__moving_block_load(p, i, a);\n      nsvcd__block_pose(p, \&span->start, 0);
 bounds of half a window's block|nsvcd__least_of_lanes(block->low);|nsvcd__f3_scale(nsvcd__f3_add(nsvcd__least_of_lanes(block->low), nsvcd__greatest_of_lanes(block->high)), 0.5f);
@@ -48,11 +53,35 @@ rays past half the groups|const size_t g = nsvcd__lowest_bit(groups);\n    uint3
 block's boxes at the start only|nsvcd__block_box(p, 2);|nsvcd__block_box(p, 1);
 last triangle skipped|const size_t moving_end = p->moving.first_triangle[i + 1], fixed_end = p->fixed.first_triangle[j + 1];\n  const float reach|const size_t moving_end = p->moving.first_triangle[i + 1] - 1, fixed_end = p->fixed.first_triangle[j + 1];\n  const float reach
 containment one way|way < 2; way++|way < 1; way++
-first arc only|for (double at = start; at < end;) {|for (double at = start; at < end \&\& at == start;) {
-a segment dropped|        p->met = nsvcd__group_against_members(work, fixed, h, work->nearby[g][h], p->met_in);\n|        p->met = nsvcd__group_against_members(work, fixed, h, work->nearby[g][h], p->met_in);\n        for (size_t l = 0; l < NSVCD__GROUP; l++) {\n          if (p->met_in[l] \& (p->met_in[l] - 1)) p->met_in[l] \&= p->met_in[l] - 1;\n        }\n
+first arc only|at < end \&\& (double)at < p->end;) {|at < end \&\& at == work->begin[item->segment];) {
+a segment dropped|        p->met = nsvcd__group_against_members(work, fixed, h, wanted, p->met_in);\n|        p->met = nsvcd__group_against_members(work, fixed, h, wanted, p->met_in);\n        for (size_t l = 0; l < NSVCD__GROUP; l++) {\n          if (p->met_in[l] \& (p->met_in[l] - 1)) p->met_in[l] \&= p->met_in[l] - 1;\n        }\n
 a full buffer forgotten|        if (p->met_in[l]) return 1;\n|
-passing not seen|    if (!apart \&\& nsvcd__find_passage(p, pair, u, end, speed)) return NSVCD__MEETS;\n|
+passing not seen|      if (passage == NSVCD__MEETS) return passage;\n|
 passing without a change of sides|  const int falls = before > least_before \&\& after < -least_after;|  const int falls = before != 0;
+both turn, twist forgotten|nsvcd__v_mul(nsvcd__v_mul(turn, nsvcd__v_add(turn, fixed_turn)), eighth)|nsvcd__v_mul(nsvcd__v_mul(turn, turn), eighth)
+both turn, half of the way|nsvcd__v_fma(fixed_turn, remote, nsvcd__v_add(way, way))|nsvcd__v_fma(fixed_turn, remote, way)
+both turn, no swing|nsvcd__v_fma(fixed_turn, remote, nsvcd__v_add(way, way))|nsvcd__v_add(way, way)
+arcs of both, twist forgotten|(arc->turn * arc->turn + twist);|(arc->turn * arc->turn);
+arcs of both, no swing|(2 * across + angle * swing);|(2 * across);
+arcs of both, half of the way|(2 * across + angle * swing);|(across + angle * swing);
+knots of one body only|return after_a < after_b ? after_a : after_b;|return after_a;
+group without scale|const float r = work->scale * nsvcd__body_group(moving, 3)[g];|const float r = nsvcd__body_group(moving, 3)[g];
+members without scale|nsvcd__v_fma(nsvcd__v_set(scale), nsvcd__v_load(r), deviation)|nsvcd__v_add(nsvcd__v_load(r), deviation)
+discs without scale|nsvcd__v_mul(scale, nsvcd__v3_dot(w, w)), nsvcd__v_mul(scale, turned));|nsvcd__v3_dot(w, w), turned);
+disc without clearance|const float deviation = a->clearance + span->rounding + nsvcd__deviation|const float deviation = span->rounding + nsvcd__deviation
+moving disc without clearance|nsvcd__v_set(span->rounding + a->clearance);|nsvcd__v_set(span->rounding);
+groups without clearance|nsvcd__v_add(spans.rounding, nsvcd__v_set(clearance));|spans.rounding;
+held plane without clearance|nsvcd__greatest_height(p, item->fixed) + clearance)) return 0;|nsvcd__greatest_height(p, item->fixed) + 0 * clearance)) return 0;
+search without clearance|block->spread[l] += clearance;|block->spread[l] += 0 * clearance;
+clipped without twice the bulge|    block->bulge[l] *= 2;\n    block->drift[l] *= 2;\n|    block->bulge[l] *= 0.1f;\n
+clipped too early|return (double)work->begin[segment] < p->end;|return (double)work->begin[segment] < 0.9 * p->end;
+every other segment|s += NSVCD__IN_ORDER) {|s += 2 * NSVCD__IN_ORDER) {
+contacts end too much|p->end = fmin(p->found.tick - p->first, p->unsure);|p->end = fmin(0.9 * p->found.tick - p->first, p->unsure);
+a start that is not asked|  if (verdict == NSVCD__MEETS \&\& p->first > 0 \&\& p->found.tick > 0 \&\& p->end <= 0) {|  if (0) {
+half the first distance|return 1.0001 * sqrt((double)least_square)|return 0.5 * sqrt((double)least_square)
+distance without tolerance|fmax(0, distance - p->measure);|fmax(0, distance * 1.01);
+exact poses not lifted|at.position = nsvcd__d3_add(at.position, arc->lift);|at.position = nsvcd__d3_add(at.position, nsvcd__d3_scale(arc->lift, 0));
+lift the wrong way|if (lacks > 0) lift = nsvcd__d3_add(|if (lacks > 0) lift = nsvcd__d3_sub(
 margin of small normals|nsvcd__v_pick(square, nsvcd__v_set(1e-30f), nsvcd__v_set(1e30f), limit)|limit
 LIST
 
