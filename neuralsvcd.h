@@ -500,7 +500,8 @@ typedef struct nsvcd_plan_options {
   int discrete;                        // poses instead of sweeps
   size_t check;                        // segments of the last check; 4 times the finest stage
   nsvcd_sweep_options sweep;           // of all queries; recall = 0.999f keeps more distance. The search asks the
-                                       // network; `method` is that of start, goal and the last check
+                                       // network; `method` is that of start, goal and the last check, and so are
+                                       // `clearance`, `skin` and the like
 } nsvcd_plan_options;
 
 typedef struct nsvcd_plan_answer {
@@ -8015,7 +8016,7 @@ static NSVCD__APART double nsvcd__guess_clearance(nsvcd__proof *p, const nsvcd__
     least_square = fminf(least_square, nsvcd__v_least(nsvcd__v3_dot(d, d)));
   }
   const float rounding = 4 * NSVCD__ROUNDING * (p->lengths + nsvcd__f3_length(pose.position));
-  return 1.0001 * sqrt((double)least_square) + (double)rounding;
+  return 1.0001 * sqrt((double)least_square) + (double)(rounding + 2 * nsvcd__quanta_of(p, i, j));
 }
 
 // All that has been found in the segments that are wanted.
@@ -10303,7 +10304,8 @@ static void nsvcd__track_bodies(nsvcd__planner *p, size_t samples) {
   }
 }
 
-// Clears p->meets for the segments (stride 1) or samples (0) in which a's bounding sphere stays away from b's box. The
+// Clears p->meets for the segments (stride 1) or samples (0) in which a's bounding sphere stays away from b's box, by the
+// clearance. The
 // motion is the query's, in which one of them rests: a's origin goes straight as seen from it, and a turns by an angle
 // c relative to it. If that is b, a's centre leaves its chord by no more than its arm * (1 - cos(c / 2)). If it is a
 // itself (`resting`), a's centre v as b sees it turns while it goes: by no more than c^2 |v| / 8 + c |dv| / 4, where dv
@@ -10335,7 +10337,7 @@ static void nsvcd__meet_box(nsvcd__planner *p, size_t a, size_t b, int resting, 
     for (size_t k = 0; k < 3; k++) way += fabsf(x[k * samples + s + stride] - x[k * samples + s]);
     const float reaches = x[3 * samples + s] + x[3 * samples + s + stride];
     const float leaves = resting ? (3.75f * bend * reaches + 0.8f * way) * bend : arm * bend * bend;
-    const float reach = radius + (float)stride * leaves + NSVCD__ROUNDING * reaches;
+    const float reach = radius + p->options.sweep.clearance + (float)stride * leaves + NSVCD__ROUNDING * reaches;
     int apart = 0;
     for (size_t k = 0; k < 3; k++) {
       const float u = x[k * samples + s], v = x[k * samples + s + stride];
@@ -10400,7 +10402,10 @@ static nsvcd_answer nsvcd__ask(nsvcd__planner *p, uint32_t k, size_t first, size
   question.a.count = segments + 1;
   question.b.body = b;
   question.options = p->options.sweep;
-  if (!at_end) question.options.method = NSVCD_METHOD_NETWORK;
+  if (!at_end) {
+    question.options.method = NSVCD_METHOD_NETWORK;
+    question.options.clearance = question.options.measure = question.options.first = question.options.skin = 0;
+  }
   const nsvcd_result error =
       gradient ? nsvcd_sweep_gradient(&question, p->query, sizeof *p->query, &answer, gradient, NULL)
                : nsvcd_sweep(&question, p->query, sizeof *p->query, &answer);

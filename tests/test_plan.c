@@ -1090,6 +1090,19 @@ static void plan_proves_at_the_end(void) {
     CHECK_EQ(s.again, 0);
     CHECK_GE(plan_exact_distance(&s, &out, PLAN_BALL, PLAN_WALL), 1e-5);
   }
+  // And at a distance, which the search knows nothing of: what it says has converged keeps that.
+  size_t converged = 0;
+  for (uint64_t seed = 1; seed <= 6; seed++) {
+    s.options.seed = seed;
+    s.options.sweep.clearance = 0.002f * (float)seed;
+    const plan_outcome out = plan_run(&s);
+    CHECK(out.answer.status == NSVCD_PLAN_CONVERGED || (out.answer.status == NSVCD_PLAN_LIMIT && out.answer.collides));
+    if (out.answer.status != NSVCD_PLAN_CONVERGED) continue;
+    CHECK_GE(plan_exact_distance(&s, &out, PLAN_BALL, PLAN_WALL), (double)s.options.sweep.clearance - 1e-5);
+    converged++;
+  }
+  CHECK_GE(converged, 1);
+  s.options.sweep.clearance = 0;
   s.options.collision = -1;  // hits cost nothing: the search goes straight through
   const plan_outcome through = plan_run(&s);
   CHECK_EQ(through.answer.status, NSVCD_PLAN_LIMIT);

@@ -949,6 +949,23 @@ static void proof_any_motion_of_both(shapes_rng *rng, proof_motion *m) {
   m->fixed.scale = (float)pow(10, shapes_uniform(rng, -1, 1));
 }
 
+// A segment that is cut off somewhere, as where a first contact ends the motion.
+static nsvcd__span proof_any_clip(shapes_rng *rng, nsvcd__motion *motion, nsvcd__workspace *work) {
+  static nsvcd__proof proof;
+  size_t s = 0;
+  proof.motion = motion;
+  proof.arc.ticks = 0;
+  proof.clipped = proof.spans_known = 0;
+  proof.plane = 0;
+  proof.clipped_end = HUGE_VAL;
+  for (int k = 0; k < 3; k++) {  // more than once: what is allowed doubles only once
+    proof.end = shapes_uniform(rng, 0, 1) * fmin(proof.clipped_end, (double)motion->ticks);
+    nsvcd__clip_segment(&proof, work);
+  }
+  while (s + 1 < work->segments && (double)work->begin[s + 1] <= proof.end) s++;
+  return *nsvcd__segment_span(&proof, work, s);
+}
+
 // A part of some arc, as the proof halves them.
 static nsvcd__span proof_any_arc(shapes_rng *rng, nsvcd__motion *motion, float lengths) {
   static nsvcd__proof proof;
@@ -967,7 +984,7 @@ static nsvcd__span proof_any_arc(shapes_rng *rng, nsvcd__motion *motion, float l
 static void proof_spans_hold_the_motion(void) {
   static nsvcd__workspace work;
   shapes_rng rng = {404};
-  double worst[4] = {0, 0, 0, 0};
+  double worst[5] = {0, 0, 0, 0, 0};
   size_t segments = 0;
   for (size_t trial = 0; trial < 20000; trial++) {
     const float lengths = (float)pow(10, shapes_uniform(&rng, -3, 1));
@@ -987,18 +1004,21 @@ static void proof_spans_hold_the_motion(void) {
       worst[kind] = fmax(worst[kind], use);
       segments++;
     }
+    const nsvcd__span clipped = proof_any_clip(&rng, &motion, &work);
+    worst[4] = fmax(worst[4], proof_span_use(&m, &clipped, reach, &rng));
     const nsvcd__span part = proof_any_arc(&rng, &motion, lengths);
     worst[3] = fmax(worst[3], proof_span_use(&m, &part, reach, &rng));
   }
   printf(
       "  %zu segments: at most %.3g of what they allow beyond the bulge, %.3g where they have "
-      "samples, %.3g where both move; %.3g of parts of arcs\n",
-      segments, worst[0], worst[1], worst[2], worst[3]);
+      "samples, %.3g where both move; %.3g of parts of arcs, %.3g of segments cut off\n",
+      segments, worst[0], worst[1], worst[2], worst[3], worst[4]);
   CHECK_LE(worst[0], 0.9);
   CHECK_LE(worst[1], 1);
   CHECK_LE(worst[2], 1);
   CHECK_GE(worst[2], 0.5);  // else the bound says little, or the worst is not here
   CHECK_LE(worst[3], 1);
+  CHECK_LE(worst[4], 1);
 }
 
 // What points are off along a direction, over what the span allows for it; the worst found.
@@ -1516,7 +1536,8 @@ static void proof_place_within(attack *a, shapes_rng *rng, double gap, int movin
   shapes_quaternion(rng, fixed.rotation);
   for (int k = 0; k < 3; k++) fixed.position[k] = shapes_uniform(rng, -1, 1) * size;
   if (!proof_near_contact(rng, a, &fixed, gap * size, &pose, point, away)) return;
-  proof_motion_set(&a->motion, &pose, 1, &fixed);
+  const oracle_pose still[2] = {pose, pose};  // with two, the library looks at it from `fixed`, even if that is the smaller
+  proof_motion_set(&a->motion, still, shapes_pick(rng, 2) ? 1 : 2, &fixed);
   const oracle_pose *at = &a->motion.moving.poses[0];
   const oracle_mesh *x = &a->moving->oracle, *y = &a->fixed->oracle;
   const double distance = oracle_distance(x, at, y, &a->motion.fixed.poses[0], NULL, NULL);
