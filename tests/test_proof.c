@@ -1665,6 +1665,55 @@ static void proof_answers_are_the_same_again(void) {
   }
 }
 
+// Which body is a and which b does not matter: the other way round everything is said the other way round, and nothing else.
+static void proof_sides_do_not_matter(void) {
+  shapes_rng rng = {25};
+  size_t witnesses_seen = 0;
+  for (size_t trial = 0; trial < 300; trial++) {
+    nsvcd_sweep_options options = proof_options();
+    attack a;
+    nsvcd_answer other;
+    if (!proof_timing_scene(&rng, &a)) continue;
+    a.motion.moving.scale = trial % 3 ? 1 : 1.2f;
+    a.motion.fixed.scale = trial % 5 ? 1 : 0.7f;
+    if (trial % 2) options.first = 0.01f;
+    if (trial % 7 == 0) options.clearance = 0.003f;
+    if (trial % 4 == 0) options.skin = 0.001f;
+    const nsvcd_question question = proof_question(&a, &options);
+    nsvcd_question turned = question;
+    turned.a = question.b;
+    turned.b = question.a;
+    const size_t size = nsvcd_sweep_workspace_size();
+    CHECK_EQ(nsvcd_sweep(&question, proof_workspace(), size, &a.answer), NSVCD_OK);
+    CHECK_EQ(nsvcd_sweep(&turned, proof_workspace(), size, &other), NSVCD_OK);
+    const uint32_t triangle = other.triangle_a, patch = other.patch_a;
+    other.triangle_a = other.triangle_b;
+    other.triangle_b = triangle;
+    other.patch_a = other.patch_b;
+    other.patch_b = patch;
+    for (int k = 0; k < 3; k++) {
+      CHECK_EQ(a.answer.lift[k], 0 - other.lift[k]);
+      other.normal[k] = 0 - other.normal[k] + 0.0f;
+      a.answer.normal[k] += 0.0f;  // no zero with a sign
+    }
+    CHECK(proof_same_answer(&a.answer, &other));
+    CHECK_EQ(a.answer.free_until, other.free_until);
+    if (a.answer.status != NSVCD_STATUS_WITNESS || !(options.clearance > 0) || options.skin > 0) continue;
+    // The normal goes from b to a: along it a leaves b.
+    const oracle_pose pose = proof_pose_at(&a.motion.moving, (double)a.answer.contact_time);
+    const oracle_pose fixed = proof_pose_at(&a.motion.fixed, (double)a.answer.contact_time);
+    const oracle_triangle x =
+        proof_world_triangle(a.moving, a.answer.triangle_a, &pose, (double)a.motion.moving.scale);
+    const oracle_triangle y = proof_world_triangle(a.fixed, a.answer.triangle_b, &fixed, (double)a.motion.fixed.scale);
+    oracle_triangle away = x;
+    for (int k = 0; k < 9; k++) away.v[k / 3][k % 3] += 0.002 * (double)a.answer.normal[k % 3];
+    if (proof_triangle_distance(&x, &y) < 1e-4) continue;
+    witnesses_seen++;
+    CHECK_GE(proof_triangle_distance(&away, &y), proof_triangle_distance(&x, &y) + 0.0015);
+  }
+  CHECK_GE(witnesses_seen, 5);
+}
+
 // With any limit: what is said is what is said without one, or nothing; and the limit is not passed
 // by much.
 static void proof_keeps_its_limit(void) {
@@ -2349,6 +2398,7 @@ void test_proof(void) {
   RUN(proof_lifts_are_true);
   RUN(proof_knows_what_is_within);
   RUN(proof_answers_are_the_same_again);
+  RUN(proof_sides_do_not_matter);
   RUN(proof_keeps_its_limit);
   RUN(proof_keeps_its_limit_in_large_patches);
   RUN(proof_refuses);
