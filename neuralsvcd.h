@@ -240,7 +240,8 @@ NSVCDDEF void nsvcd_body_free(const nsvcd_body *body, const nsvcd_allocator *all
 // Checks an untrusted blob in `memory` and points *body at it, without a copy. BODY if anything is wrong with it.
 NSVCDDEF nsvcd_result nsvcd_body_load(const void *memory, size_t size, const nsvcd_body **body);
 
-// Writes a copy of `body` scaled by `scale` > 0 about its origin (in place is allowed). Latents are scale-free, so this
+// Writes a copy of `body` scaled by `scale` > 0 about its origin (in place is allowed): for a planner's bodies, or to bake
+// one; a question has scales of its own. Latents are scale-free, so this
 // takes microseconds and the answers scale along, to rounding. Errors: ARGUMENT, also where the result would be smaller
 // or larger than a body may be; WORKSPACE.
 NSVCDDEF nsvcd_result nsvcd_body_scale(const nsvcd_body *body, float scale, void *memory, size_t capacity,
@@ -5788,7 +5789,8 @@ typedef struct nsvcd__proof {
   double clipped_end;    // what that was when a segment was clipped last,
   uint64_t clipped;      // and those that were
   double unsure;         // ticks: when the first doubt begins, two triangles that came too near to tell
-  int lost;              // something else was left undecided
+  int lost;              // something else was left undecided: all from `settled` on
+  double settled;        // ticks
   int has_contact;
   size_t work, limit;    // units
   int within;            // a component seems to be within the other body, but close to its surface
@@ -8039,6 +8041,8 @@ static nsvcd__verdict nsvcd__prove_in_order(nsvcd__proof *p, nsvcd__workspace *w
     work->waiting = 0;
     p->in_group = p->in_pair = 0;
     verdict = nsvcd__prove_segments(p, work);
+    const size_t next = s + NSVCD__IN_ORDER < work->segments ? s + NSVCD__IN_ORDER : work->segments;
+    if (verdict == NSVCD__FREE && !p->has_contact) p->settled = (double)work->begin[next];
   }
   return verdict;
 }
@@ -8056,6 +8060,7 @@ static nsvcd__verdict nsvcd__prove(nsvcd__proof *p, nsvcd__workspace *work) {
   nsvcd__cut_segments(p->motion, p->lengths, nsvcd__clearance_of(p), work);
   nsvcd__search_begin(p->moving.body, p->fixed.body, work);
   const nsvcd__verdict verdict = p->first > 0 ? nsvcd__prove_in_order(p, work) : nsvcd__prove_segments(p, work);
+  if (p->lost) p->settled = 0;  // whether one is within the other, at the start
   p->lost |= verdict == NSVCD__UNDECIDED;
   if (p->first > 0 && p->has_contact && p->unsure <= p->end) {  // a doubt that ends in a contact is its beginning
     p->found = p->doubt;
@@ -8071,6 +8076,7 @@ static void nsvcd__proof_restart(nsvcd__proof *p) {
   p->clipped = 0;
   p->has_contact = 0;
   p->lost = 0;
+  p->settled = 0;
   p->within = 0;
   p->count = p->fresh_count = 0;
   p->spans_known = 0;
@@ -9306,7 +9312,8 @@ static void nsvcd__answer_with_contact(const nsvcd__proof *p, nsvcd_answer *answ
 // What is proven of clearances and times.
 static void nsvcd__answer_with_bounds(const nsvcd__proof *p, nsvcd__verdict verdict, nsvcd_answer *answer) {
   const double unit = (double)p->motion->unit;
-  const double until = p->lost ? 0 : fmin(p->end, p->unsure) / (double)p->motion->ticks;
+  const double known = p->lost ? p->settled : HUGE_VAL;
+  const double until = fmin(fmin(p->end, p->unsure), known) / (double)p->motion->ticks;
   const int is_free = verdict == NSVCD__FREE;
   const double proven = is_free ? 1 : p->first > 0 && verdict != NSVCD__WITHIN ? fmin(fmax(until, 0), 1) : 0;
   const int measured = p->measure > 0 && verdict != NSVCD__WITHIN && verdict != NSVCD__UNDECIDED;
