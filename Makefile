@@ -105,8 +105,13 @@ FRAMES = 60
 FIRST = 0.01
 build/check_motions: tests/check_motions.c examples/problem_file.h tests/oracle.h $(LIBRARY) | build
 	$(CC) $(ALL_CFLAGS) -Wno-unused-function -o $@ tests/check_motions.c -lm
-check-motions: build/check_motions build/game  ## first contacts, clearances and two movers against an oracle
+check-motions: build/check_motions build/game build/problems build/svcd  ## first contacts, clearances and two movers against an oracle
 	@mkdir -p build/motions
+	build/problems --set standard --meshes procedural --count 100 --seed 407 --out build/motions/standard.txt
+	build/check_motions build/motions/standard.txt 0 $(FIRST)
+	@! command -v python3 >/dev/null || { python3 tests/carry.py build/motions/standard.txt build/motions/carried.txt && \
+	  build/check_motions build/motions/carried.txt 0 $(FIRST) && \
+	  build/svcd check --repeat 1 build/motions/carried.txt 2>&1 >/dev/null | grep '^accuracy *100.00'; }
 	build/game --frames $(FRAMES) --problems build/motions
 	build/check_motions build/motions/game.txt 0.002 $(FIRST)
 	@for file in $(MOTIONS); do echo $$file; build/check_motions $$file 0 $(FIRST) || exit 1; done

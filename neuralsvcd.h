@@ -241,9 +241,8 @@ NSVCDDEF void nsvcd_body_free(const nsvcd_body *body, const nsvcd_allocator *all
 NSVCDDEF nsvcd_result nsvcd_body_load(const void *memory, size_t size, const nsvcd_body **body);
 
 // Writes a copy of `body` scaled by `scale` > 0 about its origin (in place is allowed): for a planner's bodies, or to bake
-// one; a question has scales of its own. Latents are scale-free, so this
-// takes microseconds and the answers scale along, to rounding. Errors: ARGUMENT, also where the result would be smaller
-// or larger than a body may be; WORKSPACE.
+// one; a question has scales of its own. Latents are scale-free, so this takes microseconds and the answers scale along, to
+// rounding. Errors: ARGUMENT, also where the result would be smaller or larger than a body may be; WORKSPACE.
 NSVCDDEF nsvcd_result nsvcd_body_scale(const nsvcd_body *body, float scale, void *memory, size_t capacity,
                                        const nsvcd_body **scaled);
 
@@ -5666,6 +5665,7 @@ static void nsvcd__candidates_start(nsvcd__candidates *kept, nsvcd__candidate *i
 #define NSVCD__DEEP 0.2f         // depth from which on an item is worth a look for a witness before any plane
 #define NSVCD__WINDOW 8          // blocks of a resting patch, loaded at once
 #define NSVCD__HOPE 8            // so many looks for a witness come before triangles are tried over a whole segment
+#define NSVCD__NEVER 1e300       // ticks
 #define NSVCD__TOUCHES 32        // contacts at the start, looked at together
 #define NSVCD__LIFTS 6           // directions in which they are undone, at most
 #define NSVCD__IN_ORDER 4        // segments that are searched together, where the first contact is sought
@@ -8072,7 +8072,7 @@ static nsvcd__verdict nsvcd__prove(nsvcd__proof *p, nsvcd__workspace *work) {
 }
 // A proof that knows nothing yet of its motion.
 static void nsvcd__proof_restart(nsvcd__proof *p) {
-  p->end = p->clipped_end = p->unsure = HUGE_VAL;
+  p->end = p->clipped_end = p->unsure = NSVCD__NEVER;
   p->clipped = 0;
   p->has_contact = 0;
   p->lost = 0;
@@ -9312,7 +9312,7 @@ static void nsvcd__answer_with_contact(const nsvcd__proof *p, nsvcd_answer *answ
 // What is proven of clearances and times.
 static void nsvcd__answer_with_bounds(const nsvcd__proof *p, nsvcd__verdict verdict, nsvcd_answer *answer) {
   const double unit = (double)p->motion->unit;
-  const double known = p->lost ? p->settled : HUGE_VAL;
+  const double known = p->lost ? p->settled : NSVCD__NEVER;
   const double until = fmin(fmin(p->end, p->unsure), known) / (double)p->motion->ticks;
   const int is_free = verdict == NSVCD__FREE;
   const double proven = is_free ? 1 : p->first > 0 && verdict != NSVCD__WITHIN ? fmin(fmax(until, 0), 1) : 0;
@@ -9351,7 +9351,7 @@ static NSVCD__APART nsvcd__verdict nsvcd__prove_start(nsvcd__proof *p, nsvcd__wo
   p->first = first;
   p->has_contact = 1;
   p->end = 0;
-  p->unsure = HUGE_VAL;
+  p->unsure = NSVCD__NEVER;
   p->lost = 0;
   return verdict;
 }
