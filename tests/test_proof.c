@@ -1245,6 +1245,19 @@ typedef struct timing_sum {
   double worst;  // of the tolerance
 } timing_sum;
 
+static void proof_count(timing_sum *sum, nsvcd_status status) {
+  sum->asked++;
+  sum->contacts += status == NSVCD_STATUS_WITNESS;
+  sum->free += status == NSVCD_STATUS_CERTIFIED_FREE;
+  sum->inside += status == NSVCD_STATUS_INSIDE;
+  sum->undecided += status == NSVCD_STATUS_UNDECIDED;
+}
+
+// Both bodies' quanta together, without their scales.
+static double proof_quanta(const attack *a) {
+  return (double)nsvcd_body_describe(a->moving->body).quantum + (double)nsvcd_body_describe(a->fixed->body).quantum;
+}
+
 static void proof_check_first(attack *a, float tolerance, timing_sum *sum) {
   const double size = a->moving->size + a->fixed->size;
   nsvcd_sweep_options options = proof_options();
@@ -1253,11 +1266,7 @@ static void proof_check_first(attack *a, float tolerance, timing_sum *sum) {
   options.first = tolerance;
   CHECK_EQ(proof_ask_with(a, &options), NSVCD_OK);
   const nsvcd_answer *first = &a->answer;
-  sum->asked++;
-  sum->contacts += first->status == NSVCD_STATUS_WITNESS;
-  sum->free += first->status == NSVCD_STATUS_CERTIFIED_FREE;
-  sum->inside += first->status == NSVCD_STATUS_INSIDE;
-  sum->undecided += first->status == NSVCD_STATUS_UNDECIDED;
+  proof_count(sum, first->status);
   if (plain.status != NSVCD_STATUS_UNDECIDED && first->status != NSVCD_STATUS_UNDECIDED) {
     CHECK_EQ(plain.status, first->status);
   }
@@ -1331,11 +1340,7 @@ static void proof_check_clearance(attack *a, float clearance, timing_sum *sum) {
   options.clearance = clearance;
   CHECK_EQ(proof_ask_with(a, &options), NSVCD_OK);
   const nsvcd_answer *w = &a->answer;
-  sum->asked++;
-  sum->contacts += w->status == NSVCD_STATUS_WITNESS;
-  sum->free += w->status == NSVCD_STATUS_CERTIFIED_FREE;
-  sum->inside += w->status == NSVCD_STATUS_INSIDE;
-  sum->undecided += w->status == NSVCD_STATUS_UNDECIDED;
+  proof_count(sum, w->status);
   if (w->status == NSVCD_STATUS_CERTIFIED_FREE) {
     sum->wrong += proof_comes_within(a, (double)clearance, 1, 1e-6 * size);
     CHECK_LE(fabs((double)w->clearance_low / (double)clearance - 1), 1e-5);
@@ -1345,8 +1350,7 @@ static void proof_check_clearance(attack *a, float clearance, timing_sum *sum) {
   const double moved = proof_speed_bound(a, (double)w->contact_time, 6e-8);
   const double distance = proof_distance_at(a, (double)w->contact_time);
   CHECK_LE(distance, (double)w->clearance_high + moved + 1e-9 * size);
-  const double quanta = (double)nsvcd_body_describe(a->moving->body).quantum +
-                        (double)nsvcd_body_describe(a->fixed->body).quantum;
+  const double quanta = proof_quanta(a);
   CHECK_LE((double)w->clearance_high, (double)clearance * (1 + 1e-5) + quanta);
 }
 
@@ -1356,11 +1360,7 @@ static void proof_check_measure(attack *a, float tolerance, timing_sum *sum) {
   options.measure = tolerance;
   CHECK_EQ(proof_ask_with(a, &options), NSVCD_OK);
   const nsvcd_answer *w = &a->answer;
-  sum->asked++;
-  sum->contacts += w->status == NSVCD_STATUS_WITNESS;
-  sum->free += w->status == NSVCD_STATUS_CERTIFIED_FREE;
-  sum->inside += w->status == NSVCD_STATUS_INSIDE;
-  sum->undecided += w->status == NSVCD_STATUS_UNDECIDED;
+  proof_count(sum, w->status);
   CHECK(w->clearance_low >= 0 && w->clearance_low <= w->clearance_high);
   if (w->status == NSVCD_STATUS_INSIDE) return;
   if (w->clearance_low > 0) sum->wrong += proof_comes_within(a, (double)w->clearance_low, 1, 1e-6 * size);
@@ -1368,8 +1368,7 @@ static void proof_check_measure(attack *a, float tolerance, timing_sum *sum) {
   if (w->clearance_high > 0) {
     CHECK_LE(proof_distance_at(a, (double)w->contact_time), (double)w->clearance_high + moved + 1e-9 * size);
   }
-  const double quanta = (double)nsvcd_body_describe(a->moving->body).quantum +
-                        (double)nsvcd_body_describe(a->fixed->body).quantum;
+  const double quanta = proof_quanta(a);
   const double wide = (double)w->clearance_high - (double)w->clearance_low;
   if (w->status == NSVCD_STATUS_UNDECIDED) return;
   sum->worst = fmax(sum->worst, wide / ((double)tolerance + 8 * quanta + 1e-5 * size));
