@@ -142,7 +142,8 @@ typedef enum nsvcd_result {
   NSVCD_ERROR_SAME,       // both sides of a question are the same body in the same motion: something was passed twice
   NSVCD_ERROR_BODY,       // a body blob is damaged, cut short, misaligned, of another version or model, or has not
                           // what the method asked for needs
-  NSVCD_ERROR_WORKSPACE   // the memory given is too small, or not aligned to NSVCD_ALIGNMENT bytes
+  NSVCD_ERROR_WORKSPACE,  // the memory given is too small, or not aligned to NSVCD_ALIGNMENT bytes
+  NSVCD_ERROR_CANCELLED   // by the caller's progress function
 } nsvcd_result;
 
 NSVCDDEF const char *nsvcd_result_string(nsvcd_result result);
@@ -199,20 +200,29 @@ typedef struct nsvcd_body nsvcd_body;
 
 #define NSVCD_ALIGNMENT 8
 #define NSVCD_DEFAULT_POINTS 192
+#define NSVCD_DEFAULT_TRIANGLES 64  // per patch of a large mesh
 #define NSVCD_DEFAULT_NETWORK_POINTS 256  // of bodies for the network alone, which needs finer patches than a proof
-#define NSVCD_MAX_POINTS 512       // representative points per body
+#define NSVCD_MAX_POINTS 65536     // representative points (patches) of a body,
+#define NSVCD_MAX_NETWORK_POINTS 512  // and of one with latents
 #define NSVCD_MAX_COORDINATE 1e6f  // metres
 #define NSVCD_MIN_RADIUS 1e-12f    // metres, of a body's bounding sphere
 #define NSVCD_MAX_POSES 65536      // per motion
 #define NSVCD_MIN_SCALE 1e-6f      // of a body in a question
 #define NSVCD_MAX_SCALE 1e6f
 
+// done: in [0,1]. Returns 0 to go on, else the work is given up, and the result is NSVCD_ERROR_CANCELLED.
+typedef int nsvcd_progress(float done, void *user);
+
 typedef struct nsvcd_encode_options {
-  size_t points;       // N, representative points (patches), 1..NSVCD_MAX_POINTS; 0: NSVCD_DEFAULT_POINTS, or
+  size_t points;       // N, representative points (patches), 1..NSVCD_MAX_POINTS; 0: NSVCD_DEFAULT_POINTS, or one for
+                       // NSVCD_DEFAULT_TRIANGLES where that makes more than NSVCD_MAX_NETWORK_POINTS;
                        // NSVCD_DEFAULT_NETWORK_POINTS without triangles
   float patch_radius;  // metres; if > 0 and points is 0: as many points as make patches of about this radius
   int open;            // 1: the mesh is not closed (a sheet, or a part cut out): nothing counts as inside it
   int no_triangles;    // 1: for the network alone, in fewer bytes; then there is no proof
+  int no_latents;      // 1: for the proof alone. A body of more than NSVCD_MAX_NETWORK_POINTS has none anyway
+  nsvcd_progress *progress;  // NULL, or told now and then how much is done; a large mesh takes seconds
+  void *user;                // handed to it
 } nsvcd_encode_options;
 
 #ifndef NSVCD_NO_NETWORK
@@ -1011,6 +1021,8 @@ NSVCDDEF const char *nsvcd_result_string(nsvcd_result result) {
       return "the body is damaged, cut short, misaligned, of another version or model, or lacks what the method needs";
     case NSVCD_ERROR_WORKSPACE:
       return "the memory given is too small or misaligned";
+    case NSVCD_ERROR_CANCELLED:
+      return "cancelled";
   }
   return "unknown result";
 }
@@ -1591,10 +1603,10 @@ static double nsvcd__mesh_area(const nsvcd_mesh *mesh) {
 
 // Stratified by area: sample k lies where the area summed in triangle order passes (k + 1/2) / count of the total.
 // Within its triangle the R2 sequence places it (Roberts 2018: multiples of 1/g and 1/g^2, g^3 = g + 1).
-// points, normals: (count, 3).
-static nsvcd_result nsvcd__sample_surface(const nsvcd_mesh *mesh, size_t count, float *points, float *normals) {
-  double total = nsvcd__mesh_area(mesh);
-  if (!(total > 0)) return NSVCD_ERROR_EMPTY;
+// points, normals: (count, 3). Where there is no area, triangles count alike, and have no normals.
+static void nsvcd__sample_surface(const nsvcd_mesh *mesh, size_t count, float *points, float *normals) {
+  const double all = nsvcd__mesh_area(mesh);
+  const double total = all > 0 ? all : (double)mesh->triangle_count;
   double corners[3][3], vector[3], area = 0, passed = 0;  // passed: the area up to and including triangle t
   size_t t = 0;
   for (size_t k = 0; k < count; ++k) {
@@ -1602,7 +1614,7 @@ static nsvcd_result nsvcd__sample_surface(const nsvcd_mesh *mesh, size_t count, 
     while (passed <= target && t < mesh->triangle_count) {  // never stops at a triangle without area
       nsvcd__triangle(mesh, t++, corners);
       area = nsvcd__area_vector(corners, vector);
-      passed += area;
+      passed += all > 0 ? area : 1;
     }
     double u = (double)((uint32_t)k * 3242174889u + 0x80000000u) / 4294967296.0;
     double v = (double)((uint32_t)k * 2447445414u + 0x80000000u) / 4294967296.0;
@@ -1610,10 +1622,9 @@ static nsvcd_result nsvcd__sample_surface(const nsvcd_mesh *mesh, size_t count, 
     for (int i = 0; i < 3; ++i) {
       double a = corners[0][i];
       points[3 * k + (size_t)i] = (float)(a + u * (corners[1][i] - a) + v * (corners[2][i] - a));
-      normals[3 * k + (size_t)i] = (float)(vector[i] / area);
+      normals[3 * k + (size_t)i] = area > 0 ? (float)(vector[i] / area) : 0;
     }
   }
-  return NSVCD_OK;
 }
 
 // ---- memory
@@ -1621,7 +1632,7 @@ static nsvcd_result nsvcd__sample_surface(const nsvcd_mesh *mesh, size_t count, 
 // All arrays in one block: the doubles first, then everything of four bytes.
 static nsvcd_result nsvcd__patches_alloc(nsvcd__patches *p, size_t count, size_t samples,
                                          const nsvcd_allocator *allocator) {
-  size_t words = (16 + 2 * NSVCD__NEIGHBOURS) * count + 1 + 18 * samples;  // no overflow: count <= NSVCD_MAX_POINTS
+  size_t words = (16 + 2 * NSVCD__NEIGHBOURS) * count + 1 + 18 * samples;  // no overflow: count <= NSVCD_MAX_NETWORK_POINTS
   memset(p, 0, sizeof *p);
   p->memory = nsvcd__alloc(allocator, count * sizeof(nsvcd__patch_sum) + words * sizeof(float));
   if (!p->memory) return NSVCD_ERROR_MEMORY;
@@ -1907,21 +1918,15 @@ static void nsvcd__cover(nsvcd__patches *p, const nsvcd_mesh *mesh) {
 
 // ---- all of it
 
-// Splits the surface into at most `points` patches, 1..NSVCD_MAX_POINTS: fewer where samples coincide or a patch loses
-// all of its samples. On success release *patches with nsvcd__patches_free; on failure it is untouched.
+// Splits the surface of a checked mesh into at most `points` patches, 1..NSVCD_MAX_NETWORK_POINTS: fewer where samples
+// coincide or a patch loses all of its samples. On success release *patches with nsvcd__patches_free; on failure, MEMORY,
+// it is untouched.
 static nsvcd_result nsvcd__patches_build(const nsvcd_mesh *mesh, size_t points, const nsvcd_allocator *allocator,
                                          nsvcd__patches *patches) {
-  if (points < 1 || points > NSVCD_MAX_POINTS) return NSVCD_ERROR_ARGUMENT;
-  nsvcd_result result = nsvcd__mesh_check(mesh);
-  if (result != NSVCD_OK) return result;
   nsvcd__patches p;
-  result = nsvcd__patches_alloc(&p, points, NSVCD__SAMPLES_PER_POINT * points, allocator);
+  const nsvcd_result result = nsvcd__patches_alloc(&p, points, NSVCD__SAMPLES_PER_POINT * points, allocator);
   if (result != NSVCD_OK) return result;
-  result = nsvcd__sample_surface(mesh, p.sample_count, p.drawn_points, p.drawn_normals);
-  if (result != NSVCD_OK) {
-    nsvcd__patches_free(&p, allocator);
-    return result;
-  }
+  nsvcd__sample_surface(mesh, p.sample_count, p.drawn_points, p.drawn_normals);
   for (size_t s = 0; s < p.sample_count; ++s) {
     p.x[s] = p.drawn_points[3 * s], p.y[s] = p.drawn_points[3 * s + 1], p.z[s] = p.drawn_points[3 * s + 2];
   }
@@ -1944,57 +1949,15 @@ static nsvcd_result nsvcd__patches_build(const nsvcd_mesh *mesh, size_t points, 
 #endif  // NSVCD_NO_ENCODER
 
 #if !defined(NSVCD_NO_ENCODER) && !defined(NSVCD_NO_PROOF)
-// ---------------------------------------------------------------------------------------------------- surface
-// In: a checked mesh and the centres of its N patches. Out: nsvcd__surface: of every patch an outer
-// description of the surface that belongs to it, and the triangles of that surface. A proof of
-// freedom of collision is built on it.
-//
-// What holds. Every point of the mesh lies in a piece. Every piece is a convex part of one
-// triangle, and belongs to one patch. That patch lists the piece's triangle, or the piece itself
-// where the triangle is large beside the patches. Its ball, its disc and its hull swollen by the
-// slack contain the piece. Triangles without area are surface like others.
-//
-// Why it holds. A piece is only ever divided in two parts that share the corners between them, and
-// both parts are kept. So the pieces cover the mesh whatever the cuts are, and poor cuts can make a
-// description only larger. Each number is taken from the corners of the pieces, about what is
-// stored in float, and then rounded outwards. A piece is the convex hull of its corners, and so are
-// ball, disc and swollen hull convex: what contains the corners contains the piece. The corners
-// themselves are off by roundings of double: all bounds are wider by NSVCD__SURFACE_MARGIN.
+// ---------------------------------------------------------------------------------------------------- regions
+// In: a checked mesh. Out: its triangles, welded, in one region, or in as many as it takes to have no more than 512 patches
+// in each: each region is then made into patches by itself. Large triangles are halved first, until none is large beside
+// the regions. So that nothing is lost, halves share the corner between them and both are kept.
 
-#define NSVCD__SURFACE_OVERLAP 0.5    // mean sample radii: so far a piece may reach into another cell
-#define NSVCD__SURFACE_WHOLE 16.0     // the same: with a longer edge a triangle is listed in parts
-#define NSVCD__SURFACE_MARGIN 1e-13   // of the mesh's greatest coordinate
-#define NSVCD__SURFACE_TINY 1e-30     // metres, added to that: keeps off what float cannot hold
-#define NSVCD__HULL_SHARE 1e-4        // of the radius: a hull as near as this to all corners is good
-#define NSVCD__FACET_CORNERS 16       // corners of a piece, at most
-#define NSVCD__FACET_STACK 64         // parts that wait for their turn (12 at most were seen)
-#define NSVCD__CUTS_PER_TRIANGLE 8    // these two bound the cuts: a fine mesh needs less than one,
-#define NSVCD__CUTS_PER_PATCH 64      // a large face some three for each of its patches
-#define NSVCD__MAX_CUTS (1u << 29)    // vertices and new corners together have numbers of 32 bits
-#define NSVCD__PATCH_VERTICES 65536u  // as many as corners of 16 bits can name
-
-typedef struct nsvcd__surface {
-  size_t count;             // N
-  size_t listed;            // L, triangles listed, over all patches
-  size_t vertex_count;      // V, vertices stored, over all patches
-  size_t component_count;   // C, connected components (vertices at the same place are one vertex)
-  float *balls;             // (N, 4) centre c and radius. An empty patch has radius NSVCD__NOWHERE
-  float *discs;             // (N, 6) normal n (|n| <= 1), low, high, across: points x of pieces
-                            // have low <= n.(x - c) <= high and are within `across` of the line
-                            // through c along n
-  float *steps;             // (N) metres per integer: a stored vertex is c + step * (x, y, z)
-  float *slacks;            // (N) metres: every point of a piece is within this of the convex hull
-                            // of the first hull_counts[i] stored vertices
-  float *quanta;            // (N) metres: every corner listed is within this of its stored vertex
-  uint8_t *hull_counts;     // (N) 1..NSVCD__HULL; 0 where empty
-  uint32_t *first_vertex;   // (N + 1)
-  uint32_t *first_triangle; // (N + 1)
-  int16_t *vertices;        // patch i: x of its vertices, then y, then z, at 3 * first_vertex[i]
-  uint16_t *corners;        // (L, 3) numbers of vertices within the patch
-  uint32_t *ids;            // (L) triangle of the mesh. With NSVCD__ENCLOSES where it belongs to a
-                            // closed component
-  float *seeds;             // (C, 3) a vertex of each component
-} nsvcd__surface;
+#define NSVCD__REGION_POINTS 256      // patches of a region, where there are several
+#define NSVCD__REGION_EDGE 0.5        // longest edge, in roots of a region's mean area
+#define NSVCD__REGION_BINS 512        // a cut between regions is found to the width of one
+#define NSVCD__HALVES_PER_REGION 256  // bounds the triangles that halving adds
 
 // ---- lists that grow
 
@@ -2008,7 +1971,7 @@ static int nsvcd__list_reserve(nsvcd__list *list, size_t more, size_t size,
                                const nsvcd_allocator *allocator) {
   if (list->capacity - list->count >= more) return 1;
   if (list->count > SIZE_MAX / 2 - more) return 0;
-  const size_t capacity = 2 * (list->count + more);
+  const size_t capacity = list->count + more + list->count / 2;
   void *items = nsvcd__alloc_array(allocator, capacity, size);
   if (!items) return 0;
 
@@ -2218,6 +2181,387 @@ static int nsvcd__topology_build(const nsvcd_mesh *mesh, nsvcd__topology *topolo
   return 0;
 }
 
+// ---- a region at a time
+
+typedef struct nsvcd__regions {
+  const nsvcd_mesh *mesh;
+  double greatest;         // coordinate, of all
+  size_t component_count;  // C
+  uint8_t *seeds;          // (vertices) 1: of its component the least vertex, which no patch has been given yet
+  size_t count;            // R
+  size_t triangle_count;   // T, halves and all
+  uint32_t *corners;       // (T, 3) numbers of welded vertices, then of cuts
+  uint32_t *ids;           // (T) in the caller's mesh, with NSVCD__ENCLOSES where it belongs to a closed component
+  size_t cut_count;
+  nsvcd__d3 *cuts;         // the corners that halving has made
+  // Of several regions:
+  uint32_t *order;         // (T) triangles, region by region
+  uint32_t *spare;         // (T) working memory
+  uint32_t *numbers;       // (vertices and cuts) those in the region at hand
+  size_t *first;           // (R + 1) places in `order`
+} nsvcd__regions;
+
+// A part of a mesh. Its last vertices are cuts.
+typedef struct nsvcd__region {
+  nsvcd_mesh mesh;        // welded
+  double greatest;        // coordinate, of the whole mesh
+  const uint32_t *ids;    // (triangles)
+  const nsvcd__d3 *cuts;  // (cut_count) where they are; the mesh has them rounded
+  size_t cut_count;
+  uint8_t *seeds;         // (vertices)
+  uint32_t *vertices;     // (vertices) their numbers among those of all regions; NULL: the same
+  void *memory;           // of the rest, but for a single region
+} nsvcd__region;
+
+static void nsvcd__regions_free(nsvcd__regions *r, const nsvcd_allocator *allocator) {
+  nsvcd__free(allocator, r->seeds);
+  nsvcd__free(allocator, r->corners);
+  nsvcd__free(allocator, r->ids);
+  nsvcd__free(allocator, r->cuts);
+  nsvcd__free(allocator, r->order);
+  nsvcd__free(allocator, r->spare);
+  nsvcd__free(allocator, r->numbers);
+  nsvcd__free(allocator, r->first);
+  memset(r, 0, sizeof *r);
+}
+
+static nsvcd__d3 nsvcd__regions_point(const nsvcd__regions *r, uint32_t number) {
+  const size_t vertices = r->mesh->vertex_count;
+  return number < vertices ? nsvcd__d3_load(r->mesh->positions + 3 * (size_t)number) : r->cuts[number - vertices];
+}
+
+// The longest edge that triangles may keep, and how many triangles, and corners made by halving, there are then.
+static double nsvcd__regions_limit(const nsvcd__regions *r, size_t *triangles, size_t *cuts) {
+  const nsvcd_mesh *mesh = r->mesh;
+  const double most = (double)mesh->triangle_count + NSVCD__HALVES_PER_REGION * (double)r->count;
+  double limit = NSVCD__REGION_EDGE * sqrt(nsvcd__mesh_area(mesh) / (double)r->count);
+  double longest = 0;
+  for (size_t t = 0; t < mesh->triangle_count; t++) {
+    double c[3][3];
+    nsvcd__triangle(mesh, t, c);
+    for (size_t k = 0; k < 3; k++) longest = fmax(longest, nsvcd__squared_edge(c[k], c[(k + 1) % 3]));
+  }
+  for (limit = fmax(limit, sqrt(longest) / most);; limit *= 2) {
+    double pieces = 0;
+    for (size_t t = 0; t < mesh->triangle_count && pieces <= most; t++) {
+      double c[3][3];
+      nsvcd__triangle(mesh, t, c);
+      pieces += nsvcd__count_pieces(nsvcd__squared_edge(c[0], c[1]), nsvcd__squared_edge(c[1], c[2]),
+                                    nsvcd__squared_edge(c[2], c[0]), limit, most - pieces);
+    }
+    if (!(pieces <= most)) continue;
+    // Lengths of halves are found here by formulas and there from their corners: roundings may part one more or less.
+    *cuts = (size_t)(pieces - (double)mesh->triangle_count) + NSVCD__HALVES_PER_REGION;
+    *triangles = mesh->triangle_count + *cuts;
+    return limit;
+  }
+}
+
+// Adds a triangle, or its halves where an edge is longer than the limit, as long as there is room for these.
+static void nsvcd__regions_add(nsvcd__regions *r, double limit, size_t most_cuts, uint32_t a, uint32_t b, uint32_t c,
+                               uint32_t id) {
+  const nsvcd__d3 pa = nsvcd__regions_point(r, a);
+  const nsvcd__d3 pb = nsvcd__regions_point(r, b);
+  const nsvcd__d3 pc = nsvcd__regions_point(r, c);
+  const double ab = nsvcd__d3_gap(pa, pb);
+  const double bc = nsvcd__d3_gap(pb, pc);
+  const double ca = nsvcd__d3_gap(pc, pa);
+  if (fmax(ab, fmax(bc, ca)) <= limit * limit || r->cut_count == most_cuts) {
+    uint32_t *corners = r->corners + 3 * r->triangle_count;
+    corners[0] = a;
+    corners[1] = b;
+    corners[2] = c;
+    r->ids[r->triangle_count++] = id;
+    return;
+  }
+  if (bc > ab && bc >= ca) {
+    nsvcd__regions_add(r, limit, most_cuts, b, c, a, id);
+    return;
+  }
+  if (ca > ab) {
+    nsvcd__regions_add(r, limit, most_cuts, c, a, b, id);
+    return;
+  }
+  const uint32_t middle = (uint32_t)(r->mesh->vertex_count + r->cut_count);
+  r->cuts[r->cut_count++] = nsvcd__d3_scale(nsvcd__d3_add(pa, pb), 0.5);
+  nsvcd__regions_add(r, limit, most_cuts, a, middle, c, id);
+  nsvcd__regions_add(r, limit, most_cuts, middle, b, c, id);
+}
+
+// Room for so many triangles and cuts, and for the rest of several regions. 0 without memory; the caller frees.
+static int nsvcd__regions_alloc(nsvcd__regions *r, size_t triangles, size_t cuts, const nsvcd_allocator *allocator) {
+  const size_t word = sizeof(uint32_t);
+  r->corners = (uint32_t *)nsvcd__alloc_array(allocator, triangles, 3 * word);
+  r->ids = (uint32_t *)nsvcd__alloc_array(allocator, triangles, word);
+  if (!r->corners || !r->ids) return 0;
+  if (r->count == 1) return 1;
+  r->cuts = (nsvcd__d3 *)nsvcd__alloc_array(allocator, cuts, sizeof(nsvcd__d3));
+  r->order = (uint32_t *)nsvcd__alloc_array(allocator, triangles, word);
+  r->spare = (uint32_t *)nsvcd__alloc_array(allocator, triangles, word);
+  r->numbers = (uint32_t *)nsvcd__alloc_array(allocator, r->mesh->vertex_count + cuts, word);
+  r->first = (size_t *)nsvcd__alloc_array(allocator, r->count + 1, sizeof(size_t));
+  return r->cuts && r->order && r->spare && r->numbers && r->first;
+}
+
+static nsvcd__d3 nsvcd__regions_centroid(const nsvcd__regions *r, uint32_t t) {
+  const uint32_t *corners = r->corners + 3 * (size_t)t;
+  const nsvcd__d3 sum = nsvcd__d3_add(nsvcd__regions_point(r, corners[0]), nsvcd__regions_point(r, corners[1]));
+  return nsvcd__d3_scale(nsvcd__d3_add(sum, nsvcd__regions_point(r, corners[2])), 1.0 / 3);
+}
+
+// What a triangle counts when regions are made alike: half of it is its area, half that it is one.
+static double nsvcd__regions_weight(const nsvcd__regions *r, uint32_t t, double per_area, double per_triangle) {
+  const uint32_t *corners = r->corners + 3 * (size_t)t;
+  const nsvcd__d3 a = nsvcd__regions_point(r, corners[0]);
+  const nsvcd__d3 u = nsvcd__d3_sub(nsvcd__regions_point(r, corners[1]), a);
+  const nsvcd__d3 v = nsvcd__d3_sub(nsvcd__regions_point(r, corners[2]), a);
+  return per_area * 0.5 * nsvcd__d3_length(nsvcd__d3_cross(u, v)) + per_triangle;
+}
+
+// Where a run of triangles is cut in two.
+typedef struct nsvcd__split {
+  nsvcd__d3 low;     // of the box of their centroids
+  size_t axis;       // its longest
+  double per_bin;    // bins per metre
+  size_t last_bin;   // of the first part
+} nsvcd__split;
+
+static double nsvcd__d3_axis(nsvcd__d3 a, size_t axis) { return axis == 0 ? a.x : axis == 1 ? a.y : a.z; }
+
+static size_t nsvcd__split_bin(const nsvcd__split *split, nsvcd__d3 at) {
+  const double bin = (nsvcd__d3_axis(at, split->axis) - nsvcd__d3_axis(split->low, split->axis)) * split->per_bin;
+  return bin < NSVCD__REGION_BINS - 1 ? (size_t)bin : NSVCD__REGION_BINS - 1;
+}
+
+// Chooses it such that the first part has about this share of the weight.
+static nsvcd__split nsvcd__regions_split(const nsvcd__regions *r, size_t first, size_t end, double share,
+                                         double per_area, double per_triangle) {
+  double weights[NSVCD__REGION_BINS] = {0};
+  double all = 0;
+  nsvcd__split split = {{HUGE_VAL, HUGE_VAL, HUGE_VAL}, 0, 0, 0};
+  nsvcd__d3 high = {-HUGE_VAL, -HUGE_VAL, -HUGE_VAL};
+  for (size_t i = first; i < end; i++) {
+    const nsvcd__d3 at = nsvcd__regions_centroid(r, r->order[i]);
+    split.low = nsvcd__d3_of(fmin(split.low.x, at.x), fmin(split.low.y, at.y), fmin(split.low.z, at.z));
+    high = nsvcd__d3_of(fmax(high.x, at.x), fmax(high.y, at.y), fmax(high.z, at.z));
+  }
+  const nsvcd__d3 size = nsvcd__d3_sub(high, split.low);
+  if (size.y > nsvcd__d3_axis(size, split.axis)) split.axis = 1;
+  if (size.z > nsvcd__d3_axis(size, split.axis)) split.axis = 2;
+  const double longest = nsvcd__d3_axis(size, split.axis);
+  split.per_bin = longest > 1e-30 ? NSVCD__REGION_BINS / longest : 0;
+  for (size_t i = first; i < end; i++) {
+    const double weight = nsvcd__regions_weight(r, r->order[i], per_area, per_triangle);
+    weights[nsvcd__split_bin(&split, nsvcd__regions_centroid(r, r->order[i]))] += weight;
+    all += weight;
+  }
+  double sum = weights[0];
+  while (split.last_bin + 2 < NSVCD__REGION_BINS && sum + 0.5 * weights[split.last_bin + 1] < share * all) {
+    sum += weights[++split.last_bin];
+  }
+  return split;
+}
+
+// Makes `parts` regions, the next ones, of a run of triangles. In a region they keep their order.
+static void nsvcd__regions_part(nsvcd__regions *r, size_t first, size_t end, size_t parts, size_t *made,
+                                double per_area, double per_triangle) {
+  if (parts == 1) {
+    r->first[(*made)++] = first;
+    return;
+  }
+  const size_t left_parts = parts / 2;
+  const double share = (double)left_parts / (double)parts;
+  const nsvcd__split split = nsvcd__regions_split(r, first, end, share, per_area, per_triangle);
+  size_t middle = first;
+  size_t others = 0;
+  for (size_t i = first; i < end; i++) {
+    const uint32_t t = r->order[i];
+    if (nsvcd__split_bin(&split, nsvcd__regions_centroid(r, t)) <= split.last_bin) {
+      r->order[middle++] = t;
+    } else {
+      r->spare[others++] = t;
+    }
+  }
+  memcpy(r->order + middle, r->spare, others * sizeof *r->spare);
+  nsvcd__regions_part(r, first, middle, left_parts, made, per_area, per_triangle);
+  nsvcd__regions_part(r, middle, end, parts - left_parts, made, per_area, per_triangle);
+}
+
+// Welds the mesh, and parts it where it is to have more than a region's patches. points: N. On success release with
+// nsvcd__regions_free; 0 without memory, and nothing stays allocated.
+static int nsvcd__regions_build(const nsvcd_mesh *mesh, size_t points, const nsvcd_allocator *allocator,
+                                nsvcd__regions *r) {
+  nsvcd__topology topology;
+  size_t triangles = mesh->triangle_count;
+  size_t cuts = 0;
+  memset(r, 0, sizeof *r);
+  if (!nsvcd__topology_build(mesh, &topology, allocator)) return 0;
+  r->mesh = mesh;
+  r->component_count = topology.component_count;
+  r->seeds = topology.seen;
+  topology.seen = NULL;
+  r->count = points <= NSVCD_MAX_NETWORK_POINTS ? 1 : (points + NSVCD__REGION_POINTS - 1) / NSVCD__REGION_POINTS;
+  for (size_t i = 0; i < 3 * mesh->vertex_count; i++) {
+    r->greatest = fmax(r->greatest, fabs((double)mesh->positions[i]));
+  }
+  const double limit = r->count > 1 ? nsvcd__regions_limit(r, &triangles, &cuts) : HUGE_VAL;
+  if (!nsvcd__regions_alloc(r, triangles, cuts, allocator)) {
+    nsvcd__topology_free(&topology, allocator);
+    nsvcd__regions_free(r, allocator);
+    return 0;
+  }
+
+  for (size_t t = 0; t < mesh->triangle_count; t++) {
+    uint32_t corners[3];
+    nsvcd__welded_corners(mesh, &topology, t, corners);
+    const uint32_t flag = topology.open[topology.parents[corners[0]]] ? 0 : NSVCD__ENCLOSES;
+    nsvcd__regions_add(r, limit, cuts, corners[0], corners[1], corners[2], (uint32_t)t | flag);
+  }
+  nsvcd__topology_free(&topology, allocator);
+  if (r->count == 1) return 1;
+  const size_t vertices = mesh->vertex_count + r->cut_count;
+  size_t made = 0;
+  for (uint32_t t = 0; t < r->triangle_count; t++) r->order[t] = t;
+  for (size_t v = 0; v < vertices; v++) r->numbers[v] = NSVCD__NO_SAMPLE;
+  nsvcd__regions_part(r, 0, r->triangle_count, r->count, &made, 0.5 / nsvcd__mesh_area(mesh),
+                      0.5 / (double)r->triangle_count);
+  r->first[r->count] = r->triangle_count;
+  return 1;
+}
+
+// Gives the vertices of a run of triangles that are cuts, or those that are not, their numbers within a region. Returns
+// how many vertices there are now.
+static size_t nsvcd__region_number(nsvcd__regions *r, size_t first, size_t end, int cuts, size_t count,
+                                   uint32_t *vertices) {
+  for (size_t i = first; i < end; i++) {
+    for (size_t k = 0; k < 3; k++) {
+      const uint32_t v = r->corners[3 * (size_t)r->order[i] + k];
+      if ((v >= r->mesh->vertex_count) != cuts || r->numbers[v] != NSVCD__NO_SAMPLE) continue;
+      r->numbers[v] = (uint32_t)count;
+      vertices[count++] = v;
+    }
+  }
+  return count;
+}
+
+// One of the regions; NSVCD_ERROR_EMPTY where it has no triangle. On success release with nsvcd__region_end.
+static nsvcd_result nsvcd__region_begin(nsvcd__regions *r, size_t n, const nsvcd_allocator *allocator,
+                                        nsvcd__region *out) {
+  memset(out, 0, sizeof *out);
+  out->greatest = r->greatest;
+  if (r->count == 1) {
+    out->mesh = *r->mesh;
+    out->mesh.indices = r->corners;
+    out->ids = r->ids;
+    out->seeds = r->seeds;
+    return NSVCD_OK;
+  }
+  const size_t first = r->first[n];
+  const size_t end = r->first[n + 1];
+  const size_t count = end - first;
+  const size_t word = sizeof(uint32_t);
+  if (count == 0) return NSVCD_ERROR_EMPTY;
+  // Exact places, then what takes four bytes: corners, ids and up to three vertices for each triangle; then the seeds.
+  char *memory = (char *)nsvcd__alloc_array(allocator, count, 3 * sizeof(nsvcd__d3) + 16 * word + 3);
+  if (!memory) return NSVCD_ERROR_MEMORY;
+  nsvcd__d3 *cuts = (nsvcd__d3 *)(void *)memory;
+  uint32_t *corners = (uint32_t *)(void *)(cuts + 3 * count);
+  uint32_t *ids = corners + 3 * count;
+  uint32_t *vertices = ids + count;
+  float *positions = (float *)(void *)(vertices + 3 * count);
+  const size_t firm = nsvcd__region_number(r, first, end, 0, 0, vertices);
+  const size_t all = nsvcd__region_number(r, first, end, 1, firm, vertices);
+  out->memory = memory;
+  out->vertices = vertices;
+  out->cuts = cuts;
+  out->cut_count = all - firm;
+  out->ids = ids;
+  out->seeds = (uint8_t *)(positions + 9 * count);
+  for (size_t v = 0; v < all; v++) {
+    const nsvcd__d3 at = nsvcd__regions_point(r, vertices[v]);
+    const nsvcd__f3 rounded = nsvcd__f3_round(at);
+    positions[3 * v] = rounded.x;
+    positions[3 * v + 1] = rounded.y;
+    positions[3 * v + 2] = rounded.z;
+    if (v >= firm) cuts[v - firm] = at;
+    out->seeds[v] = v < firm && r->seeds[vertices[v]];
+  }
+  for (size_t i = 0; i < count; i++) {
+    const uint32_t t = r->order[first + i];
+    ids[i] = r->ids[t];
+    for (size_t k = 0; k < 3; k++) corners[3 * i + k] = r->numbers[r->corners[3 * (size_t)t + k]];
+  }
+  for (size_t v = 0; v < all; v++) r->numbers[vertices[v]] = NSVCD__NO_SAMPLE;
+  out->mesh.positions = positions;
+  out->mesh.indices = corners;
+  out->mesh.vertex_count = all;
+  out->mesh.triangle_count = count;
+  return NSVCD_OK;
+}
+
+// Keeps in mind which seeds patches have been given.
+static void nsvcd__region_end(nsvcd__regions *r, nsvcd__region *region, const nsvcd_allocator *allocator) {
+  const size_t firm = region->mesh.vertex_count - region->cut_count;
+  for (size_t v = 0; region->memory && v < firm; v++) r->seeds[region->vertices[v]] = region->seeds[v];
+  nsvcd__free(allocator, region->memory);
+}
+
+// ---------------------------------------------------------------------------------------------------- surface
+// In: a mesh, region by region, and the centres of each region's patches, N in all. Out:
+// nsvcd__surface: of every patch an outer description of the surface that belongs to it, and the
+// triangles of that surface. A proof of freedom of collision is built on it.
+//
+// What holds. Every point of the mesh lies in a piece. Every piece is a convex part of one
+// triangle, and belongs to one patch. That patch lists the piece's triangle, or the piece itself
+// where the triangle is large beside the patches. Its ball, its disc and its hull swollen by the
+// slack contain the piece. Triangles without area are surface like others.
+//
+// Why it holds. A piece is only ever divided in two parts that share the corners between them, and
+// both parts are kept. So the pieces cover the mesh whatever the cuts are, and poor cuts can make a
+// description only larger. Each number is taken from the corners of the pieces, about what is
+// stored in float, and then rounded outwards. A piece is the convex hull of its corners, and so are
+// ball, disc and swollen hull convex: what contains the corners contains the piece. The corners
+// themselves are off by roundings of double: all bounds are wider by NSVCD__SURFACE_MARGIN.
+
+#define NSVCD__SURFACE_OVERLAP 0.5    // mean sample radii: so far a piece may reach into another cell
+#define NSVCD__SURFACE_WHOLE 16.0     // the same: with a longer edge a triangle is listed in parts
+#define NSVCD__SURFACE_MARGIN 1e-13   // of the mesh's greatest coordinate
+#define NSVCD__SURFACE_TINY 1e-30     // metres, added to that: keeps off what float cannot hold
+#define NSVCD__HULL_SHARE 1e-4        // of the radius: a hull as near as this to all corners is good
+#define NSVCD__FACET_CORNERS 16       // corners of a piece, at most
+#define NSVCD__FACET_STACK 64         // parts that wait for their turn (12 at most were seen)
+#define NSVCD__CUTS_PER_TRIANGLE 8    // these two bound the cuts: a fine mesh needs less than one,
+#define NSVCD__CUTS_PER_PATCH 64      // a large face some three for each of its patches
+#define NSVCD__MAX_CUTS (1u << 29)    // vertices and new corners together have numbers of 32 bits
+#define NSVCD__PATCH_VERTICES 65536u  // as many as corners of 16 bits can name
+
+typedef struct nsvcd__surface {
+  size_t count;             // N, of which
+  size_t done;              // so many are described by now
+  size_t listed;            // L, triangles listed, over all patches
+  size_t vertex_count;      // V, vertices stored, over all patches
+  size_t component_count;   // C, connected components (vertices at the same place are one vertex)
+  float *balls;             // (N, 4) centre c and radius. An empty patch has radius NSVCD__NOWHERE
+  float *discs;             // (N, 6) normal n (|n| <= 1), low, high, across: points x of pieces
+                            // have low <= n.(x - c) <= high and are within `across` of the line
+                            // through c along n
+  float *steps;             // (N) metres per integer: a stored vertex is c + step * (x, y, z)
+  float *slacks;            // (N) metres: every point of a piece is within this of the convex hull
+                            // of the first hull_counts[i] stored vertices
+  float *quanta;            // (N) metres: every corner listed is within this of its stored vertex
+  uint8_t *hull_counts;     // (N) 1..NSVCD__HULL; 0 where empty
+  uint32_t *first_vertex;   // (N + 1)
+  uint32_t *first_triangle; // (N + 1)
+  int16_t *vertices;        // patch i: x of its vertices, then y, then z, at 3 * first_vertex[i]
+  uint16_t *corners;        // (L, 3) numbers of vertices within the patch
+  uint32_t *ids;            // (L) triangle of the mesh. With NSVCD__ENCLOSES where it belongs to a
+                            // closed component
+  size_t seed_count;        // so many of the C components are known by now
+  float *seeds;             // (C, 3) a vertex of each component
+  uint32_t *seed_patches;   // (C) a patch with a piece that has it for a corner
+  nsvcd__list vertex_list, corner_list, id_list;  // where vertices, corners and ids are
+} nsvcd__surface;
+
 // ---- pieces: triangles cut by the cells of the centres
 
 // A convex part of one triangle that is being cut. Its corners are points by number: the mesh's
@@ -2236,9 +2580,8 @@ typedef struct nsvcd__piece {
 } nsvcd__piece;
 
 typedef struct nsvcd__pieces {
-  const nsvcd_mesh *mesh;
+  const nsvcd__region *region;
   const nsvcd__patches *patches;
-  nsvcd__topology topology;
   nsvcd__list list;       // of nsvcd__piece, triangle by triangle
   nsvcd__list corners;    // of uint32_t, numbers of points
   nsvcd__list points;     // of nsvcd__d3: the points that cuts have made
@@ -2251,7 +2594,6 @@ typedef struct nsvcd__pieces {
 } nsvcd__pieces;
 
 static void nsvcd__pieces_free(nsvcd__pieces *pieces, const nsvcd_allocator *allocator) {
-  nsvcd__topology_free(&pieces->topology, allocator);
   nsvcd__free(allocator, pieces->list.items);
   nsvcd__free(allocator, pieces->corners.items);
   nsvcd__free(allocator, pieces->points.items);
@@ -2268,12 +2610,15 @@ static const uint32_t *nsvcd__piece_corners(const nsvcd__pieces *pieces,
 }
 
 static size_t nsvcd__point_count(const nsvcd__pieces *pieces) {
-  return pieces->mesh->vertex_count + pieces->points.count;
+  return pieces->region->mesh.vertex_count + pieces->points.count;
 }
 
 static nsvcd__d3 nsvcd__point_at(const nsvcd__pieces *pieces, uint32_t number) {
-  const size_t vertices = pieces->mesh->vertex_count;
-  if (number < vertices) return nsvcd__d3_load(pieces->mesh->positions + 3 * (size_t)number);
+  const nsvcd__region *region = pieces->region;
+  const size_t vertices = region->mesh.vertex_count;
+  const size_t firm = vertices - region->cut_count;
+  if (number < firm) return nsvcd__d3_load(region->mesh.positions + 3 * (size_t)number);
+  if (number < vertices) return region->cuts[number - firm];
   return ((const nsvcd__d3 *)pieces->points.items)[number - vertices];
 }
 
@@ -2287,7 +2632,7 @@ static nsvcd__d3 nsvcd__centre_at(const nsvcd__patches *patches, uint32_t i) {
 // or too many.
 static int nsvcd__divide(nsvcd__pieces *pieces, const nsvcd__facet *from, const double *beyond,
                          nsvcd__facet *near_part, nsvcd__facet *far_part) {
-  const uint32_t vertices = (uint32_t)pieces->mesh->vertex_count;
+  const uint32_t vertices = (uint32_t)pieces->region->mesh.vertex_count;
   const size_t made = pieces->points.count;
   nsvcd__d3 *points = (nsvcd__d3 *)pieces->points.items;  // room for two per corner is there
   uint32_t near_points[3 * NSVCD__FACET_CORNERS];
@@ -2413,7 +2758,7 @@ static int nsvcd__cut_up(nsvcd__pieces *pieces, uint32_t triangle, uint32_t *gue
                          const nsvcd_allocator *allocator) {
   nsvcd__piece piece = {0, 0, triangle, 0, 0};
   nsvcd__facet *whole = &pieces->waiting[0];
-  nsvcd__welded_corners(pieces->mesh, &pieces->topology, triangle, whole->points);
+  memcpy(whole->points, pieces->region->mesh.indices + 3 * (size_t)triangle, 3 * sizeof *whole->points);
   whole->count = 3;
   piece.parted = nsvcd__longest_edge(pieces, whole) > pieces->whole;
   pieces->waiting_count = 1;
@@ -2428,38 +2773,33 @@ static int nsvcd__cut_up(nsvcd__pieces *pieces, uint32_t triangle, uint32_t *gue
 }
 
 static void nsvcd__pieces_measure(nsvcd__pieces *pieces) {
-  const nsvcd_mesh *mesh = pieces->mesh;
   const size_t patches = pieces->patches->count;
-  double greatest = 0;
-  for (size_t i = 0; i < 3 * mesh->vertex_count; i++) {
-    greatest = fmax(greatest, fabs((double)mesh->positions[i]));
-  }
   double size = 0;
   for (size_t i = 0; i < patches; i++) size += (double)pieces->patches->sample_radii[i];
   size /= (double)patches;
 
-  pieces->margin = NSVCD__SURFACE_MARGIN * greatest + NSVCD__SURFACE_TINY;
+  pieces->margin = NSVCD__SURFACE_MARGIN * pieces->region->greatest + NSVCD__SURFACE_TINY;
   pieces->overlap = NSVCD__SURFACE_OVERLAP * size + pieces->margin;
   pieces->whole = NSVCD__SURFACE_WHOLE * size;
   pieces->cuts_left = NSVCD__CUTS_PER_PATCH * patches;
   const size_t room = NSVCD__MAX_CUTS - pieces->cuts_left;
-  const size_t triangles = mesh->triangle_count;
+  const size_t triangles = pieces->region->mesh.triangle_count;
   const int many = triangles > room / NSVCD__CUTS_PER_TRIANGLE;
   pieces->cuts_left += many ? room : NSVCD__CUTS_PER_TRIANGLE * triangles;
 }
 
-// Cuts the whole mesh. 0 without memory.
-static int nsvcd__pieces_build(const nsvcd_mesh *mesh, const nsvcd__patches *patches,
+// Cuts the whole region. 0 without memory.
+static int nsvcd__pieces_build(const nsvcd__region *region, const nsvcd__patches *patches,
                                const nsvcd_allocator *allocator, nsvcd__pieces *pieces) {
   memset(pieces, 0, sizeof *pieces);
-  pieces->mesh = mesh;
+  pieces->region = region;
   pieces->patches = patches;
   nsvcd__pieces_measure(pieces);
   const size_t facet = sizeof(nsvcd__facet);
   pieces->waiting = (nsvcd__facet *)nsvcd__alloc_array(allocator, NSVCD__FACET_STACK, facet);
-  int ok = pieces->waiting && nsvcd__topology_build(mesh, &pieces->topology, allocator);
+  int ok = pieces->waiting != NULL;
   uint32_t guess = 0;
-  for (uint32_t t = 0; ok && t < mesh->triangle_count; t++) {
+  for (uint32_t t = 0; ok && t < region->mesh.triangle_count; t++) {
     ok = nsvcd__cut_up(pieces, t, &guess, allocator);
   }
   if (!ok) nsvcd__pieces_free(pieces, allocator);
@@ -2977,17 +3317,32 @@ static void nsvcd__fit_ball(const nsvcd__pieces *pieces, nsvcd__sorted *sorted, 
   ball[3] = nsvcd__float_above(radius + pieces->margin);
 }
 
-// Ball, disc and hull of patch i. The slack does not know of the integers yet.
+// Is the point the seed of a component that no patch has been given yet? It is given to patch `to`.
+static void nsvcd__take_seed(const nsvcd__region *region, uint32_t point, size_t to,
+                             nsvcd__surface *surface) {
+  if (point >= region->mesh.vertex_count || !region->seeds[point]) return;
+  region->seeds[point] = 0;
+  memcpy(surface->seeds + 3 * surface->seed_count, region->mesh.positions + 3 * (size_t)point,
+         3 * sizeof(float));
+  surface->seed_patches[surface->seed_count++] = (uint32_t)to;
+}
+
+// Ball, disc and hull of patch i of the region, which is `to` of all. The slack does not know of the
+// integers yet.
 static void nsvcd__describe_patch(const nsvcd__pieces *pieces, nsvcd__sorted *sorted, size_t i,
                                   nsvcd__surface *surface) {
-  float *ball = surface->balls + 4 * i;
+  const size_t to = surface->done + i;
+  float *ball = surface->balls + 4 * to;
   size_t met = 0;
   nsvcd__d3 normal = nsvcd__d3_of(0, 0, 0);
   sorted->pass++;
   for (size_t k = sorted->first[i]; k < sorted->first[i + 1]; k++) {
     const nsvcd__piece *piece = nsvcd__sorted_piece(pieces, sorted, k);
     const uint32_t *corners = nsvcd__piece_corners(pieces, piece);
-    for (size_t j = 0; j < piece->count; j++) met = nsvcd__number_point(sorted, met, corners[j]);
+    for (size_t j = 0; j < piece->count; j++) {
+      nsvcd__take_seed(pieces->region, corners[j], to, surface);
+      met = nsvcd__number_point(sorted, met, corners[j]);
+    }
     normal = nsvcd__d3_add(normal, nsvcd__piece_normal(pieces, piece));
   }
   if (met == 0) {
@@ -2999,12 +3354,12 @@ static void nsvcd__describe_patch(const nsvcd__pieces *pieces, nsvcd__sorted *so
   size_t chosen[NSVCD__HULL];
   size_t chosen_count;
   nsvcd__fit_ball(pieces, sorted, met, ball);
-  nsvcd__fit_disc(sorted->places, met, normal, pieces->margin, surface->discs + 6 * i);
+  nsvcd__fit_disc(sorted->places, met, normal, pieces->margin, surface->discs + 6 * to);
   const double enough = NSVCD__HULL_SHARE * (double)ball[3];
   const double slack = nsvcd__choose_hull(sorted->places, met, enough, sorted->bounds, chosen,
                                           &chosen_count);
-  surface->slacks[i] = nsvcd__float_above(slack + pieces->margin);
-  surface->hull_counts[i] = (uint8_t)chosen_count;
+  surface->slacks[to] = nsvcd__float_above(slack + pieces->margin);
+  surface->hull_counts[to] = (uint8_t)chosen_count;
   for (size_t k = 0; k < chosen_count; k++) {
     sorted->hulls[NSVCD__HULL * i + k] = sorted->met[chosen[k]];
   }
@@ -3032,12 +3387,10 @@ static size_t nsvcd__number_vertices(const nsvcd__pieces *pieces, nsvcd__sorted 
   for (size_t k = sorted->first[i]; k < sorted->first[i + 1]; k++) {
     const nsvcd__piece *piece = nsvcd__sorted_piece(pieces, sorted, k);
     const uint32_t *corners = nsvcd__piece_corners(pieces, piece);
-    uint32_t whole[3];
     size_t count = piece->count;
     if (!piece->parted) {
       if (nsvcd__is_listed_already(pieces, sorted, i, k)) continue;
-      nsvcd__welded_corners(pieces->mesh, &pieces->topology, piece->triangle, whole);
-      corners = whole;
+      corners = pieces->region->mesh.indices + 3 * (size_t)piece->triangle;
       count = 3;
     }
     for (size_t j = 0; j < count; j++) met = nsvcd__number_point(sorted, met, corners[j]);
@@ -3054,7 +3407,8 @@ static int16_t nsvcd__to_integer(double x) {
 // Writes the vertices of patch i, which the pass has numbered, as integers.
 static void nsvcd__store_vertices(const nsvcd__pieces *pieces, nsvcd__sorted *sorted, size_t i,
                                   size_t met, nsvcd__surface *surface) {
-  nsvcd__place_points(pieces, sorted, met, nsvcd__d3_load(surface->balls + 4 * i));
+  const size_t to = surface->done + i;
+  nsvcd__place_points(pieces, sorted, met, nsvcd__d3_load(surface->balls + 4 * to));
   double reach = NSVCD__SURFACE_TINY;
   for (size_t j = 0; j < met; j++) {
     const nsvcd__d3 p = sorted->places[j];
@@ -3063,7 +3417,7 @@ static void nsvcd__store_vertices(const nsvcd__pieces *pieces, nsvcd__sorted *so
   const float step = nsvcd__float_above(reach / 32767);
   const double metres = (double)step;
 
-  int16_t *x = surface->vertices + 3 * (size_t)surface->first_vertex[i];
+  int16_t *x = surface->vertices + 3 * (size_t)surface->first_vertex[to];
   int16_t *y = x + met;
   int16_t *z = y + met;
   double worst = 0;
@@ -3075,18 +3429,12 @@ static void nsvcd__store_vertices(const nsvcd__pieces *pieces, nsvcd__sorted *so
     z[j] = nsvcd__to_integer(p.z / metres);
     const nsvcd__d3 stored = nsvcd__d3_scale(nsvcd__d3_of(x[j], y[j], z[j]), metres);
     worst = fmax(worst, nsvcd__d3_length(nsvcd__d3_sub(p, stored)));
-    if (j < surface->hull_counts[i]) worst_of_hull = worst;
+    if (j < surface->hull_counts[to]) worst_of_hull = worst;
   }
-  surface->steps[i] = step;
-  surface->quanta[i] = nsvcd__float_above(worst + pieces->margin);
+  surface->steps[to] = step;
+  surface->quanta[to] = nsvcd__float_above(worst + pieces->margin);
   // Each point of the hull is off by no more than its vertices are.
-  surface->slacks[i] = nsvcd__float_above((double)surface->slacks[i] + worst_of_hull);
-}
-
-static int nsvcd__encloses(const nsvcd__pieces *pieces, uint32_t triangle) {
-  const nsvcd__topology *topology = &pieces->topology;
-  const uint32_t vertex = topology->welded[pieces->mesh->indices[3 * (size_t)triangle]];
-  return !topology->open[topology->parents[vertex]];
+  surface->slacks[to] = nsvcd__float_above((double)surface->slacks[to] + worst_of_hull);
 }
 
 // Lists the triangle of three points that the pass has numbered.
@@ -3104,18 +3452,16 @@ static void nsvcd__store_triangles(const nsvcd__pieces *pieces, const nsvcd__sor
   for (size_t k = sorted->first[i]; k < sorted->first[i + 1]; k++) {
     const nsvcd__piece *piece = nsvcd__sorted_piece(pieces, sorted, k);
     const uint32_t *corners = nsvcd__piece_corners(pieces, piece);
-    const uint32_t flag = nsvcd__encloses(pieces, piece->triangle) ? NSVCD__ENCLOSES : 0;
+    const uint32_t id = pieces->region->ids[piece->triangle];
     if (piece->parted) {
       for (size_t j = 2; j < piece->count; j++) {
-        nsvcd__store_triangle(sorted, surface, corners[0], corners[j - 1], corners[j],
-                              piece->triangle | flag);
+        nsvcd__store_triangle(sorted, surface, corners[0], corners[j - 1], corners[j], id);
       }
       continue;
     }
     if (!nsvcd__is_listed_already(pieces, sorted, i, k)) {
-      uint32_t whole[3];
-      nsvcd__welded_corners(pieces->mesh, &pieces->topology, piece->triangle, whole);
-      nsvcd__store_triangle(sorted, surface, whole[0], whole[1], whole[2], piece->triangle | flag);
+      const uint32_t *whole = pieces->region->mesh.indices + 3 * (size_t)piece->triangle;
+      nsvcd__store_triangle(sorted, surface, whole[0], whole[1], whole[2], id);
     }
   }
 }
@@ -3131,17 +3477,20 @@ static void nsvcd__surface_free(nsvcd__surface *surface, const nsvcd_allocator *
   nsvcd__free(allocator, surface->hull_counts);
   nsvcd__free(allocator, surface->first_vertex);
   nsvcd__free(allocator, surface->first_triangle);
-  nsvcd__free(allocator, surface->vertices);
-  nsvcd__free(allocator, surface->corners);
-  nsvcd__free(allocator, surface->ids);
+  nsvcd__free(allocator, surface->vertex_list.items);
+  nsvcd__free(allocator, surface->corner_list.items);
+  nsvcd__free(allocator, surface->id_list.items);
   nsvcd__free(allocator, surface->seeds);
+  nsvcd__free(allocator, surface->seed_patches);
   memset(surface, 0, sizeof *surface);
 }
 
-// What there is one of for each patch and each component. 0 without memory; the caller frees what
-// there is.
-static int nsvcd__surface_alloc(nsvcd__surface *s, const nsvcd_allocator *allocator) {
-  const size_t n = s->count;
+// A surface of up to n patches, none of which is described yet. On success release it with
+// nsvcd__surface_free, with the same allocator; 0 without memory.
+static int nsvcd__surface_begin(size_t n, size_t components, const nsvcd_allocator *allocator,
+                                nsvcd__surface *s) {
+  memset(s, 0, sizeof *s);
+  s->component_count = components;
   s->balls = (float *)nsvcd__alloc_array(allocator, 4 * n, sizeof(float));
   s->discs = (float *)nsvcd__alloc_array(allocator, 6 * n, sizeof(float));
   s->steps = (float *)nsvcd__alloc_array(allocator, n, sizeof(float));
@@ -3150,9 +3499,11 @@ static int nsvcd__surface_alloc(nsvcd__surface *s, const nsvcd_allocator *alloca
   s->hull_counts = (uint8_t *)nsvcd__alloc_array(allocator, n, sizeof(uint8_t));
   s->first_vertex = (uint32_t *)nsvcd__alloc_array(allocator, n + 1, sizeof(uint32_t));
   s->first_triangle = (uint32_t *)nsvcd__alloc_array(allocator, n + 1, sizeof(uint32_t));
-  s->seeds = (float *)nsvcd__alloc_array(allocator, 3 * s->component_count, sizeof(float));
+  s->seeds = (float *)nsvcd__alloc_array(allocator, 3 * components, sizeof(float));
+  s->seed_patches = (uint32_t *)nsvcd__alloc_array(allocator, components, sizeof(uint32_t));
   if (!s->balls || !s->discs || !s->steps || !s->slacks || !s->quanta || !s->hull_counts ||
-      !s->first_vertex || !s->first_triangle || !s->seeds) {
+      !s->first_vertex || !s->first_triangle || !s->seeds || !s->seed_patches) {
+    nsvcd__surface_free(s, allocator);
     return 0;
   }
   memset(s->discs, 0, 6 * n * sizeof *s->discs);
@@ -3163,27 +3514,18 @@ static int nsvcd__surface_alloc(nsvcd__surface *s, const nsvcd_allocator *alloca
   return 1;
 }
 
-// The least vertex of each component, in their order.
-static void nsvcd__store_seeds(const nsvcd__pieces *pieces, nsvcd__surface *surface) {
-  float *seed = surface->seeds;
-  for (size_t v = 0; v < pieces->mesh->vertex_count; v++) {
-    if (!pieces->topology.seen[v]) continue;
-    memcpy(seed, pieces->mesh->positions + 3 * v, 3 * sizeof *seed);
-    seed += 3;
-  }
-}
-
-// Counts vertices and triangles of each patch, and makes room for them.
+// Counts vertices and triangles of each patch of a region, and makes room for them.
 static nsvcd_result nsvcd__surface_count(const nsvcd__pieces *pieces, nsvcd__sorted *sorted,
                                          const nsvcd_allocator *allocator,
                                          nsvcd__surface *surface) {
-  size_t vertices = 0;
-  size_t triangles = 0;
-  for (size_t i = 0; i < surface->count; i++) {
+  size_t vertices = surface->vertex_count;
+  size_t triangles = surface->listed;
+  for (size_t i = 0; i < pieces->patches->count; i++) {
     size_t listed;
-    const size_t hull_count = surface->hull_counts[i];
-    surface->first_vertex[i] = (uint32_t)vertices;
-    surface->first_triangle[i] = (uint32_t)triangles;
+    const size_t to = surface->done + i;
+    const size_t hull_count = surface->hull_counts[to];
+    surface->first_vertex[to] = (uint32_t)vertices;
+    surface->first_triangle[to] = (uint32_t)triangles;
     const size_t met = nsvcd__number_vertices(pieces, sorted, i, hull_count, &listed);
     if (met > NSVCD__PATCH_VERTICES) return NSVCD_ERROR_TOO_LARGE;
     vertices += met;
@@ -3192,64 +3534,61 @@ static nsvcd_result nsvcd__surface_count(const nsvcd__pieces *pieces, nsvcd__sor
   }
   surface->first_vertex[surface->count] = (uint32_t)vertices;
   surface->first_triangle[surface->count] = (uint32_t)triangles;
-  surface->vertex_count = vertices;
 
-  const size_t half = sizeof(uint16_t);
-  surface->vertices = (int16_t *)nsvcd__alloc_array(allocator, vertices, 3 * half);
-  surface->corners = (uint16_t *)nsvcd__alloc_array(allocator, triangles, 3 * half);
-  surface->ids = (uint32_t *)nsvcd__alloc_array(allocator, triangles, sizeof(uint32_t));
-  if (surface->vertices && surface->corners && surface->ids) return NSVCD_OK;
-  return NSVCD_ERROR_MEMORY;
+  const size_t more = vertices - surface->vertex_count;
+  const size_t listed = triangles - surface->listed;
+  nsvcd__list *v = &surface->vertex_list;
+  nsvcd__list *c = &surface->corner_list;
+  nsvcd__list *ids = &surface->id_list;
+  if (!nsvcd__list_reserve(v, more, 3 * sizeof(int16_t), allocator) ||
+      !nsvcd__list_reserve(c, listed, 3 * sizeof(uint16_t), allocator) ||
+      !nsvcd__list_reserve(ids, listed, sizeof(uint32_t), allocator)) {
+    return NSVCD_ERROR_MEMORY;
+  }
+  v->count = vertices;
+  c->count = ids->count = triangles;
+  surface->vertices = (int16_t *)v->items;
+  surface->corners = (uint16_t *)c->items;
+  surface->ids = (uint32_t *)ids->items;
+  surface->vertex_count = vertices;
+  return NSVCD_OK;
 }
 
 static nsvcd_result nsvcd__surface_fill(const nsvcd__pieces *pieces, nsvcd__sorted *sorted,
                                         const nsvcd_allocator *allocator,
                                         nsvcd__surface *surface) {
-  if (!nsvcd__surface_alloc(surface, allocator)) return NSVCD_ERROR_MEMORY;
-  nsvcd__store_seeds(pieces, surface);
-  for (size_t i = 0; i < surface->count; i++) {
-    nsvcd__describe_patch(pieces, sorted, i, surface);
-  }
+  const size_t count = pieces->patches->count;
+  surface->count = surface->done + count;
+  for (size_t i = 0; i < count; i++) nsvcd__describe_patch(pieces, sorted, i, surface);
   const nsvcd_result result = nsvcd__surface_count(pieces, sorted, allocator, surface);
   if (result) return result;
-  for (size_t i = 0; i < surface->count; i++) {
-    if (surface->hull_counts[i] == 0) continue;
+  for (size_t i = 0; i < count; i++) {
+    const size_t hull_count = surface->hull_counts[surface->done + i];
+    if (hull_count == 0) continue;
     size_t listed;
-    const size_t hull_count = surface->hull_counts[i];
     const size_t met = nsvcd__number_vertices(pieces, sorted, i, hull_count, &listed);
     nsvcd__store_vertices(pieces, sorted, i, met, surface);
     nsvcd__store_triangles(pieces, sorted, i, surface);
   }
+  surface->done = surface->count;
   return NSVCD_OK;
 }
 
-// mesh: checked. patches: of this mesh. On success release *surface with nsvcd__surface_free, with
-// the same allocator; on failure it is untouched. MEMORY; TOO_LARGE if a patch has more than
-// NSVCD__PATCH_VERTICES vertices.
-static nsvcd_result nsvcd__surface_build(const nsvcd_mesh *mesh, const nsvcd__patches *patches,
-                                         const nsvcd_allocator *allocator,
-                                         nsvcd__surface *surface) {
+// Adds a region's patches, of which the surface has room for all. MEMORY; TOO_LARGE if a patch has more
+// than NSVCD__PATCH_VERTICES vertices: then the surface is only fit to be freed.
+static nsvcd_result nsvcd__surface_add(const nsvcd__region *region, const nsvcd__patches *patches,
+                                       const nsvcd_allocator *allocator, nsvcd__surface *surface) {
   nsvcd__pieces pieces;
   nsvcd__sorted sorted;
-  if (!nsvcd__pieces_build(mesh, patches, allocator, &pieces)) return NSVCD_ERROR_MEMORY;
+  if (!nsvcd__pieces_build(region, patches, allocator, &pieces)) return NSVCD_ERROR_MEMORY;
   if (!nsvcd__sort_pieces(&pieces, allocator, &sorted)) {
     nsvcd__pieces_free(&pieces, allocator);
     return NSVCD_ERROR_MEMORY;
   }
-
-  nsvcd__surface out;
-  memset(&out, 0, sizeof out);
-  out.count = patches->count;
-  out.component_count = pieces.topology.component_count;
-  const nsvcd_result result = nsvcd__surface_fill(&pieces, &sorted, allocator, &out);
+  const nsvcd_result result = nsvcd__surface_fill(&pieces, &sorted, allocator, surface);
   nsvcd__sorted_free(&sorted, allocator);
   nsvcd__pieces_free(&pieces, allocator);
-  if (result) {
-    nsvcd__surface_free(&out, allocator);
-    return result;
-  }
-  *surface = out;
-  return NSVCD_OK;
+  return result;
 }
 #endif  // NSVCD_NO_ENCODER, NSVCD_NO_PROOF
 
@@ -3500,6 +3839,8 @@ static void nsvcd__turn_latent(const int8_t *z, float (*turn)[NSVCD__LANES], siz
 //   struct nsvcd_body            64 bytes
 //   x, y, z, r     (4, P)  float body frame, metres; P = N rounded up to 16, padding has r = NSVCD__NOWHERE
 //   x, y, z, r     (4, G)  float group spheres; G = P / 16 rounded up to 16, padding as above
+//   x, y, z, r     (4, H)  float spheres over 16 groups each, if there are more than 32 groups; H as above,
+//   x, y, z, r     (4, I)  float spheres over 16 of these each, if they are more than 16
 //
 // A body of latents, for the network, goes on with
 //   x, y, z        (3, P)  float area vectors, square metres, along the outward normal; padding is zero
@@ -3508,10 +3849,12 @@ static void nsvcd__turn_latent(const int8_t *z, float (*turn)[NSVCD__LANES], siz
 // holds one of triangles behind them, at `inner`: each part has spheres that suit it, and the same numbers of patches.
 // Each part ends in zeros up to a multiple of NSVCD_ALIGNMENT.
 
-#define NSVCD__GROUP NSVCD__LANES      // patches per group
+#define NSVCD__GROUP NSVCD__LANES      // patches per group, and groups or the like per sphere above
+#define NSVCD__TILE 32                 // groups of a body that are searched at once; with more there are levels above
+#define NSVCD__LEVELS 3                // of spheres above the patches, at most
 #define NSVCD__MAX_LENGTH 1.6e7f       // metres, over every radius and distance that coordinates within bounds can give
 #define NSVCD__BODY_MAGIC 0x4256534eu  // "NSVB"
-#define NSVCD__BODY_VERSION 4u
+#define NSVCD__BODY_VERSION 5u
 
 struct nsvcd_body {
   uint32_t magic, version;
@@ -3527,8 +3870,53 @@ struct nsvcd_body {
   uint32_t inner;           // bytes from here to the body of triangles within; 0: there is none
 };
 
+// Index of the lowest bit that is set, of a number that is not 0; how many are set.
+static size_t nsvcd__lowest_bit(uint64_t bits) {
+#if defined(__GNUC__) || defined(__clang__)
+  return (size_t)__builtin_ctzll(bits);
+#else
+  size_t n = 0;
+  while (!(bits >> n & 1)) n++;
+  return n;
+#endif
+}
+static size_t nsvcd__bit_count(uint64_t bits) {
+#if defined(__GNUC__) || defined(__clang__)
+  return (size_t)__builtin_popcountll(bits);
+#else
+  size_t n = 0;
+  for (; bits; bits &= bits - 1) n++;
+  return n;
+#endif
+}
+
 static size_t nsvcd__round_up(size_t n, size_t multiple) { return (n + multiple - 1) / multiple * multiple; }
 static size_t nsvcd__group_slots(size_t padded) { return nsvcd__round_up(padded / NSVCD__GROUP, NSVCD__GROUP); }
+
+// A level of spheres: level 0 are the groups, each of the next is over 16 of the one before.
+typedef struct nsvcd__level {
+  size_t count;  // spheres
+  size_t slots;  // the same, rounded up to 16
+  size_t first;  // float, from the body's first: x (slots), y, z, r
+} nsvcd__level;
+
+static nsvcd__level nsvcd__level_of(size_t padded, size_t level) {
+  nsvcd__level out = {padded / NSVCD__GROUP, nsvcd__group_slots(padded), 4 * padded};
+  for (; level > 0; level--) {
+    out.first += 4 * out.slots;
+    out.count = nsvcd__round_up(out.count, NSVCD__GROUP) / NSVCD__GROUP;
+    out.slots = nsvcd__round_up(out.count, NSVCD__GROUP);
+  }
+  return out;
+}
+
+// How many levels there are: none above the groups where these can be searched all at once.
+static size_t nsvcd__level_count(size_t padded) {
+  size_t levels = 1;
+  if (padded / NSVCD__GROUP <= NSVCD__TILE) return 1;
+  while (nsvcd__level_of(padded, levels - 1).count > NSVCD__GROUP) levels++;
+  return levels;
+}
 
 // Accessors. Arrays are (P) for patches and (G) for groups.
 static size_t nsvcd__body_groups(const nsvcd_body *body) { return body->padded / NSVCD__GROUP; }
@@ -3542,21 +3930,25 @@ static const float *nsvcd__body_r(const nsvcd_body *body) { return nsvcd__body_f
 static const float *nsvcd__body_group(const nsvcd_body *body, size_t axis) {  // axis 0..3: x y z r
   return nsvcd__body_floats(body, 4 * (size_t)body->padded + axis * nsvcd__group_slots(body->padded));
 }
+
+// Bytes of the header and the spheres, with which both kinds of bodies begin.
+static size_t nsvcd__spheres_size(size_t padded) {
+  const nsvcd__level top = nsvcd__level_of(padded, nsvcd__level_count(padded) - 1);
+  return sizeof(struct nsvcd_body) + 4 * (top.first + 4 * top.slots);
+}
+
 #ifndef NSVCD_NO_NETWORK
-static const float *nsvcd__body_areas(const nsvcd_body *body) { return nsvcd__body_group(body, 4); }  // (3, P)
+static const float *nsvcd__body_areas(const nsvcd_body *body) {  // (3, P)
+  return (const float *)(const void *)((const char *)body + nsvcd__spheres_size(body->padded));
+}
 static const int8_t *nsvcd__body_latents(const nsvcd_body *body) {                                    // (N, LATENT)
   return (const int8_t *)(nsvcd__body_areas(body) + 3 * (size_t)body->padded);
 }
 #endif
 
-// Bytes of the header and the spheres, with which both kinds of bodies begin.
-static size_t nsvcd__spheres_size(size_t padded) {
-  return sizeof(struct nsvcd_body) + 4 * (4 * padded + 4 * nsvcd__group_slots(padded));
-}
-
 #ifndef NSVCD_NO_NETWORK
 NSVCDDEF size_t nsvcd_body_size(size_t points) {
-  if (points < 1 || points > NSVCD_MAX_POINTS) return 0;
+  if (points < 1 || points > NSVCD_MAX_NETWORK_POINTS) return 0;
   const size_t padded = nsvcd__round_up(points, NSVCD__GROUP);
   return nsvcd__round_up(nsvcd__spheres_size(padded) + 12 * padded + points * NSVCD__LATENT, NSVCD_ALIGNMENT);
 }
@@ -3575,29 +3967,53 @@ static uint64_t nsvcd__body_checksum(const nsvcd_body *body) {
 }
 
 #ifndef NSVCD_NO_ENCODER
-// Orders N patches so that each run of 16 is compact: median splits across the longest axis, the left part a multiple
-// of 16. The insertion sort is stable, so ties keep their order and the result is the same everywhere.
-static void nsvcd__body_order(size_t count, const float *centres, uint16_t *order) {  // centres (N, 3), order (count)
+// Sorts patches by a coordinate of their centres; equal ones keep their order, so that the result is the same everywhere.
+// spare: room for as many. Merges ever longer runs.
+static void nsvcd__sort_along(size_t count, const float *centres, size_t axis, uint16_t *order, uint16_t *spare) {
+  for (size_t run = 1; run < count; run *= 2) {
+    for (size_t first = 0; first < count; first += 2 * run) {
+      const size_t middle = first + run < count ? first + run : count;
+      const size_t end = first + 2 * run < count ? first + 2 * run : count;
+      size_t left = first;
+      size_t right = middle;
+      for (size_t to = first; to < end; to++) {
+        int from_right = left == middle;
+        if (left < middle && right < end) {
+          from_right = centres[3 * (size_t)order[right] + axis] < centres[3 * (size_t)order[left] + axis];
+        }
+        spare[to] = from_right ? order[right++] : order[left++];
+      }
+    }
+    memcpy(order, spare, count * sizeof *order);
+  }
+}
+
+// Orders N patches so that each run of 16 is compact, and each run of 16 of those: median splits across the longest axis,
+// the left part a multiple of 16, or of 256 and so on where there are more than a tile's. centres (N, 3), order and spare
+// (count).
+static void nsvcd__body_order(size_t count, const float *centres, uint16_t *order, uint16_t *spare) {
   if (count <= NSVCD__GROUP) return;
   size_t axis = 0;
   float longest = -1;
   for (size_t k = 0; k < 3; k++) {
-    float low = centres[3 * order[0] + k], high = low;
+    float low = centres[3 * (size_t)order[0] + k];
+    float high = low;
     for (size_t i = 1; i < count; i++) {
-      float x = centres[3 * order[i] + k];
-      low = x < low ? x : low, high = x > high ? x : high;
+      const float x = centres[3 * (size_t)order[i] + k];
+      low = x < low ? x : low;
+      high = x > high ? x : high;
     }
-    if (high - low > longest) longest = high - low, axis = k;
+    if (high - low > longest) {
+      longest = high - low;
+      axis = k;
+    }
   }
-  for (size_t i = 1; i < count; i++) {
-    uint16_t moved = order[i];
-    size_t j = i;
-    for (; j > 0 && centres[3 * order[j - 1] + axis] > centres[3 * moved + axis]; j--) order[j] = order[j - 1];
-    order[j] = moved;
-  }
-  size_t left = nsvcd__round_up(count / 2, NSVCD__GROUP);
-  nsvcd__body_order(left, centres, order);
-  nsvcd__body_order(count - left, centres, order + left);
+  nsvcd__sort_along(count, centres, axis, order, spare);
+  size_t unit = NSVCD__GROUP;
+  while (NSVCD__TILE * unit < count) unit *= NSVCD__GROUP;
+  const size_t left = nsvcd__round_up(count / 2, unit);
+  nsvcd__body_order(left, centres, order, spare);
+  nsvcd__body_order(count - left, centres, order + left, spare);
 }
 #endif
 
@@ -3637,17 +4053,36 @@ static void nsvcd__cover_spheres(size_t count, const float *x, const float *y, c
   out[3] = best * 1.000002f;
 }
 
-// Fills the group spheres, the bounding sphere, the extent and the checksum of a blob whose patches are in place.
-static void nsvcd__body_finish(nsvcd_body *body) {
-  float *x = (float *)(body + 1), *y = x + body->padded, *z = y + body->padded, *r = z + body->padded;
-  size_t slots = nsvcd__group_slots(body->padded), points = body->points;
-  float *group = r + body->padded;
-  for (size_t g = 0; g < slots; g++) {
+// Fills the spheres of a level from those, of so many slots, that they are over: 16 each, of which `members` exist.
+static void nsvcd__level_finish(const float *below, size_t stride, size_t members, nsvcd__level level, float *out) {
+  for (size_t g = 0; g < level.slots; g++) {
     float sphere[4] = {0, 0, 0, NSVCD__NOWHERE};
-    size_t i = g * NSVCD__GROUP;
-    size_t members = i >= points ? 0 : points - i < NSVCD__GROUP ? points - i : NSVCD__GROUP;
-    if (members) nsvcd__cover_spheres(members, x + i, y + i, z + i, r + i, sphere);
-    for (size_t k = 0; k < 4; k++) group[k * slots + g] = sphere[k];
+    const size_t i = g * NSVCD__GROUP;
+    const size_t left = i >= members ? 0 : members - i;
+    const size_t count = left < NSVCD__GROUP ? left : NSVCD__GROUP;
+    const float *x = below + i;
+    if (count) nsvcd__cover_spheres(count, x, x + stride, x + 2 * stride, x + 3 * stride, sphere);
+    for (size_t k = 0; k < 4; k++) out[k * level.slots + g] = sphere[k];
+  }
+}
+
+// Fills the spheres above the patches, the bounding sphere, the extent and the checksum of a blob whose patches are in
+// place.
+static void nsvcd__body_finish(nsvcd_body *body) {
+  float *x = (float *)(body + 1);
+  float *y = x + body->padded;
+  float *z = y + body->padded;
+  float *r = z + body->padded;
+  const float *below = x;
+  size_t points = body->points;
+  size_t stride = body->padded;
+  size_t members = points;
+  for (size_t k = 0; k < nsvcd__level_count(body->padded); k++) {
+    const nsvcd__level level = nsvcd__level_of(body->padded, k);
+    nsvcd__level_finish(below, stride, members, level, x + level.first);
+    below = x + level.first;
+    stride = level.slots;
+    members = level.count;
   }
   float sphere[4], origin[3] = {0, 0, 0};
   size_t farthest = 0;
@@ -3656,6 +4091,59 @@ static void nsvcd__body_finish(nsvcd_body *body) {
   body->radius = sphere[3];
   body->extent = nsvcd__reach_of_spheres(points, x, y, z, r, origin, &farthest) * 1.000002f;
   body->checksum = nsvcd__body_checksum(body);
+}
+
+// ---- a walk through the groups of a body
+
+// Which of 16 spheres are of interest? Bits of lanes.
+typedef uint32_t nsvcd__filter(const void *what, const float *x, const float *y, const float *z, const float *r);
+
+// Finds the groups whose spheres, and all spheres over them, pass a filter, in their order.
+typedef struct nsvcd__walk {
+  const nsvcd_body *body;
+  nsvcd__filter *filter;
+  const void *what;
+  size_t levels, level;
+  uint32_t first[NSVCD__LEVELS];  // of the spheres looked at, on each level,
+  uint32_t left[NSVCD__LEVELS];   // and those that passed, and are still to be visited
+} nsvcd__walk;
+
+static uint32_t nsvcd__walk_look(const nsvcd__walk *walk, size_t level, size_t first) {
+  const nsvcd__level at = nsvcd__level_of(walk->body->padded, level);
+  const float *x = nsvcd__body_floats(walk->body, at.first + first);
+  return walk->filter(walk->what, x, x + at.slots, x + 2 * at.slots, x + 3 * at.slots);
+}
+
+static void nsvcd__walk_begin(nsvcd__walk *walk, const nsvcd_body *body, nsvcd__filter *filter, const void *what) {
+  walk->body = body;
+  walk->filter = filter;
+  walk->what = what;
+  walk->levels = nsvcd__level_count(body->padded);
+  walk->level = walk->levels - 1;
+  walk->first[walk->level] = 0;
+  uint32_t left = 0;
+  const size_t slots = nsvcd__level_of(body->padded, walk->level).slots;
+  for (size_t first = 0; first < slots; first += NSVCD__GROUP) left |= nsvcd__walk_look(walk, walk->level, first) << first;
+  walk->left[walk->level] = left;
+}
+
+// The next group; 0 if there is none.
+static int nsvcd__walk_next(nsvcd__walk *walk, size_t *group) {
+  for (;;) {
+    while (!walk->left[walk->level]) {
+      if (walk->level + 1 == walk->levels) return 0;
+      walk->level++;
+    }
+    const size_t found = walk->first[walk->level] + nsvcd__lowest_bit(walk->left[walk->level]);
+    walk->left[walk->level] &= walk->left[walk->level] - 1;
+    if (walk->level == 0) {
+      *group = found;
+      return 1;
+    }
+    walk->level--;
+    walk->first[walk->level] = (uint32_t)(NSVCD__GROUP * found);
+    walk->left[walk->level] = nsvcd__walk_look(walk, walk->level, NSVCD__GROUP * found);
+  }
 }
 
 static int nsvcd__is_aligned(const void *memory) { return ((uintptr_t)memory & (NSVCD_ALIGNMENT - 1)) == 0; }
@@ -3689,12 +4177,13 @@ static nsvcd_result nsvcd__body_build(size_t points, const float *centres, const
   b->size = (uint32_t)size, b->weights_id = weights_id, b->open = open != 0;
   b->points = (uint32_t)points, b->padded = (uint32_t)nsvcd__round_up(points, NSVCD__GROUP);
   float *x = (float *)(b + 1), *y = x + b->padded, *z = y + b->padded, *r = z + b->padded;
-  float *area = r + b->padded + 4 * nsvcd__group_slots(b->padded);
+  float *area = (float *)(void *)((char *)memory + nsvcd__spheres_size(b->padded));
   int8_t *latent = (int8_t *)(area + 3 * b->padded);
 
-  uint16_t order[NSVCD_MAX_POINTS];
+  uint16_t order[NSVCD_MAX_NETWORK_POINTS];
+  uint16_t spare[NSVCD_MAX_NETWORK_POINTS];
   for (size_t i = 0; i < points; i++) order[i] = (uint16_t)i;
-  nsvcd__body_order(points, centres, order);
+  nsvcd__body_order(points, centres, order, spare);
   for (size_t i = 0; i < points; i++) {
     size_t from = order[i];
     x[i] = centres[3 * from], y[i] = centres[3 * from + 1], z[i] = centres[3 * from + 2], r[i] = radii[from];
@@ -3724,36 +4213,51 @@ static int nsvcd__is_padding(const float *x, const float *y, const float *z, con
   return 1;
 }
 
-// The spheres of a blob whose layout is right: finite, bounded, radii not negative, group spheres covering. A checksum
-// stops accidents; this stops a blob made to harm: a lying group sphere would hide collisions.
-static int nsvcd__spheres_are_sound(const nsvcd_body *body) {
-  const float *x = nsvcd__body_x(body), *y = nsvcd__body_y(body), *z = nsvcd__body_z(body), *r = nsvcd__body_r(body);
-  const float *gx = nsvcd__body_group(body, 0), *gy = nsvcd__body_group(body, 1), *gz = nsvcd__body_group(body, 2);
-  const float *gr = nsvcd__body_group(body, 3);
-  size_t points = body->points, padded = body->padded, groups = nsvcd__body_groups(body);
-  size_t slots = nsvcd__group_slots(padded);
-  const float *axes[6] = {x, y, z, gx, gy, gz};
-  for (size_t k = 0; k < 6; k++) {
-    size_t count = k < 3 ? padded : slots;
-    if (!nsvcd__all_within(axes[k], count, k < 3 ? NSVCD_MAX_COORDINATE : NSVCD__MAX_LENGTH)) return 0;
+// Are `count` spheres of so many slots, 1 to `stride`, finite and within bounds, their radii not negative, the others
+// padding?
+static int nsvcd__are_spheres(const float *x, size_t count, size_t stride, float cap) {
+  const float *r = x + 3 * stride;
+  if (!nsvcd__all_within(x, 3 * stride, cap) || !nsvcd__all_within(r, count, NSVCD__MAX_LENGTH)) return 0;
+  if (!nsvcd__all_within(r, stride, -NSVCD__NOWHERE)) return 0;
+  for (size_t i = 0; i < count; i++) {
+    if (r[i] < 0) return 0;
   }
-  if (!nsvcd__all_within(r, points, NSVCD__MAX_LENGTH) || !nsvcd__all_within(r, padded, -NSVCD__NOWHERE)) return 0;
-  if (!nsvcd__all_within(gr, groups, NSVCD__MAX_LENGTH) || !nsvcd__all_within(gr, slots, -NSVCD__NOWHERE)) return 0;
+  return nsvcd__is_padding(x, x + stride, x + 2 * stride, r, count, stride);
+}
+
+// The spheres of a blob whose layout is right: finite, bounded, radii not negative, each one above covering its 16. A
+// checksum stops accidents; this stops a blob made to harm: a lying sphere would hide collisions.
+static int nsvcd__spheres_are_sound(const nsvcd_body *body) {
+  const float *x = nsvcd__body_x(body);
+  const size_t padded = body->padded;
+  if (!nsvcd__are_spheres(x, body->points, padded, NSVCD_MAX_COORDINATE)) return 0;
   if (!nsvcd__all_within(body->centre, 3, NSVCD__MAX_LENGTH)) return 0;
   if (!nsvcd__all_within(&body->radius, 1, NSVCD__MAX_LENGTH)) return 0;
   if (!nsvcd__all_within(&body->extent, 1, NSVCD__MAX_LENGTH) || body->radius < NSVCD_MIN_RADIUS) return 0;
-  for (size_t i = 0; i < points; i++) {
-    if (r[i] < 0) return 0;
-  }
-  if (!nsvcd__is_padding(x, y, z, r, points, padded) || !nsvcd__is_padding(gx, gy, gz, gr, groups, slots)) return 0;
-  for (size_t g = 0; g < groups; g++) {
-    size_t i = g * NSVCD__GROUP, members = points - i < NSVCD__GROUP ? points - i : NSVCD__GROUP;
-    float centre[3] = {gx[g], gy[g], gz[g]};
-    if (!nsvcd__covers(centre, gr[g], members, x + i, y + i, z + i, r + i)) return 0;
+  const float *below = x;
+  size_t stride = padded;
+  size_t members = body->points;
+  for (size_t k = 0; k < nsvcd__level_count(padded); k++) {
+    const nsvcd__level level = nsvcd__level_of(padded, k);
+    const float *above = x + level.first;
+    if (!nsvcd__are_spheres(above, level.count, level.slots, NSVCD__MAX_LENGTH)) return 0;
+    for (size_t g = 0; g < level.count; g++) {
+      const size_t i = g * NSVCD__GROUP;
+      const size_t count = members - i < NSVCD__GROUP ? members - i : NSVCD__GROUP;
+      const float centre[3] = {above[g], above[level.slots + g], above[2 * level.slots + g]};
+      const float *first = below + i;
+      if (!nsvcd__covers(centre, above[3 * level.slots + g], count, first, first + stride, first + 2 * stride,
+                         first + 3 * stride)) {
+        return 0;
+      }
+    }
+    below = above;
+    stride = level.slots;
+    members = level.count;
   }
   const float origin[3] = {0, 0, 0};
-  return nsvcd__covers(body->centre, body->radius, points, x, y, z, r) &&
-         nsvcd__covers(origin, body->extent, points, x, y, z, r);
+  return nsvcd__covers(body->centre, body->radius, body->points, x, x + padded, x + 2 * padded, x + 3 * padded) &&
+         nsvcd__covers(origin, body->extent, body->points, x, x + padded, x + 2 * padded, x + 3 * padded);
 }
 
 // Multiplies the spheres that both kinds of bodies begin with.
@@ -3782,6 +4286,7 @@ static int nsvcd__spheres_fit(const nsvcd_body *body, float scale) {
 //
 //   counts          (8)      uint32 listed triangles, vertices V, components C, bytes of listings B, zeros
 //   box             (2, 3)   float least and greatest coordinates of the surface
+//   widest          (2)      float the greatest of the quanta, and zero
 //   discs           (6, P)   float unit normal n, low, high, across: a piece's points x have low <= n.(x - c) <= high,
 //                            and are no farther than `across` from the line along n; c: centre of the patch's sphere
 //   group discs     (6, G)   float the same over the members of each group; c: centre of the group's sphere
@@ -3789,7 +4294,8 @@ static int nsvcd__spheres_fit(const nsvcd_body *body, float scale) {
 //   slacks          (P)      float pieces are within this of the hull of the patch's first vertices
 //   quanta          (P)      float corners of triangles are within this of their stored vertices
 //   first_vertex, first_triangle, first_byte (3, N + 1) uint32: where a patch's vertices, triangles and listings begin
-//   seeds           (C, 3)   float a point of each component
+//   first_seed      (G' + 1) uint32: where the seeds of a group begin; G': groups, without the padding
+//   seeds           (C, 3)   float a point of each component, group by group, within its sphere
 //   vertices        (3 V)    int16 patch by patch x, y, z; the hull's first
 //   listings        (B)      bytes patch by patch, of its T triangles
 //     corners       (T, 3)   uint8, or uint16 in patches of more than 256 vertices: vertices within the patch
@@ -3799,12 +4305,12 @@ static int nsvcd__spheres_fit(const nsvcd_body *body, float scale) {
 // behind the vertices there are 16 more numbers, so that 16 can be read from any.
 
 #define NSVCD__FACET_COUNTS 8
-#define NSVCD__FACET_BOX 6
+#define NSVCD__FACET_BOX 8  // with the greatest quantum
 
 typedef struct nsvcd__facets {
   const nsvcd_body *body;  // of triangles
   const float *box, *discs, *group_discs, *steps, *slacks, *quanta;
-  const uint32_t *first_vertex, *first_triangle, *first_byte;
+  const uint32_t *first_vertex, *first_triangle, *first_byte, *first_seed;
   const float *seeds;
   const int16_t *vertices;
   const unsigned char *listings;
@@ -3828,7 +4334,7 @@ static size_t nsvcd__facets_size(size_t points, const uint32_t *counts) {
   const size_t padded = nsvcd__round_up(points, NSVCD__GROUP);
   uint64_t size = nsvcd__spheres_size(padded) + 4 * (NSVCD__FACET_COUNTS + NSVCD__FACET_BOX) + 12 * (points + 1);
   size += 36 * padded + 24 * nsvcd__group_slots(padded);
-  size += (uint64_t)12 * counts[2];
+  size += 4 * (padded / NSVCD__GROUP + 1) + (uint64_t)12 * counts[2];
   size += 2 * ((uint64_t)3 * counts[1] + NSVCD__LANES);
   size += counts[3];
   size += points + NSVCD_ALIGNMENT;
@@ -3854,12 +4360,15 @@ static nsvcd__facets nsvcd__facets_of(const nsvcd_body *body) {
   f.first_vertex = (const uint32_t *)(const void *)(f.quanta + padded);
   f.first_triangle = f.first_vertex + body->points + 1;
   f.first_byte = f.first_triangle + body->points + 1;
-  f.seeds = (const float *)(const void *)(f.first_byte + body->points + 1);
+  f.first_seed = f.first_byte + body->points + 1;
+  f.seeds = (const float *)(const void *)(f.first_seed + nsvcd__body_groups(body) + 1);
   f.vertices = (const int16_t *)(const void *)(f.seeds + 3 * f.components);
   f.listings = (const unsigned char *)(f.vertices + 3 * f.vertex_count + NSVCD__LANES);
   f.hull_counts = f.listings + f.listings_size;
   return f;
 }
+
+static float nsvcd__widest_quantum(const nsvcd__facets *f) { return f->box[6]; }
 
 // Bytes of a corner in a patch of so many vertices.
 static size_t nsvcd__corner_bytes(size_t vertices) { return vertices <= 256 ? 1 : 2; }
@@ -4046,6 +4555,8 @@ static void nsvcd__finish_box(nsvcd_body *body) {
     box[k] = (float)(low[k] - margin);
     box[3 + k] = (float)(high[k] + margin);
   }
+  box[6] = box[7] = 0;
+  for (size_t i = 0; i < body->points; i++) box[6] = f.quanta[i] > box[6] ? f.quanta[i] : box[6];
 }
 
 // What is computed from the patches of a body of triangles, when these are in place.
@@ -4084,7 +4595,7 @@ static void nsvcd__facets_count(const nsvcd__surface *surface, uint32_t *counts)
   memset(counts, 0, NSVCD__FACET_COUNTS * sizeof *counts);
   counts[0] = (uint32_t)surface->listed;
   counts[1] = (uint32_t)surface->vertex_count;
-  counts[2] = (uint32_t)surface->component_count;
+  counts[2] = (uint32_t)surface->seed_count;
   uint64_t bytes = 0;
   for (size_t i = 0; i < surface->count; i++) {
     const uint32_t vertices = surface->first_vertex[i + 1] - surface->first_vertex[i];
@@ -4139,6 +4650,29 @@ static void nsvcd__facets_write(const nsvcd__surface *surface, size_t from, nsvc
   first_byte[to + 1] = first_byte[to] + (uint32_t)(numbers - corners);
 }
 
+// Writes the seeds of a body of triangles, group by group. order: of the patches.
+static void nsvcd__seeds_write(const nsvcd__surface *surface, const uint16_t *order, nsvcd_body *body) {
+  const nsvcd__facets f = nsvcd__facets_of(body);
+  uint32_t *first_seed = (uint32_t *)nsvcd__writable(body, f.first_seed);
+  float *seeds = (float *)nsvcd__writable(body, f.seeds);
+  // Until the body is whole, the places of patches are kept where their first vertices will be.
+  uint32_t *places = (uint32_t *)nsvcd__writable(body, f.first_vertex);
+  const size_t groups = nsvcd__body_groups(body);
+  for (size_t i = 0; i < body->points; i++) places[order[i]] = (uint32_t)i;
+  for (size_t n = 0; n < surface->seed_count; n++) {
+    first_seed[places[surface->seed_patches[n]] / NSVCD__GROUP + 1]++;
+  }
+  for (size_t g = 0; g < groups; g++) first_seed[g + 1] += first_seed[g];
+  for (size_t n = surface->seed_count; n-- > 0;) {
+    const size_t g = places[surface->seed_patches[n]] / NSVCD__GROUP;
+    memcpy(seeds + 3 * --first_seed[g + 1], surface->seeds + 3 * n, 3 * sizeof *seeds);
+  }
+  // Now first_seed[g + 1] is where group g begins.
+  memmove(first_seed, first_seed + 1, groups * sizeof *first_seed);
+  first_seed[groups] = (uint32_t)surface->seed_count;
+  memset(places, 0, body->points * sizeof *places);
+}
+
 // Builds a body of triangles of `size` bytes in `memory`, its patches in the given order. centres (N, 3): for patches
 // without surface.
 static nsvcd_result nsvcd__facets_build(const nsvcd_mesh *mesh, const nsvcd__surface *surface, const uint32_t *counts,
@@ -4155,11 +4689,10 @@ static nsvcd_result nsvcd__facets_build(const nsvcd_mesh *mesh, const nsvcd__sur
   b->triangles = (uint32_t)mesh->triangle_count;
   memcpy((char *)memory + nsvcd__spheres_size(b->padded), counts, NSVCD__FACET_COUNTS * sizeof *counts);
 
-  const nsvcd__facets f = nsvcd__facets_of(b);
+  nsvcd__seeds_write(surface, order, b);
   for (size_t i = 0; i < surface->count; i++) {
     nsvcd__facets_write(surface, order[i], b, i, centres + 3 * (size_t)order[i]);
   }
-  memcpy(nsvcd__writable(b, f.seeds), surface->seeds, 3 * f.components * sizeof(float));
   float *r = (float *)(b + 1) + 3 * b->padded;
   for (size_t i = b->points; i < b->padded; i++) r[i] = NSVCD__NOWHERE;
   if (!nsvcd__all_within(r, b->points, 4 * NSVCD_MAX_COORDINATE)) return NSVCD_ERROR_NUMBER;
@@ -4207,7 +4740,11 @@ static int nsvcd__facets_are_laid_out(const nsvcd_body *body, size_t size) {
       if (nsvcd__facet_corner(&f, i, f.first_triangle[i] + n / 3, n % 3) >= vertices) return 0;
     }
   }
-  if (f.first_byte[body->points] != f.listings_size) return 0;
+  if (f.first_byte[body->points] != f.listings_size || f.first_seed[0] != 0) return 0;
+  for (size_t g = 0; g < nsvcd__body_groups(body); g++) {
+    if (f.first_seed[g + 1] < f.first_seed[g]) return 0;
+  }
+  if (f.first_seed[nsvcd__body_groups(body)] != f.components) return 0;
   return f.first_vertex[body->points] == f.vertex_count && f.first_triangle[body->points] == f.listed;
 }
 
@@ -4225,6 +4762,7 @@ static int nsvcd__facets_are_sound(const nsvcd_body *body) {
   if (!nsvcd__all_within(f.seeds, 3 * f.components, NSVCD_MAX_COORDINATE)) return 0;
   for (size_t i = 0; i < padded; i++) {
     if (f.discs[5 * padded + i] < 0 || f.steps[i] < 0 || f.slacks[i] < 0 || f.quanta[i] < 0) return 0;
+    if (f.quanta[i] > nsvcd__widest_quantum(&f)) return 0;
   }
   return 1;
 }
@@ -4267,6 +4805,7 @@ static int nsvcd__latents_are_sound(const nsvcd_body *body) {
 static int nsvcd__header_is_sound(const nsvcd_body *b, size_t size) {
   if (size < sizeof *b || b->magic != NSVCD__BODY_MAGIC || b->version != NSVCD__BODY_VERSION) return 0;
   if (b->open > 1 || b->points < 1 || b->points > NSVCD_MAX_POINTS || b->size > size) return 0;
+  if (b->weights_id && b->points > NSVCD_MAX_NETWORK_POINTS) return 0;
   if (b->padded != nsvcd__round_up(b->points, NSVCD__GROUP)) return 0;
   return b->size >= nsvcd__spheres_size(b->padded) && b->size % NSVCD_ALIGNMENT == 0;
 }
@@ -4344,7 +4883,7 @@ NSVCDDEF nsvcd_result nsvcd_body_scale(const nsvcd_body *body, float scale, void
   }
 #endif
 #ifndef NSVCD_NO_NETWORK
-  float *area = (float *)(b + 1) + 4 * b->padded + 4 * nsvcd__group_slots(b->padded);
+  float *area = (float *)(void *)((char *)memory + nsvcd__spheres_size(b->padded));
   for (size_t i = 0; b->weights_id && i < 3 * (size_t)b->padded; i++) {
     area[i] *= scale;
     area[i] *= scale;
@@ -4699,6 +5238,10 @@ static void nsvcd__motion_pose(const nsvcd__motion *motion, float t, float *rota
 // are segments, or members of a group. A step of the search is a pair of groups. Moving groups that meet most come
 // first, and of each the group that it meets longest, because a deep collision is then found before the rest is
 // searched.
+//
+// A *tile* is up to 32 groups of one body and up to 32 of the other, which are searched together. Bodies of up to 512
+// patches make one tile. Of larger ones, a walk through the levels of spheres above the groups finds those that the other
+// body comes near, and they are searched tile after tile: each moving tile against all tiles of the fixed body.
 
 #define NSVCD__SEGMENTS 16          // as long as no segment then turns by more than NSVCD__SEGMENT_TURN
 #define NSVCD__MAX_SEGMENTS 64      // reached at 1280 degrees; beyond, segments turn more: still proven, only looser
@@ -4706,7 +5249,6 @@ static void nsvcd__motion_pose(const nsvcd__motion *motion, float t, float *rota
 #define NSVCD__FINE_TURN 0.131f     // radians, 7.5 degrees: nothing is gained by shorter segments
 #define NSVCD__RUN_TURN 0.785f      // radians, 45 degrees: a run is cut before it turns more, for the decoder's twist
 #define NSVCD__BLOCKS (NSVCD__MAX_SEGMENTS / NSVCD__LANES)
-#define NSVCD__MAX_GROUPS (NSVCD_MAX_POINTS / NSVCD__GROUP)
 // Of the lengths that go into a difference of places: about 15 float operations of 6e-8 each, doubled.
 #define NSVCD__ROUNDING 2e-6f
 
@@ -4764,6 +5306,13 @@ typedef struct nsvcd__boxes {
   float low[3][NSVCD__LANES], high[3][NSVCD__LANES];
 } nsvcd__boxes;
 
+// Groups that are searched together: their numbers and spheres. Lanes without a group have r = NSVCD__NOWHERE.
+typedef struct nsvcd__tile {
+  size_t count;
+  uint16_t groups[NSVCD__TILE];
+  float spheres[4][NSVCD__TILE];  // x y z r
+} nsvcd__tile;
+
 typedef struct nsvcd__workspace {
   size_t segments;                                        // S
   float scale;                                            // of the moving body
@@ -4774,9 +5323,13 @@ typedef struct nsvcd__workspace {
   nsvcd__cut cut;
   nsvcd__chords group[NSVCD__BLOCKS];                     // a moving group's
   nsvcd__chords members[NSVCD__MAX_SEGMENTS];             // its 16 members', per segment
-  uint64_t nearby[NSVCD__MAX_GROUPS][NSVCD__MAX_GROUPS];  // moving groups, fixed groups
+  uint64_t near_segments;                                 // in which the bodies' spheres meet
+  nsvcd__walk moving_walk, fixed_walk;                    // through the groups that come near; where a body is large
+  float near_low[3], near_high[3];                        // a box about the way of the moving tile
+  nsvcd__tile moving_tile, fixed_tile;                    // the groups that are searched now; below, places in these
+  uint64_t nearby[NSVCD__TILE][NSVCD__TILE];              // moving groups, fixed groups: segments in which they meet
   uint64_t wanted;                                        // segments to search; all, but where contacts are sought in order
-  uint16_t order[NSVCD__MAX_GROUPS];                      // moving groups that are near any, in the order of the search
+  uint16_t order[NSVCD__TILE];                            // moving groups that are near any, in the order of the search
   size_t steps, step;                                     // how many they are, and which of them is being searched
   uint32_t waiting;                                       // fixed groups that it has yet to be searched against
   uint64_t posed;                                         // segments for which members[] is filled
@@ -5246,26 +5799,6 @@ static uint32_t nsvcd__meet_members(const nsvcd__chords *c, size_t s, const floa
                              nsvcd__v_add(nsvcd__v_set(c->reach[s]), nsvcd__v_load(r)));
 }
 
-// Index of the lowest bit that is set, of a number that is not 0; how many are set.
-static size_t nsvcd__lowest_bit(uint64_t bits) {
-#if defined(__GNUC__) || defined(__clang__)
-  return (size_t)__builtin_ctzll(bits);
-#else
-  size_t n = 0;
-  while (!(bits >> n & 1)) n++;
-  return n;
-#endif
-}
-static size_t nsvcd__bit_count(uint64_t bits) {
-#if defined(__GNUC__) || defined(__clang__)
-  return (size_t)__builtin_popcountll(bits);
-#else
-  size_t n = 0;
-  for (; bits; bits &= bits - 1) n++;
-  return n;
-#endif
-}
-
 // The segments among `wanted` in which a sphere with chords[] (one block per 16 segments) meets a resting one.
 static uint64_t nsvcd__meet_in(const nsvcd__chords *chords, uint64_t wanted, float x, float y, float z, float r) {
   uint64_t met = 0;
@@ -5432,10 +5965,11 @@ static void nsvcd__chords_of_group(nsvcd__workspace *work, const nsvcd_body *mov
   }
 }
 
-// Boxes in which 16 moving groups, from `first`, stay as long as they are near the fixed body: its axes, metres. Empty
-// ones, low above high, for those that never are. wanted: the segments to look at.
+// Boxes in which 16 groups of the moving tile, from `first`, stay as long as they are near the fixed body: its axes,
+// metres. Empty ones, low above high, for those that never are. wanted: the segments to look at.
 static void nsvcd__boxes_of_groups(const nsvcd__workspace *work, const nsvcd_body *moving, size_t first,
                                    const nsvcd_body *fixed, uint64_t wanted, nsvcd__boxes *out) {
+  const nsvcd__tile *tile = &work->moving_tile;
   const nsvcd__v nowhere = nsvcd__v_set(NSVCD__NOWHERE), zero = nsvcd__v_set(0);
   nsvcd__v low[3], high[3];
   NSVCD__TALLY(tests, nsvcd__bit_count(wanted));
@@ -5443,9 +5977,9 @@ static void nsvcd__boxes_of_groups(const nsvcd__workspace *work, const nsvcd_bod
   for (; wanted; wanted &= wanted - 1) {
     const size_t s = nsvcd__lowest_bit(wanted);
     nsvcd__chords c;
-    nsvcd__chords_of_members(&work->blocks[s / NSVCD__LANES], s % NSVCD__LANES, nsvcd__body_group(moving, 0) + first,
-                             nsvcd__body_group(moving, 1) + first, nsvcd__body_group(moving, 2) + first,
-                             nsvcd__body_group(moving, 3) + first, work->scale, moving->extent, &c);
+    nsvcd__chords_of_members(&work->blocks[s / NSVCD__LANES], s % NSVCD__LANES, tile->spheres[0] + first,
+                             tile->spheres[1] + first, tile->spheres[2] + first, tile->spheres[3] + first, work->scale,
+                             moving->extent, &c);
     const nsvcd__v x[3] = {nsvcd__v_load(c.x), nsvcd__v_load(c.y), nsvcd__v_load(c.z)};
     const nsvcd__v v[3] = {nsvcd__v_load(c.vx), nsvcd__v_load(c.vy), nsvcd__v_load(c.vz)};
     const nsvcd__v d[3] = {nsvcd__v_sub(x[0], nsvcd__v_set(fixed->centre[0])),
@@ -5463,67 +5997,215 @@ static void nsvcd__boxes_of_groups(const nsvcd__workspace *work, const nsvcd_bod
   for (size_t k = 0; k < 3; k++) nsvcd__v_store(out->low[k], low[k]), nsvcd__v_store(out->high[k], high[k]);
 }
 
-// The fixed body's groups whose spheres touch the box in lane l.
-static uint32_t nsvcd__groups_at_box(const nsvcd__boxes *boxes, size_t l, const nsvcd_body *fixed) {
-  const float *centre[3] = {nsvcd__body_group(fixed, 0), nsvcd__body_group(fixed, 1), nsvcd__body_group(fixed, 2)};
+// 16 spheres that touch a box.
+static uint32_t nsvcd__spheres_at_box(const float *low, const float *high, const float *x, const float *y, const float *z,
+                                      const float *r) {
+  const float *centre[3] = {x, y, z};
   const nsvcd__v zero = nsvcd__v_set(0);
+  nsvcd__v square = zero;
+  for (size_t k = 0; k < 3; k++) {
+    const nsvcd__v c = nsvcd__v_load(centre[k]);
+    const nsvcd__v below = nsvcd__v_sub(nsvcd__v_set(low[k]), c);
+    const nsvcd__v above = nsvcd__v_sub(c, nsvcd__v_set(high[k]));
+    const nsvcd__v d = nsvcd__v_max(nsvcd__v_max(below, above), zero);
+    square = nsvcd__v_fma(d, d, square);
+  }
+  return nsvcd__v_le(square, nsvcd__v_signed_square(nsvcd__v_load(r)));
+}
+
+// Groups of the fixed tile whose spheres touch the box in lane l.
+static uint32_t nsvcd__groups_at_box(const nsvcd__boxes *boxes, size_t l, const nsvcd__tile *tile) {
+  const float low[3] = {boxes->low[0][l], boxes->low[1][l], boxes->low[2][l]};
+  const float high[3] = {boxes->high[0][l], boxes->high[1][l], boxes->high[2][l]};
   uint32_t groups = 0;
-  for (size_t first = 0; first < nsvcd__body_groups(fixed); first += NSVCD__LANES) {
-    nsvcd__v square = zero;
-    for (size_t k = 0; k < 3; k++) {
-      const nsvcd__v c = nsvcd__v_load(centre[k] + first);
-      const nsvcd__v below = nsvcd__v_sub(nsvcd__v_set(boxes->low[k][l]), c);
-      const nsvcd__v above = nsvcd__v_sub(c, nsvcd__v_set(boxes->high[k][l]));
-      const nsvcd__v d = nsvcd__v_max(nsvcd__v_max(below, above), zero);
-      square = nsvcd__v_fma(d, d, square);
-    }
-    groups |= nsvcd__v_le(square, nsvcd__v_signed_square(nsvcd__v_load(nsvcd__body_group(fixed, 3) + first))) << first;
+  for (size_t first = 0; first < tile->count; first += NSVCD__LANES) {
+    groups |= nsvcd__spheres_at_box(low, high, tile->spheres[0] + first, tile->spheres[1] + first,
+                                    tile->spheres[2] + first, tile->spheres[3] + first)
+              << first;
   }
   return groups;
 }
 
-// Fills nearby[g] with the segments in which moving group g meets each group of the fixed body, of those `groups`.
-// Returns how many they are over all groups.
-static size_t nsvcd__group_against_body(nsvcd__workspace *work, const nsvcd_body *moving, size_t g,
-                                        const nsvcd_body *fixed, uint32_t groups) {
-  const float *x = nsvcd__body_group(fixed, 0), *y = nsvcd__body_group(fixed, 1), *z = nsvcd__body_group(fixed, 2);
-  const float *r = nsvcd__body_group(fixed, 3);
+// Fills nearby[g] with the segments in which group g of the moving tile meets each one of the fixed tile, of those
+// `groups`. Returns how many they are over all groups.
+static size_t nsvcd__group_against_tile(nsvcd__workspace *work, const nsvcd_body *moving, size_t g, uint32_t groups) {
+  const nsvcd__tile *tile = &work->fixed_tile;
   const uint64_t all = ~(uint64_t)0 >> (NSVCD__MAX_SEGMENTS - work->segments);
   size_t meetings = 0;
-  nsvcd__chords_of_group(work, moving, g);
-  memset(work->nearby[g], 0, nsvcd__body_groups(fixed) * sizeof *work->nearby[g]);
+  nsvcd__chords_of_group(work, moving, work->moving_tile.groups[g]);
+  memset(work->nearby[g], 0, tile->count * sizeof *work->nearby[g]);
   for (; groups; groups &= groups - 1) {
     const size_t h = nsvcd__lowest_bit(groups);
-    work->nearby[g][h] = nsvcd__meet_in(work->group, all, x[h], y[h], z[h], r[h]);
+    work->nearby[g][h] = nsvcd__meet_in(work->group, all, tile->spheres[0][h], tile->spheres[1][h], tile->spheres[2][h],
+                                        tile->spheres[3][h]);
     meetings += nsvcd__bit_count(work->nearby[g][h]);
   }
   return meetings;
 }
 
+// Puts the steps of the search of both tiles in order. wanted: segments in which the bodies' spheres meet.
+static void nsvcd__search_tile(nsvcd__workspace *work, const nsvcd_body *moving, const nsvcd_body *fixed,
+                               uint64_t wanted) {
+  size_t meetings[NSVCD__TILE];
+  nsvcd__boxes boxes;
+  work->steps = 0;
+  work->step = 0;
+  work->waiting = 0;
+  for (size_t g = 0; g < work->moving_tile.count; g++) {
+    if (g % NSVCD__LANES == 0) nsvcd__boxes_of_groups(work, moving, g, fixed, wanted, &boxes);
+    const uint32_t groups = nsvcd__groups_at_box(&boxes, g % NSVCD__LANES, &work->fixed_tile);
+    const size_t count = groups ? nsvcd__group_against_tile(work, moving, g, groups) : 0;
+    size_t at = work->steps;
+    if (!count) continue;
+    for (; at > 0 && meetings[at - 1] < count; at--) {
+      meetings[at] = meetings[at - 1];
+      work->order[at] = work->order[at - 1];
+    }
+    meetings[at] = count;
+    work->order[at] = (uint16_t)g;
+    work->steps++;
+  }
+}
+
+static int nsvcd__is_large(const nsvcd_body *body) { return nsvcd__body_groups(body) > NSVCD__TILE; }
+
+static void nsvcd__chords_of_sphere_everywhere(nsvcd__workspace *work, const float *centre, float radius) {
+  for (size_t b = 0; NSVCD__LANES * b < work->segments; b++) {
+    nsvcd__chords_of_sphere(&work->blocks[b], centre[0], centre[1], centre[2], work->scale * radius, &work->group[b]);
+  }
+}
+
+// Fills a tile with the next groups that a walk finds.
+static void nsvcd__tile_fill(nsvcd__tile *tile, nsvcd__walk *walk) {
+  size_t g;
+  for (size_t l = 0; l < NSVCD__TILE; l++) {
+    for (size_t k = 0; k < 4; k++) tile->spheres[k][l] = k < 3 ? 0 : NSVCD__NOWHERE;
+  }
+  tile->count = 0;
+  while (tile->count < NSVCD__TILE && nsvcd__walk_next(walk, &g)) {
+    for (size_t k = 0; k < 4; k++) tile->spheres[k][tile->count] = nsvcd__body_group(walk->body, k)[g];
+    tile->groups[tile->count++] = (uint16_t)g;
+  }
+}
+
+// Fills a tile with all groups of a body that has no more than that.
+static void nsvcd__tile_fill_all(nsvcd__tile *tile, const nsvcd_body *body) {
+  const size_t slots = nsvcd__group_slots(body->padded);
+  tile->count = nsvcd__body_groups(body);
+  for (size_t g = 0; g < tile->count; g++) tile->groups[g] = (uint16_t)g;
+  for (size_t k = 0; k < 4; k++) memcpy(tile->spheres[k], nsvcd__body_group(body, k), slots * sizeof(float));
+}
+
+// Filters of a walk, given the workspace. All spheres that there are.
+static uint32_t nsvcd__exists(const void *what, const float *x, const float *y, const float *z, const float *r) {
+  (void)what, (void)x, (void)y, (void)z;
+  return nsvcd__v_le(nsvcd__v_set(0), nsvcd__v_load(r));
+}
+
+// Spheres of the moving body that meet that of the fixed one.
+static uint32_t nsvcd__comes_near(const void *what, const float *x, const float *y, const float *z, const float *r) {
+  const nsvcd__workspace *work = (const nsvcd__workspace *)what;
+  const nsvcd_body *fixed = work->fixed_walk.body;
+  const float extent = work->moving_walk.body->extent;
+  uint32_t met = 0;
+  for (uint64_t wanted = work->near_segments; wanted; wanted &= wanted - 1) {
+    const size_t s = nsvcd__lowest_bit(wanted);
+    nsvcd__chords chords;
+    nsvcd__chords_of_members(&work->blocks[s / NSVCD__LANES], s % NSVCD__LANES, x, y, z, r, work->scale, extent, &chords);
+    met |= nsvcd__meet(&chords, fixed->centre[0], fixed->centre[1], fixed->centre[2], fixed->radius);
+  }
+  return met;
+}
+
+// Spheres of the fixed body that meet that of the moving tile, whose chords are work->group.
+static uint32_t nsvcd__is_approached(const void *what, const float *x, const float *y, const float *z, const float *r) {
+  const nsvcd__workspace *work = (const nsvcd__workspace *)what;
+  const uint32_t nearby = nsvcd__spheres_at_box(work->near_low, work->near_high, x, y, z, r);
+  uint32_t met = 0;
+  for (uint64_t wanted = work->near_segments; wanted && nearby & ~met; wanted &= wanted - 1) {
+    const size_t s = nsvcd__lowest_bit(wanted);
+    met |= nearby & nsvcd__meet_members(&work->group[s / NSVCD__LANES], s % NSVCD__LANES, x, y, z, r);
+  }
+  return met;
+}
+
+// Poses the sphere over all groups of the moving tile, into work->group.
+static void nsvcd__chords_of_tile(nsvcd__workspace *work, const nsvcd_body *moving) {
+  const nsvcd__tile *tile = &work->moving_tile;
+  float sphere[4] = {moving->centre[0], moving->centre[1], moving->centre[2], moving->radius};
+  if (nsvcd__is_large(moving)) {
+    nsvcd__cover_spheres(tile->count, tile->spheres[0], tile->spheres[1], tile->spheres[2], tile->spheres[3], sphere);
+  }
+  nsvcd__chords_of_sphere_everywhere(work, sphere, sphere[3]);
+}
+
+// Puts a box about the chords of work->group.
+static void nsvcd__box_of_way(nsvcd__workspace *work) {
+  float least[6] = {HUGE_VALF, HUGE_VALF, HUGE_VALF, HUGE_VALF, HUGE_VALF, HUGE_VALF};
+  for (size_t b = 0; NSVCD__LANES * b < work->segments; b++) {
+    const nsvcd__chords *c = &work->group[b];
+    const float *starts[3] = {c->x, c->y, c->z};
+    const float *ways[3] = {c->vx, c->vy, c->vz};
+    for (size_t l = 0; l < NSVCD__LANES && NSVCD__LANES * b + l < work->segments; l++) {
+      for (size_t k = 0; k < 3; k++) {
+        const float start = starts[k][l];
+        const float end = start + ways[k][l];
+        least[k] = fminf(least[k], fminf(start, end) - c->reach[l]);
+        least[3 + k] = fminf(least[3 + k], -fmaxf(start, end) - c->reach[l]);
+      }
+    }
+  }
+  for (size_t k = 0; k < 3; k++) {
+    work->near_low[k] = least[k];
+    work->near_high[k] = -least[3 + k];
+  }
+}
+
+// Finds the next moving tile, and starts the walk through the fixed body's groups that come near it. 0 if there is none.
+static int nsvcd__search_moving_tile(nsvcd__workspace *work, const nsvcd_body *moving, const nsvcd_body *fixed) {
+  nsvcd__tile_fill(&work->moving_tile, &work->moving_walk);
+  if (work->moving_tile.count == 0) return 0;
+  nsvcd__chords_of_tile(work, moving);
+  nsvcd__box_of_way(work);
+  nsvcd__walk_begin(&work->fixed_walk, fixed, nsvcd__is_approached, work);
+  return 1;
+}
+
+// Goes on to the next tile that has a step. 0 if there is none.
+static int nsvcd__search_next_tile(nsvcd__workspace *work, const nsvcd_body *moving, const nsvcd_body *fixed) {
+  if (!nsvcd__is_large(moving) && !nsvcd__is_large(fixed)) return 0;
+  for (;;) {
+    nsvcd__chords_of_tile(work, moving);
+    nsvcd__tile_fill(&work->fixed_tile, &work->fixed_walk);
+    if (work->fixed_tile.count == 0) {
+      if (!nsvcd__search_moving_tile(work, moving, fixed)) return 0;
+      continue;
+    }
+    nsvcd__search_tile(work, moving, fixed, work->near_segments);
+    if (work->steps > 0) return 1;
+  }
+}
+
 // Starts the search of a motion that has been cut. Returns 0 if the groups' spheres never meet: then there is no step
 // to take.
 static int nsvcd__search_begin(const nsvcd_body *moving, const nsvcd_body *fixed, nsvcd__workspace *work) {
-  for (size_t b = 0; NSVCD__LANES * b < work->segments; b++) {
-    nsvcd__chords_of_sphere(&work->blocks[b], moving->centre[0], moving->centre[1], moving->centre[2],
-                            work->scale * moving->radius, &work->group[b]);
-  }
+  nsvcd__chords_of_sphere_everywhere(work, moving->centre, moving->radius);
   uint64_t wanted = ~(uint64_t)0 >> (NSVCD__MAX_SEGMENTS - work->segments);
   wanted = nsvcd__meet_in(work->group, wanted, fixed->centre[0], fixed->centre[1], fixed->centre[2], fixed->radius);
-  size_t meetings[NSVCD__MAX_GROUPS];
-  nsvcd__boxes boxes;
-  work->steps = work->step = 0, work->waiting = 0;
+  work->near_segments = wanted;
   work->wanted = ~(uint64_t)0;
-  for (size_t g = 0; wanted && g < nsvcd__body_groups(moving); g++) {
-    if (g % NSVCD__LANES == 0) nsvcd__boxes_of_groups(work, moving, g, fixed, wanted, &boxes);
-    const uint32_t groups = nsvcd__groups_at_box(&boxes, g % NSVCD__LANES, fixed);
-    const size_t count = groups ? nsvcd__group_against_body(work, moving, g, fixed, groups) : 0;
-    size_t at = work->steps;
-    if (!count) continue;
-    for (; at > 0 && meetings[at - 1] < count; at--)
-      meetings[at] = meetings[at - 1], work->order[at] = work->order[at - 1];
-    meetings[at] = count, work->order[at] = (uint16_t)g, work->steps++;
+  work->steps = work->step = 0;
+  work->waiting = 0;
+  if (!nsvcd__is_large(moving) && !nsvcd__is_large(fixed)) {
+    nsvcd__tile_fill_all(&work->moving_tile, moving);
+    nsvcd__tile_fill_all(&work->fixed_tile, fixed);
+    if (wanted) nsvcd__search_tile(work, moving, fixed, wanted);
+    return work->steps > 0;
   }
-  return work->steps > 0;
+  work->fixed_walk.body = fixed;
+  work->moving_walk.body = moving;
+  nsvcd__walk_begin(&work->moving_walk, moving, nsvcd__is_large(moving) ? nsvcd__comes_near : nsvcd__exists, work);
+  return wanted && nsvcd__search_moving_tile(work, moving, fixed) && nsvcd__search_next_tile(work, moving, fixed);
 }
 
 // Fills members[] with what is missing of the segments `wanted`.
@@ -5561,16 +6243,18 @@ static uint32_t nsvcd__group_against_members(const nsvcd__workspace *work, const
   return met;
 }
 
-// Turns to the moving group that is next in order. Returns the fixed group that it meets for the longest time.
-static size_t nsvcd__search_group(nsvcd__workspace *work, const nsvcd_body *moving, const nsvcd_body *fixed) {
-  const uint64_t *nearby = work->nearby[work->order[work->step]];
+// Turns to the moving group that is next in order. Returns the fixed group, its place in the tile, that it meets for the
+// longest time.
+static size_t nsvcd__search_group(nsvcd__workspace *work, const nsvcd_body *moving) {
+  const size_t g = work->order[work->step];
+  const uint64_t *nearby = work->nearby[g];
   size_t longest = 0, most = 0;
-  for (size_t h = 0; h < nsvcd__body_groups(fixed); h++) {
+  for (size_t h = 0; h < work->fixed_tile.count; h++) {
     const size_t count = nsvcd__bit_count(nearby[h] & work->wanted);
     if (count > 0) work->waiting |= (uint32_t)1 << h;
     if (count > most) most = count, longest = h;
   }
-  if (work->waiting) nsvcd__chords_of_group(work, moving, work->order[work->step]);
+  if (work->waiting) nsvcd__chords_of_group(work, moving, work->moving_tile.groups[g]);
   work->posed = 0;
   return longest;
 }
@@ -5579,18 +6263,19 @@ static size_t nsvcd__search_group(nsvcd__workspace *work, const nsvcd_body *movi
 // A step of the search: all runs of one pair of groups. Returns 1 if there are more steps to take.
 static int nsvcd__search_step(nsvcd__workspace *work, const nsvcd_body *moving, const nsvcd_body *fixed,
                               nsvcd__candidates *kept) {
-  const size_t h = work->waiting ? nsvcd__lowest_bit(work->waiting) : nsvcd__search_group(work, moving, fixed);
-  const size_t g = work->order[work->step];
+  const size_t at = work->waiting ? nsvcd__lowest_bit(work->waiting) : nsvcd__search_group(work, moving);
+  const size_t g = work->moving_tile.groups[work->order[work->step]];
+  const size_t h = work->fixed_tile.groups[at];
   uint64_t segments[NSVCD__GROUP];
-  uint32_t met = nsvcd__group_against_members(work, fixed, h, work->nearby[g][h], segments);
+  uint32_t met = nsvcd__group_against_members(work, fixed, h, work->nearby[work->order[work->step]][at], segments);
   for (; met; met &= met - 1) {
     const size_t l = nsvcd__lowest_bit(met);
     nsvcd__pose_members(work, moving, g, segments[l]);
     nsvcd__members_against_patch(work, moving, g, fixed, NSVCD__GROUP * h + l, segments[l], kept);
   }
-  work->waiting &= ~((uint32_t)1 << h);
+  work->waiting &= ~((uint32_t)1 << at);
   if (!work->waiting) work->step++;
-  return work->step < work->steps;
+  return work->step < work->steps || nsvcd__search_next_tile(work, moving, fixed);
 }
 
 // Instead of a search, in a motion that has been cut: all runs of one moving group and one patch of the fixed body.
@@ -6443,19 +7128,22 @@ static void nsvcd__certify_groups(const nsvcd__proof *p, const nsvcd__workspace 
 
 // Clears the segments in which discs part moving group g from the resting ones that it meets, its chords being those in
 // the workspace.
-static void nsvcd__part_groups(const nsvcd__proof *p, nsvcd__workspace *work, size_t g) {
+static void nsvcd__part_groups(const nsvcd__proof *p, nsvcd__workspace *work) {
   const nsvcd_body *moving = p->moving.body, *fixed = p->fixed.body;
+  const size_t turn = work->order[work->step];
+  const size_t g = work->moving_tile.groups[turn];
   const nsvcd__disc own =
       nsvcd__disc_at(p->moving.group_discs, nsvcd__group_slots(moving->padded), g);
   const float centre[3] = {nsvcd__body_group(moving, 0)[g], nsvcd__body_group(moving, 1)[g],
                            nsvcd__body_group(moving, 2)[g]};
   const float reach = 1.000002f * (nsvcd__length3(centre) + nsvcd__body_group(moving, 3)[g]);
   for (uint32_t waiting = work->waiting; waiting; waiting &= waiting - 1) {
-    const size_t h = nsvcd__lowest_bit(waiting);
+    const size_t at = nsvcd__lowest_bit(waiting);
+    const size_t h = work->fixed_tile.groups[at];
     const nsvcd__disc disc = nsvcd__disc_at(p->fixed.group_discs, nsvcd__group_slots(fixed->padded), h);
     const nsvcd__f3 fixed_centre = nsvcd__f3_of(nsvcd__body_group(fixed, 0)[h], nsvcd__body_group(fixed, 1)[h],
                                                 nsvcd__body_group(fixed, 2)[h]);
-    uint64_t *met = &work->nearby[g][h];
+    uint64_t *met = &work->nearby[turn][at];
     for (size_t b = 0; b < NSVCD__BLOCKS && *met >> (NSVCD__LANES * b); b++) {
       const uint32_t there = (uint32_t)(*met >> (NSVCD__LANES * b)) & 0xffff;
       nsvcd__v3 planes[2];
@@ -6467,7 +7155,7 @@ static void nsvcd__part_groups(const nsvcd__proof *p, nsvcd__workspace *work, si
       NSVCD__CERTIFY_GROUPS(p, work, b, g, h, apart, planes, below);
       *met &= ~((uint64_t)apart << (NSVCD__LANES * b));
     }
-    if (!*met) work->waiting &= ~((uint32_t)1 << h);
+    if (!*met) work->waiting &= ~((uint32_t)1 << at);
   }
 }
 
@@ -7624,15 +8312,14 @@ static uint32_t nsvcd__spheres_on_ray(const nsvcd_body *b, const nsvcd__ray *ray
   return near_line & nsvcd__v_le(nsvcd__v_negate(reach), nsvcd__v3_dot(d, n));
 }
 
-// Groups whose spheres the ray meets.
-static uint32_t nsvcd__groups_on_ray(const nsvcd_body *b, const nsvcd__ray *ray) {
-  uint32_t groups = 0;
-  for (size_t first = 0; first < nsvcd__body_groups(b); first += NSVCD__LANES) {
-    groups |= nsvcd__spheres_on_ray(b, ray, nsvcd__body_group(b, 0) + first, nsvcd__body_group(b, 1) + first,
-                                    nsvcd__body_group(b, 2) + first, nsvcd__body_group(b, 3) + first)
-              << first;
-  }
-  return groups;
+// The same, as a filter of a walk.
+typedef struct nsvcd__ray_of {
+  const nsvcd_body *body;
+  const nsvcd__ray *ray;
+} nsvcd__ray_of;
+static uint32_t nsvcd__is_on_ray(const void *what, const float *x, const float *y, const float *z, const float *r) {
+  const nsvcd__ray_of *of = (const nsvcd__ray_of *)what;
+  return nsvcd__spheres_on_ray(of->body, of->ray, x, y, z, r);
 }
 
 // Members of group g whose spheres the ray meets: it may meet their pieces.
@@ -7682,10 +8369,13 @@ static int nsvcd__crossings(nsvcd__proof *p, const nsvcd__facets *f, const nsvcd
   nsvcd__block *block = &p->fixed_blocks[0];
   const float remote = (float)nsvcd__d3_length(ray->from) + f->body->extent;
   const float rounding = 0.5f * NSVCD__ROUNDING * remote * f->body->extent;
+  const nsvcd__ray_of of = {f->body, ray};
   int sum = 0;
   size_t count = 0;
-  for (uint32_t groups = nsvcd__groups_on_ray(f->body, ray); groups && !*unclear; groups &= groups - 1) {
-    const size_t g = nsvcd__lowest_bit(groups);
+  size_t g;
+  nsvcd__walk walk;
+  nsvcd__walk_begin(&walk, f->body, nsvcd__is_on_ray, &of);
+  while (!*unclear && nsvcd__walk_next(&walk, &g)) {
     uint32_t patches = nsvcd__patches_on_ray(f->body, ray, g);
     for (; patches && !*unclear; patches &= patches - 1) {
       const size_t i = NSVCD__GROUP * g + nsvcd__lowest_bit(patches);
@@ -7712,12 +8402,18 @@ static int nsvcd__crossings(nsvcd__proof *p, const nsvcd__facets *f, const nsvcd
   return sum;
 }
 
-// Lanes of 16 spheres, in the body's frame, that come within `distance` of a place.
-static uint32_t nsvcd__spheres_near(nsvcd__f3 place, float distance, const float *x, const float *y, const float *z,
-                                    const float *r) {
+// A place in a body's frame, and a distance from it.
+typedef struct nsvcd__surroundings {
+  nsvcd__f3 place;
+  float distance;
+} nsvcd__surroundings;
+
+// Lanes of 16 spheres that come within that; a filter of a walk.
+static uint32_t nsvcd__is_around(const void *what, const float *x, const float *y, const float *z, const float *r) {
+  const nsvcd__surroundings *here = (const nsvcd__surroundings *)what;
   const nsvcd__v3 centre = nsvcd__v3_of(nsvcd__v_load(x), nsvcd__v_load(y), nsvcd__v_load(z));
-  const nsvcd__v3 d = nsvcd__v3_sub(centre, nsvcd__v3_set(place));
-  const nsvcd__v reach = nsvcd__v_add(nsvcd__v_load(r), nsvcd__v_set(distance));
+  const nsvcd__v3 d = nsvcd__v3_sub(centre, nsvcd__v3_set(here->place));
+  const nsvcd__v reach = nsvcd__v_add(nsvcd__v_load(r), nsvcd__v_set(here->distance));
   return nsvcd__v_le(nsvcd__v3_dot(d, d), nsvcd__v_signed_square(reach));
 }
 
@@ -7748,13 +8444,15 @@ static int nsvcd__surface_is_near(nsvcd__proof *p, const nsvcd__facets *f, nsvcd
   const nsvcd_body *b = f->body;
   const nsvcd__f3 rounded = nsvcd__f3_round(place);
   const float remote = nsvcd__f3_length(rounded) + b->extent;
-  float widest = 0;
-  for (size_t i = 0; i < b->points; i++) widest = f->quanta[i] > widest ? f->quanta[i] : widest;
-  const float distance = 2 * widest + (float)tolerance * 1.0001f + 4 * NSVCD__ROUNDING * remote;
-  for (size_t g = 0; g < nsvcd__body_groups(b); g++) {
+  const float distance = 2 * nsvcd__widest_quantum(f) + (float)tolerance * 1.0001f + 4 * NSVCD__ROUNDING * remote;
+  const nsvcd__surroundings here = {rounded, distance};
+  size_t g;
+  nsvcd__walk walk;
+  nsvcd__walk_begin(&walk, b, nsvcd__is_around, &here);
+  while (nsvcd__walk_next(&walk, &g)) {
     const size_t first = NSVCD__GROUP * g;
-    uint32_t patches = nsvcd__spheres_near(rounded, distance, nsvcd__body_x(b) + first, nsvcd__body_y(b) + first,
-                                           nsvcd__body_z(b) + first, nsvcd__body_r(b) + first);
+    uint32_t patches = nsvcd__is_around(&here, nsvcd__body_x(b) + first, nsvcd__body_y(b) + first,
+                                        nsvcd__body_z(b) + first, nsvcd__body_r(b) + first);
     for (; patches; patches &= patches - 1) {
       const size_t i = first + nsvcd__lowest_bit(patches);
       if (i < b->points && nsvcd__patch_is_near(p, f, i, place, tolerance, distance)) return 1;
@@ -7849,41 +8547,80 @@ static nsvcd__placement nsvcd__inverse_placement(const nsvcd__placement *at, dou
   return out;
 }
 
+// One body at the start of the motion, as the other sees it.
+typedef struct nsvcd__enclosure {
+  const nsvcd__facets *inner, *outer;
+  nsvcd__placement start;     // of the inner body in the outer one's frame,
+  nsvcd__transform rounded;   // the same,
+  nsvcd__placement back;      // and the other way round
+  float scale;                // of the inner body, in that frame
+  double unit;                // of that frame: the fixed body's units
+  int inner_moves;            // it is the motion's moving body
+} nsvcd__enclosure;
+
+// Are some of the inner body's components, those with seeds from `first` to `end`, within the outer one? Then p->found
+// has the point, and p->within is set; 1 if that is certain.
+static int nsvcd__encloses_seeds(nsvcd__proof *p, const nsvcd__enclosure *e, size_t first, size_t end) {
+  uint32_t nearby = 0;
+  for (size_t n = first; n < end; n++) {
+    const size_t l = (n - first) % NSVCD__LANES;
+    if (l == 0) nearby = nsvcd__seeds_near(e->inner, n, &e->rounded, e->scale, e->outer);
+    if (!(nearby >> l & 1)) continue;
+    if (p->work > p->limit) {
+      p->lost = 1;
+      return 0;
+    }
+    const nsvcd__d3 seed = nsvcd__d3_load(e->inner->seeds + 3 * n);
+    const nsvcd__d3 seen = nsvcd__place_point(&e->start, seed);
+    if (!nsvcd__is_enclosed(p, e->outer, e->unit, seen)) continue;
+    memset(&p->found, 0, sizeof p->found);
+    p->found.point = e->inner_moves ? seen : seed;
+    p->found.moving_triangle = NSVCD_NO_TRIANGLE;
+    p->found.fixed_triangle = NSVCD_NO_TRIANGLE;
+    p->within = 1;
+    if (!nsvcd__surface_is_near(p, e->outer, seen, p->tolerance / e->unit)) return 1;
+  }
+  return 0;
+}
+
+// The same of all components. Where they are many, only those of groups that come near the outer body are asked for.
+static int nsvcd__encloses_any(nsvcd__proof *p, const nsvcd__enclosure *e) {
+  const nsvcd_body *inner = e->inner->body, *outer = e->outer->body;
+  if (outer->open) return 0;
+  if (e->inner->components == 1 && nsvcd__sticks_out(e->inner, &e->rounded, e->scale, outer)) return 0;
+  if (e->inner->components <= NSVCD__LANES) return nsvcd__encloses_seeds(p, e, 0, e->inner->components);
+  const nsvcd__f3 centre = nsvcd__f3_round(nsvcd__place_point(&e->back, nsvcd__d3_load(outer->centre)));
+  const float remote = nsvcd__f3_length(centre) + inner->extent + outer->extent / e->scale;
+  const nsvcd__surroundings here = {centre, outer->radius / e->scale + 4 * NSVCD__ROUNDING * remote};
+  size_t g;
+  nsvcd__walk walk;
+  nsvcd__walk_begin(&walk, inner, nsvcd__is_around, &here);
+  while (!p->lost && nsvcd__walk_next(&walk, &g)) {
+    if (nsvcd__encloses_seeds(p, e, e->inner->first_seed[g], e->inner->first_seed[g + 1])) return 1;
+  }
+  return 0;
+}
+
 // Is a component of one body within the other at the start of the motion? Then p->found has its point. Where that is so
 // close to the surface that quanta matter, 0 is returned and p->within is set: if planes then part all patches at t = 0,
 // the point, the stored surface and the true one, patch by patch on one side of a plane, agree, and it is within.
 static NSVCD__APART int nsvcd__starts_within(nsvcd__proof *p) {
-  const nsvcd__placement at = nsvcd__placement_at(nsvcd__arc_at(p, 0), 0);
-  const nsvcd__placement back = nsvcd__inverse_placement(&at, p->arc.scale);
-  for (size_t way = 0; way < 2; way++) {
-    const nsvcd__facets *inner = way == 0 ? &p->moving : &p->fixed;
-    const nsvcd__facets *outer = way == 0 ? &p->fixed : &p->moving;
-    const nsvcd__placement *start = way == 0 ? &at : &back;
-    const nsvcd__transform rounded = nsvcd__transform_of(start);
-    const float scale = way == 0 ? p->motion->scale : 1 / p->motion->scale;
-    const double unit = way == 0 ? 1 : p->arc.scale;  // of the outer body's frame
-    if (outer->body->open) continue;
-    uint32_t nearby = 0;
-    if (inner->components == 1 && nsvcd__sticks_out(inner, &rounded, scale, outer->body)) continue;
-    for (size_t n = 0; n < inner->components; n++) {
-      if (n % NSVCD__LANES == 0) nearby = nsvcd__seeds_near(inner, n, &rounded, scale, outer);
-      if (!(nearby >> n % NSVCD__LANES & 1)) continue;
-      if (p->work > p->limit) {
-        p->lost = 1;
-        return 0;
-      }
-      const nsvcd__d3 seed = nsvcd__d3_load(inner->seeds + 3 * n);
-      const nsvcd__d3 seen = nsvcd__place_point(start, seed);
-      if (!nsvcd__is_enclosed(p, outer, unit, seen)) continue;
-      memset(&p->found, 0, sizeof p->found);
-      p->found.point = way == 0 ? seen : seed;
-      p->found.moving_triangle = NSVCD_NO_TRIANGLE;
-      p->found.fixed_triangle = NSVCD_NO_TRIANGLE;
-      p->within = 1;
-      if (!nsvcd__surface_is_near(p, outer, seen, p->tolerance / unit)) return 1;
-    }
-  }
-  return 0;
+  nsvcd__enclosure moving, fixed;
+  moving.start = nsvcd__placement_at(nsvcd__arc_at(p, 0), 0);
+  moving.back = nsvcd__inverse_placement(&moving.start, p->arc.scale);
+  moving.rounded = nsvcd__transform_of(&moving.start);
+  moving.inner = fixed.outer = &p->moving;
+  moving.outer = fixed.inner = &p->fixed;
+  moving.scale = p->motion->scale;
+  moving.unit = 1;
+  moving.inner_moves = 1;
+  fixed.start = moving.back;
+  fixed.back = moving.start;
+  fixed.rounded = nsvcd__transform_of(&fixed.start);
+  fixed.scale = 1 / p->motion->scale;
+  fixed.unit = p->arc.scale;
+  fixed.inner_moves = 0;
+  return nsvcd__encloses_any(p, &moving) || nsvcd__encloses_any(p, &fixed);
 }
 
 // ---- all of it
@@ -7935,20 +8672,22 @@ static void nsvcd__collect_items(nsvcd__proof *p, const nsvcd__workspace *work, 
   }
 }
 
-// Goes on with the search until there are fresh items enough for a look. 0 when it has come to its end.
+// Goes on with the search of a tile until there are fresh items enough for a look. 0 when it has come to its end.
 static NSVCD__APART int nsvcd__collect(nsvcd__proof *p, nsvcd__workspace *work) {
   const nsvcd_body *moving = p->moving.body, *fixed = p->fixed.body;
   for (; work->step < work->steps; work->step++) {
-    const size_t g = work->order[work->step];
+    const size_t turn = work->order[work->step];
+    const size_t g = work->moving_tile.groups[turn];
     if (!p->in_group) {
-      nsvcd__search_group(work, moving, fixed);
-      nsvcd__part_groups(p, work, g);
+      nsvcd__search_group(work, moving);
+      nsvcd__part_groups(p, work);
       p->in_group = 1;
     }
     while (work->waiting) {
-      const size_t h = nsvcd__lowest_bit(work->waiting);
+      const size_t at = nsvcd__lowest_bit(work->waiting);
+      const size_t h = work->fixed_tile.groups[at];
       if (!p->in_pair) {
-        const uint64_t wanted = work->nearby[g][h] & nsvcd__segments_that_matter(p, work);
+        const uint64_t wanted = work->nearby[turn][at] & nsvcd__segments_that_matter(p, work);
         p->met = nsvcd__group_against_members(work, fixed, h, wanted, p->met_in);
         p->in_pair = 1;
       }
@@ -8031,11 +8770,22 @@ static nsvcd__verdict nsvcd__prove_segments(nsvcd__proof *p, nsvcd__workspace *w
   return verdict == NSVCD__FREE ? nsvcd__settle_items(p, work) : verdict;
 }
 
-// Some segments after the other, until there is a contact: then it is the first.
-static nsvcd__verdict nsvcd__prove_in_order(nsvcd__proof *p, nsvcd__workspace *work) {
+// The same, tile after tile.
+static nsvcd__verdict nsvcd__prove_tiles(nsvcd__proof *p, nsvcd__workspace *work) {
+  nsvcd__verdict verdict;
+  do {
+    verdict = nsvcd__prove_segments(p, work);
+  } while (verdict == NSVCD__FREE && nsvcd__search_next_tile(work, p->moving.body, p->fixed.body));
+  return verdict;
+}
+
+// Some segments after the other, until there is a contact: then it is the first one of the tile.
+static nsvcd__verdict nsvcd__prove_tile_in_order(nsvcd__proof *p, nsvcd__workspace *work) {
   const uint64_t few = ((uint64_t)1 << NSVCD__IN_ORDER) - 1;
   nsvcd__verdict verdict = NSVCD__FREE;
-  for (size_t s = 0; s < work->segments && verdict == NSVCD__FREE && !p->has_contact; s += NSVCD__IN_ORDER) {
+  p->settled = 0;
+  for (size_t s = 0; s < work->segments && verdict == NSVCD__FREE; s += NSVCD__IN_ORDER) {
+    if (!nsvcd__matters(p, work, s)) break;
     work->wanted = few << s;
     work->step = 0;
     work->waiting = 0;
@@ -8044,6 +8794,17 @@ static nsvcd__verdict nsvcd__prove_in_order(nsvcd__proof *p, nsvcd__workspace *w
     const size_t next = s + NSVCD__IN_ORDER < work->segments ? s + NSVCD__IN_ORDER : work->segments;
     if (verdict == NSVCD__FREE && !p->has_contact) p->settled = (double)work->begin[next];
   }
+  return verdict;
+}
+
+// The same, tile after tile. What is settled in one of several tells nothing of the others.
+static nsvcd__verdict nsvcd__prove_in_order(nsvcd__proof *p, nsvcd__workspace *work) {
+  const nsvcd_body *moving = p->moving.body, *fixed = p->fixed.body;
+  nsvcd__verdict verdict;
+  do {
+    verdict = nsvcd__prove_tile_in_order(p, work);
+  } while (verdict == NSVCD__FREE && nsvcd__search_next_tile(work, moving, fixed));
+  if (nsvcd__is_large(moving) || nsvcd__is_large(fixed)) p->settled = 0;
   return verdict;
 }
 
@@ -8059,7 +8820,7 @@ static nsvcd__verdict nsvcd__prove(nsvcd__proof *p, nsvcd__workspace *work) {
   if (p->measure > 0) p->clearance = nsvcd__guess_clearance(p, work);
   nsvcd__cut_segments(p->motion, p->lengths, nsvcd__clearance_of(p), work);
   nsvcd__search_begin(p->moving.body, p->fixed.body, work);
-  const nsvcd__verdict verdict = p->first > 0 ? nsvcd__prove_in_order(p, work) : nsvcd__prove_segments(p, work);
+  const nsvcd__verdict verdict = p->first > 0 ? nsvcd__prove_in_order(p, work) : nsvcd__prove_tiles(p, work);
   if (p->lost) p->settled = 0;  // whether one is within the other, at the start
   p->lost |= verdict == NSVCD__UNDECIDED;
   if (p->first > 0 && p->has_contact && p->unsure <= p->end) {  // a doubt that ends in a contact is its beginning
@@ -8799,10 +9560,12 @@ static int8_t *nsvcd__encode_patches(const nsvcd__patches *patches, const nsvcd_
 // What a body is built of.
 typedef struct nsvcd__parts {
   const nsvcd_mesh *mesh;
-  nsvcd__patches patches;
   int open;
+  size_t count;                      // N
+  float *centres;                    // (N, 3)
   size_t latents_size, facets_size;  // bytes; 0: without
 #ifndef NSVCD_NO_NETWORK
+  nsvcd__patches patches;  // where there are latents
   int8_t *latents;
 #endif
 #ifndef NSVCD_NO_PROOF
@@ -8814,37 +9577,99 @@ typedef struct nsvcd__parts {
 static void nsvcd__parts_free(nsvcd__parts *parts, const nsvcd_allocator *allocator) {
 #ifndef NSVCD_NO_NETWORK
   nsvcd__free(allocator, parts->latents);
+  nsvcd__patches_free(&parts->patches, allocator);
 #endif
 #ifndef NSVCD_NO_PROOF
-  if (parts->facets_size) nsvcd__surface_free(&parts->surface, allocator);
+  nsvcd__surface_free(&parts->surface, allocator);
 #endif
-  nsvcd__patches_free(&parts->patches, allocator);
+  nsvcd__free(allocator, parts->centres);
 }
 
+// What encoding does, with the defaults filled in.
+typedef struct nsvcd__plan {
+  size_t points;  // N
+  int open, latents, triangles;
+  nsvcd_progress *progress;
+  void *user;
+} nsvcd__plan;
+
+static int nsvcd__is_cancelled(const nsvcd__plan *plan, double done) {
+  return plan->progress && plan->progress((float)done, plan->user);
+}
+
+#ifndef NSVCD_NO_PROOF
+// Adds one region's patches. `patches` is kept if it is not NULL.
+static nsvcd_result nsvcd__parts_add(nsvcd__regions *regions, size_t n, size_t points, const nsvcd_allocator *allocator,
+                                     nsvcd__parts *parts, nsvcd__patches *patches) {
+  nsvcd__region region;
+  nsvcd__patches own;
+  nsvcd_result result = nsvcd__region_begin(regions, n, allocator, &region);
+  if (result) return result == NSVCD_ERROR_EMPTY ? NSVCD_OK : result;
+  result = nsvcd__patches_build(&region.mesh, points, allocator, &own);
+  if (!result) {
+    memcpy(parts->centres + 3 * parts->count, own.centres, 3 * own.count * sizeof(float));
+    result = nsvcd__surface_add(&region, &own, allocator, &parts->surface);
+    parts->count += own.count;
+    if (patches && !result) {
+      *patches = own;
+    } else {
+      nsvcd__patches_free(&own, allocator);
+    }
+  }
+  nsvcd__region_end(regions, &region, allocator);
+  return result;
+}
+
+// The surface of all regions; patches: NULL, or those of the only region are kept.
+static nsvcd_result nsvcd__parts_describe(const nsvcd__plan *plan, const nsvcd_allocator *allocator, nsvcd__parts *parts,
+                                          nsvcd__patches *patches) {
+  nsvcd__regions regions;
+  if (!nsvcd__regions_build(parts->mesh, plan->points, allocator, &regions)) return NSVCD_ERROR_MEMORY;
+  nsvcd_result result = NSVCD_ERROR_MEMORY;
+  if (nsvcd__surface_begin(plan->points, regions.component_count, allocator, &parts->surface)) result = NSVCD_OK;
+  for (size_t n = 0; !result && n < regions.count; n++) {
+    if (nsvcd__is_cancelled(plan, (double)(n + 1) / (double)(regions.count + 2))) {
+      result = NSVCD_ERROR_CANCELLED;
+      break;
+    }
+    const size_t left = plan->points * (n + 1) / regions.count - plan->points * n / regions.count;
+    result = nsvcd__parts_add(&regions, n, left, allocator, parts, patches);
+  }
+  nsvcd__regions_free(&regions, allocator);
+  if (result) return result;
+  nsvcd__facets_count(&parts->surface, parts->counts);
+  parts->facets_size = nsvcd__facets_size(parts->count, parts->counts);
+  return parts->facets_size ? NSVCD_OK : NSVCD_ERROR_TOO_LARGE;
+}
+#endif
+
 // Everything but the blob.
-static nsvcd_result nsvcd__parts_build(const nsvcd_mesh *mesh, size_t points, const nsvcd_encode_options *options,
-                                       const nsvcd_allocator *allocator, nsvcd__parts *parts) {
+static nsvcd_result nsvcd__parts_build(const nsvcd_mesh *mesh, const nsvcd__plan *plan, const nsvcd_allocator *allocator,
+                                       nsvcd__parts *parts) {
+  nsvcd_result result = NSVCD_OK;
   memset(parts, 0, sizeof *parts);
   parts->mesh = mesh;
-  parts->open = options && options->open;
-  nsvcd_result result = nsvcd__patches_build(mesh, points, allocator, &parts->patches);
-  if (result) return result;
-#ifndef NSVCD_NO_NETWORK
-  parts->latents_size = nsvcd_body_size(parts->patches.count);
-  parts->latents = nsvcd__encode_patches(&parts->patches, allocator);
-  if (!parts->latents) result = NSVCD_ERROR_MEMORY;
-#endif
+  parts->open = plan->open;
+  if (nsvcd__is_cancelled(plan, 0)) return NSVCD_ERROR_CANCELLED;
+  parts->centres = (float *)nsvcd__alloc_array(allocator, plan->points, 3 * sizeof(float));
+  if (!parts->centres) return NSVCD_ERROR_MEMORY;
 #ifndef NSVCD_NO_PROOF
-  if (!result && !(options && options->no_triangles)) {
-    result = nsvcd__surface_build(mesh, &parts->patches, allocator, &parts->surface);
-    if (!result) {
-      nsvcd__facets_count(&parts->surface, parts->counts);
-      parts->facets_size = nsvcd__facets_size(parts->patches.count, parts->counts);
-      if (!parts->facets_size) {
-        nsvcd__surface_free(&parts->surface, allocator);
-        result = NSVCD_ERROR_TOO_LARGE;
-      }
-    }
+  nsvcd__patches *patches = NULL;
+#ifndef NSVCD_NO_NETWORK
+  if (plan->latents) patches = &parts->patches;
+#endif
+  if (plan->triangles) result = nsvcd__parts_describe(plan, allocator, parts, patches);
+#endif
+#ifndef NSVCD_NO_NETWORK
+  if (!result && !plan->triangles) {
+    result = nsvcd__patches_build(mesh, plan->points, allocator, &parts->patches);
+    parts->count = parts->patches.count;
+    if (!result) memcpy(parts->centres, parts->patches.centres, 3 * parts->count * sizeof(float));
+  }
+  if (!result && plan->latents) {
+    parts->latents_size = nsvcd_body_size(parts->count);
+    parts->latents = nsvcd__encode_patches(&parts->patches, allocator);
+    if (!parts->latents) result = NSVCD_ERROR_MEMORY;
   }
 #endif
   if (result) nsvcd__parts_free(parts, allocator);
@@ -8852,26 +9677,33 @@ static nsvcd_result nsvcd__parts_build(const nsvcd_mesh *mesh, size_t points, co
 }
 
 // Writes the blob: (latents_size + facets_size) bytes.
-static nsvcd_result nsvcd__parts_write(const nsvcd__parts *parts, void *memory, const nsvcd_body **body) {
+static nsvcd_result nsvcd__parts_write(const nsvcd__parts *parts, const nsvcd_allocator *allocator, void *memory,
+                                       const nsvcd_body **body) {
   nsvcd_body *b = (nsvcd_body *)memory;
 #ifndef NSVCD_NO_NETWORK
   const nsvcd__patches *p = &parts->patches;
   const nsvcd_body *built;
-  const nsvcd_result result = nsvcd__body_build(p->count, p->centres, p->radii, p->area_vectors, parts->latents,
-                                                NSVCD_WEIGHTS_ID, parts->open, memory, parts->latents_size, &built);
+  nsvcd_result result = NSVCD_OK;
+  if (parts->latents_size) {
+    result = nsvcd__body_build(p->count, p->centres, p->radii, p->area_vectors, parts->latents, NSVCD_WEIGHTS_ID,
+                               parts->open, memory, parts->latents_size, &built);
+  }
   if (result) return result;
 #endif
 #ifndef NSVCD_NO_PROOF
   if (parts->facets_size) {
-    uint16_t order[NSVCD_MAX_POINTS];
-    for (size_t i = 0; i < parts->patches.count; i++) order[i] = (uint16_t)i;
-    nsvcd__body_order(parts->patches.count, parts->patches.centres, order);
+    uint16_t *order = (uint16_t *)nsvcd__alloc_array(allocator, 2 * parts->count, sizeof(uint16_t));
+    if (!order) return NSVCD_ERROR_MEMORY;
+    for (size_t i = 0; i < parts->count; i++) order[i] = (uint16_t)i;
+    nsvcd__body_order(parts->count, parts->centres, order, order + parts->count);
     const nsvcd_result facets =
-        nsvcd__facets_build(parts->mesh, &parts->surface, parts->counts, parts->patches.centres, order, parts->open,
+        nsvcd__facets_build(parts->mesh, &parts->surface, parts->counts, parts->centres, order, parts->open,
                             (char *)memory + parts->latents_size, parts->facets_size);
+    nsvcd__free(allocator, order);
     if (facets) return facets;
   }
 #endif
+  (void)allocator;
   if (parts->latents_size && parts->facets_size) {
     b->triangles = (uint32_t)parts->mesh->triangle_count;
     b->inner = (uint32_t)parts->latents_size;
@@ -8882,29 +9714,56 @@ static nsvcd_result nsvcd__parts_write(const nsvcd__parts *parts, void *memory, 
   return NSVCD_OK;
 }
 
+// How many patches, where the options do not say.
+static size_t nsvcd__points_for(const nsvcd_mesh *mesh, const nsvcd_encode_options *o, double area, int triangles) {
+  const size_t most = triangles ? NSVCD_MAX_POINTS : NSVCD_MAX_NETWORK_POINTS;
+  if (o->patch_radius > 0) {
+    // N balls of radius r cover about N r^2 / 0.45 of surface: measured, on the real meshes, for N = 32 to 512.
+    const double count = ceil(0.45 * area / ((double)o->patch_radius * (double)o->patch_radius));
+    return count >= (double)most ? most : count >= 1 ? (size_t)count : 1;
+  }
+  if (!triangles) return NSVCD_DEFAULT_NETWORK_POINTS;
+  const size_t fine = mesh->triangle_count / NSVCD_DEFAULT_TRIANGLES;
+  if (fine <= NSVCD_MAX_NETWORK_POINTS) return NSVCD_DEFAULT_POINTS;
+  return fine < NSVCD_MAX_POINTS ? fine : NSVCD_MAX_POINTS;
+}
+
+// Options with the defaults filled in. mesh: checked.
+static nsvcd_result nsvcd__plan_of(const nsvcd_mesh *mesh, const nsvcd_encode_options *options, nsvcd__plan *plan) {
+  nsvcd_encode_options none;
+  const nsvcd_encode_options *o = options ? options : &none;
+  memset(&none, 0, sizeof none);
+  memset(plan, 0, sizeof *plan);
+  plan->open = o->open;
+  plan->progress = o->progress;
+  plan->user = o->user;
+#ifndef NSVCD_NO_PROOF
+  plan->triangles = !o->no_triangles;
+#endif
+#ifndef NSVCD_NO_NETWORK
+  plan->latents = !o->no_latents;
+#endif
+  if (!plan->triangles && !plan->latents) return NSVCD_ERROR_ARGUMENT;  // nothing would be left
+  if (!nsvcd__is_finite(o->patch_radius) || o->patch_radius < 0 || o->points > NSVCD_MAX_POINTS) return NSVCD_ERROR_ARGUMENT;
+  if (!plan->triangles && o->points > NSVCD_MAX_NETWORK_POINTS) return NSVCD_ERROR_ARGUMENT;
+  const nsvcd_result checked = nsvcd__mesh_check(mesh);
+  if (checked) return checked;
+  const double area = nsvcd__mesh_area(mesh);
+  if (!(area > 0)) return NSVCD_ERROR_EMPTY;
+  plan->points = o->points ? o->points : nsvcd__points_for(mesh, o, area, plan->triangles);
+  if (plan->points > NSVCD_MAX_NETWORK_POINTS) plan->latents = 0;
+  return NSVCD_OK;
+}
+
 NSVCDDEF nsvcd_result nsvcd_encode(const nsvcd_mesh *mesh, const nsvcd_encode_options *options,
                                    const nsvcd_allocator *allocator, void *memory, size_t capacity,
                                    const nsvcd_body **body) {
   if (!body) return NSVCD_ERROR_ARGUMENT;
   if (memory && !nsvcd__is_aligned(memory)) return NSVCD_ERROR_WORKSPACE;
-  size_t points = options ? options->points : 0;
-  const float wanted = options ? options->patch_radius : 0;
-  if (points > NSVCD_MAX_POINTS || !nsvcd__is_finite(wanted) || wanted < 0) return NSVCD_ERROR_ARGUMENT;
-#ifdef NSVCD_NO_NETWORK
-  if (options && options->no_triangles) return NSVCD_ERROR_ARGUMENT;  // nothing would be left
-#endif
-  if (points == 0 && wanted > 0) {
-    const nsvcd_result checked = nsvcd__mesh_check(mesh);  // before its area is taken; nsvcd__patches_build checks too
-    if (checked) return checked;
-    // N balls of radius r cover about N r^2 / 0.45 of surface: measured, on the real meshes, for N = 32 to 512.
-    const double count = ceil(0.45 * nsvcd__mesh_area(mesh) / ((double)wanted * (double)wanted));
-    points = count >= NSVCD_MAX_POINTS ? NSVCD_MAX_POINTS : count >= 1 ? (size_t)count : 1;
-  }
-  const int latents_alone = options && options->no_triangles;
-  if (points == 0) points = latents_alone ? NSVCD_DEFAULT_NETWORK_POINTS : NSVCD_DEFAULT_POINTS;
-
+  nsvcd__plan plan;
   nsvcd__parts parts;
-  nsvcd_result result = nsvcd__parts_build(mesh, points, options, allocator, &parts);
+  nsvcd_result result = nsvcd__plan_of(mesh, options, &plan);
+  if (!result) result = nsvcd__parts_build(mesh, &plan, allocator, &parts);
   if (result) return result;
   const size_t size = parts.latents_size + parts.facets_size;
   void *to = memory ? memory : nsvcd__alloc(allocator, size);
@@ -8915,7 +9774,7 @@ NSVCDDEF nsvcd_result nsvcd_encode(const nsvcd_mesh *mesh, const nsvcd_encode_op
   } else if ((memory && capacity < size) || !nsvcd__is_aligned(to)) {
     result = NSVCD_ERROR_WORKSPACE;
   } else {
-    result = nsvcd__parts_write(&parts, to, body);
+    result = nsvcd__parts_write(&parts, allocator, to, body);
   }
   if (result && !memory) nsvcd__free(allocator, to);
   nsvcd__parts_free(&parts, allocator);
@@ -8944,9 +9803,7 @@ NSVCDDEF nsvcd_body_facts nsvcd_body_describe(const nsvcd_body *body) {
     const nsvcd__facets f = nsvcd__facets_of(triangles);
     facts.triangles = triangles->triangles;
     facts.listed = f.listed;
-    for (size_t i = 0; i < body->points; i++) {
-      facts.quantum = f.quanta[i] > facts.quantum ? f.quanta[i] : facts.quantum;
-    }
+    facts.quantum = nsvcd__widest_quantum(&f);
   }
 #endif
   return facts;

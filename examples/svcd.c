@@ -305,7 +305,7 @@ static int recall_is_known(const nsvcd_sweep_options *options) {
   float positions[9] = {0, 0, 0, 1, 0, 0, 0, 1, 0};
   uint32_t indices[3] = {0, 1, 2};
   nsvcd_mesh mesh = {positions, indices, 3, 1};
-  nsvcd_encode_options one_point = {1, 0, 0, 0};
+  nsvcd_encode_options one_point = {.points = 1};
   const nsvcd_pose pose = {{0, 0, 0}, {0, 0, 0, 1}};
   nsvcd_answer unused;
   const nsvcd_body *body;
@@ -440,7 +440,7 @@ static void print_facts(const char *path, const nsvcd_body *body) {
 
 static int encode(int argc, char **argv) {
   const char *paths[2] = {NULL, NULL};
-  nsvcd_encode_options options = {0, 0, 0, 0};
+  nsvcd_encode_options options = {.points = 0};
   int path_count = 0;
   for (int i = 0; i < argc; i++) {
     const char *value = i + 1 < argc ? argv[i + 1] : "";

@@ -523,7 +523,7 @@ static void run_proof(table *t, const problem_set *set, const size_t *all_points
   memset(&settings, 0, sizeof settings);
   settings.method = NSVCD_METHOD_PROOF;
   for (size_t i = 0; i < count; i++) {
-    const nsvcd_encode_options encode = {all_points[i], 0, 0, 0};
+    const nsvcd_encode_options encode = {.points = all_points[i]};
     run_ours(t, set, "proof", &encode, &settings, 1);
   }
 }
@@ -533,7 +533,7 @@ static void run_race(table *t, const problem_set *set) {
   static const query_setting settings[3] = {{16, 0}, {32, 0}, {64, 0}};
   static const size_t points[] = {NSVCD_DEFAULT_POINTS};
   const preparation how = {0, 0};
-  const nsvcd_encode_options encode = {NSVCD_DEFAULT_NETWORK_POINTS, 0, 0, 1};
+  const nsvcd_encode_options encode = {.points = NSVCD_DEFAULT_NETWORK_POINTS, .no_triangles = 1};
   nsvcd_sweep_options network;
   memset(&network, 0, sizeof network);
   run_discrete(t, set, &full_mesh_method, &how, "", settings, 3);
@@ -563,7 +563,7 @@ static void run_all_neural(table *t, const problem_set *set, int quick) {
   }
   for (size_t i = 0; i < sizeof all_points / sizeof all_points[0]; i++) {
     if (set->extreme && all_points[i] != 128 && all_points[i] != 512) continue;
-    const nsvcd_encode_options encode = {all_points[i], 0, 0, 1};
+    const nsvcd_encode_options encode = {.points = all_points[i], .no_triangles = 1};
     run_ours(t, set, "NeuralSVCD", &encode, settings, count);
   }
 }
@@ -603,7 +603,7 @@ static void run_neural_cut(table *t, const problem_set *set) {
     const problem *p = get_problem(set, i, &f);
     float low[3], high[3];
     const nsvcd_body *moving = NULL, *fixed = NULL;
-    nsvcd_encode_options whole = {0, 0, 0, 1}, open = {0, 0, 1, 1};
+    nsvcd_encode_options whole = {.no_triangles = 1}, open = {.open = 1, .no_triangles = 1};
     nsvcd_mesh part;
     nsvcd_answer a;
     memset(&a, 0, sizeof a);

@@ -230,7 +230,7 @@ static void run_episode(int task, uint64_t seed, int only, float weight, outcome
   task_scene scene;
   plan_spheres spheres;
   const nsvcd_body *bodies[TASK_MAX_BODIES];
-  const nsvcd_encode_options encode = {POINTS, 0, 0, 0};
+  const nsvcd_encode_options encode = {.points = POINTS};
   if (!episodes[task](&scene, seed))
     fprintf(stderr, "plan_bench: no episode %llu\n", (unsigned long long)seed), exit(2);
   for (int b = 0; b < scene.body_count; b++) {

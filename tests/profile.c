@@ -81,7 +81,7 @@ static int compare_doubles(const void *a, const void *b) {
 static const nsvcd_body *encode(const char *from, const char *path, size_t points, void *memory) {
   char full[4096];
   const char *slash = strrchr(from, '/');
-  nsvcd_encode_options options = {points, 0, 0, 1};
+  nsvcd_encode_options options = {.points = points, .no_triangles = 1};
   nsvcd_mesh mesh;
   const nsvcd_body *body = NULL;
   snprintf(full, sizeof full, "%.*s%s", slash ? (int)(slash - from) + 1 : 0, from, path);
@@ -246,7 +246,7 @@ static void profile_proof(const problem_file *file, size_t points) {
   size_t size = 1;
   memset(sums, 0, sizeof sums);
   for (size_t i = 0; i < file->mesh_count; i++) {
-    const nsvcd_encode_options options = {points, 0, 0, 0};
+    const nsvcd_encode_options options = {.points = points};
     char path[4096];
     nsvcd_mesh mesh;
     snprintf(path, sizeof path, "%.*s%s", slash ? (int)(slash - file->path) + 1 : 0, file->path, file->meshes[i].path);
@@ -307,7 +307,7 @@ static void time_preparation(void) {
          megabytes / parse);
   for (size_t points = 128; points <= 512; points *= 4) {
     void *memory = allocate(nsvcd_body_size(points));
-    nsvcd_encode_options options = {points, 0, 0, 1};
+    nsvcd_encode_options options = {.points = points, .no_triangles = 1};
     double least = 1e9;
     for (int run = 0; run < 5; run++) {
       const double start = seconds();

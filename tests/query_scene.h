@@ -10,7 +10,7 @@
 #include <stdlib.h>
 
 // Bodies for the network alone.
-static const nsvcd_encode_options query_latents = {0, 0, 0, 1};
+static const nsvcd_encode_options query_latents = {.no_triangles = 1};
 
 #define QUERY_ALIGN NSVCD_ALIGNMENT
 #define QUERY_POSES 17
@@ -71,7 +71,7 @@ static nsvcd_mesh query_box(double x, double y, double z) {
 
 // Encodes with `points` (0: default) into fresh memory.
 static const nsvcd_body *query_encode(const nsvcd_mesh *mesh, size_t points, query_memory *memory) {
-  nsvcd_encode_options options = {points, 0, 0, 1};
+  nsvcd_encode_options options = {.points = points, .no_triangles = 1};
   size_t size = nsvcd_body_size(points ? points : NSVCD_DEFAULT_NETWORK_POINTS);
   const nsvcd_body *body = NULL;
   *memory = query_reserve(size);

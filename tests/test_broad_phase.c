@@ -29,8 +29,8 @@ static blob blob_a_memory, blob_b_memory;
 static char *aligned(blob *b) { return b->bytes + (16 - (uintptr_t)b->bytes % 16) % 16; }
 static const size_t blob_capacity = BLOB - 16;
 
-static float centres[3 * NSVCD_MAX_POINTS], radii[NSVCD_MAX_POINTS], areas[3 * NSVCD_MAX_POINTS];
-static int8_t latents[NSVCD_MAX_POINTS * NSVCD__LATENT];
+static float centres[3 * NSVCD_MAX_NETWORK_POINTS], radii[NSVCD_MAX_NETWORK_POINTS], areas[3 * NSVCD_MAX_NETWORK_POINTS];
+static int8_t latents[NSVCD_MAX_NETWORK_POINTS * NSVCD__LATENT];
 
 static const nsvcd_body *build(size_t points, blob *memory) {
   const nsvcd_body *body = NULL;
@@ -75,7 +75,7 @@ static size_t body_bytes(const nsvcd_body *body) { return nsvcd_body_size(body->
 static void body_round_trip(void) {
   CHECK_EQ(sizeof(struct nsvcd_body), 64);
   CHECK_EQ(nsvcd_body_size(0), 0);
-  CHECK_EQ(nsvcd_body_size(NSVCD_MAX_POINTS + 1), 0);
+  CHECK_EQ(nsvcd_body_size(NSVCD_MAX_NETWORK_POINTS + 1), 0);
   CHECK_LE(nsvcd_body_size(512), 65535);
   for (size_t points = 1; points <= 512; points += points < 20 ? 1 : 41) {
     const nsvcd_body *body = random_body(points, 1, 0.3, &blob_a_memory), *loaded = NULL;
@@ -96,12 +96,12 @@ static void body_round_trip(void) {
 
 // The order visits every patch once, and neighbours end up together: groups are much smaller than the body.
 static void body_order(void) {
-  uint16_t order[NSVCD_MAX_POINTS];
+  uint16_t order[NSVCD_MAX_NETWORK_POINTS], spare[NSVCD_MAX_NETWORK_POINTS];
   for (size_t points = 1; points <= 512; points += 37) {
     const nsvcd_body *body = random_body(points, 1, 0, &blob_a_memory);
-    int seen[NSVCD_MAX_POINTS] = {0};
+    int seen[NSVCD_MAX_NETWORK_POINTS] = {0};
     for (size_t i = 0; i < points; i++) order[i] = (uint16_t)i;
-    nsvcd__body_order(points, centres, order);
+    nsvcd__body_order(points, centres, order, spare);
     for (size_t i = 0; i < points; i++) seen[order[i]]++;
     for (size_t i = 0; i < points; i++) CHECK_EQ(seen[i], 1);
     size_t groups = nsvcd__body_groups(body);
@@ -452,7 +452,7 @@ typedef struct tally {
 // One motion: candidates against spheres sampled densely in time.
 static void try_motion(const nsvcd_body *moving, const nsvcd_body *fixed, size_t count, const nsvcd_pose *fixed_pose,
                        size_t samples, tally *sum) {
-  static unsigned char pair_met[NSVCD_MAX_POINTS][NSVCD_MAX_POINTS];
+  static unsigned char pair_met[NSVCD_MAX_NETWORK_POINTS][NSVCD_MAX_NETWORK_POINTS];
   nsvcd__motion motion;
   CHECK_EQ(motion_init(poses, count, fixed_pose, &motion), NSVCD_OK);
   nsvcd__candidates all, best;

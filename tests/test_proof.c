@@ -150,7 +150,7 @@ static void proof_shape(int kind, uint64_t seed, shapes_mesh *mesh) {
 static proof_body proof_make(int kind, uint64_t seed, size_t points, double scale) {
   shapes_mesh shape;
   nsvcd_result result;
-  const nsvcd_encode_options options = {points, 0, kind == SHEET || kind == TRIANGLE, 0};
+  const nsvcd_encode_options options = {.points = points, .open = kind == SHEET || kind == TRIANGLE};
   proof_shape(kind, seed, &shape);
   const proof_body out = proof_encode(&shape, scale, &options, &result);
   shapes_free(&shape);
@@ -1577,7 +1577,7 @@ static void proof_place_within(attack *a, shapes_rng *rng, double gap, int movin
 }
 
 static proof_body proof_of_shape(shapes_mesh *shape, double scale, size_t points) {
-  const nsvcd_encode_options options = {points, 0, 0, 0};
+  const nsvcd_encode_options options = {.points = points};
   nsvcd_result result;
   const proof_body out = proof_encode(shape, scale, &options, &result);
   CHECK_EQ(result, NSVCD_OK);
@@ -1838,7 +1838,7 @@ static void proof_refuses(void) {
   options.method = (nsvcd_method)-1;
   CHECK_EQ(proof_ask_with(&a, &options), NSVCD_ERROR_ARGUMENT);
 
-  const nsvcd_encode_options bare = {8, 0, 0, 1};
+  const nsvcd_encode_options bare = {.points = 8, .no_triangles = 1};
   proof_shape(BOX, 1, &shape);
   float positions[3 * 200];
   nsvcd_mesh mesh = {positions, shape.indices, shape.vertices, shape.triangles};
@@ -2347,7 +2347,7 @@ static void proof_certificates_hold_at_every_scale(void) {
 // stays above.
 static nsvcd_status proof_swing(double scale, double angle, double depth, size_t count) {
   static const double down[3][3] = {{0, 0, -0.25}, {0.02, 0, 0.2}, {-0.02, 0.02, 0.2}};
-  const nsvcd_encode_options options = {1, 0, 1, 0};
+  const nsvcd_encode_options options = {.points = 1, .open = 1};
   const double axis[3] = {0, 1, 0};
   const double still[4] = {0, 0, 0, 1};
   shapes_mesh shape;

@@ -86,13 +86,13 @@ static void query_a_blob_survives_a_file(void) {
 static void query_bodies_are_small(void) {
   nsvcd_mesh mesh = query_solid(3, 0.3);
   query_memory memory;
-  const nsvcd_body *body = query_encode(&mesh, NSVCD_MAX_POINTS, &memory);
+  const nsvcd_body *body = query_encode(&mesh, NSVCD_MAX_NETWORK_POINTS, &memory);
   nsvcd_body_facts facts = nsvcd_body_describe(body);
-  CHECK_EQ(facts.points, NSVCD_MAX_POINTS);
+  CHECK_EQ(facts.points, NSVCD_MAX_NETWORK_POINTS);
   CHECK_LE(facts.size, 65535);
-  CHECK_LE(nsvcd_body_size(NSVCD_MAX_POINTS), 65535);
+  CHECK_LE(nsvcd_body_size(NSVCD_MAX_NETWORK_POINTS), 65535);
   CHECK_EQ(nsvcd_body_size(0), 0);
-  CHECK_EQ(nsvcd_body_size(NSVCD_MAX_POINTS + 1), 0);
+  CHECK_EQ(nsvcd_body_size(NSVCD_MAX_NETWORK_POINTS + 1), 0);
   query_release(&memory);
   nsvcd_mesh_free(&mesh, NULL);
 }
@@ -127,11 +127,11 @@ static void query_facts_contain_the_mesh(void) {
 
 static void query_patch_radius_is_honoured(void) {
   nsvcd_mesh mesh = query_solid(7, 0.3);
-  size_t fewer = NSVCD_MAX_POINTS + 1;
+  size_t fewer = NSVCD_MAX_NETWORK_POINTS + 1;
   const float wanted[3] = {0.025f, 0.04f, 0.07f};
   for (int i = 0; i < 3; i++) {
-    nsvcd_encode_options options = {0, wanted[i], 0, 1};
-    size_t size = nsvcd_body_size(NSVCD_MAX_POINTS);
+    nsvcd_encode_options options = {.patch_radius = wanted[i], .no_triangles = 1};
+    size_t size = nsvcd_body_size(NSVCD_MAX_NETWORK_POINTS);
     query_memory memory = query_reserve(size);
     const nsvcd_body *body = NULL;
     CHECK_EQ(nsvcd_encode(&mesh, &options, NULL, memory.at, size, &body), NSVCD_OK);
@@ -285,7 +285,7 @@ static void query_inside_an_open_body(void) {
   nsvcd_mesh small = query_box(0.02, 0.02, 0.02), large = query_box(0.4, 0.4, 0.4);
   query_memory memory[2] = {query_reserve(nsvcd_body_size(512)), query_reserve(nsvcd_body_size(512))};
   const nsvcd_body *inner = NULL, *outer = NULL, *loaded = NULL;
-  nsvcd_encode_options open = {512, 0, 1, 1};
+  nsvcd_encode_options open = {.points = 512, .open = 1, .no_triangles = 1};
   CHECK_EQ(nsvcd_encode(&small, &open, NULL, memory[0].at, nsvcd_body_size(512), &inner), NSVCD_OK);
   CHECK_EQ(nsvcd_encode(&large, &open, NULL, memory[1].at, nsvcd_body_size(512), &outer), NSVCD_OK);
   CHECK_EQ(nsvcd_body_load(memory[1].at, nsvcd_body_size(512), &loaded), NSVCD_OK);
@@ -318,11 +318,11 @@ static void query_sizes_at_the_limits(void) {
   for (int i = 0; i < 4; i++) {
     double a = sizes[i];
     nsvcd_mesh cube = query_box(a, a, a);
-    query_memory memory[2] = {query_reserve(nsvcd_body_size(NSVCD_MAX_POINTS)),
-                              query_reserve(nsvcd_body_size(NSVCD_MAX_POINTS))};
+    query_memory memory[2] = {query_reserve(nsvcd_body_size(NSVCD_MAX_NETWORK_POINTS)),
+                              query_reserve(nsvcd_body_size(NSVCD_MAX_NETWORK_POINTS))};
     const nsvcd_body *body = NULL, *same = NULL;
-    CHECK_EQ(nsvcd_encode(&cube, &query_latents, NULL, memory[0].at, nsvcd_body_size(NSVCD_MAX_POINTS), &body), NSVCD_OK);
-    CHECK_EQ(nsvcd_body_scale(body, 1, memory[1].at, nsvcd_body_size(NSVCD_MAX_POINTS), &same), NSVCD_OK);
+    CHECK_EQ(nsvcd_encode(&cube, &query_latents, NULL, memory[0].at, nsvcd_body_size(NSVCD_MAX_NETWORK_POINTS), &body), NSVCD_OK);
+    CHECK_EQ(nsvcd_body_scale(body, 1, memory[1].at, nsvcd_body_size(NSVCD_MAX_NETWORK_POINTS), &same), NSVCD_OK);
     nsvcd_pose through[2] = {query_pose(-0.9 * a, 0, 0), query_pose(0.9 * a, 0, 0)}, origin = query_pose(0, 0, 0);
     CHECK_EQ(query_ask(body, through, 2, same, &origin, NULL).collides, 1);
     for (int k = 0; k < 2; k++) through[k].position[1] = (float)(1.1 * a);  // a gap of a tenth
@@ -331,9 +331,9 @@ static void query_sizes_at_the_limits(void) {
     nsvcd_mesh_free(&cube, NULL);
   }
   nsvcd_mesh speck = query_box(1e-13, 1e-13, 1e-13);
-  query_memory memory = query_reserve(nsvcd_body_size(NSVCD_MAX_POINTS));
+  query_memory memory = query_reserve(nsvcd_body_size(NSVCD_MAX_NETWORK_POINTS));
   const nsvcd_body *body = NULL;
-  CHECK_EQ(nsvcd_encode(&speck, &query_latents, NULL, memory.at, nsvcd_body_size(NSVCD_MAX_POINTS), &body), NSVCD_ERROR_NUMBER);
+  CHECK_EQ(nsvcd_encode(&speck, &query_latents, NULL, memory.at, nsvcd_body_size(NSVCD_MAX_NETWORK_POINTS), &body), NSVCD_ERROR_NUMBER);
   CHECK(body == NULL);
   query_release(&memory);
   nsvcd_mesh_free(&speck, NULL);
@@ -668,7 +668,7 @@ static void query_encode_refuses(const nsvcd_mesh *mesh, const nsvcd_encode_opti
 static void query_encode_allocates(void) {
   nsvcd_mesh mesh = query_box(0.1, 0.2, 0.3);
   for (int without = 0; without < 2; without++) {
-    const nsvcd_encode_options options = {64, 0, 0, without};
+    const nsvcd_encode_options options = {.points = 64, .no_triangles = without};
     const nsvcd_body *body = NULL;
     const nsvcd_body *same = NULL;
     CHECK_EQ(nsvcd_encode(&mesh, &options, NULL, NULL, 0, &body), NSVCD_OK);
@@ -687,9 +687,9 @@ static void query_encode_allocates(void) {
 static void query_encode_refuses_bad_input(void) {
   nsvcd_mesh mesh = query_box(0.1, 0.1, 0.1), bad = mesh;
   size_t size = nsvcd_body_size(64);
-  query_memory memory = query_reserve(nsvcd_body_size(NSVCD_MAX_POINTS) + QUERY_ALIGN);
-  nsvcd_encode_options options = {64, 0, 0, 1}, too_many = {NSVCD_MAX_POINTS + 1, 0, 0, 1}, negative = {0, -1, 0, 1},
-                       nan = {0, NAN, 0, 1};
+  query_memory memory = query_reserve(nsvcd_body_size(NSVCD_MAX_NETWORK_POINTS) + QUERY_ALIGN);
+  nsvcd_encode_options options = {.points = 64, .no_triangles = 1}, too_many = {.points = NSVCD_MAX_NETWORK_POINTS + 1, .no_triangles = 1}, negative = {.patch_radius = -1, .no_triangles = 1},
+                       nan = {.patch_radius = NAN, .no_triangles = 1};
   query_encode_refuses(NULL, &options, memory.at, size, NSVCD_ERROR_ARGUMENT);
   query_encode_refuses(&mesh, &too_many, memory.at, size, NSVCD_ERROR_ARGUMENT);
   query_encode_refuses(&mesh, &negative, memory.at, size, NSVCD_ERROR_ARGUMENT);
@@ -748,7 +748,7 @@ static void query_heap_free(void *memory, void *user) {
 
 static void query_encode_survives_every_failed_allocation(void) {
   nsvcd_mesh mesh = query_solid(5, 0.3);
-  nsvcd_encode_options options = {32, 0, 0, 1};
+  nsvcd_encode_options options = {.points = 32, .no_triangles = 1};
   size_t size = nsvcd_body_size(32);
   query_memory memory = query_reserve(size), undisturbed = query_reserve(size);
   const nsvcd_body *expected = NULL;
