@@ -200,7 +200,7 @@ typedef struct nsvcd_body nsvcd_body;
 
 #define NSVCD_ALIGNMENT 8
 #define NSVCD_DEFAULT_POINTS 192
-#define NSVCD_DEFAULT_TRIANGLES 64  // per patch of a large mesh
+#define NSVCD_DEFAULT_TRIANGLES 12  // per patch of a large mesh
 #define NSVCD_DEFAULT_NETWORK_POINTS 256  // of bodies for the network alone, which needs finer patches than a proof
 #define NSVCD_MAX_POINTS 65536     // representative points (patches) of a body,
 #define NSVCD_MAX_NETWORK_POINTS 512  // and of one with latents
@@ -3850,7 +3850,10 @@ static void nsvcd__turn_latent(const int8_t *z, float (*turn)[NSVCD__LANES], siz
 // Each part ends in zeros up to a multiple of NSVCD_ALIGNMENT.
 
 #define NSVCD__GROUP NSVCD__LANES      // patches per group, and groups or the like per sphere above
-#define NSVCD__TILE 32                 // groups of a body that are searched at once; with more there are levels above
+#ifndef NSVCD__TILE                    // groups of a body that are searched at once; with more there are levels above
+#define NSVCD__TILE 32                 // (fewer for a test, in which small bodies then make several tiles)
+#endif
+#define NSVCD__TILE_SLOTS 32
 #define NSVCD__LEVELS 3                // of spheres above the patches, at most
 #define NSVCD__MAX_LENGTH 1.6e7f       // metres, over every radius and distance that coordinates within bounds can give
 #define NSVCD__BODY_MAGIC 0x4256534eu  // "NSVB"
@@ -4010,7 +4013,7 @@ static void nsvcd__body_order(size_t count, const float *centres, uint16_t *orde
   }
   nsvcd__sort_along(count, centres, axis, order, spare);
   size_t unit = NSVCD__GROUP;
-  while (NSVCD__TILE * unit < count) unit *= NSVCD__GROUP;
+  while (2 * NSVCD__GROUP * unit < count) unit *= NSVCD__GROUP;
   const size_t left = nsvcd__round_up(count / 2, unit);
   nsvcd__body_order(left, centres, order, spare);
   nsvcd__body_order(count - left, centres, order + left, spare);
@@ -5309,8 +5312,8 @@ typedef struct nsvcd__boxes {
 // Groups that are searched together: their numbers and spheres. Lanes without a group have r = NSVCD__NOWHERE.
 typedef struct nsvcd__tile {
   size_t count;
-  uint16_t groups[NSVCD__TILE];
-  float spheres[4][NSVCD__TILE];  // x y z r
+  uint16_t groups[NSVCD__TILE_SLOTS];
+  float spheres[4][NSVCD__TILE_SLOTS];  // x y z r
 } nsvcd__tile;
 
 typedef struct nsvcd__workspace {
@@ -5327,9 +5330,9 @@ typedef struct nsvcd__workspace {
   nsvcd__walk moving_walk, fixed_walk;                    // through the groups that come near; where a body is large
   float near_low[3], near_high[3];                        // a box about the way of the moving tile
   nsvcd__tile moving_tile, fixed_tile;                    // the groups that are searched now; below, places in these
-  uint64_t nearby[NSVCD__TILE][NSVCD__TILE];              // moving groups, fixed groups: segments in which they meet
+  uint64_t nearby[NSVCD__TILE_SLOTS][NSVCD__TILE_SLOTS];  // moving groups, fixed groups: segments in which they meet
   uint64_t wanted;                                        // segments to search; all, but where contacts are sought in order
-  uint16_t order[NSVCD__TILE];                            // moving groups that are near any, in the order of the search
+  uint16_t order[NSVCD__TILE_SLOTS];                      // moving groups that are near any, in the order of the search
   size_t steps, step;                                     // how many they are, and which of them is being searched
   uint32_t waiting;                                       // fixed groups that it has yet to be searched against
   uint64_t posed;                                         // segments for which members[] is filled
@@ -6046,7 +6049,7 @@ static size_t nsvcd__group_against_tile(nsvcd__workspace *work, const nsvcd_body
 // Puts the steps of the search of both tiles in order. wanted: segments in which the bodies' spheres meet.
 static void nsvcd__search_tile(nsvcd__workspace *work, const nsvcd_body *moving, const nsvcd_body *fixed,
                                uint64_t wanted) {
-  size_t meetings[NSVCD__TILE];
+  size_t meetings[NSVCD__TILE_SLOTS];
   nsvcd__boxes boxes;
   work->steps = 0;
   work->step = 0;
@@ -6078,7 +6081,7 @@ static void nsvcd__chords_of_sphere_everywhere(nsvcd__workspace *work, const flo
 // Fills a tile with the next groups that a walk finds.
 static void nsvcd__tile_fill(nsvcd__tile *tile, nsvcd__walk *walk) {
   size_t g;
-  for (size_t l = 0; l < NSVCD__TILE; l++) {
+  for (size_t l = 0; l < NSVCD__TILE_SLOTS; l++) {
     for (size_t k = 0; k < 4; k++) tile->spheres[k][l] = k < 3 ? 0 : NSVCD__NOWHERE;
   }
   tile->count = 0;
@@ -6161,29 +6164,30 @@ static void nsvcd__box_of_way(nsvcd__workspace *work) {
   }
 }
 
-// Finds the next moving tile, and starts the walk through the fixed body's groups that come near it. 0 if there is none.
-static int nsvcd__search_moving_tile(nsvcd__workspace *work, const nsvcd_body *moving, const nsvcd_body *fixed) {
+// Finds the next moving tile, an empty one if there is none, and starts the walk through the fixed body's groups that come
+// near it.
+static void nsvcd__search_moving_tile(nsvcd__workspace *work, const nsvcd_body *moving, const nsvcd_body *fixed) {
   nsvcd__tile_fill(&work->moving_tile, &work->moving_walk);
-  if (work->moving_tile.count == 0) return 0;
+  if (work->moving_tile.count == 0) return;
   nsvcd__chords_of_tile(work, moving);
   nsvcd__box_of_way(work);
   nsvcd__walk_begin(&work->fixed_walk, fixed, nsvcd__is_approached, work);
-  return 1;
 }
 
 // Goes on to the next tile that has a step. 0 if there is none.
 static int nsvcd__search_next_tile(nsvcd__workspace *work, const nsvcd_body *moving, const nsvcd_body *fixed) {
   if (!nsvcd__is_large(moving) && !nsvcd__is_large(fixed)) return 0;
-  for (;;) {
+  while (work->moving_tile.count > 0) {
     nsvcd__chords_of_tile(work, moving);
     nsvcd__tile_fill(&work->fixed_tile, &work->fixed_walk);
     if (work->fixed_tile.count == 0) {
-      if (!nsvcd__search_moving_tile(work, moving, fixed)) return 0;
+      nsvcd__search_moving_tile(work, moving, fixed);
       continue;
     }
     nsvcd__search_tile(work, moving, fixed, work->near_segments);
     if (work->steps > 0) return 1;
   }
+  return 0;
 }
 
 // Starts the search of a motion that has been cut. Returns 0 if the groups' spheres never meet: then there is no step
@@ -6202,10 +6206,13 @@ static int nsvcd__search_begin(const nsvcd_body *moving, const nsvcd_body *fixed
     if (wanted) nsvcd__search_tile(work, moving, fixed, wanted);
     return work->steps > 0;
   }
-  work->fixed_walk.body = fixed;
+  work->moving_tile.count = 0;
+  if (!wanted) return 0;
+  work->fixed_walk.body = fixed;  // the filters below ask for them
   work->moving_walk.body = moving;
   nsvcd__walk_begin(&work->moving_walk, moving, nsvcd__is_large(moving) ? nsvcd__comes_near : nsvcd__exists, work);
-  return wanted && nsvcd__search_moving_tile(work, moving, fixed) && nsvcd__search_next_tile(work, moving, fixed);
+  nsvcd__search_moving_tile(work, moving, fixed);
+  return nsvcd__search_next_tile(work, moving, fixed);
 }
 
 // Fills members[] with what is missing of the segments `wanted`.
@@ -7702,9 +7709,11 @@ static nsvcd__f3 nsvcd__greatest_of_lanes(float (*lanes)[NSVCD__LANES]) {
                       -nsvcd__v_least(nsvcd__v_negate(nsvcd__v_load(lanes[2]))));
 }
 
-// Loads up to NSVCD__WINDOW blocks of resting patch j, from listing `first` on, and what they extend to.
+// Loads up to NSVCD__WINDOW blocks of resting patch j, from listing `first` on, and what they extend to. The same patch is
+// often asked for again.
 static void nsvcd__window_load(nsvcd__proof *p, size_t j, size_t first) {
   const size_t end = p->fixed.first_triangle[j + 1];
+  if (p->window > 0 && p->fixed_blocks[0].first == first) return;
   p->window = 0;
   for (size_t n = first; n < end && p->window < NSVCD__WINDOW; n += NSVCD__LANES) {
     nsvcd__block *block = &p->fixed_blocks[p->window];
@@ -8367,6 +8376,7 @@ static uint32_t nsvcd__lanes_on_ray(nsvcd__block *block, const nsvcd__ray *ray, 
 // counts once, whatever patches list it, or parts of it.
 static int nsvcd__crossings(nsvcd__proof *p, const nsvcd__facets *f, const nsvcd__ray *ray, int *unclear) {
   nsvcd__block *block = &p->fixed_blocks[0];
+  p->window = 0;
   const float remote = (float)nsvcd__d3_length(ray->from) + f->body->extent;
   const float rounding = 0.5f * NSVCD__ROUNDING * remote * f->body->extent;
   const nsvcd__ray_of of = {f->body, ray};
@@ -8424,6 +8434,7 @@ static int nsvcd__patch_is_near(nsvcd__proof *p, const nsvcd__facets *f, size_t 
   const nsvcd__d3 point[3] = {place, place, place};
   const nsvcd__box here = {nsvcd__f3_round(place), nsvcd__f3_round(place)};
   nsvcd__block *block = &p->fixed_blocks[0];
+  p->window = 0;
   const double limit = 2 * (double)f->quanta[i] + tolerance;
   const size_t end = f->first_triangle[i + 1];
   for (size_t n = f->first_triangle[i]; n < end; n += NSVCD__LANES) {
@@ -8846,6 +8857,7 @@ static void nsvcd__proof_restart(nsvcd__proof *p) {
   p->arc.ticks = 0;
   p->in_group = p->in_pair = 0;
   p->misses = 0;
+  p->window = 0;
   p->parting = nsvcd__d3_of(0, 0, 0);
   p->next_placed = 0;
   for (size_t n = 0; n < NSVCD__PLACED; n++) p->placed[n].ticks = 0;
@@ -8865,7 +8877,7 @@ static void nsvcd__gather_contacts(nsvcd__proof *p, nsvcd__workspace *work) {
   nsvcd__cut_segments(p->motion, p->lengths, nsvcd__clearance_of(p), work);
   nsvcd__search_begin(p->moving.body, p->fixed.body, work);
   for (int more = 1; more && p->touch_count < NSVCD__TOUCHES && p->work <= p->limit;) {
-    more = nsvcd__collect(p, work);
+    more = nsvcd__collect(p, work) || nsvcd__search_next_tile(work, p->moving.body, p->fixed.body);
     for (size_t n = 0; n < p->fresh_count && p->touch_count < NSVCD__TOUCHES; n++) {
       const nsvcd__item *item = &p->fresh[n];
       if (p->plane && nsvcd__held_again(p, work, item)) continue;

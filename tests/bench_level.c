@@ -121,7 +121,7 @@ static oracle_pose as_stored(const nsvcd_pose *from) {
 // The least distance of a motion from the level, stopping early.
 static double gap_of(const solid *body, const solid *level, const oracle_pose *poses) {
   const oracle_pose origin = {{0, 0, 0}, {0, 0, 0, 1}};
-  oracle_options options = {1e-5, 0, 0, 1};
+  oracle_options options = {1e-5, 0.1, 0, 1};
   return oracle_sweep(&body->oracle, poses, 2, &level->oracle, &origin, &options).distance;
 }
 
@@ -146,7 +146,7 @@ static int draw_motion(shapes_rng *rng, int set, const solid *body, const solid 
     poses[0].position[k] = place + out * t->normal[k];
     poses[1].position[k] = poses[0].position[k] + length * direction[k];
   }
-  if (poses[0].position[2] < -0.5) return 0;  // below the ground
+  if (!(poses[0].position[2] > -0.5)) return 0;  // below the ground, or by a triangle without a normal
   if (set != SLIDE) return 1;
   // Let down until it slides at the gap that is wanted, by the oracle.
   const double wanted = 1e-4 * pow(10, shapes_uniform(rng, 0.3, 2));
@@ -223,7 +223,7 @@ static size_t run_set(int set, size_t motions, const solid *bodies, const solid 
     const nsvcd_body *piece = local_piece(level, body, stored);
     if (!piece) continue;
     const oracle_pose origin = {{0, 0, 0}, {0, 0, 0, 1}};
-    const oracle_options options = {1e-5, 0, 0, 0};
+    const oracle_options options = {2e-5, 1e-3, 0, 0};
     const oracle_result label = oracle_sweep(&body->oracle, poses, 2, &level->oracle, &origin, &options);
     nsvcd_question question;
     nsvcd_answer whole, local;
@@ -271,6 +271,7 @@ int main(int argc, char **argv) {
   memset(&options, 0, sizeof options);
   options.no_latents = 1;
   if (argc > 3) options.points = strtoul(argv[3], NULL, 10);
+  setvbuf(stdout, NULL, _IOLBF, 0);
   make_bodies(bodies);
   level_make(&shape, SIDE, triangles, 1);
   solid_init(&level, &shape, 0);
