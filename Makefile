@@ -26,7 +26,7 @@ ifeq ($(BENCH),quick)
 COUNT ?= 200
 endif
 
-.PHONY: bench-asks race mutants bench-plan preview profile instructions sizes bench check-extremes all demo test assets problems accuracy weights format clean help check-header check-examples check-problems check-gradient check-motions
+.PHONY: bench-asks bench-level race mutants bench-plan preview profile instructions sizes bench check-extremes all demo test assets problems accuracy weights format clean help check-header check-tiles check-examples check-problems check-gradient check-motions
 .DELETE_ON_ERROR:
 
 PLANNERS = build/dish_insertion build/bimanual_insertion build/mining_site
@@ -69,12 +69,12 @@ assets: build/make_assets  ## writes examples/assets/*.obj, which are in the rep
 
 # ------------------------------------------------------------------------------------------------------------- tests
 
-TESTS = main test_mesh test_surface test_proof test_network test_broad_phase test_oracle test_query test_gradient test_cost test_tasks test_plan_spheres test_plan
+TESTS = main test_mesh test_surface test_proof test_network test_broad_phase test_oracle test_query test_level test_gradient test_cost test_tasks test_plan_spheres test_plan
 TEST_OBJECTS = $(TESTS:%=build/%.o)
 # Each test file holds its own copy of the header, and uses only a part of its private functions.
 TEST_WARNINGS = -Wall -Wextra -Werror -Wno-unused-function
 
-build/%.o: tests/%.c tests/check.h tests/ask.h tests/oracle.h tests/query_scene.h tests/proof_scene.h tests/gradient_reference.h examples/shapes.h examples/tasks.h tests/plan_spheres.h tests/bench_spheres.h tests/bench_mesh.h tests/method.h $(wildcard tests/data/*.h) $(LIBRARY) | build
+build/%.o: tests/%.c tests/check.h tests/ask.h tests/oracle.h tests/query_scene.h tests/proof_scene.h tests/gradient_reference.h examples/shapes.h examples/tasks.h tests/plan_spheres.h tests/bench_spheres.h tests/bench_mesh.h tests/method.h tests/level_scene.h examples/level.h $(wildcard tests/data/*.h) $(LIBRARY) | build
 	$(CC) $(CFLAGS) -pthread -std=c99 $(TEST_WARNINGS) $(CCD_CFLAGS) -c -o $@ $<
 build/tests: $(TEST_OBJECTS)
 	$(CC) $(CFLAGS) -pthread -o $@ $(TEST_OBJECTS) $(CCD_LIBS) -lm
@@ -96,6 +96,11 @@ check-gradient: $(GRADIENT_SWITCHES:%=build/gradient_%)
 # The tests of the proof, alone; PROOF_MANY=10 in the environment: 10^6 crossings.
 build/test_proof: tests/test_proof.c tests/proof_scene.h tests/check.h tests/oracle.h examples/shapes.h $(LIBRARY) | build
 	$(CC) $(CFLAGS) -std=c99 $(TEST_WARNINGS) -DTEST_ALONE -o $@ $< -lm
+# The same, with tiles of two groups: bodies of more than 32 patches are searched tile by tile.
+build/test_tiles: tests/test_proof.c tests/proof_scene.h tests/check.h tests/oracle.h examples/shapes.h $(LIBRARY) | build
+	$(CC) $(CFLAGS) -std=c99 $(TEST_WARNINGS) -DNSVCD__TILE=2 -DTEST_ALONE -o $@ $< -lm
+check-tiles: build/test_tiles
+	@build/test_tiles >build/test_tiles.txt || { cat build/test_tiles.txt; exit 1; }; echo build/test_tiles; tail -1 build/test_tiles.txt
 mutants:  ## the header with one mistake at a time: the tests of the proof must catch each; minutes
 	CC="$(CC)" tests/mutants.sh
 
@@ -119,7 +124,7 @@ check-motions: build/check_motions build/game build/problems build/svcd  ## firs
 check-extremes: build/problems build/svcd  # tiny, huge, far, thin, spinning ...
 	tests/extremes.sh
 
-test: build/tests check-header check-gradient check-examples check-motions check-problems check-extremes  ## everything; the last line is `N passed, N failed`
+test: build/tests check-header check-gradient check-examples check-tiles check-motions check-problems check-extremes  ## everything; the last line is `N passed, N failed`
 	build/tests
 
 # ---------------------------------------------------------------------------------------------------------- accuracy
@@ -216,6 +221,11 @@ space := $(subst x,,x x)
 
 build/bench_asks: tests/bench_asks.c examples/problem_file.h $(LIBRARY) | build
 	$(CC) $(ALL_CFLAGS) -Wno-unused-function -o $@ tests/bench_asks.c -lm
+# A level as one body, against its local pieces; MOTIONS of each set.
+build/bench_level: tests/bench_level.c tests/level_scene.h examples/level.h examples/shapes.h tests/oracle.h $(LIBRARY) | build
+	$(CC) $(ALL_CFLAGS) -Wno-unused-function -o $@ tests/bench_level.c -lm
+bench-level: build/bench_level  ## a level of 20 m as one body: encoding, memory, and motions of a frame
+	for n in 20000 60000 200000 1000000; do build/bench_level $$n $(or $(LEVEL_MOTIONS),200) || exit 1; done
 bench-asks: build/bench_asks build/game $(DATA)/standard.txt $(DATA)/hollow.txt $(DATA)/rest.txt  ## what first contacts, clearances and skins cost
 	@mkdir -p build/motions
 	build/game --frames 300 --problems build/motions

@@ -531,13 +531,13 @@ typedef struct nsvcd_plan_answer {
 // Finds a smooth trajectory from start to goal on which no pair meets. control: (M + 2, F) with the M of options.refine
 // (of explore, if that is left out), always written; NSVCD_MAX_VIA_POINTS + 2 rows are always enough. options: NULL for
 // the defaults. workspace: nsvcd_plan_workspace_size(problem, options) bytes, aligned to NSVCD_ALIGNMENT; 0 if problem
-// or options are refused. Start, goal and the trajectory at the end are proven free, where bodies have triangles: for the
+// or options are refused, or more than SIZE_MAX would be needed. Start, goal and the trajectory at the end are proven free, where bodies have triangles: for the
 // motion of each pair as seen from b between the poses of the check's segments, position linear and rotation slerp. Where
 // the proof finds a hit, the refinement goes on from there with twice the margin, three times at most. Allocates nothing;
 // deterministic; ends within seeds * (iterations of MPPI + 4 times those of L-BFGS) iterations, of `samples` trajectories
 // each, and for L-BFGS 5 more. Errors: ARGUMENT (sizes, options, NULL), NUMBER (limits, start
-// or goal not finite or beyond NSVCD_MAX_COORDINATE; a cost beyond the range of float), POSE (from `place`), WORKSPACE;
-// then control and answer are not written. Source: MPPI (Williams et al. 2017), then L-BFGS with bundled gradients (Suh
+// or goal not finite or beyond NSVCD_MAX_COORDINATE; a cost beyond the range of float), POSE (from `place`), WORKSPACE,
+// TOO_LARGE (more bytes than can be counted); then control and answer are not written. Source: MPPI (Williams et al. 2017), then L-BFGS with bundled gradients (Suh
 // et al. 2022); NeuralSVCD, appendix D.
 NSVCDDEF size_t nsvcd_plan_workspace_size(const nsvcd_plan_problem *problem, const nsvcd_plan_options *options);
 NSVCDDEF nsvcd_result nsvcd_plan(const nsvcd_plan_problem *problem, const nsvcd_plan_options *options, void *workspace,
@@ -1118,8 +1118,8 @@ NSVCDDEF nsvcd_result nsvcd_mesh_cut(const nsvcd_mesh *mesh, const float low[3],
   }
   if (out.vertex_count == 0) return NSVCD_ERROR_EMPTY;
   if (out.vertex_count > NSVCD__MAX_COUNT) return NSVCD_ERROR_TOO_LARGE;
-  out.positions = (float *)nsvcd__alloc_array(allocator, 3 * out.vertex_count, sizeof(float));
-  out.indices = (uint32_t *)nsvcd__alloc_array(allocator, 3 * out.triangle_count, sizeof(uint32_t));
+  out.positions = (float *)nsvcd__alloc_array(allocator, out.vertex_count, 3 * sizeof(float));
+  out.indices = (uint32_t *)nsvcd__alloc_array(allocator, out.triangle_count, 3 * sizeof(uint32_t));
   if (!out.positions || !out.indices) {
     nsvcd_mesh_free(&out, allocator);
     return NSVCD_ERROR_MEMORY;
@@ -9777,9 +9777,10 @@ NSVCDDEF nsvcd_result nsvcd_encode(const nsvcd_mesh *mesh, const nsvcd_encode_op
   nsvcd_result result = nsvcd__plan_of(mesh, options, &plan);
   if (!result) result = nsvcd__parts_build(mesh, &plan, allocator, &parts);
   if (result) return result;
+  const int fits = parts.facets_size <= 0xffffffffu - parts.latents_size;
   const size_t size = parts.latents_size + parts.facets_size;
-  void *to = memory ? memory : nsvcd__alloc(allocator, size);
-  if (size > 0xffffffffu) {
+  void *to = memory || !fits ? memory : nsvcd__alloc(allocator, size);
+  if (!fits) {
     result = NSVCD_ERROR_TOO_LARGE;
   } else if (!to) {
     result = NSVCD_ERROR_MEMORY;
@@ -10994,10 +10995,12 @@ static int nsvcd__is_free(const nsvcd__cost *cost) { return !cost->collides && c
 
 // ---- memory
 
-// The next `bytes` of a workspace, or, where base is NULL, only counts them.
-static void *nsvcd__take(char *base, size_t *used, size_t bytes) {
+// The next rows of a workspace, or, where base is NULL, only counts their bytes: in 64 bits, for they may be more than a
+// machine of 32 bits can count.
+static void *nsvcd__take(char *base, uint64_t *used, size_t rows, size_t row_size) {
   void *at = base ? base + *used : NULL;
-  *used += nsvcd__round_up(bytes, NSVCD_ALIGNMENT);
+  const uint64_t bytes = (uint64_t)rows * row_size;
+  *used += (bytes + NSVCD_ALIGNMENT - 1) / NSVCD_ALIGNMENT * NSVCD_ALIGNMENT;
   return at;
 }
 
@@ -11055,14 +11058,15 @@ static int nsvcd__planner_settings(const nsvcd_plan_problem *problem, const nsvc
   return o->check <= 4 * NSVCD_MAX_SEGMENTS && o->seeds <= 1000;
 }
 
-static void nsvcd__stage_memory(nsvcd__stage *stage, char *base, size_t *used) {
+static void nsvcd__stage_memory(nsvcd__stage *stage, char *base, uint64_t *used) {
   const size_t via = stage->via, all = via + 2;
-  stage->form = (double *)nsvcd__take(base, used, all * all * sizeof(double));
-  stage->factor = (double *)nsvcd__take(base, used, via * via * sizeof(double));
-  stage->weights = (float *)nsvcd__take(base, used, stage->samples * all * sizeof(float));
+  stage->form = (double *)nsvcd__take(base, used, all * all, sizeof(double));
+  stage->factor = (double *)nsvcd__take(base, used, via * via, sizeof(double));
+  stage->weights = (float *)nsvcd__take(base, used, stage->samples * all, sizeof(float));
 }
 
-// Lays the planner's memory out in base, or, where that is NULL, only measures. Returns the bytes.
+// Lays the planner's memory out in base, or, where that is NULL, only measures. Returns the bytes; 0 if they are more than
+// can be counted.
 static size_t nsvcd__planner_memory(nsvcd__planner *p, char *base) {
   const size_t f = p->problem->joints, b = p->problem->body_count;
   const size_t via = p->explore.via > p->refine.via ? p->explore.via : p->refine.via;
@@ -11071,32 +11075,32 @@ static size_t nsvcd__planner_memory(nsvcd__planner *p, char *base) {
   samples = samples > p->explore.samples ? samples : p->explore.samples;
   samples = samples > p->refine.samples ? samples : p->refine.samples;
   const size_t point = (via + 2) * f * sizeof(float);
-  size_t used = 0;
-  p->query = (nsvcd__query *)nsvcd__take(base, &used, sizeof(nsvcd__query));
+  uint64_t used = 0;
+  p->query = (nsvcd__query *)nsvcd__take(base, &used, 1, sizeof(nsvcd__query));
   nsvcd__stage_memory(&p->explore, base, &used);
   nsvcd__stage_memory(&p->refine, base, &used);
   nsvcd__stage_memory(&p->check, base, &used);
-  p->path = (float *)nsvcd__take(base, &used, samples * f * sizeof(float));
-  p->poses = (nsvcd_pose *)nsvcd__take(base, &used, samples * b * sizeof(nsvcd_pose));
-  p->moved = (nsvcd_pose *)nsvcd__take(base, &used, b * sizeof(nsvcd_pose));
-  p->tracks = (float *)nsvcd__take(base, &used, NSVCD__TRACK * samples * b * sizeof(float));
-  p->boxes = (float *)nsvcd__take(base, &used, 6 * b * sizeof(float));
-  p->seen = (float *)nsvcd__take(base, &used, 4 * samples * sizeof(float));
-  p->order = (uint32_t *)nsvcd__take(base, &used, p->problem->pair_count * sizeof(uint32_t));
-  p->meets = (unsigned char *)nsvcd__take(base, &used, samples);
-  p->wrenches = (float *)nsvcd__take(base, &used, samples * b * 6 * sizeof(float));
-  p->jacobian = (float *)nsvcd__take(base, &used, b * 6 * f * sizeof(float));
-  p->by_path = (float *)nsvcd__take(base, &used, f * sizeof(float));
-  p->result = (float *)nsvcd__take(base, &used, point);
-  p->control = (float *)nsvcd__take(base, &used, point), p->best = (float *)nsvcd__take(base, &used, point);
-  p->trial = (float *)nsvcd__take(base, &used, point), p->gradient = (float *)nsvcd__take(base, &used, point);
-  p->sum = (float *)nsvcd__take(base, &used, point), p->offset = (float *)nsvcd__take(base, &used, point);
-  p->tries = (float *)nsvcd__take(base, &used, count * point);
-  p->costs = (float *)nsvcd__take(base, &used, count * sizeof(float));
-  p->steps = (float *)nsvcd__take(base, &used, NSVCD__HISTORY * point);
-  p->changes = (float *)nsvcd__take(base, &used, NSVCD__HISTORY * point);
-  p->vector = (double *)nsvcd__take(base, &used, (via + 2) * sizeof(double));
-  return used;
+  p->path = (float *)nsvcd__take(base, &used, samples * f, sizeof(float));
+  p->poses = (nsvcd_pose *)nsvcd__take(base, &used, samples * b, sizeof(nsvcd_pose));
+  p->moved = (nsvcd_pose *)nsvcd__take(base, &used, b, sizeof(nsvcd_pose));
+  p->tracks = (float *)nsvcd__take(base, &used, samples * b, NSVCD__TRACK * sizeof(float));
+  p->boxes = (float *)nsvcd__take(base, &used, b, 6 * sizeof(float));
+  p->seen = (float *)nsvcd__take(base, &used, samples, 4 * sizeof(float));
+  p->order = (uint32_t *)nsvcd__take(base, &used, p->problem->pair_count, sizeof(uint32_t));
+  p->meets = (unsigned char *)nsvcd__take(base, &used, samples, 1);
+  p->wrenches = (float *)nsvcd__take(base, &used, samples * b, 6 * sizeof(float));
+  p->jacobian = (float *)nsvcd__take(base, &used, b, 6 * f * sizeof(float));
+  p->by_path = (float *)nsvcd__take(base, &used, f, sizeof(float));
+  p->result = (float *)nsvcd__take(base, &used, 1, point);
+  p->control = (float *)nsvcd__take(base, &used, 1, point), p->best = (float *)nsvcd__take(base, &used, 1, point);
+  p->trial = (float *)nsvcd__take(base, &used, 1, point), p->gradient = (float *)nsvcd__take(base, &used, 1, point);
+  p->sum = (float *)nsvcd__take(base, &used, 1, point), p->offset = (float *)nsvcd__take(base, &used, 1, point);
+  p->tries = (float *)nsvcd__take(base, &used, count, point);
+  p->costs = (float *)nsvcd__take(base, &used, count, sizeof(float));
+  p->steps = (float *)nsvcd__take(base, &used, NSVCD__HISTORY, point);
+  p->changes = (float *)nsvcd__take(base, &used, NSVCD__HISTORY, point);
+  p->vector = (double *)nsvcd__take(base, &used, via + 2, sizeof(double));
+  return used <= SIZE_MAX ? (size_t)used : 0;
 }
 
 // The boxes of all bodies' patches.
@@ -11753,8 +11757,10 @@ NSVCDDEF nsvcd_result nsvcd_plan(const nsvcd_plan_problem *problem, const nsvcd_
   nsvcd_plan_answer found = {NSVCD_PLAN_CONVERGED, 0, NSVCD_NONE, NSVCD_NONE, 0, 0, 0, 0, 0, 0, 0, 0, 0};
   int cancelled = 0;
   if (!nsvcd__planner_settings(problem, options, p) || !control || !answer) return NSVCD_ERROR_ARGUMENT;
-  if (!workspace || !nsvcd__is_aligned(workspace) || workspace_size < nsvcd__planner_memory(p, (char *)workspace))
-    return NSVCD_ERROR_WORKSPACE;
+  const size_t needed = nsvcd__planner_memory(p, NULL);
+  if (needed == 0) return NSVCD_ERROR_TOO_LARGE;
+  if (!workspace || !nsvcd__is_aligned(workspace) || workspace_size < needed) return NSVCD_ERROR_WORKSPACE;
+  (void)nsvcd__planner_memory(p, (char *)workspace);
   const size_t f = problem->joints, point = (p->refine.via + 2) * f * sizeof(float);
   for (size_t j = 0; j < f; j++) {
     const float numbers[4] = {problem->low[j], problem->high[j], problem->start[j], problem->goal[j]};

@@ -10,7 +10,7 @@ void test_network(void);
 void test_broad_phase(void);
 void test_oracle(void);
 void test_query(void);
-void test_proof(void);
+void test_level(void);
 void test_gradient(void);
 void test_cost(void);
 void test_tasks(void);
@@ -27,7 +27,7 @@ int main(int argc, char **argv) {
   test_oracle();
   test_cost();
   test_query();
-  test_proof();
+  test_level();
   test_gradient();
   test_tasks();
   test_plan_spheres();

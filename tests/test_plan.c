@@ -1327,6 +1327,27 @@ static void plan_refuses_problems(void) {
   CHECK_EQ(out.answer.status, NSVCD_PLAN_CONVERGED);
 }
 
+// A problem for which some 4 GB of memory would be needed: as many bytes, or none where size_t cannot count them.
+static void plan_sizes_do_not_wrap(void) {
+  static plan_scene s;
+  static const nsvcd_body *bodies[2260];
+  plan_wall_scene(&s);
+  for (size_t k = 0; k < 2260; k++) bodies[k] = s.problem.bodies[k % s.problem.body_count];
+  s.problem.bodies = bodies;
+  s.problem.body_count = 2260;
+  s.options.check = 16384;
+  const size_t size = nsvcd_plan_workspace_size(&s.problem, &s.options);
+  const double least = 16385.0 * 2260 * (sizeof(nsvcd_pose) + (6 + NSVCD__TRACK) * sizeof(float));
+  if (least > (double)SIZE_MAX) CHECK_EQ(size, 0);
+  if (least < (double)SIZE_MAX) CHECK_LE(least, size);
+  float control[12 * 3];
+  nsvcd_plan_answer answer;
+  query_memory memory = query_reserve(4096);
+  const nsvcd_result expected = size == 0 ? NSVCD_ERROR_TOO_LARGE : NSVCD_ERROR_WORKSPACE;
+  CHECK_EQ(nsvcd_plan(&s.problem, &s.options, memory.at, 4096, control, &answer), expected);
+  query_release(&memory);
+}
+
 static void plan_workspace_is_checked(void) {
   static plan_scene s;
   plan_wall_scene(&s);
@@ -1574,6 +1595,7 @@ void test_plan(void) {
   RUN(plan_refuses_options_out_of_range);
   RUN(plan_works_at_the_ends_of_its_options);
   RUN(plan_refuses_problems);
+  RUN(plan_sizes_do_not_wrap);
   RUN(plan_workspace_is_checked);
   RUN(plan_troubles_end_well);
   RUN(plan_differences_work_far_from_zero);

@@ -1,0 +1,491 @@
+// Bodies of more patches than a tile: the levels of spheres above the groups and the walk through them, meshes encoded
+// region by region, and what is answered about a level, against the oracle and against its local pieces.
+#define NSVCD_STATIC
+#define NEURALSVCD_IMPLEMENTATION
+#include "../neuralsvcd.h"
+
+#include "check.h"
+#include "level_scene.h"
+
+void test_level(void);
+
+// ---- memory whose allocations fail
+
+typedef struct level_heap {
+  int calls, live, fail_at;
+} level_heap;
+static void *level_heap_alloc(size_t size, void *user) {
+  level_heap *heap = (level_heap *)user;
+  if (heap->calls++ == heap->fail_at) return NULL;
+  heap->live++;
+  return malloc(size);
+}
+static void level_heap_free(void *memory, void *user) {
+  if (memory) ((level_heap *)user)->live--;
+  free(memory);
+}
+
+// ---- scenes
+
+static nsvcd_encode_options level_options(size_t points) {
+  nsvcd_encode_options options;
+  memset(&options, 0, sizeof options);
+  options.points = points;
+  options.no_latents = 1;
+  return options;
+}
+
+static void *level_workspace(void) {
+  static void *memory;
+  if (!memory) memory = malloc(nsvcd_sweep_workspace_size());
+  return memory;
+}
+
+static nsvcd_answer level_ask(const nsvcd_question *question) {
+  nsvcd_answer answer;
+  memset(&answer, 0, sizeof answer);
+  CHECK_EQ(nsvcd_sweep(question, level_workspace(), nsvcd_sweep_workspace_size(), &answer), NSVCD_OK);
+  return answer;
+}
+
+// A level of about so many triangles, and bodies that move in it.
+typedef struct level_world {
+  level_solid level, bodies[LEVEL_BODIES];
+} level_world;
+
+static const level_world *level_shared(void) {
+  static level_world world;
+  if (world.level.body) return &world;
+  shapes_mesh shape;
+  memset(&shape, 0, sizeof shape);
+  level_make(&shape, 20, 60000, 1);
+  level_solid_init(&world.level, &shape, 0);
+  const nsvcd_encode_options options = level_options(0);
+  CHECK_EQ(nsvcd_encode(&world.level.mesh, &options, NULL, NULL, 0, &world.level.body), NSVCD_OK);
+  level_make_bodies(world.bodies);
+  return &world;
+}
+
+// ---- the body
+
+// Spheres that touch a ball, as a filter of a walk.
+static uint32_t level_touch(const void *what, const float *x, const float *y, const float *z, const float *r) {
+  const float *ball = (const float *)what;
+  uint32_t met = 0;
+  for (size_t l = 0; l < NSVCD__LANES; l++) {
+    const float d[3] = {x[l] - ball[0], y[l] - ball[1], z[l] - ball[2]};
+    const float reach = r[l] + ball[3];
+    met |= (uint32_t)(reach >= 0 && nsvcd__dot3(d, d) <= reach * reach) << l;
+  }
+  return met;
+}
+
+// Every sphere holds those below it, and a walk finds the groups that pass, in order: no more, and none less.
+static void level_walks_find_all(void) {
+  const nsvcd_body *body = level_shared()->level.body;
+  const nsvcd_body_facts facts = nsvcd_body_describe(body);
+  shapes_rng rng = {1};
+  CHECK_EQ(facts.latents, 0);
+  CHECK(facts.points > 4096);
+  CHECK_EQ(nsvcd__level_count(body->padded), 3);
+  for (size_t k = 1; k < nsvcd__level_count(body->padded); k++) {
+    const nsvcd__level below = nsvcd__level_of(body->padded, k - 1);
+    const nsvcd__level above = nsvcd__level_of(body->padded, k);
+    const float *inner = nsvcd__body_floats(body, below.first);
+    const float *outer = nsvcd__body_floats(body, above.first);
+    CHECK_EQ(above.count, (below.count + 15) / 16);
+    for (size_t i = 0; i < below.count; i++) {
+      double square = 0;
+      for (size_t n = 0; n < 3; n++) {
+        const double d = (double)inner[n * below.slots + i] - (double)outer[n * above.slots + i / 16];
+        square += d * d;
+      }
+      const double radius = (double)outer[3 * above.slots + i / 16] - (double)inner[3 * below.slots + i];
+      CHECK_LE(sqrt(square), radius * (1 + 1e-6));
+    }
+  }
+
+  size_t found = 0;
+  for (int trial = 0; trial < 300; trial++) {
+    const float ball[4] = {(float)shapes_uniform(&rng, -11, 11), (float)shapes_uniform(&rng, -11, 11),
+                           (float)shapes_uniform(&rng, -2, 3), (float)pow(10, shapes_uniform(&rng, -2, 1.3))};
+    nsvcd__walk walk;
+    nsvcd__walk_begin(&walk, body, level_touch, ball);
+    for (size_t g = 0; g < nsvcd__body_groups(body); g++) {
+      const float d[3] = {nsvcd__body_group(body, 0)[g] - ball[0], nsvcd__body_group(body, 1)[g] - ball[1],
+                          nsvcd__body_group(body, 2)[g] - ball[2]};
+      const float reach = nsvcd__body_group(body, 3)[g] + ball[3];
+      size_t next = 0;
+      if (nsvcd__dot3(d, d) > reach * reach) continue;
+      CHECK(nsvcd__walk_next(&walk, &next));
+      CHECK_EQ(next, g);
+      found++;
+    }
+    size_t more;
+    CHECK(!nsvcd__walk_next(&walk, &more));
+  }
+  CHECK_LE(1000, found);
+}
+
+// A copy loads, and moves; a sphere of an upper level that does not hold those below it is refused.
+static void level_blobs_are_checked(void) {
+  const nsvcd_body *body = level_shared()->level.body;
+  const size_t size = nsvcd_body_describe(body).size;
+  nsvcd_body *copy = (nsvcd_body *)malloc(size);
+  const nsvcd_body *loaded = NULL;
+  memcpy(copy, body, size);
+  CHECK_EQ(nsvcd_body_load(copy, size, &loaded), NSVCD_OK);
+  CHECK(loaded == copy);
+  CHECK_EQ(nsvcd_body_load(copy, size - 8, &loaded), NSVCD_ERROR_BODY);
+  for (size_t k = 0; k < nsvcd__level_count(body->padded); k++) {
+    const nsvcd__level level = nsvcd__level_of(body->padded, k);
+    float *radius = (float *)(copy + 1) + level.first + 3 * level.slots + level.count / 2;
+    const float before = *radius;
+    *radius *= 0.9f;
+    copy->checksum = nsvcd__body_checksum(copy);
+    CHECK_EQ(nsvcd_body_load(copy, size, &loaded), NSVCD_ERROR_BODY);
+    *radius = before;
+  }
+  copy->checksum = nsvcd__body_checksum(copy);
+  CHECK_EQ(nsvcd_body_load(copy, size, &loaded), NSVCD_OK);
+  CHECK_EQ(nsvcd_body_scale(body, 0.5f, copy, size, &loaded), NSVCD_OK);
+  const nsvcd_body_facts half = nsvcd_body_describe(loaded);
+  CHECK_NEAR(half.radius / nsvcd_body_describe(body).radius, 0.5, 1e-5);
+  CHECK_EQ(nsvcd_body_load(copy, size, &loaded), NSVCD_OK);
+  free(copy);
+}
+
+// ---- what is answered
+
+static nsvcd_question level_question(const level_way *way, const nsvcd_body *fixed) {
+  nsvcd_question question;
+  memset(&question, 0, sizeof question);
+  question.a.body = way->body->body;
+  question.a.poses = way->stored;
+  question.a.count = 2;
+  question.b.body = fixed;
+  return question;
+}
+
+// The level, the piece of it that the motion can reach, and the oracle say the same; at rest, whichever is asked about first.
+static void level_verdicts_are_right(void) {
+  const level_world *w = level_shared();
+  size_t hits = 0, asked = 0, undecided = 0;
+  for (int set = 0; set < LEVEL_SETS; set++) {
+    shapes_rng rng = {(uint64_t)(7 + set)};
+    for (int trial = 0; trial < 25; trial++) {
+      const level_way way = level_draw(&rng, set, w->bodies, &w->level);
+      const oracle_result label = level_label(&way, &w->level);
+      const nsvcd_question question = level_question(&way, w->level.body);
+      const nsvcd_answer answer = level_ask(&question);
+      const int collides = label.status == ORACLE_COLLIDES || label.status == ORACLE_INSIDE;
+      undecided += answer.status == NSVCD_STATUS_UNDECIDED;
+      hits += collides != 0;
+      asked++;
+      if (label.status == ORACLE_FREE && label.distance < 1e-4) continue;
+      CHECK_EQ(answer.collides, collides);
+
+      const nsvcd_body *piece = level_piece(&w->level, way.body, way.stored);
+      if (piece) {
+        const nsvcd_question local = level_question(&way, piece);
+        const nsvcd_answer other = level_ask(&local);
+        if (label.status != ORACLE_INSIDE) CHECK_EQ(other.collides, collides);
+        nsvcd_body_free(piece, NULL);
+      }
+
+      nsvcd_question rest = question;
+      rest.a.count = 1;
+      const nsvcd_answer here = level_ask(&rest);
+      nsvcd_question turned;
+      memset(&turned, 0, sizeof turned);
+      turned.a = rest.b;
+      turned.b = rest.a;
+      const nsvcd_answer there = level_ask(&turned);
+      CHECK_EQ(here.status, there.status);
+    }
+  }
+  printf("  %zu motions, %zu hits, %zu undecided\n", asked, hits, undecided);
+  CHECK_EQ(undecided, 0);
+  CHECK(hits > 20 && asked - hits > 20);
+}
+
+// A level that is carried past a body at rest: then the level is the moving one, searched tile by tile.
+static void level_that_moves(void) {
+  const level_world *w = level_shared();
+  shapes_rng rng = {3};
+  size_t hits = 0;
+  for (int trial = 0; trial < 40; trial++) {
+    const level_way way = level_draw(&rng, LEVEL_NEAR, w->bodies, &w->level);
+    nsvcd_question question = level_question(&way, w->level.body);
+    // The body keeps its first rotation and goes straight; or the level goes the other way.
+    nsvcd_pose straight[2] = {way.stored[0], way.stored[0]}, back[2];
+    memset(back, 0, sizeof back);
+    for (int k = 0; k < 3; k++) {
+      straight[1].position[k] = straight[0].position[k] + 0.0625f;  // exact
+      back[1].position[k] = -0.0625f;
+    }
+    back[0].rotation[3] = back[1].rotation[3] = 1;
+    question.a.poses = straight;
+    const nsvcd_answer one = level_ask(&question);
+    question.a.count = 1;
+    question.b.poses = back;
+    question.b.count = 2;
+    const nsvcd_answer other = level_ask(&question);
+    CHECK_EQ(one.collides, other.collides);
+    CHECK(other.status != NSVCD_STATUS_UNDECIDED);
+    hits += (size_t)other.collides;
+  }
+  CHECK(hits > 5 && hits < 35);
+}
+
+// First contacts and clearances are those of the local piece.
+static void level_contacts_are_those_of_the_piece(void) {
+  const level_world *w = level_shared();
+  shapes_rng rng = {4};
+  size_t contacts = 0;
+  for (int trial = 0; trial < 40; trial++) {
+    const level_way way = level_draw(&rng, LEVEL_DASH, w->bodies, &w->level);
+    const nsvcd_body *piece = level_piece(&w->level, way.body, way.stored);
+    if (!piece) continue;
+    nsvcd_question question = level_question(&way, w->level.body);
+    nsvcd_question local = level_question(&way, piece);
+    question.options.first = local.options.first = 0.001f;
+    const nsvcd_answer whole = level_ask(&question);
+    const nsvcd_answer part = level_ask(&local);
+    if (whole.status == NSVCD_STATUS_WITNESS && part.status == NSVCD_STATUS_WITNESS) {
+      CHECK_NEAR(whole.contact_time, part.contact_time, 0.0021);
+      CHECK_LE(whole.free_until, whole.contact_time);
+      CHECK_LE(whole.contact_time - 0.00101f, whole.free_until);
+      contacts++;
+    }
+    if (whole.status != NSVCD_STATUS_INSIDE) CHECK_EQ(whole.collides, part.collides);
+    nsvcd_body_free(piece, NULL);
+
+    question.options.first = 0;
+    question.options.measure = 0.001f;
+    const nsvcd_answer measured = level_ask(&question);
+    const oracle_pose origin = {{0, 0, 0}, {0, 0, 0, 1}};
+    const oracle_options exact = {1e-4, 0, 0, 1};
+    if (measured.status != NSVCD_STATUS_CERTIFIED_FREE) continue;
+    const oracle_result label = oracle_sweep(&way.body->oracle, way.poses, 2, &w->level.oracle, &origin, &exact);
+    CHECK_LE(measured.clearance_low, label.distance);
+    CHECK_LE(label.lower, measured.clearance_high);
+    CHECK_LE(measured.clearance_high - measured.clearance_low, 0.0013);
+  }
+  CHECK(contacts > 10);
+}
+
+// Pebbles that float: one within a box is found, though there are many, and one outside of it is not.
+static void level_components_are_found(void) {
+  enum { PEBBLES = 900 };
+  shapes_mesh shape, crate;
+  memset(&shape, 0, sizeof shape);
+  memset(&crate, 0, sizeof crate);
+  for (int i = 0; i < PEBBLES; i++) {
+    const size_t first = shape.vertices;
+    shapes_box(&shape, 0.02, 0.02, 0.02, 1);
+    shapes_place(&shape, first, NULL, 0.2 * (i % 30), 0.2 * (i / 30), 0.001 * (i % 7));
+  }
+  shapes_box(&crate, 0.1, 0.1, 0.1, 2);
+  level_solid pebbles, box;
+  level_solid_init(&pebbles, &shape, 0);
+  level_solid_init(&box, &crate, 0);
+  const nsvcd_encode_options options = level_options(2000);
+  CHECK_EQ(nsvcd_encode(&pebbles.mesh, &options, NULL, NULL, 0, &pebbles.body), NSVCD_OK);
+  CHECK_EQ(nsvcd_encode(&box.mesh, NULL, NULL, NULL, 0, &box.body), NSVCD_OK);
+  const nsvcd__facets f = nsvcd__facets_of(nsvcd__triangles_of(pebbles.body));
+  CHECK_EQ(f.components, PEBBLES);
+  for (int i = 0; i < PEBBLES; i += 41) {
+    nsvcd_pose at;
+    nsvcd_question question;
+    memset(&at, 0, sizeof at);
+    memset(&question, 0, sizeof question);
+    at.rotation[3] = 1;
+    at.position[0] = 0.2f * (float)(i % 30);
+    at.position[1] = 0.2f * (float)(i / 30);
+    question.a.body = box.body;
+    question.a.poses = &at;
+    question.a.count = 1;
+    question.b.body = pebbles.body;
+    CHECK_EQ(level_ask(&question).status, NSVCD_STATUS_INSIDE);
+    at.position[0] += 0.1f;  // between two of them
+    CHECK_EQ(level_ask(&question).status, NSVCD_STATUS_CERTIFIED_FREE);
+  }
+  level_free(&pebbles);
+  level_free(&box);
+}
+
+// ---- bad input
+
+// Half of the triangles have no area, or the level is inside out, or one triangle of 20 m lies among crumbs of a
+// millimetre: encoded, and the answer is that of the sane half.
+static void level_of_bad_triangles(void) {
+  const level_world *w = level_shared();
+  const nsvcd_mesh *sane = &w->level.mesh;
+  nsvcd_mesh mesh = *sane;
+  mesh.triangle_count = 2 * sane->triangle_count;
+  mesh.indices = (uint32_t *)malloc(12 * mesh.triangle_count);
+  for (size_t t = 0; t < sane->triangle_count; t++) {
+    memcpy(mesh.indices + 6 * t, sane->indices + 3 * t, 12);
+    for (size_t k = 0; k < 3; k++) mesh.indices[6 * t + 3 + k] = sane->indices[3 * t + (k > 1)];  // two corners are one
+  }
+  const nsvcd_encode_options options = level_options(4000);
+  const nsvcd_body *half, *turned, *crumbs;
+  CHECK_EQ(nsvcd_encode(&mesh, &options, NULL, NULL, 0, &half), NSVCD_OK);
+  for (size_t t = 0; t < sane->triangle_count; t++) {
+    const uint32_t *c = sane->indices + 3 * t;
+    uint32_t *to = mesh.indices + 3 * t;
+    to[0] = c[0];
+    to[1] = c[2];
+    to[2] = c[1];
+  }
+  mesh.triangle_count = sane->triangle_count;
+  CHECK_EQ(nsvcd_encode(&mesh, &options, NULL, NULL, 0, &turned), NSVCD_OK);
+  shapes_rng rng = {5};
+  for (int trial = 0; trial < 30; trial++) {
+    const level_way way = level_draw(&rng, LEVEL_NEAR, w->bodies, &w->level);
+    nsvcd_question question = level_question(&way, w->level.body);
+    const int collides = level_ask(&question).collides;
+    question.b.body = half;
+    CHECK_EQ(level_ask(&question).collides, collides);
+    question.b.body = turned;  // it winds once the other way about what is inside
+    CHECK_EQ(level_ask(&question).collides, collides);
+  }
+  nsvcd_body_free(half, NULL);
+  nsvcd_body_free(turned, NULL);
+  free(mesh.indices);
+
+  shapes_mesh shape;
+  memset(&shape, 0, sizeof shape);
+  const uint32_t a = shapes_vertex(&shape, -10, -10, 0), b = shapes_vertex(&shape, 10, -10, 0);
+  shapes_triangle(&shape, a, b, shapes_vertex(&shape, 0, 10, 0));
+  for (int i = 0; i < 3000; i++) {
+    const size_t first = shape.vertices;
+    shapes_box(&shape, 0.001, 0.001, 0.001, 1);
+    shapes_place(&shape, first, NULL, 0.002 * (i % 60), 0.002 * (i / 60), 0.3);
+  }
+  level_solid solid;
+  level_solid_init(&solid, &shape, 0);
+  CHECK_EQ(nsvcd_encode(&solid.mesh, &options, NULL, NULL, 0, &crumbs), NSVCD_OK);
+  solid.body = crumbs;
+  for (int trial = 0; trial < 30; trial++) {
+    nsvcd_pose at;
+    nsvcd_question question;
+    memset(&at, 0, sizeof at);
+    memset(&question, 0, sizeof question);
+    at.rotation[3] = 1;
+    at.position[0] = (float)shapes_uniform(&rng, -4, 4);
+    at.position[1] = (float)shapes_uniform(&rng, -4, 4);
+    at.position[2] = trial % 2 ? 0.151f : 0.149f;  // a ball of some 0.13 to 0.17 m
+    question.a.body = w->bodies[1].body;           // a box of 0.3 x 0.2 x 0.1 m
+    question.a.poses = &at;
+    question.a.count = 1;
+    question.b.body = crumbs;
+    at.position[2] = trial % 2 ? 0.0502f : 0.0498f;
+    CHECK_EQ(level_ask(&question).collides, trial % 2 == 0);
+  }
+  level_free(&solid);
+}
+
+static int level_cancel(float done, void *user) {
+  float *last = (float *)user;
+  if (done < last[0] || done > 1) last[1] = 1;  // it never goes back
+  last[0] = done;
+  last[2] += 1;
+  return last[2] >= last[3];
+}
+
+// NaN in the last vertex, memory that runs out at any time, and a caller who has had enough: a code, nothing leaked,
+// nothing written.
+static void level_encoding_ends_well(void) {
+  shapes_mesh shape;
+  memset(&shape, 0, sizeof shape);
+  level_make(&shape, 4, 3000, 2);
+  level_solid solid;
+  level_solid_init(&solid, &shape, 0);
+  nsvcd_encode_options options = level_options(700);
+  const nsvcd_body *body = NULL;
+  int fails = 0;
+  for (int fail_at = 0; fail_at < 2000; fail_at++) {
+    level_heap heap = {0, 0, fail_at};
+    nsvcd_allocator allocator = {level_heap_alloc, level_heap_free, &heap};
+    const nsvcd_result result = nsvcd_encode(&solid.mesh, &options, &allocator, NULL, 0, &body);
+    if (result == NSVCD_OK) {
+      CHECK_EQ(heap.live, 1);
+      nsvcd_body_free(body, &allocator);
+      break;
+    }
+    CHECK_EQ(result, NSVCD_ERROR_MEMORY);
+    CHECK(body == NULL);
+    CHECK_EQ(heap.live, 0);
+    fails++;
+  }
+  CHECK(fails > 60 && fails < 2000);
+  body = NULL;
+
+  float last[4] = {0, 0, 0, 1e9f};
+  options.progress = level_cancel;
+  options.user = last;
+  CHECK_EQ(nsvcd_encode(&solid.mesh, &options, NULL, NULL, 0, &body), NSVCD_OK);
+  CHECK(last[1] == 0 && last[2] >= 3);
+  nsvcd_body_free(body, NULL);
+  body = NULL;
+  const float times = last[2];
+  for (float n = 1; n <= times; n++) {
+    level_heap heap = {0, 0, -1};
+    nsvcd_allocator allocator = {level_heap_alloc, level_heap_free, &heap};
+    const float from[4] = {0, 0, 0, n};
+    memcpy(last, from, sizeof last);
+    CHECK_EQ(nsvcd_encode(&solid.mesh, &options, &allocator, NULL, 0, &body), NSVCD_ERROR_CANCELLED);
+    CHECK_EQ(heap.live, 0);
+    CHECK(body == NULL);
+  }
+
+  options.progress = NULL;
+  solid.mesh.positions[3 * solid.mesh.vertex_count - 1] = NAN;
+  CHECK_EQ(nsvcd_encode(&solid.mesh, &options, NULL, NULL, 0, &body), NSVCD_ERROR_NUMBER);
+  CHECK(body == NULL);
+  options.points = NSVCD_MAX_POINTS + 1;
+  CHECK_EQ(nsvcd_encode(&solid.mesh, &options, NULL, NULL, 0, &body), NSVCD_ERROR_ARGUMENT);
+  options.points = NSVCD_MAX_NETWORK_POINTS + 1;
+  options.no_latents = 0;
+  options.no_triangles = 1;
+  CHECK_EQ(nsvcd_encode(&solid.mesh, &options, NULL, NULL, 0, &body), NSVCD_ERROR_ARGUMENT);
+  options.no_latents = 1;  // nothing would be left
+  options.points = 10;
+  CHECK_EQ(nsvcd_encode(&solid.mesh, &options, NULL, NULL, 0, &body), NSVCD_ERROR_ARGUMENT);
+  level_free(&solid);
+}
+
+// The same mesh, the same bytes.
+static void level_is_deterministic(void) {
+  const level_world *w = level_shared();
+  const nsvcd_encode_options options = level_options(0);
+  const nsvcd_body *again;
+  CHECK_EQ(nsvcd_encode(&w->level.mesh, &options, NULL, NULL, 0, &again), NSVCD_OK);
+  CHECK_EQ(again->size, w->level.body->size);
+  CHECK(memcmp(again, w->level.body, again->size) == 0);
+  nsvcd_body_free(again, NULL);
+}
+
+void test_level(void) {
+  RUN(level_walks_find_all);
+  RUN(level_blobs_are_checked);
+  RUN(level_verdicts_are_right);
+  RUN(level_that_moves);
+  RUN(level_contacts_are_those_of_the_piece);
+  RUN(level_components_are_found);
+  RUN(level_of_bad_triangles);
+  RUN(level_encoding_ends_well);
+  RUN(level_is_deterministic);
+}
+
+#ifdef TEST_ALONE
+check_state check;
+int main(int argc, char **argv) {
+  check.filter = argc > 1 ? argv[1] : NULL;
+  test_level();
+  printf("%d passed, %d failed\n", check.passed, check.failed);
+  return check.failed > 0;
+}
+#endif
