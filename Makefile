@@ -26,7 +26,7 @@ ifeq ($(BENCH),quick)
 COUNT ?= 200
 endif
 
-.PHONY: bench-asks bench-level race mutants bench-plan preview profile instructions sizes bench check-extremes all demo test assets problems accuracy weights format clean help check-header check-tiles check-examples check-problems check-gradient check-motions
+.PHONY: bench-asks bench-level race mutants bench-plan preview profile instructions sizes bench check-extremes all demo test assets problems accuracy weights format clean help check-header check-tiles check-32 check-examples check-problems check-gradient check-motions
 .DELETE_ON_ERROR:
 
 PLANNERS = build/dish_insertion build/bimanual_insertion build/mining_site
@@ -101,6 +101,14 @@ build/test_tiles: tests/test_proof.c tests/proof_scene.h tests/check.h tests/ora
 	$(CC) $(CFLAGS) -std=c99 $(TEST_WARNINGS) -DNSVCD__TILE=2 -DTEST_ALONE -o $@ $< -lm
 check-tiles: build/test_tiles
 	@build/test_tiles >build/test_tiles.txt || { cat build/test_tiles.txt; exit 1; }; echo build/test_tiles; tail -1 build/test_tiles.txt
+# On 32 bits, where sizes end at 4 GB, under sanitizers; where the compiler can (Debian: gcc-multilib).
+CFLAGS_32 = -m32 -msse2 -mfpmath=sse -O1 -fsanitize=address,undefined -fno-sanitize-recover=all
+build/test_%_32: tests/test_%.c tests/check.h tests/level_scene.h examples/level.h examples/shapes.h tests/oracle.h $(LIBRARY) | build
+	$(CC) $(CFLAGS_32) -pthread -std=c99 $(TEST_WARNINGS) -DTEST_ALONE -o $@ $< -lm
+check-32:
+	@if echo 'int main(void) { return 0; }' | $(CC) $(CFLAGS_32) -x c -o build/can_32 - 2>/dev/null; then \
+	  $(MAKE) build/test_level_32 build/test_plan_32 && build/test_level_32 && build/test_plan_32 plan_sizes; \
+	else echo "check-32: $(CC) has no libraries for -m32: not tested"; fi
 mutants:  ## the header with one mistake at a time: the tests of the proof must catch each; minutes
 	CC="$(CC)" tests/mutants.sh
 
@@ -124,7 +132,7 @@ check-motions: build/check_motions build/game build/problems build/svcd  ## firs
 check-extremes: build/problems build/svcd  # tiny, huge, far, thin, spinning ...
 	tests/extremes.sh
 
-test: build/tests check-header check-gradient check-examples check-tiles check-motions check-problems check-extremes  ## everything; the last line is `N passed, N failed`
+test: build/tests check-header check-gradient check-examples check-tiles check-32 check-motions check-problems check-extremes  ## everything; the last line is `N passed, N failed`
 	build/tests
 
 # ---------------------------------------------------------------------------------------------------------- accuracy

@@ -46,4 +46,18 @@ extern check_state check;
 #define CHECK_GE(a, b) CHECK_OP(a, >=, b)
 #define CHECK_NEAR(a, b, tolerance) CHECK_LE(fabs((double)(a) - (double)(b)), (tolerance))
 
+// At the end of a test file: with TEST_ALONE defined, a main of its own.
+#ifdef TEST_ALONE
+#define CHECK_ALONE(tests)                                    \
+  check_state check;                                          \
+  int main(int argc, char **argv) {                           \
+    check.filter = argc > 1 ? argv[1] : NULL;                 \
+    tests();                                                  \
+    printf("%d passed, %d failed\n", check.passed, check.failed); \
+    return check.failed > 0;                                  \
+  }
+#else
+#define CHECK_ALONE(tests)
+#endif
+
 #endif

@@ -764,12 +764,4 @@ void test_gradient(void) {
 #endif
 }
 
-#ifdef TEST_ALONE
-check_state check;
-int main(int argc, char **argv) {
-  check.filter = argc > 1 ? argv[1] : NULL;
-  test_gradient();
-  printf("%d passed, %d failed\n", check.passed, check.failed);
-  return check.failed > 0;
-}
-#endif
+CHECK_ALONE(test_gradient)

@@ -480,12 +480,4 @@ void test_level(void) {
   RUN(level_is_deterministic);
 }
 
-#ifdef TEST_ALONE
-check_state check;
-int main(int argc, char **argv) {
-  check.filter = argc > 1 ? argv[1] : NULL;
-  test_level();
-  printf("%d passed, %d failed\n", check.passed, check.failed);
-  return check.failed > 0;
-}
-#endif
+CHECK_ALONE(test_level)

@@ -1095,3 +1095,5 @@ void test_mesh(void) {
   RUN(mesh_patches_edge_cases);
   RUN(mesh_patches_of_slivers);
 }
+
+CHECK_ALONE(test_mesh)

@@ -1600,3 +1600,5 @@ void test_plan(void) {
   RUN(plan_troubles_end_well);
   RUN(plan_differences_work_far_from_zero);
 }
+
+CHECK_ALONE(test_plan)

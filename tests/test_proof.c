@@ -2433,12 +2433,4 @@ void test_proof(void) {
       witnesses.off[1], witnesses.off[2], witnesses.no_normal);
 }
 
-#ifdef TEST_ALONE
-check_state check;
-int main(int argc, char **argv) {
-  check.filter = argc > 1 ? argv[1] : NULL;
-  test_proof();
-  printf("%d passed, %d failed\n", check.passed, check.failed);
-  return check.failed > 0;
-}
-#endif
+CHECK_ALONE(test_proof)

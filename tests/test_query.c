@@ -932,3 +932,5 @@ void test_query(void) {
   RUN(query_encode_survives_every_failed_allocation);
   RUN(accuracy_on_a_labelled_file);
 }
+
+CHECK_ALONE(test_query)

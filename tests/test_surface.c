@@ -999,3 +999,5 @@ void test_surface(void) {
   RUN(surface_allocation_fails);
   RUN(surface_too_large);
 }
+
+CHECK_ALONE(test_surface)
