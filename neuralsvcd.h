@@ -200,10 +200,12 @@ typedef struct nsvcd_body nsvcd_body;
 
 #define NSVCD_ALIGNMENT 8
 #define NSVCD_DEFAULT_POINTS 192
-#define NSVCD_DEFAULT_TRIANGLES 12  // per patch of a large mesh
 #define NSVCD_DEFAULT_NETWORK_POINTS 256  // of bodies for the network alone, which needs finer patches than a proof
 #define NSVCD_MAX_POINTS 65536     // representative points (patches) of a body,
 #define NSVCD_MAX_NETWORK_POINTS 512  // and of one with latents
+#define NSVCD_FEW_TRIANGLES 32768    // a mesh of up to so many is encoded with NSVCD_DEFAULT_POINTS, if nothing is said,
+#define NSVCD_MANY_TRIANGLES 131072  // of up to so many with NSVCD_MAX_NETWORK_POINTS. More are taken for a level:
+#define NSVCD_LEVEL_TRIANGLES 12     // then a patch for so many triangles
 #define NSVCD_MAX_COORDINATE 1e6f  // metres
 #define NSVCD_MIN_RADIUS 1e-12f    // metres, of a body's bounding sphere
 #define NSVCD_MAX_POSES 65536      // per motion
@@ -214,13 +216,13 @@ typedef struct nsvcd_body nsvcd_body;
 typedef int nsvcd_progress(float done, void *user);
 
 typedef struct nsvcd_encode_options {
-  size_t points;       // N, representative points (patches), 1..NSVCD_MAX_POINTS; 0: NSVCD_DEFAULT_POINTS, or one for
-                       // NSVCD_DEFAULT_TRIANGLES where that makes more than NSVCD_MAX_NETWORK_POINTS;
+  size_t points;       // N, representative points (patches), 1..NSVCD_MAX_POINTS; 0: by the number of triangles, see above;
                        // NSVCD_DEFAULT_NETWORK_POINTS without triangles
-  float patch_radius;  // metres; if > 0 and points is 0: as many points as make patches of about this radius
+  float patch_radius;  // metres; if > 0 and points is 0: as many points as make patches of about this radius. For a level
+                       // about half the size of the bodies that move in it
   int open;            // 1: the mesh is not closed (a sheet, or a part cut out): nothing counts as inside it
   int no_triangles;    // 1: for the network alone, in fewer bytes; then there is no proof
-  int no_latents;      // 1: for the proof alone. A body of more than NSVCD_MAX_NETWORK_POINTS has none anyway
+  int no_latents;      // 1: for the proof alone. A body of more than NSVCD_MAX_NETWORK_POINTS has none in any case
   nsvcd_progress *progress;  // NULL, or told now and then how much is done; a large mesh takes seconds
   void *user;                // handed to it
 } nsvcd_encode_options;
@@ -247,8 +249,15 @@ NSVCDDEF nsvcd_result nsvcd_encode(const nsvcd_mesh *mesh, const nsvcd_encode_op
 NSVCDDEF void nsvcd_body_free(const nsvcd_body *body, const nsvcd_allocator *allocator);
 #endif
 
-// Checks an untrusted blob in `memory` and points *body at it, without a copy. BODY if anything is wrong with it.
+// Checks an untrusted blob in `memory` and points *body at it, without a copy: every byte of it is read. BODY if anything is
+// wrong with it.
 NSVCDDEF nsvcd_result nsvcd_body_load(const void *memory, size_t size, const nsvcd_body **body);
+
+// The same for bytes that are known to be what nsvcd_encode made, and only looks at the header: is it a body of this
+// version and these weights, and as long as it says? For an array baked into the program (`svcd encode`), which is as
+// trustworthy as its code, and for a large file that is mapped and has been loaded once before: pages are then read as
+// queries need them. Bytes that were changed since do harm: wrong answers, or reads anywhere.
+NSVCDDEF nsvcd_result nsvcd_body_trust(const void *memory, size_t size, const nsvcd_body **body);
 
 // Writes a copy of `body` scaled by `scale` > 0 about its origin (in place is allowed): for a planner's bodies, or to bake
 // one; a question has scales of its own. Latents are scale-free, so this takes microseconds and the answers scale along, to
@@ -4849,6 +4858,17 @@ NSVCDDEF nsvcd_result nsvcd_body_load(const void *memory, size_t size, const nsv
   const nsvcd_body *b = (const nsvcd_body *)memory;
   if (!nsvcd__is_aligned(memory) || !nsvcd__header_is_sound(b, size)) return NSVCD_ERROR_BODY;
   if (b->checksum != nsvcd__body_checksum(b) || !nsvcd__body_is_sound(b)) return NSVCD_ERROR_BODY;
+  *body = b;
+  return NSVCD_OK;
+}
+
+NSVCDDEF nsvcd_result nsvcd_body_trust(const void *memory, size_t size, const nsvcd_body **body) {
+  if (!memory || !body) return NSVCD_ERROR_ARGUMENT;
+  const nsvcd_body *b = (const nsvcd_body *)memory;
+  if (!nsvcd__is_aligned(memory) || !nsvcd__header_is_sound(b, size)) return NSVCD_ERROR_BODY;
+#ifndef NSVCD_NO_NETWORK
+  if (b->weights_id && b->weights_id != NSVCD_WEIGHTS_ID) return NSVCD_ERROR_BODY;
+#endif
   *body = b;
   return NSVCD_OK;
 }
@@ -9735,8 +9755,9 @@ static size_t nsvcd__points_for(const nsvcd_mesh *mesh, const nsvcd_encode_optio
     return count >= (double)most ? most : count >= 1 ? (size_t)count : 1;
   }
   if (!triangles) return NSVCD_DEFAULT_NETWORK_POINTS;
-  const size_t fine = mesh->triangle_count / NSVCD_DEFAULT_TRIANGLES;
-  if (fine <= NSVCD_MAX_NETWORK_POINTS) return NSVCD_DEFAULT_POINTS;
+  if (mesh->triangle_count <= NSVCD_FEW_TRIANGLES) return NSVCD_DEFAULT_POINTS;
+  if (mesh->triangle_count <= NSVCD_MANY_TRIANGLES) return NSVCD_MAX_NETWORK_POINTS;
+  const size_t fine = mesh->triangle_count / NSVCD_LEVEL_TRIANGLES;
   return fine < NSVCD_MAX_POINTS ? fine : NSVCD_MAX_POINTS;
 }
 

@@ -2,7 +2,7 @@
 // same question about its local piece, that which the motion can reach, cut out and encoded by itself. Every verdict is
 // held against the oracle.
 //
-//   build/bench_level TRIANGLES [MOTIONS [POINTS]]    a level of 20 m; N: 0, the default
+//   build/bench_level TRIANGLES [MOTIONS [POINTS]]    a level of 20 m; N: 0, the default, or patches of 0.15 m
 //
 // Sets: `near`, at random places and in all directions, half of them hits or so; `slide`, along the ground at some tenths
 // of a millimetre to some millimetres; `dash`, ten frames' way in one. Exit status 1 if a verdict is wrong.
@@ -17,6 +17,7 @@
 #include "level_scene.h"
 
 #define SIDE 20.0       // metres
+#define RADIUS 0.15f    // metres, of patches, where there are fewer triangles than the library takes for a level's
 #define RUNS 5          // times that each question is asked; the shortest counts
 #define MARGIN 1e-4     // metres: nearer to contact than this the oracle's label is not counted
 
@@ -134,6 +135,7 @@ int main(int argc, char **argv) {
   memset(&options, 0, sizeof options);
   options.no_latents = 1;
   if (argc > 3) options.points = strtoul(argv[3], NULL, 10);
+  if (options.points == 0) options.patch_radius = triangles > NSVCD_MANY_TRIANGLES ? 0 : RADIUS;
   setvbuf(stdout, NULL, _IOLBF, 0);
   level_make_bodies(bodies);
   level_make(&shape, SIDE, triangles, 1);

@@ -1,8 +1,11 @@
 // Bodies of more patches than a tile: the levels of spheres above the groups and the walk through them, meshes encoded
 // region by region, and what is answered about a level, against the oracle and against its local pieces.
+#define _POSIX_C_SOURCE 200809L
 #define NSVCD_STATIC
 #define NEURALSVCD_IMPLEMENTATION
 #include "../neuralsvcd.h"
+
+#include <sys/mman.h>
 
 #include "check.h"
 #include "level_scene.h"
@@ -60,7 +63,7 @@ static const level_world *level_shared(void) {
   memset(&shape, 0, sizeof shape);
   level_make(&shape, 20, 60000, 1);
   level_solid_init(&world.level, &shape, 0);
-  const nsvcd_encode_options options = level_options(0);
+  const nsvcd_encode_options options = level_options(5000);
   CHECK_EQ(nsvcd_encode(&world.level.mesh, &options, NULL, NULL, 0, &world.level.body), NSVCD_OK);
   level_make_bodies(world.bodies);
   return &world;
@@ -165,6 +168,36 @@ static nsvcd_question level_question(const level_way *way, const nsvcd_body *fix
   question.a.count = 2;
   question.b.body = fixed;
   return question;
+}
+
+// A body mapped from a file, and trusted, is as good as one in memory; what is no body is refused all the same.
+static void level_mapped_from_a_file(void) {
+  const level_world *w = level_shared();
+  const size_t size = nsvcd_body_describe(w->level.body).size;
+  FILE *file = tmpfile();
+  CHECK(file && fwrite(w->level.body, 1, size, file) == size && fflush(file) == 0);
+  char *mapped = (char *)mmap(NULL, size, PROT_READ, MAP_PRIVATE, fileno(file), 0);
+  CHECK(mapped != MAP_FAILED);
+  const nsvcd_body *body = NULL;
+  CHECK_EQ(nsvcd_body_trust(mapped, size, &body), NSVCD_OK);
+  shapes_rng rng = {6};
+  for (int trial = 0; trial < 20; trial++) {
+    const level_way way = level_draw(&rng, trial % LEVEL_SETS, w->bodies, &w->level);
+    const nsvcd_question question = level_question(&way, w->level.body);
+    const nsvcd_question from_file = level_question(&way, body);
+    const nsvcd_answer a = level_ask(&question);
+    const nsvcd_answer b = level_ask(&from_file);
+    CHECK_EQ(a.status, b.status);
+    CHECK(a.work == b.work && memcmp(&a.contact_time, &b.contact_time, sizeof(float)) == 0);
+  }
+  body = NULL;
+  CHECK_EQ(nsvcd_body_trust(NULL, size, &body), NSVCD_ERROR_ARGUMENT);
+  CHECK_EQ(nsvcd_body_trust(mapped, size - 1, &body), NSVCD_ERROR_BODY);
+  CHECK_EQ(nsvcd_body_trust(mapped + 4, size - 8, &body), NSVCD_ERROR_BODY);
+  CHECK_EQ(nsvcd_body_trust(mapped + 8, size - 8, &body), NSVCD_ERROR_BODY);
+  CHECK(body == NULL);
+  munmap(mapped, size);
+  fclose(file);
 }
 
 // The level, the piece of it that the motion can reach, and the oracle say the same; at rest, whichever is asked about first.
@@ -460,7 +493,7 @@ static void level_encoding_ends_well(void) {
 // The same mesh, the same bytes.
 static void level_is_deterministic(void) {
   const level_world *w = level_shared();
-  const nsvcd_encode_options options = level_options(0);
+  const nsvcd_encode_options options = level_options(5000);
   const nsvcd_body *again;
   CHECK_EQ(nsvcd_encode(&w->level.mesh, &options, NULL, NULL, 0, &again), NSVCD_OK);
   CHECK_EQ(again->size, w->level.body->size);
@@ -471,6 +504,7 @@ static void level_is_deterministic(void) {
 void test_level(void) {
   RUN(level_walks_find_all);
   RUN(level_blobs_are_checked);
+  RUN(level_mapped_from_a_file);
   RUN(level_verdicts_are_right);
   RUN(level_that_moves);
   RUN(level_contacts_are_those_of_the_piece);
