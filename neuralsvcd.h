@@ -35,7 +35,7 @@
 //     question.options.first = 0.01f;
 //
 //     nsvcd_answer answer;
-//     const size_t size = nsvcd_sweep_workspace_size();
+//     const size_t size = nsvcd_sweep_workspace_size(&question);
 //     if (nsvcd_sweep(&question, malloc(size), size, &answer)) return 1;
 //     if (answer.collides) printf("hits at t = %g\n", (double)answer.contact_time);
 //     return 0;
@@ -330,6 +330,8 @@ typedef struct nsvcd_sweep_options {
   size_t work;      // units that a proof may take, about; 0: NSVCD_DEFAULT_WORK. A unit is a plane sought for two
                     // patches, 16 triangles against the box of 16, one of them against these, a pair of triangles at
                     // one time, or a ray against 16: up to 0.5 microseconds
+  size_t segments;  // a motion is cut into at most so many, in multiples of 16 up to 64; 0: 64. Fewer take less memory; what
+                    // turns by more than 20 degrees in one of them takes longer to prove
   float tolerance;  // metres, at least 0: surfaces that come closer than this, and do not meet, may be left undecided
   // By proof only:
   float clearance;  // metres: to come as close as this counts as a collision; 0: to meet does
@@ -387,7 +389,9 @@ typedef struct nsvcd_answer {
   size_t work;  // units that the proof took
 } nsvcd_answer;
 
-// Answers a question. workspace: nsvcd_sweep_workspace_size() bytes, aligned to NSVCD_ALIGNMENT.
+// Answers a question. workspace: nsvcd_sweep_workspace_size(question) bytes, aligned to NSVCD_ALIGNMENT: it depends on the
+// sizes of the bodies, the method, and options.segments, pairs and model; 0 if the question is refused. Of NULL it is enough
+// for any question. For arrays of a fixed size see NSVCD_WORKSPACE_BYTES.
 // Allocates nothing; threads may share bodies, each with its own workspace; deterministic, and the same verdict whichever
 // body is a and which b. Bodies of Ga and Gb groups of 16 patches and a motion of S segments, 16 or so up to 320 degrees
 // of turn and 64 at most, take at most 18 S Ga Gb + 3 S tests of 16 spheres against one; then a proof takes options.work
@@ -399,7 +403,7 @@ typedef struct nsvcd_answer {
 // INSIDE hold for the meshes themselves; the triangles of a WITNESS meet to within the two bodies' quantum
 // (nsvcd_body_facts, times the scale), a few micrometres at most on bodies of 0.3 m; UNDECIDED are surfaces that come as
 // close as that without meeting, or more work than was allowed.
-NSVCDDEF size_t nsvcd_sweep_workspace_size(void);
+NSVCDDEF size_t nsvcd_sweep_workspace_size(const nsvcd_question *question);
 NSVCDDEF nsvcd_result nsvcd_sweep(const nsvcd_question *question, void *workspace, size_t workspace_size,
                                   nsvcd_answer *answer);
 
@@ -1049,6 +1053,15 @@ static void *nsvcd__alloc_array(const nsvcd_allocator *allocator, size_t count, 
   return count > SIZE_MAX / size ? NULL : nsvcd__alloc(allocator, count * size);
 }
 #endif
+
+// The next rows of a workspace, or, where base is NULL, only counts their bytes: in 64 bits, for they may be more than a
+// machine of 32 bits can count.
+static void *nsvcd__take(char *base, uint64_t *used, size_t rows, size_t row_size) {
+  void *at = base ? base + *used : NULL;
+  const uint64_t bytes = (uint64_t)rows * row_size;
+  *used += (bytes + NSVCD_ALIGNMENT - 1) / NSVCD_ALIGNMENT * NSVCD_ALIGNMENT;
+  return at;
+}
 
 // ------------------------------------------------------------------------------------------------------- mesh
 // In: Wavefront OBJ text, or triangles from the caller. Out: nsvcd_mesh, every index in range, every coordinate finite.
@@ -5333,24 +5346,36 @@ typedef struct nsvcd__boxes {
 typedef struct nsvcd__tile {
   size_t count;
   uint16_t groups[NSVCD__TILE_SLOTS];
-  float spheres[4][NSVCD__TILE_SLOTS];  // x y z r
+  const float *spheres[4];  // x y z r: the body's own where it has no more than a tile, else gathered
+  float *gathered;          // (4, NSVCD__TILE_SLOTS), or NULL
 } nsvcd__tile;
+
+// What a query needs memory for.
+typedef struct nsvcd__needs {
+  size_t moving_groups, fixed_groups;  // of a tile
+  int large;                           // a body has more than these
+  size_t segments;                     // 16, 32, 48 or 64
+  size_t candidates;                   // of the network
+  int proof;
+} nsvcd__needs;
 
 typedef struct nsvcd__workspace {
   size_t segments;                                        // S
+  size_t most_segments;                                   // that there is room for
   float scale;                                            // of the moving body
-  uint32_t begin[NSVCD__MAX_SEGMENTS + 1];                // ticks at which they begin, then the last one
-  float time[NSVCD__MAX_SEGMENTS + 1];                    // of the ends of the segments
-  float turn[NSVCD__MAX_SEGMENTS + 1];                    // rotation arc from t = 0 to there, radians
-  nsvcd__segments blocks[NSVCD__BLOCKS];                  // (S / 16 rounded up)
-  nsvcd__cut cut;
-  nsvcd__chords group[NSVCD__BLOCKS];                     // a moving group's
-  nsvcd__chords members[NSVCD__MAX_SEGMENTS];             // its 16 members', per segment
+  uint32_t *begin;                                        // (S + 1) ticks at which they begin, then the last one
+  float *time;                                            // (S + 1) of the ends of the segments
+  float *turn;                                            // (S + 1) rotation arc from t = 0 to there, radians
+  nsvcd__segments *blocks;                                // (S / 16 rounded up)
+  nsvcd__chords *group;                                   // (S / 16 rounded up) a moving group's
+  nsvcd__chords *members;                                 // (S) its 16 members', per segment
+  nsvcd__cut *cut;                                        // in the same place: segments are cut before any search
   uint64_t near_segments;                                 // in which the bodies' spheres meet
   nsvcd__walk moving_walk, fixed_walk;                    // through the groups that come near; where a body is large
   float near_low[3], near_high[3];                        // a box about the way of the moving tile
   nsvcd__tile moving_tile, fixed_tile;                    // the groups that are searched now; below, places in these
-  uint64_t nearby[NSVCD__TILE_SLOTS][NSVCD__TILE_SLOTS];  // moving groups, fixed groups: segments in which they meet
+  uint64_t *nearby;                                       // (moving groups, fixed groups) segments in which they meet
+  size_t nearby_stride;                                   // see nsvcd__nearby
   uint64_t wanted;                                        // segments to search; all, but where contacts are sought in order
   uint16_t order[NSVCD__TILE_SLOTS];                      // moving groups that are near any, in the order of the search
   size_t steps, step;                                     // how many they are, and which of them is being searched
@@ -5358,6 +5383,29 @@ typedef struct nsvcd__workspace {
   uint64_t posed;                                         // segments for which members[] is filled
   float remote;                                           // no part of these members is farther from the body's origin
 } nsvcd__workspace;
+
+// Lays a workspace out in base, or, where that is NULL, only counts.
+static void nsvcd__workspace_layout(const nsvcd__needs *needs, char *base, uint64_t *used, nsvcd__workspace *work) {
+  const size_t s = needs->segments;
+  const size_t blocks = s / NSVCD__LANES;
+  const size_t members = s * sizeof(nsvcd__chords);
+  const size_t gathered = needs->large ? 4 * NSVCD__TILE_SLOTS : 0;
+  work->most_segments = s;
+  work->begin = (uint32_t *)nsvcd__take(base, used, s + 1, sizeof(uint32_t));
+  work->time = (float *)nsvcd__take(base, used, s + 1, sizeof(float));
+  work->turn = (float *)nsvcd__take(base, used, s + 1, sizeof(float));
+  work->blocks = (nsvcd__segments *)nsvcd__take(base, used, blocks, sizeof(nsvcd__segments));
+  work->group = (nsvcd__chords *)nsvcd__take(base, used, blocks, sizeof(nsvcd__chords));
+  work->members = (nsvcd__chords *)nsvcd__take(base, used, 1, members > sizeof(nsvcd__cut) ? members : sizeof(nsvcd__cut));
+  work->cut = (nsvcd__cut *)(void *)work->members;
+  work->nearby_stride = needs->fixed_groups;
+  work->nearby = (uint64_t *)nsvcd__take(base, used, needs->moving_groups * needs->fixed_groups, sizeof(uint64_t));
+  work->moving_tile.gathered = (float *)nsvcd__take(base, used, gathered, sizeof(float));
+  work->fixed_tile.gathered = (float *)nsvcd__take(base, used, gathered, sizeof(float));
+}
+
+// The segments in which group g of the moving tile meets each one of the fixed tile.
+static uint64_t *nsvcd__nearby(const nsvcd__workspace *work, size_t g) { return work->nearby + g * work->nearby_stride; }
 
 // Not less than the angle between two rotations, unit to 1e-4, and hardly more where it is small: 4 asin(chord / 2) of
 // their chord as quaternions, asin x <= x + (pi/2 - 1) x^3, and half a thousandth for the lengths. chord2: its square.
@@ -5425,7 +5473,7 @@ static void nsvcd__measure_turn(const nsvcd__track *track, float *turn, float *w
 
 // How many segments, and into how many parts a tick must be cut where there are too few for that (else 1). Segments begin
 // at ticks.
-static size_t nsvcd__segment_count(const nsvcd__motion *motion, uint32_t *parts) {
+static size_t nsvcd__segment_count(const nsvcd__motion *motion, size_t greatest, uint32_t *parts) {
   const size_t ticks = motion->ticks;
   float turn, widest, fixed_turn = 0, fixed_widest = 0;
   *parts = 1;
@@ -5436,12 +5484,12 @@ static size_t nsvcd__segment_count(const nsvcd__motion *motion, uint32_t *parts)
   const size_t coarse = (size_t)ceilf(turn / NSVCD__SEGMENT_TURN);
   const size_t fine = (size_t)ceilf(turn / NSVCD__FINE_TURN);
   size_t wanted = fine < NSVCD__SEGMENTS ? fine : NSVCD__SEGMENTS;
-  if (wanted < coarse) wanted = coarse < NSVCD__MAX_SEGMENTS ? coarse : NSVCD__MAX_SEGMENTS;
+  if (wanted < coarse) wanted = coarse < greatest ? coarse : greatest;
   if (wanted < 1) wanted = 1;
   if (ticks > wanted) return ticks < NSVCD__SEGMENTS ? ticks : wanted < NSVCD__SEGMENTS ? NSVCD__SEGMENTS : wanted;
   const float of_tick = widest / (float)motion->moving.ticks + fixed_widest / (float)motion->fixed.ticks;
   const size_t least = (size_t)ceilf(of_tick / NSVCD__SEGMENT_TURN);
-  const size_t most = NSVCD__MAX_SEGMENTS / ticks;
+  const size_t most = greatest / ticks;
   size_t each = wanted / ticks > least ? wanted / ticks : least;
   each = each < most ? each : most;
   *parts = (uint32_t)(each > 1 ? each : 1);
@@ -5699,7 +5747,7 @@ static void nsvcd__cut_block(const nsvcd__motion *motion, const uint32_t *begin,
 static void nsvcd__choose_segments(nsvcd__motion *motion, nsvcd__workspace *work) {
   uint32_t parts;
   nsvcd__motion_set_ticks(motion, 1);
-  work->segments = nsvcd__segment_count(motion, &parts);
+  work->segments = nsvcd__segment_count(motion, work->most_segments, &parts);
   work->scale = motion->scale;
   nsvcd__motion_set_ticks(motion, parts);
   const uint32_t segments = (uint32_t)work->segments;
@@ -5727,7 +5775,7 @@ static void nsvcd__cut_segments(const nsvcd__motion *motion, float lengths, floa
     float turn[NSVCD__LANES];
     for (size_t l = 0; l <= NSVCD__LANES; l++) ends[l] = work->begin[first + (l < count ? l : count)];
     nsvcd__segments *block = &work->blocks[first / NSVCD__LANES];
-    nsvcd__cut_block(motion, ends, count, lengths, block, &work->cut, turn);
+    nsvcd__cut_block(motion, ends, count, lengths, block, work->cut, turn);
     for (size_t l = 0; l < count; l++) block->spread[l] += clearance;
     for (size_t l = 0; l < count; l++) work->turn[first + l + 1] = work->turn[first + l] + turn[l];
   }
@@ -6054,14 +6102,15 @@ static uint32_t nsvcd__groups_at_box(const nsvcd__boxes *boxes, size_t l, const 
 static size_t nsvcd__group_against_tile(nsvcd__workspace *work, const nsvcd_body *moving, size_t g, uint32_t groups) {
   const nsvcd__tile *tile = &work->fixed_tile;
   const uint64_t all = ~(uint64_t)0 >> (NSVCD__MAX_SEGMENTS - work->segments);
+  uint64_t *nearby = nsvcd__nearby(work, g);
   size_t meetings = 0;
   nsvcd__chords_of_group(work, moving, work->moving_tile.groups[g]);
-  memset(work->nearby[g], 0, tile->count * sizeof *work->nearby[g]);
+  memset(nearby, 0, tile->count * sizeof *nearby);
   for (; groups; groups &= groups - 1) {
     const size_t h = nsvcd__lowest_bit(groups);
-    work->nearby[g][h] = nsvcd__meet_in(work->group, all, tile->spheres[0][h], tile->spheres[1][h], tile->spheres[2][h],
-                                        tile->spheres[3][h]);
-    meetings += nsvcd__bit_count(work->nearby[g][h]);
+    nearby[h] = nsvcd__meet_in(work->group, all, tile->spheres[0][h], tile->spheres[1][h], tile->spheres[2][h],
+                               tile->spheres[3][h]);
+    meetings += nsvcd__bit_count(nearby[h]);
   }
   return meetings;
 }
@@ -6101,22 +6150,21 @@ static void nsvcd__chords_of_sphere_everywhere(nsvcd__workspace *work, const flo
 // Fills a tile with the next groups that a walk finds.
 static void nsvcd__tile_fill(nsvcd__tile *tile, nsvcd__walk *walk) {
   size_t g;
-  for (size_t l = 0; l < NSVCD__TILE_SLOTS; l++) {
-    for (size_t k = 0; k < 4; k++) tile->spheres[k][l] = k < 3 ? 0 : NSVCD__NOWHERE;
-  }
+  for (size_t k = 0; k < 4; k++) tile->spheres[k] = tile->gathered + k * NSVCD__TILE_SLOTS;
+  for (size_t n = 0; n < 4 * NSVCD__TILE_SLOTS; n++) tile->gathered[n] = n < 3 * NSVCD__TILE_SLOTS ? 0 : NSVCD__NOWHERE;
   tile->count = 0;
   while (tile->count < NSVCD__TILE && nsvcd__walk_next(walk, &g)) {
-    for (size_t k = 0; k < 4; k++) tile->spheres[k][tile->count] = nsvcd__body_group(walk->body, k)[g];
+    float *to = tile->gathered + tile->count;
+    for (size_t k = 0; k < 4; k++) to[k * NSVCD__TILE_SLOTS] = nsvcd__body_group(walk->body, k)[g];
     tile->groups[tile->count++] = (uint16_t)g;
   }
 }
 
 // Fills a tile with all groups of a body that has no more than that.
 static void nsvcd__tile_fill_all(nsvcd__tile *tile, const nsvcd_body *body) {
-  const size_t slots = nsvcd__group_slots(body->padded);
   tile->count = nsvcd__body_groups(body);
   for (size_t g = 0; g < tile->count; g++) tile->groups[g] = (uint16_t)g;
-  for (size_t k = 0; k < 4; k++) memcpy(tile->spheres[k], nsvcd__body_group(body, k), slots * sizeof(float));
+  for (size_t k = 0; k < 4; k++) tile->spheres[k] = nsvcd__body_group(body, k);
 }
 
 // Filters of a walk, given the workspace. All spheres that there are.
@@ -6274,7 +6322,7 @@ static uint32_t nsvcd__group_against_members(const nsvcd__workspace *work, const
 // longest time.
 static size_t nsvcd__search_group(nsvcd__workspace *work, const nsvcd_body *moving) {
   const size_t g = work->order[work->step];
-  const uint64_t *nearby = work->nearby[g];
+  const uint64_t *nearby = nsvcd__nearby(work, g);
   size_t longest = 0, most = 0;
   for (size_t h = 0; h < work->fixed_tile.count; h++) {
     const size_t count = nsvcd__bit_count(nearby[h] & work->wanted);
@@ -6291,10 +6339,11 @@ static size_t nsvcd__search_group(nsvcd__workspace *work, const nsvcd_body *movi
 static int nsvcd__search_step(nsvcd__workspace *work, const nsvcd_body *moving, const nsvcd_body *fixed,
                               nsvcd__candidates *kept) {
   const size_t at = work->waiting ? nsvcd__lowest_bit(work->waiting) : nsvcd__search_group(work, moving);
-  const size_t g = work->moving_tile.groups[work->order[work->step]];
+  const size_t turn = work->order[work->step];
+  const size_t g = work->moving_tile.groups[turn];
   const size_t h = work->fixed_tile.groups[at];
   uint64_t segments[NSVCD__GROUP];
-  uint32_t met = nsvcd__group_against_members(work, fixed, h, work->nearby[work->order[work->step]][at], segments);
+  uint32_t met = nsvcd__group_against_members(work, fixed, h, nsvcd__nearby(work, turn)[at], segments);
   for (; met; met &= met - 1) {
     const size_t l = nsvcd__lowest_bit(met);
     nsvcd__pose_members(work, moving, g, segments[l]);
@@ -6494,7 +6543,6 @@ typedef struct nsvcd__proof {
   double clearance, measure, first;
   double skin;
   int gathers;           // contacts are not taken, but gathered: those that a lift along no normal known undoes
-  nsvcd__touch touches[NSVCD__TOUCHES];
   nsvcd__d3 normals[NSVCD__LIFTS];  // unit, of what the moving body touches, towards it
   size_t touch_count, normal_count;
   double end;            // ticks: what begins then or later does not matter
@@ -6510,7 +6558,7 @@ typedef struct nsvcd__proof {
   nsvcd__contact doubt;   // what the first doubt is about
   nsvcd__arc arc;        // the last one asked for
   uint64_t spans_known;  // segments
-  nsvcd__span spans[NSVCD__MAX_SEGMENTS];
+  nsvcd__span *spans;    // (S)
   // Where the search is: in a moving group, in a pair of it and a resting one; what this one's patches meet, and in which
   // segments.
   int in_group, in_pair;
@@ -6518,7 +6566,10 @@ typedef struct nsvcd__proof {
   uint64_t met_in[NSVCD__GROUP];
   size_t fresh_count, count;
   nsvcd__item fresh[NSVCD__FRESH];  // as the search finds them
-  nsvcd__item items[NSVCD__ITEMS];  // that no plane parts over their segment
+  union {
+    nsvcd__item items[NSVCD__ITEMS];       // that no plane parts over their segment
+    nsvcd__touch touches[NSVCD__TOUCHES];  // gathered before there are any
+  } of;
   float hull_start[3][NSVCD__LANES], hull_end[3][NSVCD__LANES], hull_rest[3][NSVCD__LANES];  // posed
   nsvcd__f3 held;    // normal of the last plane that held,
   uint32_t plane;    // and how many held before; 0: none
@@ -7170,7 +7221,7 @@ static void nsvcd__part_groups(const nsvcd__proof *p, nsvcd__workspace *work) {
     const nsvcd__disc disc = nsvcd__disc_at(p->fixed.group_discs, nsvcd__group_slots(fixed->padded), h);
     const nsvcd__f3 fixed_centre = nsvcd__f3_of(nsvcd__body_group(fixed, 0)[h], nsvcd__body_group(fixed, 1)[h],
                                                 nsvcd__body_group(fixed, 2)[h]);
-    uint64_t *met = &work->nearby[turn][at];
+    uint64_t *met = &nsvcd__nearby(work, turn)[at];
     for (size_t b = 0; b < NSVCD__BLOCKS && *met >> (NSVCD__LANES * b); b++) {
       const uint32_t there = (uint32_t)(*met >> (NSVCD__LANES * b)) & 0xffff;
       nsvcd__v3 planes[2];
@@ -7914,7 +7965,7 @@ static void nsvcd__gather_contact(nsvcd__proof *p, const nsvcd__pair *pair, cons
   for (size_t k = 0; k < p->normal_count; k++) {
     if (nsvcd__undoes(p, p->normals[k], &touch)) return;
   }
-  if (p->touch_count < NSVCD__TOUCHES) p->touches[p->touch_count++] = touch;
+  if (p->touch_count < NSVCD__TOUCHES) p->of.touches[p->touch_count++] = touch;
 }
 
 // Among the moving block, posed `at`, and a block of the window: looks for a contact a share u of the arc later than its
@@ -8243,13 +8294,13 @@ static NSVCD__APART void nsvcd__clip_segment(nsvcd__proof *p, nsvcd__workspace *
 
 // Settles the items that no plane parts, the best first.
 static NSVCD__APART nsvcd__verdict nsvcd__settle_items(nsvcd__proof *p, nsvcd__workspace *work) {
-  nsvcd__sort_items(p, p->items, p->count);
+  nsvcd__sort_items(p, p->of.items, p->count);
   for (size_t n = 0; n < p->count; n++) {
     if (p->work > p->limit) return NSVCD__UNDECIDED;
     nsvcd__clip_segment(p, work);
-    if (!nsvcd__matters(p, work, p->items[n].segment)) continue;
-    if (p->clipped >> p->items[n].segment & 1 && nsvcd__item_is_parted(p, work, &p->items[n])) continue;
-    if (nsvcd__settle_item(p, work, &p->items[n]) == NSVCD__MEETS) return NSVCD__MEETS;
+    if (!nsvcd__matters(p, work, p->of.items[n].segment)) continue;
+    if (p->clipped >> p->of.items[n].segment & 1 && nsvcd__item_is_parted(p, work, &p->of.items[n])) continue;
+    if (nsvcd__settle_item(p, work, &p->of.items[n]) == NSVCD__MEETS) return NSVCD__MEETS;
   }
   p->count = 0;
   return p->work > p->limit ? NSVCD__UNDECIDED : NSVCD__FREE;
@@ -8284,7 +8335,7 @@ static NSVCD__APART nsvcd__verdict nsvcd__sift_items(nsvcd__proof *p, nsvcd__wor
       const nsvcd__verdict verdict = nsvcd__settle_items(p, work);
       if (verdict != NSVCD__FREE) return verdict;
     }
-    p->items[p->count++] = *item;
+    p->of.items[p->count++] = *item;
   }
   return NSVCD__FREE;
 }
@@ -8718,7 +8769,7 @@ static NSVCD__APART int nsvcd__collect(nsvcd__proof *p, nsvcd__workspace *work) 
       const size_t at = nsvcd__lowest_bit(work->waiting);
       const size_t h = work->fixed_tile.groups[at];
       if (!p->in_pair) {
-        const uint64_t wanted = work->nearby[turn][at] & nsvcd__segments_that_matter(p, work);
+        const uint64_t wanted = nsvcd__nearby(work, turn)[at] & nsvcd__segments_that_matter(p, work);
         p->met = nsvcd__group_against_members(work, fixed, h, wanted, p->met_in);
         p->in_pair = 1;
       }
@@ -8911,7 +8962,7 @@ static void nsvcd__gather_contacts(nsvcd__proof *p, nsvcd__workspace *work) {
 // How many touches a lift along n undoes.
 static size_t nsvcd__undone(const nsvcd__proof *p, nsvcd__d3 n) {
   size_t count = 0;
-  for (size_t k = 0; k < p->touch_count; k++) count += nsvcd__undoes(p, n, &p->touches[k]) != 0;
+  for (size_t k = 0; k < p->touch_count; k++) count += nsvcd__undoes(p, n, &p->of.touches[k]) != 0;
   return count;
 }
 
@@ -8921,7 +8972,7 @@ static size_t nsvcd__best_lift(const nsvcd__proof *p, nsvcd__d3 *best) {
   size_t most = 0;
   for (size_t k = 0; k < p->touch_count && most < p->touch_count; k++) {
     nsvcd__d3 normals[3];
-    nsvcd__touch_normals(&p->touches[k], normals);
+    nsvcd__touch_normals(&p->of.touches[k], normals);
     for (size_t i = 0; i < 3; i++) {
       const int known = most > 0 && nsvcd__d3_dot(normals[i], *best) > 0.99999;
       const size_t count = known ? 0 : nsvcd__undone(p, normals[i]);
@@ -8930,7 +8981,7 @@ static size_t nsvcd__best_lift(const nsvcd__proof *p, nsvcd__d3 *best) {
     }
   }
   for (size_t k = 0; k < 9 && most == 0; k++) {  // an edge on an edge
-    const nsvcd__touch *t = &p->touches[0];
+    const nsvcd__touch *t = &p->of.touches[0];
     const nsvcd__d3 u = nsvcd__d3_sub(t->moving[(k + 1) % 3], t->moving[k % 3]);
     const nsvcd__d3 v = nsvcd__d3_sub(t->fixed[(k / 3 + 1) % 3], t->fixed[k / 3]);
     const nsvcd__d3 n = nsvcd__d3_unit(nsvcd__d3_cross(u, v), none);
@@ -8953,7 +9004,7 @@ static int nsvcd__choose_lifts(nsvcd__proof *p) {
     p->normals[p->normal_count++] = best;
     size_t left = 0;
     for (size_t k = 0; k < p->touch_count; k++) {
-      if (!nsvcd__undoes(p, best, &p->touches[k])) p->touches[left++] = p->touches[k];
+      if (!nsvcd__undoes(p, best, &p->of.touches[k])) p->of.touches[left++] = p->of.touches[k];
     }
     p->touch_count = left;
   }
@@ -9953,17 +10004,46 @@ typedef struct nsvcd__task {
 typedef struct nsvcd__query {
   nsvcd__workspace broad_phase;
   nsvcd__task task;
-  union {  // of one method after the other
+  // In one place, for one method follows the other:
 #ifndef NSVCD_NO_NETWORK
-    nsvcd__candidate kept[NSVCD__SHORTLIST * NSVCD_MAX_PAIRS];
+  nsvcd__candidate *kept;
 #endif
 #ifndef NSVCD_NO_PROOF
-    nsvcd__proof proof;
+  nsvcd__proof *proof;
+  nsvcd__span *spans;  // (S)
 #endif
-  } by;
 } nsvcd__query;
 
-NSVCDDEF size_t nsvcd_sweep_workspace_size(void) { return sizeof(nsvcd__query); }
+// What any question may need.
+static nsvcd__needs nsvcd__needs_most(void) {
+  nsvcd__needs needs = {NSVCD__TILE_SLOTS, NSVCD__TILE_SLOTS, 1, NSVCD__MAX_SEGMENTS, 0, 1};
+#ifndef NSVCD_NO_NETWORK
+  needs.candidates = NSVCD__SHORTLIST * NSVCD_MAX_PAIRS;
+#endif
+  return needs;
+}
+
+// Lays a query out at base, which is aligned, or, where that is NULL, only counts. Returns the bytes that it takes.
+static size_t nsvcd__query_layout(const nsvcd__needs *needs, char *base) {
+  nsvcd__query counted;
+  uint64_t used = 0;
+  void *at = nsvcd__take(base, &used, 1, sizeof(nsvcd__query));
+  nsvcd__query *query = at ? (nsvcd__query *)at : &counted;
+  nsvcd__workspace_layout(needs, base, &used, &query->broad_phase);
+  uint64_t end = used;
+#ifndef NSVCD_NO_NETWORK
+  uint64_t network = used;
+  query->kept = (nsvcd__candidate *)nsvcd__take(base, &network, needs->candidates, sizeof(nsvcd__candidate));
+  end = network;
+#endif
+#ifndef NSVCD_NO_PROOF
+  uint64_t proof = used;
+  query->proof = (nsvcd__proof *)nsvcd__take(base, &proof, needs->proof != 0, sizeof(nsvcd__proof));
+  query->spans = (nsvcd__span *)nsvcd__take(base, &proof, needs->proof ? needs->segments : 0, sizeof(nsvcd__span));
+  end = proof > end ? proof : end;
+#endif
+  return (size_t)end;
+}
 
 static nsvcd_answer nsvcd__answer_free(void) {
   nsvcd_answer answer;
@@ -10098,7 +10178,7 @@ static int nsvcd__collides_again(const nsvcd__task *ask, const nsvcd__hint *hint
                                  nsvcd_answer *answer) {
   const nsvcd__settings *settings = &ask->settings;
   nsvcd__candidates kept;
-  nsvcd__candidates_start(&kept, query->by.kept, NSVCD__PORTION);
+  nsvcd__candidates_start(&kept, query->kept, NSVCD__PORTION);
   nsvcd__search_patch(&query->broad_phase, ask->moving, hint->moving / NSVCD__GROUP, ask->fixed, hint->fixed, &kept);
   if (!nsvcd__score(ask, &kept, 1, kept.count)) return 0;
   answer->overlapping = kept.total;
@@ -10128,7 +10208,7 @@ static void nsvcd__answer(nsvcd__task *ask, nsvcd__query *query, nsvcd__hint *hi
     int more = nsvcd__search_begin(ask->moving, ask->fixed, work);
     found = none;
     if (hint && hint->known) hint->known = ++hint->misled < 2;
-    nsvcd__candidates_start(&kept, query->by.kept, ask->settings.shortlist);
+    nsvcd__candidates_start(&kept, query->kept, ask->settings.shortlist);
     while (more && !clear) {
       more = nsvcd__search_step(work, ask->moving, ask->fixed, &kept);
       // A deep collision shows early. What is scored now need not be scored later, so that looking costs little.
@@ -10249,7 +10329,8 @@ static NSVCD__APART nsvcd__verdict nsvcd__prove_start(nsvcd__proof *p, nsvcd__wo
 
 // Proves a question whose motion has been prepared, if it can; else the answer is UNDECIDED and says yes.
 static void nsvcd__answer_by_proof(nsvcd__task *ask, nsvcd__query *query, nsvcd_answer *answer) {
-  nsvcd__proof *p = &query->by.proof;
+  nsvcd__proof *p = query->proof;
+  p->spans = query->spans;
   p->motion = &ask->motion;
   p->moving = nsvcd__facets_of(nsvcd__triangles_of(ask->moving));
   p->fixed = nsvcd__facets_of(nsvcd__triangles_of(ask->fixed));
@@ -10385,6 +10466,7 @@ static nsvcd_result nsvcd__question_check(const nsvcd_question *question) {
   if (nsvcd__is_itself(question)) return NSVCD_ERROR_SAME;
   const nsvcd_sweep_options *options = &question->options;
   if ((unsigned)options->method > (unsigned)NSVCD_METHOD_NETWORK) return NSVCD_ERROR_ARGUMENT;
+  if (options->segments > NSVCD__MAX_SEGMENTS || options->segments % NSVCD__LANES) return NSVCD_ERROR_ARGUMENT;
   const float lengths[4] = {options->tolerance, options->clearance, options->measure, options->skin};
   for (size_t k = 0; k < 4; k++) {
     const int fits = nsvcd__is_finite(lengths[k]) && lengths[k] >= 0 && lengths[k] <= NSVCD_MAX_COORDINATE;
@@ -10426,9 +10508,57 @@ static void nsvcd__task_of(const nsvcd_question *question, nsvcd__task *ask) {
 #endif
 }
 
-static nsvcd_result nsvcd__workspace_check(const void *workspace, size_t workspace_size) {
-  const int fits = workspace && workspace_size >= sizeof(nsvcd__query) && nsvcd__is_aligned(workspace);
+static size_t nsvcd__tile_groups(const nsvcd_body *body) {
+  const size_t groups = nsvcd__body_groups(body);
+  return groups < NSVCD__TILE_SLOTS ? groups : NSVCD__TILE_SLOTS;
+}
+
+// What a question that is in order needs. Which of its bodies is to be the moving one makes no difference.
+static nsvcd__needs nsvcd__needs_of(const nsvcd_question *question) {
+  const nsvcd_body *a = question->a.body, *b = question->b.body;
+  const nsvcd_sweep_options *options = &question->options;
+  nsvcd__needs needs;
+  memset(&needs, 0, sizeof needs);
+  needs.moving_groups = nsvcd__tile_groups(a);
+  needs.fixed_groups = nsvcd__tile_groups(b);
+  if (nsvcd__is_swapped(&question->a, &question->b)) {
+    needs.moving_groups = nsvcd__tile_groups(b);
+    needs.fixed_groups = nsvcd__tile_groups(a);
+  }
+  needs.large = nsvcd__is_large(a) || nsvcd__is_large(b);
+  needs.segments = options->segments ? nsvcd__round_up(options->segments, NSVCD__LANES) : NSVCD__MAX_SEGMENTS;
+  needs.proof = nsvcd__method_of(a, b, options->method) == NSVCD_METHOD_PROOF;
+#ifndef NSVCD_NO_NETWORK
+  const size_t pairs = options->pairs ? options->pairs : NSVCD_DEFAULT_PAIRS;
+  const size_t most = options->model == NSVCD_MODEL_TINY ? pairs : NSVCD__SHORTLIST * pairs;
+  if (a->weights_id && b->weights_id) needs.candidates = most > NSVCD__PORTION ? most : NSVCD__PORTION;
+#endif
+  return needs;
+}
+
+NSVCDDEF size_t nsvcd_sweep_workspace_size(const nsvcd_question *question) {
+  if (question && nsvcd__question_check(question)) return 0;
+  const nsvcd__needs needs = question ? nsvcd__needs_of(question) : nsvcd__needs_most();
+  return nsvcd__query_layout(&needs, NULL);
+}
+
+// Checks a question, and that the workspace is large enough for it.
+static nsvcd_result nsvcd__check(const nsvcd_question *question, const void *workspace, size_t workspace_size) {
+  const nsvcd_result result = nsvcd__question_check(question);
+  if (result) return result;
+  const nsvcd__needs needs = nsvcd__needs_of(question);
+  const size_t size = nsvcd__query_layout(&needs, NULL);
+  const int fits = workspace && workspace_size >= size && nsvcd__is_aligned(workspace);
   return fits ? NSVCD_OK : NSVCD_ERROR_WORKSPACE;
+}
+
+// Makes a workspace ready for a question that has been checked.
+static nsvcd__query *nsvcd__query_open(const nsvcd_question *question, void *workspace) {
+  const nsvcd__needs needs = nsvcd__needs_of(question);
+  nsvcd__query *query = (nsvcd__query *)workspace;
+  (void)nsvcd__query_layout(&needs, (char *)workspace);
+  nsvcd__task_of(question, &query->task);
+  return query;
 }
 
 NSVCDDEF nsvcd_result nsvcd_sweep(const nsvcd_question *question, void *workspace, size_t workspace_size,
@@ -10439,17 +10569,17 @@ NSVCDDEF nsvcd_result nsvcd_sweep(const nsvcd_question *question, void *workspac
 NSVCDDEF nsvcd_result nsvcd_sweep_batch(const nsvcd_question *questions, size_t count, void *workspace,
                                         size_t workspace_size, nsvcd_answer *answers) {
   if (count > 0 && (!questions || !answers)) return NSVCD_ERROR_ARGUMENT;
-  nsvcd_result result = nsvcd__workspace_check(workspace, workspace_size);
-  for (size_t k = 0; !result && k < count; k++) result = nsvcd__question_check(&questions[k]);
-  if (result) return result;
-  nsvcd__query *query = (nsvcd__query *)workspace;
+  for (size_t k = 0; k < count; k++) {
+    const nsvcd_result result = nsvcd__check(&questions[k], workspace, workspace_size);
+    if (result) return result;
+  }
   void *with = NULL;
 #ifndef NSVCD_NO_NETWORK
   nsvcd__hint hint = {0, 0, 0, 0};
   with = &hint;
 #endif
   for (size_t k = 0; k < count; k++) {
-    nsvcd__task_of(&questions[k], &query->task);
+    nsvcd__query *query = nsvcd__query_open(&questions[k], workspace);
 #ifndef NSVCD_NO_NETWORK
     const int other = k > 0 && (questions[k].a.body != questions[k - 1].a.body ||
                                 questions[k].b.body != questions[k - 1].b.body);
@@ -10835,18 +10965,16 @@ static void nsvcd__gradient(const nsvcd__task *ask, const nsvcd__decisive *decis
 
 NSVCDDEF nsvcd_result nsvcd_sweep_gradient(const nsvcd_question *question, void *workspace, size_t workspace_size,
                                            nsvcd_answer *answer, float *gradient_a, float *gradient_b) {
-  nsvcd__query *query = (nsvcd__query *)workspace;
   if (!question || !answer || (!gradient_a && !gradient_b)) return NSVCD_ERROR_ARGUMENT;
   if (question->options.method == NSVCD_METHOD_PROOF) return NSVCD_ERROR_ARGUMENT;
   nsvcd_question by_network = *question;
   by_network.options.method = NSVCD_METHOD_NETWORK;
-  nsvcd_result result = nsvcd__workspace_check(workspace, workspace_size);
-  if (!result) result = nsvcd__question_check(&by_network);
+  const nsvcd_result result = nsvcd__check(&by_network, workspace, workspace_size);
   if (result) return result;
 
+  nsvcd__query *query = nsvcd__query_open(&by_network, workspace);
   nsvcd__task *ask = &query->task;
   nsvcd__decisive decisive;
-  nsvcd__task_of(&by_network, ask);
   ask->decisive = &decisive;
   nsvcd__answer_task(ask, query, NULL, answer);
   const nsvcd__gradients out = {ask->swapped ? gradient_b : gradient_a, ask->swapped ? gradient_a : gradient_b};
@@ -10984,7 +11112,8 @@ typedef struct nsvcd__planner {
   const nsvcd_plan_problem *problem;
   nsvcd_plan_options options;  // with the defaults filled in
   nsvcd__stage explore, refine, check;
-  nsvcd__query *query;
+  void *query;
+  size_t query_size;
   uint64_t random;
   nsvcd_result error;  // the first that a query or a pose gave
   size_t trajectories, sweeps;
@@ -11015,15 +11144,6 @@ typedef struct nsvcd__cost {
 static int nsvcd__is_free(const nsvcd__cost *cost) { return !cost->collides && cost->joint == NSVCD_NONE; }
 
 // ---- memory
-
-// The next rows of a workspace, or, where base is NULL, only counts their bytes: in 64 bits, for they may be more than a
-// machine of 32 bits can count.
-static void *nsvcd__take(char *base, uint64_t *used, size_t rows, size_t row_size) {
-  void *at = base ? base + *used : NULL;
-  const uint64_t bytes = (uint64_t)rows * row_size;
-  *used += (bytes + NSVCD_ALIGNMENT - 1) / NSVCD_ALIGNMENT * NSVCD_ALIGNMENT;
-  return at;
-}
 
 static int nsvcd__stage_of(const nsvcd_plan_stage *given, size_t via, size_t segments, size_t iterations, size_t count,
                            nsvcd__stage *stage) {
@@ -11097,7 +11217,9 @@ static size_t nsvcd__planner_memory(nsvcd__planner *p, char *base) {
   samples = samples > p->refine.samples ? samples : p->refine.samples;
   const size_t point = (via + 2) * f * sizeof(float);
   uint64_t used = 0;
-  p->query = (nsvcd__query *)nsvcd__take(base, &used, 1, sizeof(nsvcd__query));
+  const nsvcd__needs needs = nsvcd__needs_most();
+  p->query_size = nsvcd__query_layout(&needs, NULL);
+  p->query = nsvcd__take(base, &used, 1, p->query_size);
   nsvcd__stage_memory(&p->explore, base, &used);
   nsvcd__stage_memory(&p->refine, base, &used);
   nsvcd__stage_memory(&p->check, base, &used);
@@ -11308,8 +11430,8 @@ static nsvcd_answer nsvcd__ask(nsvcd__planner *p, uint32_t k, size_t first, size
     question.options.clearance = question.options.measure = question.options.first = question.options.skin = 0;
   }
   const nsvcd_result error =
-      gradient ? nsvcd_sweep_gradient(&question, p->query, sizeof *p->query, &answer, gradient, NULL)
-               : nsvcd_sweep(&question, p->query, sizeof *p->query, &answer);
+      gradient ? nsvcd_sweep_gradient(&question, p->query, p->query_size, &answer, gradient, NULL)
+               : nsvcd_sweep(&question, p->query, p->query_size, &answer);
   if (error) p->error = error;
   p->sweeps++;
   return answer;

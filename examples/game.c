@@ -208,7 +208,7 @@ static nsvcd_result ask(world *w) {
     q->options.tolerance = 0.05f * GAP;  // finer than that nobody sees: what is left undecided counts as a contact
     q->options.skin = a->pressed || b->pressed ? 0.95f * GAP : SKIN;
   }
-  return nsvcd_sweep_batch(w->questions, w->pair_count, w->workspace, nsvcd_sweep_workspace_size(), w->answers);
+  return nsvcd_sweep_batch(w->questions, w->pair_count, w->workspace, nsvcd_sweep_workspace_size(NULL), w->answers);
 }
 
 // -------------------------------------------------------------------------------------------------------------- moving
@@ -530,7 +530,7 @@ int main(int argc, char **argv) {
   report r;
   memset(&r, 0, sizeof r);
   r.frames = 300;
-  w.workspace = allocate(nsvcd_sweep_workspace_size());
+  w.workspace = allocate(nsvcd_sweep_workspace_size(NULL));
   if (!make_meshes(&w)) return complain("out of memory"), REFUSED;
   for (int i = 1; i + 1 < argc; i += 2) {
     if (strcmp(argv[i], "--frames") == 0 && parse_count(argv[i + 1], 1, 100000, &r.frames)) continue;

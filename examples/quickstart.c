@@ -58,7 +58,7 @@ int main(void) {
   if (!mug || !rack) return 1;
 
   // Once per thread: memory to work in. Queries allocate nothing.
-  size_t workspace_size = nsvcd_sweep_workspace_size();
+  size_t workspace_size = nsvcd_sweep_workspace_size(NULL);
   void *workspace = malloc(workspace_size);
 
   const char *const names[2] = {"carried low", "carried high"};

@@ -78,7 +78,7 @@ static int answer(const session *s, const check_options *options, void *workspac
   out->microseconds = HUGE_VAL;
   for (size_t i = 0; i <= options->repeat; i++) {
     const double start = seconds();
-    const nsvcd_result result = nsvcd_sweep(&question, workspace, nsvcd_sweep_workspace_size(), &out->answer);
+    const nsvcd_result result = nsvcd_sweep(&question, workspace, nsvcd_sweep_workspace_size(NULL), &out->answer);
     const double taken = 1e6 * (seconds() - start);
     if (result) return complain("%s:%zu: problem %s: %s", s->file.path, p->line, p->id, nsvcd_result_string(result));
     if (i > 0) out->microseconds = fmin(out->microseconds, taken);
@@ -87,7 +87,7 @@ static int answer(const session *s, const check_options *options, void *workspac
 }
 
 static int answer_all(session *s, const check_options *options) {
-  void *workspace = allocate(nsvcd_sweep_workspace_size());
+  void *workspace = allocate(nsvcd_sweep_workspace_size(NULL));
   int good = 1;
   for (size_t i = 0; i < s->file.problem_count && good; i++) {
     good = answer(s, options, workspace, &s->file.problems[i], &s->outcomes[i]);
@@ -309,7 +309,7 @@ static int recall_is_known(const nsvcd_sweep_options *options) {
   const nsvcd_pose pose = {{0, 0, 0}, {0, 0, 0, 1}};
   nsvcd_answer unused;
   const nsvcd_body *body;
-  void *workspace = allocate(nsvcd_sweep_workspace_size());
+  void *workspace = allocate(nsvcd_sweep_workspace_size(NULL));
   nsvcd_result result = nsvcd_encode(&mesh, &one_point, NULL, NULL, 0, &body);
   if (!result) {
     nsvcd_question question = {0};
@@ -317,7 +317,7 @@ static int recall_is_known(const nsvcd_sweep_options *options) {
     question.a.poses = &pose;
     question.a.count = 1;
     question.options = *options;
-    result = nsvcd_sweep(&question, workspace, nsvcd_sweep_workspace_size(), &unused);
+    result = nsvcd_sweep(&question, workspace, nsvcd_sweep_workspace_size(NULL), &unused);
     nsvcd_body_free(body, NULL);
   }
   free(workspace);

@@ -483,7 +483,7 @@ static void name_setting(const nsvcd_sweep_options *o, size_t points, char *name
 // One encoding of all meshes, many query settings. method: the name of the rows.
 static void run_ours(table *t, const problem_set *set, const char *method, const nsvcd_encode_options *encode,
                      const nsvcd_sweep_options *settings, size_t setting_count) {
-  size_t first = t->count, workspace_size = nsvcd_sweep_workspace_size();
+  size_t first = t->count, workspace_size = nsvcd_sweep_workspace_size(NULL);
   double *times = (double *)allocate(setting_count * set->problems * sizeof *times);
   shelf s;
   fill_shelf(set, encode, &s);
@@ -591,7 +591,7 @@ static void swept_box(const problem_set *set, size_t f, const problem *p, float 
 
 // What a scene requires: of the fixed mesh only the part that the moving body can reach, cut out for each problem.
 static void run_neural_cut(table *t, const problem_set *set) {
-  const size_t size = nsvcd_body_size(NSVCD_DEFAULT_NETWORK_POINTS), workspace_size = nsvcd_sweep_workspace_size();
+  const size_t size = nsvcd_body_size(NSVCD_DEFAULT_NETWORK_POINTS), workspace_size = nsvcd_sweep_workspace_size(NULL);
   double *times = (double *)allocate(set->problems * sizeof *times);
   void *memory[2], *workspace = allocate(workspace_size);
   memory[0] = allocate(size), memory[1] = allocate(size);

@@ -54,7 +54,7 @@ int main(int argc, char **argv) {
   ways[7].options.skin = 0.001f;
 
   const nsvcd_body **bodies = (const nsvcd_body **)allocate(file.mesh_count * sizeof *bodies);
-  void *workspace = allocate(nsvcd_sweep_workspace_size());
+  void *workspace = allocate(nsvcd_sweep_workspace_size(NULL));
   const char *slash = strrchr(argv[1], '/');
   for (size_t i = 0; i < file.mesh_count; i++) {
     char path[4096];
@@ -78,7 +78,7 @@ int main(int argc, char **argv) {
         double *least = &ways[k].microseconds[i];
         question.options = ways[k].options;
         const double start = seconds();
-        const nsvcd_result result = nsvcd_sweep(&question, workspace, nsvcd_sweep_workspace_size(), &answer);
+        const nsvcd_result result = nsvcd_sweep(&question, workspace, nsvcd_sweep_workspace_size(NULL), &answer);
         const double taken = 1e6 * (seconds() - start);
         if (result) return complain("%s: %s", p->id, nsvcd_result_string(result)), REFUSED;
         *least = run == 0 ? taken : fmin(*least, taken);

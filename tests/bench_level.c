@@ -153,7 +153,7 @@ int main(int argc, char **argv) {
          level.mesh.triangle_count, facts.points, 1e3 * took, per * (double)h.most, 1e-6 * (double)facts.size,
          per * (double)facts.size, 1e6 * (double)facts.quantum);
 
-  const size_t size = nsvcd_sweep_workspace_size();
+  const size_t size = nsvcd_sweep_workspace_size(NULL);
   void *workspace = malloc(size);
   size_t wrong = 0;
   for (int set = 0; set < LEVEL_SETS; set++) wrong += run_set(set, motions, bodies, &level, workspace, size);

@@ -116,7 +116,7 @@ int main(int argc, char **argv) {
   if (!read_problems(argv[1], &file)) return REFUSED;
   nsvcd_mesh *meshes = (nsvcd_mesh *)allocate(file.mesh_count * sizeof *meshes);
   const nsvcd_body **bodies = (const nsvcd_body **)allocate(file.mesh_count * sizeof *bodies);
-  void *workspace = allocate(nsvcd_sweep_workspace_size());
+  void *workspace = allocate(nsvcd_sweep_workspace_size(NULL));
   const char *slash = strrchr(argv[1], '/');
   for (size_t i = 0; i < file.mesh_count; i++) {
     char path[4096];
@@ -136,7 +136,7 @@ int main(int argc, char **argv) {
     question.b.body = bodies[p->fixed];
     question.options.clearance = (float)clearance;
     question.options.first = (float)first;
-    const nsvcd_result result = nsvcd_sweep(&question, workspace, nsvcd_sweep_workspace_size(), &answer);
+    const nsvcd_result result = nsvcd_sweep(&question, workspace, nsvcd_sweep_workspace_size(NULL), &answer);
     if (result) return complain("%s: %s", p->id, nsvcd_result_string(result)), REFUSED;
     for (int side = 0; side < 2; side++) {
       const nsvcd_mesh *mesh = &meshes[side ? p->fixed : p->moving];

@@ -189,7 +189,7 @@ expect 2 'neither .body nor .h' build/svcd encode "$dir/my.obj" "$dir/my.txt"
 expect 2 'not together' build/svcd encode "$dir/my.obj" "$dir/my.body" --points 3 --radius 1
 expect 2 'no such option' build/svcd encode "$dir/my.obj" "$dir/my.body" --speed 3
 expect 2 'one problem file' build/svcd check "$dir/good.txt" "$dir/good.txt"
-for option in '--points 0' '--points 513' '--pairs 257' '--pairs x' '--model huge' '--recall 0.5' '--recall nan' \
+for option in '--points 0' '--points 65537' '--pairs 257' '--pairs x' '--model huge' '--recall 0.5' '--recall nan' \
   '--repeat 0' '--speed 3' '--points' '--method both' '--work 0' '--work x'; do
   # shellcheck disable=SC2086
   expect 2 "$(echo "$option" | cut -d' ' -f1)" build/svcd check "$dir/good.txt" $option

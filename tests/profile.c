@@ -13,6 +13,7 @@ static struct {
 #define NSVCD__TALLY(what, amount) (tally.what += (amount))
 #define NEURALSVCD_IMPLEMENTATION
 #include "../neuralsvcd.h"
+#include "any_query.h"
 #define PROGRAM "profile"
 #include "../examples/problem_file.h"
 #include "../examples/shapes.h"
@@ -51,7 +52,7 @@ static void run_stages(const question *q, nsvcd__query *work, double *times) {
   keep_least(times, CUT, start), start = seconds();
   int more = nsvcd__search_begin(q->moving, q->fixed, &work->broad_phase);
   keep_least(times, BEGIN, start);
-  nsvcd__candidates_start(&kept, work->by.kept, NSVCD__SHORTLIST * NSVCD_DEFAULT_PAIRS);
+  nsvcd__candidates_start(&kept, work->kept, NSVCD__SHORTLIST * NSVCD_DEFAULT_PAIRS);
   start = seconds();
   while (more) more = nsvcd__search_step(&work->broad_phase, q->moving, q->fixed, &kept);
   keep_least(times, STEPS, start), start = seconds();
@@ -176,7 +177,7 @@ static void profile(const problem_file *file, size_t points) {
   const size_t size = nsvcd_body_size(points), count = file->problem_count;
   char *bodies = (char *)allocate(file->mesh_count * size);
   void *moving_memory = allocate(size), *fixed_memory = allocate(size);
-  nsvcd__query *work = (nsvcd__query *)allocate(sizeof *work);
+  nsvcd__query *work = any_query();
   double single = 0, batch = 0;
   size_t alike = 0, rolled = 0;
   uint64_t random = 1;
@@ -192,7 +193,7 @@ static void profile(const problem_file *file, size_t points) {
     for (int run = 0; run < 5; run++) run_stages(&q, work, one);
     for (int run = 0; run < 5; run++) {
       double start = seconds();
-      ask(q.moving, q.poses, q.count, q.fixed, q.fixed_pose, NULL, work, sizeof *work, &answer);
+      ask(q.moving, q.poses, q.count, q.fixed, q.fixed_pose, NULL, work, nsvcd_sweep_workspace_size(NULL), &answer);
       keep_least(one, ALL, start);
     }
     if (i % 10 == 0) time_rollouts(&q, work, &random, &single, &batch, &alike), rolled++;
@@ -223,7 +224,7 @@ static void add_proof(const question *q, nsvcd__query *work, verdict_sum *sums, 
   for (int run = 0; run < 5; run++) {
     memset(&tally, 0, sizeof tally);
     const double start = seconds();
-    ask(q->moving, q->poses, q->count, q->fixed, q->fixed_pose, NULL, work, sizeof *work, &answer);
+    ask(q->moving, q->poses, q->count, q->fixed, q->fixed_pose, NULL, work, nsvcd_sweep_workspace_size(NULL), &answer);
     keep_least(least, 0, start);
   }
   verdict_sum *sum = &sums[answer.status];
@@ -240,7 +241,7 @@ static void profile_proof(const problem_file *file, size_t points) {
   const size_t count = file->problem_count;
   const char *slash = strrchr(file->path, '/');
   const nsvcd_body **bodies = (const nsvcd_body **)allocate(file->mesh_count * sizeof *bodies);
-  nsvcd__query *work = (nsvcd__query *)allocate(sizeof *work);
+  nsvcd__query *work = any_query();
   double *times = (double *)allocate(count * sizeof *times);
   verdict_sum sums[NSVCD_STATUS_UNDECIDED + 1];
   size_t size = 1;

@@ -36,7 +36,7 @@ static void query_release(query_memory *m) {
 
 static void *query_workspace(void) {  // one for all tests: they run one after the other
   static query_memory memory;
-  if (!memory.block) memory = query_reserve(nsvcd_sweep_workspace_size());
+  if (!memory.block) memory = query_reserve(nsvcd_sweep_workspace_size(NULL));
   return memory.at;
 }
 
@@ -83,7 +83,7 @@ static nsvcd_answer query_ask(const nsvcd_body *moving, const nsvcd_pose *poses,
   nsvcd_answer answer;
   memset(&answer, 0, sizeof answer);
   CHECK_EQ(ask(moving, poses, count, fixed, fixed_pose, options, query_workspace(),
-                       nsvcd_sweep_workspace_size(), &answer),
+                       nsvcd_sweep_workspace_size(NULL), &answer),
            NSVCD_OK);
   return answer;
 }

@@ -3,6 +3,7 @@
 #define NEURALSVCD_IMPLEMENTATION
 #include "../neuralsvcd.h"
 
+#include "any_query.h"
 #include "ask.h"
 #include "check.h"
 
@@ -216,7 +217,7 @@ static nsvcd_result motion_init(const nsvcd_pose *samples, size_t count, const n
 }
 
 static nsvcd_pose poses[NSVCD_MAX_POSES];
-static nsvcd__workspace work;
+static nsvcd__workspace *work;
 static nsvcd__candidate items[1 << 20], few[64];
 
 static int deepest_first(const void *a, const void *b) {
@@ -456,10 +457,10 @@ static void try_motion(const nsvcd_body *moving, const nsvcd_body *fixed, size_t
   nsvcd__motion motion;
   CHECK_EQ(motion_init(poses, count, fixed_pose, &motion), NSVCD_OK);
   nsvcd__candidates all, best;
-  search(moving, fixed, &motion, &work, items, sizeof items / sizeof *items, &all);
+  search(moving, fixed, &motion, work, items, sizeof items / sizeof *items, &all);
   CHECK_EQ(all.count, all.total);
   size_t limit = pick(1, 64);
-  search(moving, fixed, &motion, &work, few, limit, &best);
+  search(moving, fixed, &motion, work, few, limit, &best);
   CHECK_EQ(best.total, all.total);
   CHECK_EQ(best.count, all.total < limit ? all.total : limit);
   for (size_t n = 0; n < best.count; n++) sum->kept_wrong += memcmp(&few[n], &items[n], sizeof few[n]) != 0;
@@ -563,18 +564,18 @@ static void deviation_is_bounded(void) {
     random_motion(count, trial % 4 == 1 ? trial % 3 : 0, trial % 2 ? uniform(0, 12) : 0, paths[trial % 4], middle);
     nsvcd__motion motion;
     CHECK_EQ(motion_init(poses, count, &fixed, &motion), NSVCD_OK);
-    nsvcd__cut_motion(&motion, 1, &work);
+    nsvcd__cut_motion(&motion, 1, work);
     pose64 f = to_double(&fixed);
     for (int n = 0; n < 200; n++) {
       float q[4], c[3];
       random_quat(q);
       double length = sqrt((double)(q[0] * q[0] + q[1] * q[1] + q[2] * q[2])) * 2, p[3], c64[3], square = 0;
       for (int k = 0; k < 3; k++) c[k] = (float)((double)q[k] / length), c64[k] = (double)c[k];
-      size_t s = pick(0, work.segments - 1), l = s % NSVCD__LANES;
+      size_t s = pick(0, work->segments - 1), l = s % NSVCD__LANES;
       double tau = uniform(0.4, 0.6);
-      const nsvcd__segments *b = &work.blocks[s / NSVCD__LANES];
-      double start = (double)work.time[s];
-      pose64 at = pose_at(poses, count, start + tau * ((double)work.time[s + 1] - start));
+      const nsvcd__segments *b = &work->blocks[s / NSVCD__LANES];
+      double start = (double)work->time[s];
+      pose64 at = pose_at(poses, count, start + tau * ((double)work->time[s + 1] - start));
       place64(&at, &f, c64, p);
       nsvcd__chords chords;
       nsvcd__chords_of_sphere(b, c[0], c[1], c[2], 0, &chords);
@@ -598,10 +599,10 @@ static void ties(void) {
   nsvcd__candidates all, best;
   poses[0] = fixed, poses[0].position[0] = 0;
   CHECK_EQ(motion_init(poses, 1, &fixed, &motion), NSVCD_OK);
-  search(a, b, &motion, &work, items, 1600, &all);
+  search(a, b, &motion, work, items, 1600, &all);
   CHECK_EQ(all.total, 1600);
   for (size_t limit = 1; limit <= 64; limit++) {
-    search(a, b, &motion, &work, few, limit, &best);
+    search(a, b, &motion, work, few, limit, &best);
     CHECK(memcmp(few, items, limit * sizeof *few) == 0);
     for (size_t n = 0; n < limit; n++) CHECK_EQ(few[n].moving * 40 + few[n].fixed, n);
   }
@@ -617,17 +618,17 @@ static void closed_form(void) {
   nsvcd__motion motion;
   nsvcd__candidates kept;
   CHECK_EQ(motion_init(poses, 2, &fixed, &motion), NSVCD_OK);
-  search(a, b, &motion, &work, items, 8, &kept);
+  search(a, b, &motion, work, items, 8, &kept);
   CHECK_EQ(kept.total, 1);
   CHECK_NEAR(items[0].t_enter, 0.5 - sqrt(4 - 2.25) / 10, 1e-5);
   CHECK_NEAR(items[0].t_exit, 0.5 + sqrt(4 - 2.25) / 10, 1e-5);
   CHECK_NEAR(items[0].t_least, 0.5, 1e-6);
   CHECK_NEAR(items[0].depth, 0.25, 1e-6);
-  search(a, b, &motion, &work, items, 0, &kept);  // only counting
+  search(a, b, &motion, work, items, 0, &kept);  // only counting
   CHECK_EQ(kept.total, 1);
   fixed.position[1] = 2.001f;
   CHECK_EQ(motion_init(poses, 2, &fixed, &motion), NSVCD_OK);
-  search(a, b, &motion, &work, items, 8, &kept);
+  search(a, b, &motion, work, items, 8, &kept);
   CHECK_EQ(kept.total, 0);
 }
 
@@ -642,7 +643,7 @@ static void runs_are_cut(void) {
   nsvcd__candidates kept;
   random_motion(17, 0, 360 * degrees, 0, middle);
   CHECK_EQ(motion_init(poses, 17, &fixed, &motion), NSVCD_OK);
-  search(a, b, &motion, &work, items, 100, &kept);
+  search(a, b, &motion, work, items, 100, &kept);
   qsort(items, kept.count, sizeof *items, by_pair);
   CHECK_GE(kept.count, 8);
   CHECK_LE(kept.count, 17);
@@ -743,7 +744,7 @@ static void time_broad_phase(const char *name, double least_gap, double most_gap
       clock_t start = clock();
       for (int repeat = 0; repeat < 50; repeat++) {
         motion_init(poses, 17, &fixed, &motion);
-        search(a, b, &motion, &work, few, 8, &kept);
+        search(a, b, &motion, work, few, 8, &kept);
       }
       times[n] = 1e6 * (double)(clock() - start) / CLOCKS_PER_SEC / 50;
       runs[n] = (double)kept.total;
@@ -760,6 +761,7 @@ static void broad_phase_speed(void) {
 }
 
 void test_broad_phase(void) {
+  work = &any_query()->broad_phase;
   RUN(body_round_trip);
   RUN(body_order);
   RUN(body_corruption);

@@ -10,6 +10,7 @@ static struct {
 #define NSVCD__TALLY(what, amount) (tally.what += (amount))
 #include "../neuralsvcd.h"
 
+#include "any_query.h"
 #include "query_scene.h"
 
 #include <pthread.h>
@@ -28,18 +29,24 @@ static void cost_blow_up(query_memory *memory, float factor) {
   body->radius *= factor, body->extent *= factor;
 }
 
+static nsvcd__query *cost_query(void) {
+  static nsvcd__query *query;
+  if (!query) query = any_query();
+  return query;
+}
+
 // All steps of the search, as if nothing were clear before its end. Returns how many segments the motion has.
 static size_t cost_search(const query_scene *s) {
-  static nsvcd__query query;
+  nsvcd__query *query = cost_query();
   nsvcd__motion motion;
   nsvcd__candidates kept;
   const nsvcd_question question = question_of(s->moving, s->motion, QUERY_POSES, s->fixed, &s->fixed_pose, NULL);
   nsvcd__motion_init(&question.a, &question.b, &motion);
-  nsvcd__candidates_start(&kept, query.by.kept, 32);
-  nsvcd__cut_motion(&motion, s->moving->extent + s->fixed->extent, &query.broad_phase);
-  int more = nsvcd__search_begin(s->moving, s->fixed, &query.broad_phase);
-  while (more) more = nsvcd__search_step(&query.broad_phase, s->moving, s->fixed, &kept);
-  return query.broad_phase.segments;
+  nsvcd__candidates_start(&kept, query->kept, 32);
+  nsvcd__cut_motion(&motion, s->moving->extent + s->fixed->extent, &query->broad_phase);
+  int more = nsvcd__search_begin(s->moving, s->fixed, &query->broad_phase);
+  while (more) more = nsvcd__search_step(&query->broad_phase, s->moving, s->fixed, &kept);
+  return query->broad_phase.segments;
 }
 
 // Counted, not timed, so that it holds on every machine: random scenes, and bodies made to meet in every test.
@@ -112,7 +119,7 @@ static nsvcd_result cost_ask_batch(const cost_batch *b, const nsvcd_sweep_option
   for (size_t m = 0; m < COST_MOTIONS; m++) {
     questions[m] = question_of(s->moving, b->poses + m * QUERY_POSES, QUERY_POSES, s->fixed, &s->fixed_pose, options);
   }
-  return nsvcd_sweep_batch(questions, COST_MOTIONS, workspace, nsvcd_sweep_workspace_size(), answers);
+  return nsvcd_sweep_batch(questions, COST_MOTIONS, workspace, nsvcd_sweep_workspace_size(NULL), answers);
 }
 
 // An answer of a batch is nsvcd_sweep's, or both are collisions and the batch's is clear.
@@ -149,7 +156,7 @@ static void cost_batch_refuses_as_a_query_does(void) {
   cost_open(&b, 3);
   const query_scene *s = &b.scene;
   void *w = query_workspace();
-  const size_t size = nsvcd_sweep_workspace_size();
+  const size_t size = nsvcd_sweep_workspace_size(NULL);
   nsvcd_answer before[COST_MOTIONS];
   memset(b.batch, 0x5a, sizeof b.batch), memcpy(before, b.batch, sizeof before);
   b.poses[COST_MOTIONS * QUERY_POSES - 1].rotation[0] = 2;  // the very last
@@ -161,7 +168,9 @@ static void cost_batch_refuses_as_a_query_does(void) {
   questions[1].a.count = 2;
   CHECK_EQ(nsvcd_sweep_batch(NULL, 2, w, size, b.batch), NSVCD_ERROR_ARGUMENT);
   CHECK_EQ(nsvcd_sweep_batch(questions, 2, w, size, NULL), NSVCD_ERROR_ARGUMENT);
-  CHECK_EQ(nsvcd_sweep_batch(questions, 2, w, size - 1, b.batch), NSVCD_ERROR_WORKSPACE);
+  const size_t least = nsvcd_sweep_workspace_size(&questions[1]);
+  CHECK_LE(least, size);
+  CHECK_EQ(nsvcd_sweep_batch(questions, 2, w, least - 1, b.batch), NSVCD_ERROR_WORKSPACE);
   CHECK_EQ(nsvcd_sweep_batch(questions, 0, w, size, b.batch), NSVCD_OK);
   CHECK(memcmp(before, b.batch, sizeof before) == 0);
   query_scene_close(&b.scene);
@@ -181,12 +190,12 @@ typedef struct cost_thread {
 static void *cost_run(void *argument) {
   cost_thread *t = (cost_thread *)argument;
   const query_scene *s = &t->work->scene;
-  query_memory memory = query_reserve(nsvcd_sweep_workspace_size());
+  query_memory memory = query_reserve(nsvcd_sweep_workspace_size(NULL));
   t->result = NSVCD_OK;
   for (int round = 0; round < 5 && !t->result; round++) {
     for (size_t m = 0; m < COST_MOTIONS && !t->result; m++) {
       t->result = ask(s->moving, t->work->poses + m * QUERY_POSES, QUERY_POSES, s->fixed, &s->fixed_pose, NULL,
-                              memory.at, nsvcd_sweep_workspace_size(), &t->single[m]);
+                              memory.at, nsvcd_sweep_workspace_size(NULL), &t->single[m]);
     }
     if (!t->result) t->result = cost_ask_batch(t->work, NULL, memory.at, t->batch);
   }
@@ -267,7 +276,7 @@ static void *cost_ask(void *argument) {
   cost_asker *a = (cost_asker *)argument;
   if (a->asks) {
     a->question = question_of(a->bodies[0], a->motion, QUERY_POSES, a->bodies[1], &a->fixed_pose, NULL);
-    nsvcd_sweep(&a->question, a->workspace, nsvcd_sweep_workspace_size(), &a->answer);
+    nsvcd_sweep(&a->question, a->workspace, nsvcd_sweep_workspace_size(NULL), &a->answer);
   }
   return NULL;
 }

@@ -49,7 +49,7 @@ static const nsvcd_body *pool_scaled(size_t n, const nsvcd_body *body, double sc
 
 static nsvcd_result ask_gradient(const scene *s, nsvcd_answer *answer, float *gradient) {
   const nsvcd_question question = question_of(s->moving, s->poses, s->count, s->fixed, &s->fixed_pose, &s->options);
-  return nsvcd_sweep_gradient(&question, query_workspace(), nsvcd_sweep_workspace_size(), answer, gradient, NULL);
+  return nsvcd_sweep_gradient(&question, query_workspace(), nsvcd_sweep_workspace_size(NULL), answer, gradient, NULL);
 }
 static nsvcd_answer ask_sweep(const scene *s) {
   return query_ask(s->moving, s->poses, s->count, s->fixed, &s->fixed_pose, &s->options);
@@ -60,9 +60,10 @@ static int decide(const scene *s, nsvcd_answer *answer, nsvcd__decisive *decisiv
   nsvcd_question question = question_of(s->moving, s->poses, s->count, s->fixed, &s->fixed_pose, &s->options);
   question.options.method = NSVCD_METHOD_NETWORK;
   CHECK_EQ(nsvcd__question_check(&question), NSVCD_OK);
+  nsvcd__query *query = nsvcd__query_open(&question, query_workspace());
   nsvcd__task_of(&question, &task);
   task.decisive = decisive;
-  nsvcd__answer_task(&task, (nsvcd__query *)query_workspace(), NULL, answer);
+  nsvcd__answer_task(&task, query, NULL, answer);
   return answer->status == NSVCD_STATUS_OK || answer->status == NSVCD_STATUS_LIMIT;
 }
 
@@ -566,7 +567,7 @@ static void gradient_refuses(void) {
   scene s;
   nsvcd_answer answer;
   nsvcd__decisive decisive;
-  const size_t size = nsvcd_sweep_workspace_size();
+  const size_t size = nsvcd_sweep_workspace_size(NULL);
   char *workspace = (char *)query_workspace();
   size_t n = 0;
   pool_open();
@@ -578,7 +579,10 @@ static void gradient_refuses(void) {
   check_refused(&s, s.poses, 0, workspace, size, NULL, 1, NSVCD_ERROR_ARGUMENT);
   check_refused(&s, s.poses, s.count, workspace, size, &wrong, 1, NSVCD_ERROR_ARGUMENT);
   check_refused(&s, s.poses, s.count, NULL, size, NULL, 1, NSVCD_ERROR_WORKSPACE);
-  check_refused(&s, s.poses, s.count, workspace, size - 1, NULL, 1, NSVCD_ERROR_WORKSPACE);
+  nsvcd_question by_network = question_of(s.moving, s.poses, s.count, s.fixed, &s.fixed_pose, NULL);
+  by_network.options.method = NSVCD_METHOD_NETWORK;
+  const size_t least = nsvcd_sweep_workspace_size(&by_network);
+  check_refused(&s, s.poses, s.count, workspace, least - 1, NULL, 1, NSVCD_ERROR_WORKSPACE);
   check_refused(&s, s.poses, s.count, workspace + 1, size, NULL, 1, NSVCD_ERROR_WORKSPACE);
   for (size_t k = 0; k < 2; k++) {
     memcpy(broken, s.poses, sizeof broken);
@@ -605,7 +609,7 @@ static void gradient_check_balance(const scene *s, int both, double *worst, size
     question.b.count = 3;
   }
   question.options.method = NSVCD_METHOD_NETWORK;
-  CHECK_EQ(nsvcd_sweep_gradient(&question, query_workspace(), nsvcd_sweep_workspace_size(), &answer, gradients[0],
+  CHECK_EQ(nsvcd_sweep_gradient(&question, query_workspace(), nsvcd_sweep_workspace_size(NULL), &answer, gradients[0],
                                 gradients[1]),
            NSVCD_OK);
   double force[3] = {0, 0, 0}, torque[3] = {0, 0, 0}, size = 0, arms = 0;
@@ -664,7 +668,7 @@ static void gradient_answers_as_sweep(void) {
       (void)scene_of(f, n, &s, &answer, &decisive);
       if (s.count == 0) continue;
       for (int i = 0; i < 2; i++) {
-        memset(query_workspace(), i ? 0xff : 0, nsvcd_sweep_workspace_size());
+        memset(query_workspace(), i ? 0xff : 0, nsvcd_sweep_workspace_size(NULL));
         for (size_t k = 0; k <= 6 * REFERENCE_POSES; k++) gradient[i][k] = 7;
         CHECK_EQ(ask_gradient(&s, &answer, gradient[i]), NSVCD_OK);
         CHECK_EQ(gradient[i][6 * s.count], 7);
@@ -730,7 +734,7 @@ static void gradient_takes_microseconds(void) {
         const clock_t start = clock();
         for (int i = 0; i < turns; i++) {
           ask(s.moving, s.poses, s.count, s.fixed, &s.fixed_pose, &s.options, query_workspace(),
-                      nsvcd_sweep_workspace_size(), &answer);
+                      nsvcd_sweep_workspace_size(NULL), &answer);
         }
         const clock_t middle = clock();
         for (int i = 0; i < turns; i++) ask_gradient(&s, &answer, gradient);

@@ -40,14 +40,14 @@ static nsvcd_encode_options level_options(size_t points) {
 
 static void *level_workspace(void) {
   static void *memory;
-  if (!memory) memory = malloc(nsvcd_sweep_workspace_size());
+  if (!memory) memory = malloc(nsvcd_sweep_workspace_size(NULL));
   return memory;
 }
 
 static nsvcd_answer level_ask(const nsvcd_question *question) {
   nsvcd_answer answer;
   memset(&answer, 0, sizeof answer);
-  CHECK_EQ(nsvcd_sweep(question, level_workspace(), nsvcd_sweep_workspace_size(), &answer), NSVCD_OK);
+  CHECK_EQ(nsvcd_sweep(question, level_workspace(), nsvcd_sweep_workspace_size(NULL), &answer), NSVCD_OK);
   return answer;
 }
 

@@ -11,6 +11,7 @@ static void proof_certified(int kind, size_t i, size_t j, size_t a, size_t b, do
   proof_certified(kind, moving, fixed, moving_listing, fixed_listing, t_start, t_end, normal)
 #include "../neuralsvcd.h"
 
+#include "any_query.h"
 #include "ask.h"
 #include "check.h"
 #include "proof_scene.h"
@@ -54,7 +55,7 @@ static void proof_certified(int kind, size_t i, size_t j, size_t a, size_t b, do
 
 static void *proof_workspace(void) {
   static void *memory;
-  if (!memory) memory = malloc(nsvcd_sweep_workspace_size());
+  if (!memory) memory = malloc(nsvcd_sweep_workspace_size(NULL));
   if (!memory) exit(1);
   return memory;
 }
@@ -100,7 +101,7 @@ static nsvcd_result proof_ask_with(attack *a, const nsvcd_sweep_options *options
   heard.count = heard.left_out = 0;
   proof_settle_sides(a);
   const nsvcd_question question = proof_question(a, options);
-  return nsvcd_sweep(&question, proof_workspace(), nsvcd_sweep_workspace_size(), &a->answer);
+  return nsvcd_sweep(&question, proof_workspace(), nsvcd_sweep_workspace_size(NULL), &a->answer);
 }
 static void proof_ask(attack *a) {
   const nsvcd_sweep_options options = proof_options();
@@ -952,7 +953,9 @@ static void proof_any_motion_of_both(shapes_rng *rng, proof_motion *m) {
 // A segment that is cut off somewhere, as where a first contact ends the motion.
 static nsvcd__span proof_any_clip(shapes_rng *rng, nsvcd__motion *motion, nsvcd__workspace *work) {
   static nsvcd__proof proof;
+  static nsvcd__span spans[NSVCD__MAX_SEGMENTS];
   size_t s = 0;
+  proof.spans = spans;
   proof.motion = motion;
   proof.arc.ticks = 0;
   proof.clipped = proof.spans_known = 0;
@@ -982,7 +985,7 @@ static nsvcd__span proof_any_arc(shapes_rng *rng, nsvcd__motion *motion, float l
 // Part 3 of the theorem, by itself: between the ends of a segment every point is as near to its
 // chord as the span says.
 static void proof_spans_hold_the_motion(void) {
-  static nsvcd__workspace work;
+  nsvcd__workspace *work = &any_query()->broad_phase;
   shapes_rng rng = {404};
   double worst[5] = {0, 0, 0, 0, 0};
   size_t segments = 0;
@@ -993,18 +996,18 @@ static void proof_spans_hold_the_motion(void) {
     if (trial % 2) proof_any_motion(&rng, &m);
     if (trial % 2 == 0) proof_any_motion_of_both(&rng, &m);
     proof_motion_init(&m, &motion);
-    nsvcd__cut_motion(&motion, lengths, &work);
+    nsvcd__cut_motion(&motion, lengths, work);
     const double reach = (double)lengths / (double)fmaxf(motion.scale, 1);
-    for (size_t s = 0; s < work.segments; s++) {
-      const nsvcd__span span = nsvcd__span_of_segment(&motion, &work, s);
+    for (size_t s = 0; s < work->segments; s++) {
+      const nsvcd__span span = nsvcd__span_of_segment(&motion, work, s);
       const double use = proof_span_use(&m, &span, reach, &rng);
       const int has_samples =
-          work.begin[s + 1] - work.begin[s] > 1;  // else the spread is for rounding alone
+          work->begin[s + 1] - work->begin[s] > 1;  // else the spread is for rounding alone
       const int kind = motion.fixed_moves ? 2 : has_samples;
       worst[kind] = fmax(worst[kind], use);
       segments++;
     }
-    const nsvcd__span clipped = proof_any_clip(&rng, &motion, &work);
+    const nsvcd__span clipped = proof_any_clip(&rng, &motion, work);
     worst[4] = fmax(worst[4], proof_span_use(&m, &clipped, reach, &rng));
     const nsvcd__span part = proof_any_arc(&rng, &motion, lengths);
     worst[3] = fmax(worst[3], proof_span_use(&m, &part, reach, &rng));
@@ -1155,7 +1158,7 @@ static void proof_wandering_motion(shapes_rng *rng, proof_motion *m) {
 
 // What is said of directions: along the axis of a turn, and across the way, points hardly leave their chords.
 static void proof_spans_hold_along_directions(void) {
-  static nsvcd__workspace work;
+  nsvcd__workspace *work = &any_query()->broad_phase;
   shapes_rng rng = {405};
   double worst = 0, turned = 0;
   size_t segments = 0;
@@ -1176,9 +1179,9 @@ static void proof_spans_hold_along_directions(void) {
       m.fixed = other.moving;
     }
     proof_motion_init(&m, &motion);
-    nsvcd__cut_motion(&motion, 2 * reach, &work);
-    for (size_t k = 0; k < work.segments; k++, segments++) {
-      const nsvcd__span span = nsvcd__span_of_segment(&motion, &work, k);
+    nsvcd__cut_motion(&motion, 2 * reach, work);
+    for (size_t k = 0; k < work->segments; k++, segments++) {
+      const nsvcd__span span = nsvcd__span_of_segment(&motion, work, k);
       worst = fmax(worst, proof_direction_use(&m, &span, (double)reach, &rng));
       turned = fmax(turned, proof_turn_use(&m, &span, &rng));
     }
@@ -1672,10 +1675,10 @@ static void proof_answers_are_the_same_again(void) {
     a.moving = proof_shared(0, (size_t)shapes_pick(&rng, MAKES));
     a.fixed = proof_shared(0, (size_t)shapes_pick(&rng, MAKES));
     if (!proof_scene(&rng, &a, pow(10, shapes_uniform(&rng, -7, -1)), 1)) continue;
-    memset(proof_workspace(), 0xff, nsvcd_sweep_workspace_size());
+    memset(proof_workspace(), 0xff, nsvcd_sweep_workspace_size(NULL));
     proof_ask(&a);
     const nsvcd_answer first = a.answer;
-    memset(proof_workspace(), 0, nsvcd_sweep_workspace_size());
+    memset(proof_workspace(), 0, nsvcd_sweep_workspace_size(NULL));
     memset(&a.answer, 0x33, sizeof a.answer);
     proof_ask(&a);
     CHECK(proof_same_answer(&first, &a.answer));
@@ -1700,7 +1703,7 @@ static void proof_sides_do_not_matter(void) {
     nsvcd_question turned = question;
     turned.a = question.b;
     turned.b = question.a;
-    const size_t size = nsvcd_sweep_workspace_size();
+    const size_t size = nsvcd_sweep_workspace_size(NULL);
     CHECK_EQ(nsvcd_sweep(&question, proof_workspace(), size, &a.answer), NSVCD_OK);
     CHECK_EQ(nsvcd_sweep(&turned, proof_workspace(), size, &other), NSVCD_OK);
     const uint32_t triangle = other.triangle_a, patch = other.patch_a;
@@ -1849,10 +1852,10 @@ static void proof_refuses(void) {
   CHECK_EQ(nsvcd_encode(&mesh, &bare, NULL, NULL, 0, &body), NSVCD_OK);
   options = proof_options();
   CHECK_EQ(ask(body, a.motion.moving.raw, 1, a.fixed->body, a.motion.fixed.raw, &options,
-                       proof_workspace(), nsvcd_sweep_workspace_size(), &a.answer),
+                       proof_workspace(), nsvcd_sweep_workspace_size(NULL), &a.answer),
            NSVCD_ERROR_BODY);
   CHECK_EQ(ask(a.fixed->body, a.motion.moving.raw, 1, body, a.motion.fixed.raw, &options,
-                       proof_workspace(), nsvcd_sweep_workspace_size(), &a.answer),
+                       proof_workspace(), nsvcd_sweep_workspace_size(NULL), &a.answer),
            NSVCD_ERROR_BODY);
   nsvcd_body_free(body, NULL);
   shapes_free(&shape);
@@ -2192,10 +2195,10 @@ static void proof_forge_anything(const nsvcd_body *body, shapes_rng *rng, size_t
     }
     (*accepted)++;
     CHECK_EQ(ask(f.body, poses, 3, other->body, &fixed, &options, proof_workspace(),
-                         nsvcd_sweep_workspace_size(), &answer),
+                         nsvcd_sweep_workspace_size(NULL), &answer),
              NSVCD_OK);
     CHECK_EQ(ask(other->body, poses, 3, f.body, &fixed, &options, proof_workspace(),
-                         nsvcd_sweep_workspace_size(), &answer),
+                         nsvcd_sweep_workspace_size(NULL), &answer),
              NSVCD_OK);
   }
   free(f.memory);

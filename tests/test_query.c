@@ -14,7 +14,7 @@ static void query_bodies_are_the_same_to_the_bit(void) {
     nsvcd_mesh mesh = query_solid(seed, 0.3);
     query_memory memory[2];
     const nsvcd_body *a = query_encode(&mesh, 200, &memory[0]);
-    memset(query_workspace(), (int)seed, nsvcd_sweep_workspace_size());
+    memset(query_workspace(), (int)seed, nsvcd_sweep_workspace_size(NULL));
     const nsvcd_body *b = query_encode(&mesh, 200, &memory[1]);
     CHECK_EQ(nsvcd_body_describe(a).size, nsvcd_body_describe(b).size);
     CHECK(memcmp(a, b, nsvcd_body_describe(a).size) == 0);
@@ -27,9 +27,9 @@ static void query_answers_are_the_same_to_the_bit(void) {
   for (uint64_t seed = 1; seed <= 10; seed++) {
     query_scene s;
     query_scene_open(&s, seed);
-    memset(query_workspace(), 0xff, nsvcd_sweep_workspace_size());  // what the workspace holds must not matter
+    memset(query_workspace(), 0xff, nsvcd_sweep_workspace_size(NULL));  // what the workspace holds must not matter
     nsvcd_answer first = query_scene_ask(&s);
-    memset(query_workspace(), 0, nsvcd_sweep_workspace_size());
+    memset(query_workspace(), 0, nsvcd_sweep_workspace_size(NULL));
     nsvcd_answer second = query_scene_ask(&s);
     CHECK(query_same_answer(&first, &second));
     query_scene_close(&s);
@@ -401,7 +401,7 @@ static void query_both_may_move(void) {
     const nsvcd_answer before = query_scene_ask(&s);
     const double angle = seed % 2 ? 1.6 : 0;
     const nsvcd_question question = query_carried(&s, seed, angle, poses, others);
-    CHECK_EQ(nsvcd_sweep(&question, query_workspace(), nsvcd_sweep_workspace_size(), &answer), NSVCD_OK);
+    CHECK_EQ(nsvcd_sweep(&question, query_workspace(), nsvcd_sweep_workspace_size(NULL), &answer), NSVCD_OK);
     if (before.overlapping > 0 && !nsvcd__is_swapped(&question.a, &question.b)) {  // seen from the same body
       compared++;
       same += answer.collides == before.collides;
@@ -426,10 +426,10 @@ static void query_sides_do_not_matter(void) {
     if (seed % 4 == 2) question.b.body = question.a.body;
     if (seed % 8 == 3) question.a.scale = 1.5f;
     const nsvcd_mover a = question.a;
-    CHECK_EQ(nsvcd_sweep(&question, query_workspace(), nsvcd_sweep_workspace_size(), &one), NSVCD_OK);
+    CHECK_EQ(nsvcd_sweep(&question, query_workspace(), nsvcd_sweep_workspace_size(NULL), &one), NSVCD_OK);
     question.a = question.b;
     question.b = a;
-    CHECK_EQ(nsvcd_sweep(&question, query_workspace(), nsvcd_sweep_workspace_size(), &other), NSVCD_OK);
+    CHECK_EQ(nsvcd_sweep(&question, query_workspace(), nsvcd_sweep_workspace_size(NULL), &other), NSVCD_OK);
     const uint32_t patch = other.patch_a;
     other.patch_a = other.patch_b;
     other.patch_b = patch;
@@ -453,14 +453,14 @@ static void query_scales_in_the_question(void) {
       memory[b] = query_reserve(size);
       mover->scale = scales[b];
     }
-    CHECK_EQ(nsvcd_sweep(&question, query_workspace(), nsvcd_sweep_workspace_size(), &one), NSVCD_OK);
+    CHECK_EQ(nsvcd_sweep(&question, query_workspace(), nsvcd_sweep_workspace_size(NULL), &one), NSVCD_OK);
     for (int b = 0; b < 2; b++) {
       nsvcd_mover *mover = b ? &question.b : &question.a;
       const size_t size = nsvcd_body_describe(mover->body).size;
       CHECK_EQ(nsvcd_body_scale(mover->body, scales[b], memory[b].at, size, &mover->body), NSVCD_OK);
       mover->scale = 0;
     }
-    CHECK_EQ(nsvcd_sweep(&question, query_workspace(), nsvcd_sweep_workspace_size(), &other), NSVCD_OK);
+    CHECK_EQ(nsvcd_sweep(&question, query_workspace(), nsvcd_sweep_workspace_size(NULL), &other), NSVCD_OK);
     CHECK_EQ(one.status, other.status);
     CHECK_NEAR(one.logit, other.logit, 1e-3 * (1 + fabs((double)one.logit)));
     query_release(&memory[0]);
@@ -540,7 +540,7 @@ static void query_refuses(const query_scene *s, const nsvcd_pose *poses, size_t 
                           const nsvcd_sweep_options *options, nsvcd_result expected) {
   nsvcd_answer answer = query_untouched(), before = query_untouched();
   CHECK_EQ(ask(s->moving, poses, count, s->fixed, fixed_pose, options, query_workspace(),
-                       nsvcd_sweep_workspace_size(), &answer),
+                       nsvcd_sweep_workspace_size(NULL), &answer),
            expected);
   CHECK(memcmp(&answer, &before, sizeof answer) == 0);
 }
@@ -556,7 +556,7 @@ static void query_refuses_bad_arguments(void) {
   query_refuses(&no_moving, s.motion, QUERY_POSES, &s.fixed_pose, NULL, NSVCD_ERROR_ARGUMENT);
   query_refuses(&no_fixed, s.motion, QUERY_POSES, &s.fixed_pose, NULL, NSVCD_ERROR_ARGUMENT);
   CHECK_EQ(ask(s.moving, s.motion, QUERY_POSES, s.fixed, &s.fixed_pose, NULL, query_workspace(),
-                       nsvcd_sweep_workspace_size(), NULL),
+                       nsvcd_sweep_workspace_size(NULL), NULL),
            NSVCD_ERROR_ARGUMENT);
 
   nsvcd_sweep_options bad[7];
@@ -575,7 +575,7 @@ static void query_refuses_bad_arguments(void) {
 // The same with a question.
 static void query_refuses_question(const nsvcd_question *question, nsvcd_result expected) {
   nsvcd_answer answer = query_untouched(), before = query_untouched();
-  CHECK_EQ(nsvcd_sweep(question, query_workspace(), nsvcd_sweep_workspace_size(), &answer), expected);
+  CHECK_EQ(nsvcd_sweep(question, query_workspace(), nsvcd_sweep_workspace_size(NULL), &answer), expected);
   CHECK(memcmp(&answer, &before, sizeof answer) == 0);
 }
 
@@ -608,7 +608,7 @@ static void query_refuses_bad_questions(void) {
   bad.b.poses = &elsewhere;  // the same body at another place is a question like any other
   bad.b.count = 1;
   nsvcd_answer answer;
-  CHECK_EQ(nsvcd_sweep(&bad, query_workspace(), nsvcd_sweep_workspace_size(), &answer), NSVCD_OK);
+  CHECK_EQ(nsvcd_sweep(&bad, query_workspace(), nsvcd_sweep_workspace_size(NULL), &answer), NSVCD_OK);
   query_scene_close(&s);
 }
 
@@ -642,7 +642,8 @@ static void query_refuses_bad_poses(void) {
 static void query_refuses_a_bad_workspace(void) {
   query_scene s;
   query_scene_open(&s, 1);
-  size_t size = nsvcd_sweep_workspace_size();
+  const nsvcd_question question = question_of(s.moving, s.motion, QUERY_POSES, s.fixed, &s.fixed_pose, NULL);
+  size_t size = nsvcd_sweep_workspace_size(&question);
   query_memory memory = query_reserve(size + QUERY_ALIGN);
   for (int i = 0; i < 4; i++) {
     void *workspace = i == 0 ? NULL : i == 1 ? memory.at : (void *)((char *)memory.at + (i == 2 ? 1 : 4));
