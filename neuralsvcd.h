@@ -231,6 +231,9 @@ typedef struct nsvcd_encode_options {
 // Bytes of a body of `points` points without triangles; 0 if there can be no such body. One with triangles takes up to
 // 12 bytes more for each, and 100 to 200 for each point: let nsvcd_encode allocate it, or ask nsvcd_body_describe.
 NSVCDDEF size_t nsvcd_body_size(size_t points);
+// The same as a constant, for 1 to NSVCD_MAX_NETWORK_POINTS points.
+#define NSVCD_BODY_BYTES(points)                                                                              \
+  ((64 + 28 * (((points) + 15) / 16 * 16) + 16 * ((((points) + 15) / 16 + 15) / 16 * 16) + 40 * (points) + 7) / 8 * 8)
 #endif
 
 #ifndef NSVCD_NO_ENCODER
@@ -391,7 +394,7 @@ typedef struct nsvcd_answer {
 
 // Answers a question. workspace: nsvcd_sweep_workspace_size(question) bytes, aligned to NSVCD_ALIGNMENT: it depends on the
 // sizes of the bodies, the method, and options.segments, pairs and model; 0 if the question is refused. Of NULL it is enough
-// for any question. For arrays of a fixed size see NSVCD_WORKSPACE_BYTES.
+// for any question. For arrays of a fixed size see NSVCD_PROOF_WORKSPACE_BYTES.
 // Allocates nothing; threads may share bodies, each with its own workspace; deterministic, and the same verdict whichever
 // body is a and which b. Bodies of Ga and Gb groups of 16 patches and a motion of S segments, 16 or so up to 320 degrees
 // of turn and 64 at most, take at most 18 S Ga Gb + 3 S tests of 16 spheres against one; then a proof takes options.work
@@ -406,6 +409,20 @@ typedef struct nsvcd_answer {
 NSVCDDEF size_t nsvcd_sweep_workspace_size(const nsvcd_question *question);
 NSVCDDEF nsvcd_result nsvcd_sweep(const nsvcd_question *question, void *workspace, size_t workspace_size,
                                   nsvcd_answer *answer);
+
+// The same as constants, for arrays of a fixed size, a little larger than need be. points_a, points_b: N of the bodies, or
+// more; segments: options.segments, 16 to 64; pairs: options.pairs, K. Where one workspace is for both methods, take the
+// larger. NSVCD_MEMORY declares an array that is aligned:
+//   static NSVCD_MEMORY(workspace, NSVCD_PROOF_WORKSPACE_BYTES(64, 192, 16));
+#define NSVCD_MEMORY(name, bytes) uint64_t name[((bytes) + 7) / 8]
+#define NSVCD__GROUPS_OF(points) ((points) > 512 ? 32 : ((points) + 15) / 16)
+#define NSVCD__SEARCH_BYTES(points_a, points_b, segments)                                \
+  (1024 + 704 * (segments) + 8 * NSVCD__GROUPS_OF(points_a) * NSVCD__GROUPS_OF(points_b) + \
+   ((points_a) > 512 || (points_b) > 512 ? 1024 : 0))
+#define NSVCD_PROOF_WORKSPACE_BYTES(points_a, points_b, segments) \
+  (NSVCD__SEARCH_BYTES(points_a, points_b, segments) + 24576 + 168 * (segments))
+#define NSVCD_NETWORK_WORKSPACE_BYTES(points_a, points_b, segments, pairs) \
+  (NSVCD__SEARCH_BYTES(points_a, points_b, segments) + 96 * (pairs))
 
 // The same for `count` questions, as a frame of a game or a sampling planner has them; answers: (count). Errors as above,
 // of the first question that has one, and then no answer is written; no questions are no error.
@@ -10013,6 +10030,19 @@ typedef struct nsvcd__query {
   nsvcd__span *spans;  // (S)
 #endif
 } nsvcd__query;
+
+// What NSVCD_PROOF_WORKSPACE_BYTES and NSVCD_NETWORK_WORKSPACE_BYTES count on; where this does not compile they are wrong.
+typedef char nsvcd__constants_hold[sizeof(nsvcd__query) + 3 * NSVCD_ALIGNMENT <= 1024 && sizeof(nsvcd__segments) <= 148 * 16 &&
+                                           sizeof(nsvcd__chords) <= 512 && sizeof(nsvcd__cut) <= 16 * 512 &&
+                                           NSVCD__TILE_SLOTS == 32 && NSVCD_ALIGNMENT == sizeof(uint64_t)
+                                       ? 1
+                                       : -1];
+#ifndef NSVCD_NO_PROOF
+typedef char nsvcd__proof_constants_hold[sizeof(nsvcd__proof) <= 24576 && sizeof(nsvcd__span) <= 168 ? 1 : -1];
+#endif
+#ifndef NSVCD_NO_NETWORK
+typedef char nsvcd__network_constants_hold[NSVCD__SHORTLIST * sizeof(nsvcd__candidate) <= 96 && NSVCD__LATENT == 40 ? 1 : -1];
+#endif
 
 // What any question may need.
 static nsvcd__needs nsvcd__needs_most(void) {
