@@ -31,7 +31,7 @@ endif
 
 PLANNERS = build/dish_insertion build/bimanual_insertion build/mining_site
 
-all: build/svcd build/quickstart build/game $(PLANNERS)  ## the examples: build/svcd, build/quickstart, build/game and three that plan motions
+all: build/svcd build/quickstart build/game build/fly_through $(PLANNERS)  ## the examples: build/svcd, build/quickstart, build/game, build/fly_through and three that plan motions
 
 help:  ## this list
 	@sed -n 's/^\([a-z][a-z-]*\):.*##/\1:/p' $(MAKEFILE_LIST) | sort
@@ -47,6 +47,8 @@ build/quickstart: examples/quickstart.c examples/picture.h $(LIBRARY) | build
 	$(CC) $(ALL_CFLAGS) -o $@ examples/quickstart.c -lm
 build/game: examples/game.c examples/problem_file.h examples/draw.h examples/tasks.h examples/shapes.h tests/oracle.h $(LIBRARY) | build
 	$(CC) $(ALL_CFLAGS) -Wno-unused-function -o $@ examples/game.c -lm
+build/fly_through: examples/fly_through.c examples/problem_file.h examples/level.h examples/draw.h examples/tasks.h examples/shapes.h tests/oracle.h $(LIBRARY) | build
+	$(CC) $(ALL_CFLAGS) -Wno-unused-function -o $@ examples/fly_through.c -lm
 $(PLANNERS): build/%: examples/%.c examples/task_planner.h examples/draw.h examples/tasks.h examples/shapes.h tests/oracle.h $(LIBRARY) | build
 	$(CC) $(ALL_CFLAGS) -o $@ $< -lm
 build/tasks_preview: examples/tasks_preview.c examples/draw.h examples/tasks.h examples/shapes.h tests/oracle.h $(LIBRARY) | build
@@ -54,9 +56,10 @@ build/tasks_preview: examples/tasks_preview.c examples/draw.h examples/tasks.h e
 build/make_assets: examples/make_assets.c examples/shapes.h | build
 	$(CC) $(ALL_CFLAGS) -o $@ examples/make_assets.c -lm
 
-demo: build/quickstart build/game $(PLANNERS)  ## the examples, seconds each: what they find, and a picture each in build/
+demo: build/quickstart build/game build/fly_through $(PLANNERS)  ## the examples, seconds each: what they find, and a picture each in build/
 	build/quickstart
 	build/game
+	build/fly_through
 	build/dish_insertion
 	build/bimanual_insertion
 	build/mining_site

@@ -122,13 +122,11 @@ SHAPES_DEF void level_thing(shapes_mesh *mesh, int kind, size_t triangles, shape
   }
 }
 
-// A level of side x side metres and about so many triangles, half of them ground, half things a thing or so for each 4
-// square metres.
-SHAPES_DEF void level_make(shapes_mesh *mesh, double side, size_t triangles, uint64_t seed) {
+// Things of about so many triangles in all, a thing or so for each 4 square metres.
+SHAPES_DEF void level_things(shapes_mesh *mesh, double side, size_t triangles, uint64_t seed) {
   shapes_rng rng = {seed};
   const int pitches = (int)fmax(1, side / 2);
-  const size_t each = triangles / 2 / (size_t)(pitches * pitches);
-  level_ground(mesh, side, (uint32_t)fmax(1, sqrt((double)triangles / 8)));
+  const size_t each = triangles / (size_t)(pitches * pitches);
   for (int j = 0; j < pitches; j++) {
     for (int i = 0; i < pitches; i++) {
       const size_t first = mesh->vertices;
@@ -140,6 +138,13 @@ SHAPES_DEF void level_make(shapes_mesh *mesh, double side, size_t triangles, uin
       shapes_place(mesh, first, q, x, y, level_height(x, y) - 0.05);
     }
   }
+}
+
+// A level of side x side metres and about so many triangles, half of them ground, half things. With other numbers of
+// triangles the same things stand in the same places.
+SHAPES_DEF void level_make(shapes_mesh *mesh, double side, size_t triangles, uint64_t seed) {
+  level_ground(mesh, side, (uint32_t)fmax(1, sqrt((double)triangles / 8)));
+  level_things(mesh, side, triangles / 2, seed);
 }
 
 #endif

@@ -50,6 +50,13 @@ expect 2 'usage: ' build/mining_site 1 "$dir/x.svg" soon
 expect 1 '' build/mining_site 1 "$dir/x.svg" 0  # cancelled by the progress callback
 grep -q 'cancelled' "$dir/out" || fail "mining_site is not cancelled: $(cat "$dir/out")"
 
+# A level, and a flight through it that keeps its distance, by the oracle's word (the exit status).
+expect 0 '' build/fly_through 60000
+grep -q 'in 0 it waited' "$dir/out" || fail "fly_through says: $(cat "$dir/out")"
+tail -1 build/fly_through.svg | grep -q '^</svg>$' || fail "build/fly_through.svg is not whole"
+expect 2 'usage: ' build/fly_through 10
+expect 2 'usage: ' build/fly_through 1000 1000
+
 # The programs in README, as they stand there.
 program() {  # NUMBER TEXT: the n-th one, and what its output begins with
   awk -v n="$1" '/^```c$/ { k++; on = k == n; next } /^```/ { on = 0 } on' README.md >"$dir/readme.c"
