@@ -718,6 +718,12 @@ static inline nsvcd__d3 nsvcd__d3_widen(nsvcd__f3 a) {
 #define NSVCD__UNROLL
 #endif
 
+// What is done 16 lanes wide is done a *slice* at a time: as many lanes as a register holds. A function over 16 lanes goes
+// through its slices in a loop, and keeps no more than one of them in its variables; on a machine without vectors a slice is
+// one lane.
+#define NSVCD__SLICE NSVCD__LANES
+#define NSVCD__EACH_SLICE(l) for (size_t l = 0; l < NSVCD__LANES; l += NSVCD__SLICE)
+
 #if !defined(NSVCD_NO_SIMD) && defined(__AVX512F__)
 #include <immintrin.h>
 typedef __m512 nsvcd__v;
@@ -998,13 +1004,14 @@ static inline nsvcd__f3 nsvcd__f3_transform(const nsvcd__transform *t, nsvcd__f3
                                         m[6] * a.x + m[7] * a.y + m[8] * a.z);
   return nsvcd__f3_add(turned, t->position);
 }
-NSVCD__INLINE void nsvcd__v3_store(float (*p)[NSVCD__LANES], nsvcd__v3 a) {  // p (3, LANES)
-  nsvcd__v_store(p[0], a.x);
-  nsvcd__v_store(p[1], a.y);
-  nsvcd__v_store(p[2], a.z);
+// Lanes l .. l + SLICE - 1 of p (3, LANES).
+NSVCD__INLINE void nsvcd__v3_store(float (*p)[NSVCD__LANES], size_t l, nsvcd__v3 a) {
+  nsvcd__v_store(p[0] + l, a.x);
+  nsvcd__v_store(p[1] + l, a.y);
+  nsvcd__v_store(p[2] + l, a.z);
 }
-NSVCD__INLINE nsvcd__v3 nsvcd__v3_load(float (*p)[NSVCD__LANES]) {
-  return nsvcd__v3_of(nsvcd__v_load(p[0]), nsvcd__v_load(p[1]), nsvcd__v_load(p[2]));
+NSVCD__INLINE nsvcd__v3 nsvcd__v3_load(float (*p)[NSVCD__LANES], size_t l) {
+  return nsvcd__v3_of(nsvcd__v_load(p[0] + l), nsvcd__v_load(p[1] + l), nsvcd__v_load(p[2] + l));
 }
 
 NSVCD__INLINE nsvcd__v3 nsvcd__v3_transform(const nsvcd__transform *t, nsvcd__v3 a) {
@@ -5611,8 +5618,8 @@ static NSVCD__APART void nsvcd__cut_ends(const nsvcd__motion *motion, nsvcd__seg
   }
   for (size_t i = 0; i < 3; i++) nsvcd__v_store(out->moved[i], nsvcd__v_sub(p[i], nsvcd__v_load(out->position[i])));
   nsvcd__v_load_all(cut->last.seen, last_seen, 4);
-  nsvcd__v3_store(out->axis, nsvcd__v3_unit(nsvcd__v_turn_between(last_seen, seen)));
-  nsvcd__v3_store(out->way, nsvcd__v3_unit(nsvcd__v3_load(out->moved)));
+  nsvcd__v3_store(out->axis, 0, nsvcd__v3_unit(nsvcd__v_turn_between(last_seen, seen)));
+  nsvcd__v3_store(out->way, 0, nsvcd__v3_unit(nsvcd__v3_load(out->moved, 0)));
 }
 
 // Of arcs in which both bodies move. With w and w' the rotation vectors of the moving and the fixed body over the arc, in
@@ -5662,7 +5669,7 @@ static void nsvcd__cut_arc(const nsvcd__motion *motion, const nsvcd__v_poses *at
     nsvcd__v last_seen[4];
     nsvcd__v_load_all(cut->last.seen, last_seen, 4);
     nsvcd__v_keep_most(cut->most.arc_bulge, nsvcd__v_mul(nsvcd__v_mul(arc, arc), nsvcd__v_set(0.125f)));
-    nsvcd__v_keep_most(cut->most.axis_turn, nsvcd__v_turn_off_axis(nsvcd__v3_load(out->axis), last_seen, seen, arc));
+    nsvcd__v_keep_most(cut->most.axis_turn, nsvcd__v_turn_off_axis(nsvcd__v3_load(out->axis, 0), last_seen, seen, arc));
   }
   nsvcd__knots_keep(motion, at, seen, &cut->last);
 }
@@ -5698,17 +5705,17 @@ static NSVCD__APART void nsvcd__cut_knot(const nsvcd__motion *motion, const uint
     r[i] = nsvcd__v_sub(nsvcd__v_mul(scale, r[i]), chord);
     square = nsvcd__v_fma(r[i], r[i], square);
   }
-  const nsvcd__v3 chord = nsvcd__v3_fma(u, nsvcd__v3_load(out->moved), nsvcd__v3_load(out->position));
+  const nsvcd__v3 chord = nsvcd__v3_fma(u, nsvcd__v3_load(out->moved, 0), nsvcd__v3_load(out->position, 0));
   const nsvcd__v3 off = nsvcd__v3_sub(nsvcd__v3_of(at[0], at[1], at[2]), chord);
   nsvcd__v_keep_most(cut->most.bulge, square);
   nsvcd__v_keep_most(cut->most.spread, nsvcd__v3_dot(off, off));
 
-  const nsvcd__v3 axis = nsvcd__v3_load(out->axis);
+  const nsvcd__v3 axis = nsvcd__v3_load(out->axis, 0);
   const nsvcd__v3 row0 = nsvcd__v3_of(r[0], r[1], r[2]);
   const nsvcd__v3 row1 = nsvcd__v3_of(r[3], r[4], r[5]);
   const nsvcd__v3 row2 = nsvcd__v3_of(r[6], r[7], r[8]);
   const nsvcd__v3 along = nsvcd__v3_fma(axis.x, row0, nsvcd__v3_fma(axis.y, row1, nsvcd__v3_scale(row2, axis.z)));
-  const nsvcd__v3 off_way = nsvcd__v3_cross(nsvcd__v3_load(out->way), off);
+  const nsvcd__v3 off_way = nsvcd__v3_cross(nsvcd__v3_load(out->way, 0), off);
   const nsvcd__v off_axis = nsvcd__v3_dot(axis, off);
   nsvcd__v_keep_most(cut->most.axis_bulge, nsvcd__v3_dot(along, along));
   nsvcd__v_keep_most(cut->most.axis_drift, nsvcd__v_mul(off_axis, off_axis));
@@ -5749,9 +5756,9 @@ static void nsvcd__cut_block(const nsvcd__motion *motion, const uint32_t *begin,
     nsvcd__v_store(out->drift_off_way, nsvcd__v_sqrt(nsvcd__v_load(cut->most.way_drift)));
   }
 
-  const nsvcd__v3 start = nsvcd__v3_load(out->position);
+  const nsvcd__v3 start = nsvcd__v3_load(out->position, 0);
   const nsvcd__v remote = nsvcd__v_add(nsvcd__v3_length(start),
-                                       nsvcd__v3_length(nsvcd__v3_add(start, nsvcd__v3_load(out->moved))));
+                                       nsvcd__v3_length(nsvcd__v3_add(start, nsvcd__v3_load(out->moved, 0))));
   const nsvcd__v all = nsvcd__v_add(remote, nsvcd__v_add(drift, nsvcd__v_set(lengths)));
   const nsvcd__v rounding = nsvcd__v_mul(all, nsvcd__v_set(NSVCD__ROUNDING));
   nsvcd__v_store(out->rounding, rounding);
@@ -7066,7 +7073,7 @@ static uint32_t nsvcd__apart_by_moving_disc(const nsvcd__approach *a, const nsvc
 static void nsvcd__certify_discs(size_t g, size_t j, const nsvcd__span *span, uint32_t apart, uint32_t below,
                                  nsvcd__v3 plane) {
   float lanes[3][NSVCD__LANES];
-  nsvcd__v3_store(lanes, plane);
+  nsvcd__v3_store(lanes, 0, plane);
   for (size_t l = 0; l < NSVCD__LANES; l++) {
     const float sign = below >> l & 1 ? -1.0f : 1.0f;
     const float normal[3] = {sign * lanes[0][l], sign * lanes[1][l], sign * lanes[2][l]};
@@ -7140,13 +7147,13 @@ NSVCD__INLINE nsvcd__reach_along nsvcd__one_disc_along(const nsvcd__disc *disc, 
 // 16 matrices, (9, LANES), times one vector; and back.
 NSVCD__INLINE nsvcd__v3 nsvcd__v3_turned(float (*m)[NSVCD__LANES], nsvcd__f3 a) {
   const nsvcd__v3 v = nsvcd__v3_set(a);
-  return nsvcd__v3_of(nsvcd__v3_dot(nsvcd__v3_load(m), v), nsvcd__v3_dot(nsvcd__v3_load(m + 3), v),
-                      nsvcd__v3_dot(nsvcd__v3_load(m + 6), v));
+  return nsvcd__v3_of(nsvcd__v3_dot(nsvcd__v3_load(m, 0), v), nsvcd__v3_dot(nsvcd__v3_load(m + 3, 0), v),
+                      nsvcd__v3_dot(nsvcd__v3_load(m + 6, 0), v));
 }
 NSVCD__INLINE nsvcd__v3 nsvcd__v3_turned_back(float (*m)[NSVCD__LANES], nsvcd__f3 a) {
-  const nsvcd__v3 sum = nsvcd__v3_scale(nsvcd__v3_load(m), nsvcd__v_set(a.x));
-  return nsvcd__v3_fma(nsvcd__v_set(a.z), nsvcd__v3_load(m + 6),
-                       nsvcd__v3_fma(nsvcd__v_set(a.y), nsvcd__v3_load(m + 3), sum));
+  const nsvcd__v3 sum = nsvcd__v3_scale(nsvcd__v3_load(m, 0), nsvcd__v_set(a.x));
+  return nsvcd__v3_fma(nsvcd__v_set(a.z), nsvcd__v3_load(m + 6, 0),
+                       nsvcd__v3_fma(nsvcd__v_set(a.y), nsvcd__v3_load(m + 3, 0), sum));
 }
 
 // Segments of a block in which discs part a moving group from a resting one. The planes are those of single discs,
@@ -7201,7 +7208,7 @@ static uint32_t nsvcd__groups_apart(nsvcd__segments *block, const nsvcd__chords 
 static void nsvcd__certify_groups(const nsvcd__proof *p, const nsvcd__workspace *work, size_t block, size_t g, size_t h,
                                   uint32_t apart, const nsvcd__v3 *planes, const uint32_t *below) {
   float lanes[2][3][NSVCD__LANES];
-  for (size_t k = 0; k < 2; k++) nsvcd__v3_store(lanes[k], planes[k]);
+  for (size_t k = 0; k < 2; k++) nsvcd__v3_store(lanes[k], 0, planes[k]);
   for (size_t l = 0; l < NSVCD__LANES; l++) {
     if (!(apart >> l & 1)) continue;
     const size_t which = below[2] >> l & 1 ? 0 : 1;
@@ -7259,9 +7266,9 @@ static void nsvcd__part_groups(const nsvcd__proof *p, nsvcd__workspace *work) {
 // The hulls of an item's patches, posed, into the workspace.
 static void nsvcd__pose_hulls(nsvcd__proof *p, size_t i, size_t j, const nsvcd__span *span) {
   const nsvcd__v3 moving = nsvcd__facet_vertices(&p->moving, i, 0, p->moving.hull_counts[i]);
-  nsvcd__v3_store(p->hull_start, nsvcd__v3_transform(&span->start, moving));
-  nsvcd__v3_store(p->hull_end, nsvcd__v3_transform(&span->end, moving));
-  nsvcd__v3_store(p->hull_rest, nsvcd__facet_vertices(&p->fixed, j, 0, p->fixed.hull_counts[j]));
+  nsvcd__v3_store(p->hull_start, 0, nsvcd__v3_transform(&span->start, moving));
+  nsvcd__v3_store(p->hull_end, 0, nsvcd__v3_transform(&span->end, moving));
+  nsvcd__v3_store(p->hull_rest, 0, nsvcd__facet_vertices(&p->fixed, j, 0, p->fixed.hull_counts[j]));
 }
 
 static nsvcd__f3 nsvcd__lane_of(float (*lanes)[NSVCD__LANES], size_t l) {
@@ -7278,9 +7285,9 @@ typedef struct nsvcd__support {
 
 NSVCD__INLINE nsvcd__support nsvcd__support_along(nsvcd__proof *p, nsvcd__f3 normal) {
   const nsvcd__v3 n = nsvcd__v3_set(normal);
-  const nsvcd__v at_start = nsvcd__v3_dot(n, nsvcd__v3_load(p->hull_start));
-  const nsvcd__v at_end = nsvcd__v3_dot(n, nsvcd__v3_load(p->hull_end));
-  const nsvcd__v at_rest = nsvcd__v_negate(nsvcd__v3_dot(n, nsvcd__v3_load(p->hull_rest)));
+  const nsvcd__v at_start = nsvcd__v3_dot(n, nsvcd__v3_load(p->hull_start, 0));
+  const nsvcd__v at_end = nsvcd__v3_dot(n, nsvcd__v3_load(p->hull_end, 0));
+  const nsvcd__v at_rest = nsvcd__v_negate(nsvcd__v3_dot(n, nsvcd__v3_load(p->hull_rest, 0)));
   const nsvcd__v at_either = nsvcd__v_min(at_start, at_end);
   const float lowest = nsvcd__v_least(at_either);
   const float highest = -nsvcd__v_least(at_rest);
@@ -7762,29 +7769,29 @@ static void nsvcd__block_load(const nsvcd__facets *f, size_t patch, size_t first
     const nsvcd__v3 corner = nsvcd__v3_fma(step, integers, centre);
     low = k == 0 ? corner : nsvcd__v3_min(low, corner);
     high = k == 0 ? corner : nsvcd__v3_max(high, corner);
-    nsvcd__v3_store(out->corners[k], corner);
+    nsvcd__v3_store(out->corners[k], 0, corner);
   }
-  nsvcd__v3_store(out->low, low);
-  nsvcd__v3_store(out->high, high);
+  nsvcd__v3_store(out->low, 0, low);
+  nsvcd__v3_store(out->high, 0, high);
 }
 
 // Poses the corners of the moving block, into p->posed[which].
 static NSVCD__APART void nsvcd__block_pose(nsvcd__proof *p, const nsvcd__transform *at, size_t which) {
   for (size_t k = 0; k < 3; k++) {
-    nsvcd__v3_store(p->posed[which][k], nsvcd__v3_transform(at, nsvcd__v3_load(p->moving_block.corners[k])));
+    nsvcd__v3_store(p->posed[which][k], 0, nsvcd__v3_transform(at, nsvcd__v3_load(p->moving_block.corners[k], 0)));
   }
 }
 
 // Replaces the boxes of the moving block by those of its posed corners, at `ends` (1 or 2) poses.
 static void nsvcd__block_box(nsvcd__proof *p, size_t ends) {
-  nsvcd__v3 low = nsvcd__v3_load(p->posed[0][0]), high = low;
+  nsvcd__v3 low = nsvcd__v3_load(p->posed[0][0], 0), high = low;
   for (size_t n = 1; n < 3 * ends; n++) {
-    const nsvcd__v3 corner = nsvcd__v3_load(p->posed[n / 3][n % 3]);
+    const nsvcd__v3 corner = nsvcd__v3_load(p->posed[n / 3][n % 3], 0);
     low = nsvcd__v3_min(low, corner);
     high = nsvcd__v3_max(high, corner);
   }
-  nsvcd__v3_store(p->moving_block.low, low);
-  nsvcd__v3_store(p->moving_block.high, high);
+  nsvcd__v3_store(p->moving_block.low, 0, low);
+  nsvcd__v3_store(p->moving_block.high, 0, high);
 }
 
 static nsvcd__f3 nsvcd__least_of_lanes(float (*lanes)[NSVCD__LANES]) {
@@ -7840,9 +7847,9 @@ static nsvcd__v nsvcd__margin_along(nsvcd__v3 n, float margin) {
 // `ends` (1 or 2) poses, by more than `margin`. below: the moving one is on the side that the normal points from.
 NSVCD__INLINE uint32_t nsvcd__normals_part(nsvcd__proof *p, size_t l, nsvcd__block *fixed, size_t ends, float margin,
                                            nsvcd__v3 n, uint32_t *below) {
-  const nsvcd__v3 b0 = nsvcd__v3_load(fixed->corners[0]);
-  const nsvcd__v height1 = nsvcd__v3_dot(n, nsvcd__v3_sub(nsvcd__v3_load(fixed->corners[1]), b0));
-  const nsvcd__v height2 = nsvcd__v3_dot(n, nsvcd__v3_sub(nsvcd__v3_load(fixed->corners[2]), b0));
+  const nsvcd__v3 b0 = nsvcd__v3_load(fixed->corners[0], 0);
+  const nsvcd__v height1 = nsvcd__v3_dot(n, nsvcd__v3_sub(nsvcd__v3_load(fixed->corners[1], 0), b0));
+  const nsvcd__v height2 = nsvcd__v3_dot(n, nsvcd__v3_sub(nsvcd__v3_load(fixed->corners[2], 0), b0));
   const nsvcd__v zero = nsvcd__v_set(0);
   const nsvcd__v low = nsvcd__v_min(zero, nsvcd__v_min(height1, height2));
   const nsvcd__v high = nsvcd__v_max(zero, nsvcd__v_max(height1, height2));
@@ -7869,9 +7876,9 @@ NSVCD__INLINE nsvcd__v3 nsvcd__normal_to_try(nsvcd__proof *p, size_t l, nsvcd__b
     return nsvcd__v3_set(nsvcd__f3_cross(u, v));
   }
   const size_t fixed_edge = k == 0 ? 0 : (k - 2) % 3, moving_edge = k == 0 ? 0 : (k - 2) / 3;
-  const nsvcd__v3 b = nsvcd__v3_load(fixed->corners[fixed_edge]);
-  const nsvcd__v3 edge = nsvcd__v3_sub(nsvcd__v3_load(fixed->corners[(fixed_edge + 1) % 3]), b);
-  if (k == 0) return nsvcd__v3_cross(edge, nsvcd__v3_sub(nsvcd__v3_load(fixed->corners[2]), b));
+  const nsvcd__v3 b = nsvcd__v3_load(fixed->corners[fixed_edge], 0);
+  const nsvcd__v3 edge = nsvcd__v3_sub(nsvcd__v3_load(fixed->corners[(fixed_edge + 1) % 3], 0), b);
+  if (k == 0) return nsvcd__v3_cross(edge, nsvcd__v3_sub(nsvcd__v3_load(fixed->corners[2], 0), b));
   const nsvcd__f3 a = nsvcd__lane_of(p->posed[0][moving_edge], l);
   const nsvcd__f3 other = nsvcd__f3_sub(nsvcd__lane_of(p->posed[0][(moving_edge + 1) % 3], l), a);
   return nsvcd__v3_cross(nsvcd__v3_set(other), edge);
@@ -7883,7 +7890,7 @@ static void nsvcd__certify_block(nsvcd__proof *p, size_t i, size_t j, size_t l, 
                                  const nsvcd__span *span, uint32_t apart, const nsvcd__v3 *plane, uint32_t below) {
   float lanes[3][NSVCD__LANES];
   const nsvcd__block *a = &p->moving_block;
-  if (plane) nsvcd__v3_store(lanes, *plane);
+  if (plane) nsvcd__v3_store(lanes, 0, *plane);
   for (size_t n = 0; n < b->count; n++) {
     float normal[3] = {0, 0, 0}, widest = -HUGE_VALF;
     const float sign = below >> n & 1 ? -1.0f : 1.0f;
@@ -8442,9 +8449,9 @@ static int nsvcd__is_new(nsvcd__proof *p, size_t *count, uint32_t number, int *u
 static uint32_t nsvcd__lanes_on_ray(nsvcd__block *block, const nsvcd__ray *ray, float margin, float rounding) {
   const nsvcd__v3 from = nsvcd__v3_set(nsvcd__f3_round(ray->from));
   const nsvcd__v3 direction = nsvcd__v3_set(nsvcd__f3_round(ray->direction));
-  const nsvcd__v3 a = nsvcd__v3_load(block->corners[0]);
-  const nsvcd__v3 b = nsvcd__v3_load(block->corners[1]);
-  const nsvcd__v3 c = nsvcd__v3_load(block->corners[2]);
+  const nsvcd__v3 a = nsvcd__v3_load(block->corners[0], 0);
+  const nsvcd__v3 b = nsvcd__v3_load(block->corners[1], 0);
+  const nsvcd__v3 c = nsvcd__v3_load(block->corners[2], 0);
   const nsvcd__v3 ab = nsvcd__v3_cross(nsvcd__v3_sub(b, a), direction);
   const nsvcd__v3 bc = nsvcd__v3_cross(nsvcd__v3_sub(c, b), direction);
   const nsvcd__v3 ca = nsvcd__v3_cross(nsvcd__v3_sub(a, c), direction);
@@ -8620,7 +8627,7 @@ static uint32_t nsvcd__seeds_near(const nsvcd__facets *inner, size_t first, cons
     const float *seed = inner->seeds + 3 * (first + (l < left ? l : 0));
     for (size_t k = 0; k < 3; k++) lanes[k][l] = seed[k];
   }
-  const nsvcd__v3 seen = nsvcd__v3_transform(start, nsvcd__v3_load(lanes));
+  const nsvcd__v3 seen = nsvcd__v3_transform(start, nsvcd__v3_load(lanes, 0));
   const nsvcd__v3 d = nsvcd__v3_sub(seen, nsvcd__v3_set(nsvcd__f3_of(o->centre[0], o->centre[1], o->centre[2])));
   const float remote = nsvcd__f3_length(start->position) + scale * inner->body->extent + o->extent;
   const float rounding = 4 * NSVCD__ROUNDING * remote;
@@ -8850,7 +8857,7 @@ static NSVCD__APART double nsvcd__guess_clearance(nsvcd__proof *p, const nsvcd__
   float lanes[3][NSVCD__LANES], least_square = HUGE_VALF;
   const nsvcd__v3 rest = nsvcd__facet_vertices(&p->fixed, j, 0, p->fixed.hull_counts[j]);
   const nsvcd__v3 moving = nsvcd__facet_vertices(&p->moving, i, 0, p->moving.hull_counts[i]);
-  nsvcd__v3_store(lanes, nsvcd__v3_transform(&pose, moving));
+  nsvcd__v3_store(lanes, 0, nsvcd__v3_transform(&pose, moving));
   for (size_t l = 0; l < NSVCD__LANES; l++) {
     const nsvcd__v3 d = nsvcd__v3_sub(rest, nsvcd__v3_set(nsvcd__f3_of(lanes[0][l], lanes[1][l], lanes[2][l])));
     least_square = fminf(least_square, nsvcd__v_least(nsvcd__v3_dot(d, d)));
