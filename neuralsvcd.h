@@ -722,6 +722,7 @@ static inline nsvcd__d3 nsvcd__d3_widen(nsvcd__f3 a) {
 // through its slices in a loop, and keeps no more than one of them in its variables; on a machine without vectors a slice is
 // one lane.
 #define NSVCD__SLICE NSVCD__LANES
+#define NSVCD__SLICE_MASK (((uint32_t)1 << (NSVCD__SLICE - 1) << 1) - 1)
 #define NSVCD__EACH_SLICE(l) for (size_t l = 0; l < NSVCD__LANES; l += NSVCD__SLICE)
 
 #if !defined(NSVCD_NO_SIMD) && defined(__AVX512F__)
@@ -7750,9 +7751,7 @@ static void nsvcd__block_load(const nsvcd__facets *f, size_t patch, size_t first
   const int16_t *x = f->vertices + 3 * (size_t)f->first_vertex[patch];
   const int16_t *y = x + all;
   const int16_t *z = y + all;
-  const nsvcd__v step = nsvcd__v_set(f->steps[patch]);
-  const nsvcd__v3 centre = nsvcd__v3_set(nsvcd__facet_centre(f, patch));
-  nsvcd__v3 low = centre, high = centre;
+  const nsvcd__f3 centre = nsvcd__facet_centre(f, patch);
   out->first = first;
   out->count = count;
   for (size_t k = 0; k < 3; k++) {
@@ -7764,44 +7763,56 @@ static void nsvcd__block_load(const nsvcd__facets *f, size_t patch, size_t first
       places[1][l] = y[vertices[l]];
       places[2][l] = z[vertices[l]];
     }
-    const nsvcd__v3 integers = nsvcd__v3_of(nsvcd__v_load_int16(places[0]), nsvcd__v_load_int16(places[1]),
-                                            nsvcd__v_load_int16(places[2]));
-    const nsvcd__v3 corner = nsvcd__v3_fma(step, integers, centre);
-    low = k == 0 ? corner : nsvcd__v3_min(low, corner);
-    high = k == 0 ? corner : nsvcd__v3_max(high, corner);
-    nsvcd__v3_store(out->corners[k], 0, corner);
+    NSVCD__EACH_SLICE(l) {
+      const nsvcd__v3 integers = nsvcd__v3_of(nsvcd__v_load_int16(places[0] + l), nsvcd__v_load_int16(places[1] + l),
+                                              nsvcd__v_load_int16(places[2] + l));
+      const nsvcd__v step = nsvcd__v_set(f->steps[patch]);
+      nsvcd__v3_store(out->corners[k], l, nsvcd__v3_fma(step, integers, nsvcd__v3_set(centre)));
+    }
   }
-  nsvcd__v3_store(out->low, 0, low);
-  nsvcd__v3_store(out->high, 0, high);
+  NSVCD__EACH_SLICE(l) {
+    const nsvcd__v3 a = nsvcd__v3_load(out->corners[0], l);
+    const nsvcd__v3 b = nsvcd__v3_load(out->corners[1], l);
+    const nsvcd__v3 c = nsvcd__v3_load(out->corners[2], l);
+    nsvcd__v3_store(out->low, l, nsvcd__v3_min(nsvcd__v3_min(a, b), c));
+    nsvcd__v3_store(out->high, l, nsvcd__v3_max(nsvcd__v3_max(a, b), c));
+  }
 }
 
 // Poses the corners of the moving block, into p->posed[which].
 static NSVCD__APART void nsvcd__block_pose(nsvcd__proof *p, const nsvcd__transform *at, size_t which) {
   for (size_t k = 0; k < 3; k++) {
-    nsvcd__v3_store(p->posed[which][k], 0, nsvcd__v3_transform(at, nsvcd__v3_load(p->moving_block.corners[k], 0)));
+    NSVCD__EACH_SLICE(l) {
+      nsvcd__v3_store(p->posed[which][k], l, nsvcd__v3_transform(at, nsvcd__v3_load(p->moving_block.corners[k], l)));
+    }
   }
 }
 
 // Replaces the boxes of the moving block by those of its posed corners, at `ends` (1 or 2) poses.
 static void nsvcd__block_box(nsvcd__proof *p, size_t ends) {
-  nsvcd__v3 low = nsvcd__v3_load(p->posed[0][0], 0), high = low;
-  for (size_t n = 1; n < 3 * ends; n++) {
-    const nsvcd__v3 corner = nsvcd__v3_load(p->posed[n / 3][n % 3], 0);
-    low = nsvcd__v3_min(low, corner);
-    high = nsvcd__v3_max(high, corner);
+  NSVCD__EACH_SLICE(l) {
+    nsvcd__v3 low = nsvcd__v3_load(p->posed[0][0], l);
+    nsvcd__v3 high = low;
+    for (size_t n = 1; n < 3 * ends; n++) {
+      const nsvcd__v3 corner = nsvcd__v3_load(p->posed[n / 3][n % 3], l);
+      low = nsvcd__v3_min(low, corner);
+      high = nsvcd__v3_max(high, corner);
+    }
+    nsvcd__v3_store(p->moving_block.low, l, low);
+    nsvcd__v3_store(p->moving_block.high, l, high);
   }
-  nsvcd__v3_store(p->moving_block.low, 0, low);
-  nsvcd__v3_store(p->moving_block.high, 0, high);
 }
 
-static nsvcd__f3 nsvcd__least_of_lanes(float (*lanes)[NSVCD__LANES]) {
-  return nsvcd__f3_of(nsvcd__v_least(nsvcd__v_load(lanes[0])), nsvcd__v_least(nsvcd__v_load(lanes[1])),
-                      nsvcd__v_least(nsvcd__v_load(lanes[2])));
+// The least of 16 numbers, and the greatest.
+static float nsvcd__least_of(const float *lanes) {
+  float least = HUGE_VALF;
+  NSVCD__EACH_SLICE(l) least = fminf(least, nsvcd__v_least(nsvcd__v_load(lanes + l)));
+  return least;
 }
-static nsvcd__f3 nsvcd__greatest_of_lanes(float (*lanes)[NSVCD__LANES]) {
-  return nsvcd__f3_of(-nsvcd__v_least(nsvcd__v_negate(nsvcd__v_load(lanes[0]))),
-                      -nsvcd__v_least(nsvcd__v_negate(nsvcd__v_load(lanes[1]))),
-                      -nsvcd__v_least(nsvcd__v_negate(nsvcd__v_load(lanes[2]))));
+static float nsvcd__greatest_of(const float *lanes) {
+  float least = HUGE_VALF;
+  NSVCD__EACH_SLICE(l) least = fminf(least, nsvcd__v_least(nsvcd__v_negate(nsvcd__v_load(lanes + l))));
+  return -least;
 }
 
 // Loads up to NSVCD__WINDOW blocks of resting patch j, from listing `first` on, and what they extend to. The same patch is
@@ -7813,8 +7824,10 @@ static void nsvcd__window_load(nsvcd__proof *p, size_t j, size_t first) {
   for (size_t n = first; n < end && p->window < NSVCD__WINDOW; n += NSVCD__LANES) {
     nsvcd__block *block = &p->fixed_blocks[p->window];
     nsvcd__block_load(&p->fixed, j, n, end - n < NSVCD__LANES ? end - n : NSVCD__LANES, block);
-    p->bounds[p->window].low = nsvcd__least_of_lanes(block->low);
-    p->bounds[p->window].high = nsvcd__greatest_of_lanes(block->high);
+    p->bounds[p->window].low = nsvcd__f3_of(nsvcd__least_of(block->low[0]), nsvcd__least_of(block->low[1]),
+                                            nsvcd__least_of(block->low[2]));
+    p->bounds[p->window].high = nsvcd__f3_of(nsvcd__greatest_of(block->high[0]), nsvcd__greatest_of(block->high[1]),
+                                             nsvcd__greatest_of(block->high[2]));
     p->window++;
   }
 }
@@ -7823,12 +7836,16 @@ static void nsvcd__window_load(nsvcd__proof *p, size_t j, size_t first) {
 NSVCD__INLINE uint32_t nsvcd__lanes_near(const nsvcd__block *block, nsvcd__box box, float margin) {
   const float low[3] = {box.low.x - margin, box.low.y - margin, box.low.z - margin};
   const float high[3] = {box.high.x + margin, box.high.y + margin, box.high.z + margin};
-  uint32_t lanes = ((uint32_t)1 << (block->count - 1) << 1) - 1;
-  for (size_t k = 0; k < 3; k++) {
-    lanes &= nsvcd__v_le(nsvcd__v_load(block->low[k]), nsvcd__v_set(high[k]));
-    lanes &= nsvcd__v_le(nsvcd__v_set(low[k]), nsvcd__v_load(block->high[k]));
+  uint32_t lanes = 0;
+  NSVCD__EACH_SLICE(l) {
+    uint32_t slice = NSVCD__SLICE_MASK;
+    for (size_t k = 0; k < 3; k++) {
+      slice &= nsvcd__v_le(nsvcd__v_load(block->low[k] + l), nsvcd__v_set(high[k]));
+      slice &= nsvcd__v_le(nsvcd__v_set(low[k]), nsvcd__v_load(block->high[k] + l));
+    }
+    lanes |= slice << l;
   }
-  return lanes;
+  return lanes & (((uint32_t)1 << (block->count - 1) << 1) - 1);
 }
 
 static nsvcd__box nsvcd__box_of_lane(nsvcd__block *block, size_t l) {
@@ -7843,13 +7860,14 @@ static nsvcd__v nsvcd__margin_along(nsvcd__v3 n, float margin) {
   return nsvcd__v_pick(square, nsvcd__v_set(1e-30f), nsvcd__v_set(1e30f), limit);
 }
 
-// Lanes of a fixed block that planes with these normals, of any length, have on one side of lane l of the moving one, at
-// `ends` (1 or 2) poses, by more than `margin`. below: the moving one is on the side that the normal points from.
-NSVCD__INLINE uint32_t nsvcd__normals_part(nsvcd__proof *p, size_t l, nsvcd__block *fixed, size_t ends, float margin,
-                                           nsvcd__v3 n, uint32_t *below) {
-  const nsvcd__v3 b0 = nsvcd__v3_load(fixed->corners[0], 0);
-  const nsvcd__v height1 = nsvcd__v3_dot(n, nsvcd__v3_sub(nsvcd__v3_load(fixed->corners[1], 0), b0));
-  const nsvcd__v height2 = nsvcd__v3_dot(n, nsvcd__v3_sub(nsvcd__v3_load(fixed->corners[2], 0), b0));
+// Lanes of a slice, from s on, of a fixed block that planes with these normals, of any length, have on one side of lane l of
+// the moving one, at `ends` (1 or 2) poses, by more than `margin`. below: the moving one is on the side that the normal
+// points from.
+NSVCD__INLINE uint32_t nsvcd__normals_part(nsvcd__proof *p, size_t l, nsvcd__block *fixed, size_t s, size_t ends,
+                                           float margin, nsvcd__v3 n, uint32_t *below) {
+  const nsvcd__v3 b0 = nsvcd__v3_load(fixed->corners[0], s);
+  const nsvcd__v height1 = nsvcd__v3_dot(n, nsvcd__v3_sub(nsvcd__v3_load(fixed->corners[1], s), b0));
+  const nsvcd__v height2 = nsvcd__v3_dot(n, nsvcd__v3_sub(nsvcd__v3_load(fixed->corners[2], s), b0));
   const nsvcd__v zero = nsvcd__v_set(0);
   const nsvcd__v low = nsvcd__v_min(zero, nsvcd__v_min(height1, height2));
   const nsvcd__v high = nsvcd__v_max(zero, nsvcd__v_max(height1, height2));
@@ -7865,10 +7883,10 @@ NSVCD__INLINE uint32_t nsvcd__normals_part(nsvcd__proof *p, size_t l, nsvcd__blo
   return nsvcd__v_lt(nsvcd__v_add(high, limit), lowest) | *below;
 }
 
-// Normal number k of those that may part two triangles: of the fixed ones, of lane l of the moving one, and of an edge of
-// each.
+// Normal number k of those that may part two triangles: of the fixed ones in a slice, of lane l of the moving one, and of an
+// edge of each.
 #define NSVCD__NORMALS 11
-NSVCD__INLINE nsvcd__v3 nsvcd__normal_to_try(nsvcd__proof *p, size_t l, nsvcd__block *fixed, size_t k) {
+NSVCD__INLINE nsvcd__v3 nsvcd__normal_to_try(nsvcd__proof *p, size_t l, nsvcd__block *fixed, size_t s, size_t k) {
   if (k == 1) {
     const nsvcd__f3 a = nsvcd__lane_of(p->posed[0][0], l);
     const nsvcd__f3 u = nsvcd__f3_sub(nsvcd__lane_of(p->posed[0][1], l), a);
@@ -7876,21 +7894,22 @@ NSVCD__INLINE nsvcd__v3 nsvcd__normal_to_try(nsvcd__proof *p, size_t l, nsvcd__b
     return nsvcd__v3_set(nsvcd__f3_cross(u, v));
   }
   const size_t fixed_edge = k == 0 ? 0 : (k - 2) % 3, moving_edge = k == 0 ? 0 : (k - 2) / 3;
-  const nsvcd__v3 b = nsvcd__v3_load(fixed->corners[fixed_edge], 0);
-  const nsvcd__v3 edge = nsvcd__v3_sub(nsvcd__v3_load(fixed->corners[(fixed_edge + 1) % 3], 0), b);
-  if (k == 0) return nsvcd__v3_cross(edge, nsvcd__v3_sub(nsvcd__v3_load(fixed->corners[2], 0), b));
+  const nsvcd__v3 b = nsvcd__v3_load(fixed->corners[fixed_edge], s);
+  const nsvcd__v3 edge = nsvcd__v3_sub(nsvcd__v3_load(fixed->corners[(fixed_edge + 1) % 3], s), b);
+  if (k == 0) return nsvcd__v3_cross(edge, nsvcd__v3_sub(nsvcd__v3_load(fixed->corners[2], s), b));
   const nsvcd__f3 a = nsvcd__lane_of(p->posed[0][moving_edge], l);
   const nsvcd__f3 other = nsvcd__f3_sub(nsvcd__lane_of(p->posed[0][(moving_edge + 1) % 3], l), a);
   return nsvcd__v3_cross(nsvcd__v3_set(other), edge);
 }
 
 #ifdef NSVCD__CERTIFIES
-// All pairs of lane l and the `apart` lanes of a block, by their planes or, where that is NULL, by their boxes.
+// All pairs of lane l and the `apart` lanes of a block, by the planes of their slice, from s on, or, where that is NULL, by
+// their boxes.
 static void nsvcd__certify_block(nsvcd__proof *p, size_t i, size_t j, size_t l, const nsvcd__block *b,
-                                 const nsvcd__span *span, uint32_t apart, const nsvcd__v3 *plane, uint32_t below) {
+                                 const nsvcd__span *span, uint32_t apart, size_t s, const nsvcd__v3 *plane, uint32_t below) {
   float lanes[3][NSVCD__LANES];
   const nsvcd__block *a = &p->moving_block;
-  if (plane) nsvcd__v3_store(lanes, 0, *plane);
+  if (plane) nsvcd__v3_store(lanes, s, *plane);
   for (size_t n = 0; n < b->count; n++) {
     float normal[3] = {0, 0, 0}, widest = -HUGE_VALF;
     const float sign = below >> n & 1 ? -1.0f : 1.0f;
@@ -7906,10 +7925,10 @@ static void nsvcd__certify_block(nsvcd__proof *p, size_t i, size_t j, size_t l, 
     NSVCD__CERTIFY(NSVCD__BY_TRIANGLES, i, j, a->first + l, b->first + n, span->t_start, span->t_end, normal);
   }
 }
-#define NSVCD__CERTIFY_BLOCK(p, i, j, l, b, span, apart, plane, below) \
-  nsvcd__certify_block(p, i, j, l, b, span, apart, plane, below)
+#define NSVCD__CERTIFY_BLOCK(p, i, j, l, b, span, apart, s, plane, below) \
+  nsvcd__certify_block(p, i, j, l, b, span, apart, s, plane, below)
 #else
-#define NSVCD__CERTIFY_BLOCK(p, i, j, l, b, span, apart, plane, below) ((void)0)
+#define NSVCD__CERTIFY_BLOCK(p, i, j, l, b, span, apart, s, plane, below) ((void)0)
 #endif
 
 // Lanes of a fixed block that neither boxes nor planes part from lane l of the moving one, at `ends` poses. span: of
@@ -7917,13 +7936,16 @@ static void nsvcd__certify_block(nsvcd__proof *p, size_t i, size_t j, size_t l, 
 static NSVCD__APART uint32_t nsvcd__row_left(nsvcd__proof *p, size_t i, size_t j, size_t l, nsvcd__block *fixed, size_t ends,
                                              const nsvcd__span *span, float margin) {
   uint32_t met = nsvcd__lanes_near(fixed, nsvcd__box_of_lane(&p->moving_block, l), margin);
-  if (span) NSVCD__CERTIFY_BLOCK(p, i, j, l, fixed, span, ~met, NULL, 0);
+  if (span) NSVCD__CERTIFY_BLOCK(p, i, j, l, fixed, span, ~met, 0, NULL, 0);
   for (size_t k = 0; met && k < NSVCD__NORMALS; k++) {
-    uint32_t below;
-    const nsvcd__v3 normal = nsvcd__normal_to_try(p, l, fixed, k);
-    const uint32_t apart = nsvcd__normals_part(p, l, fixed, ends, margin, normal, &below) & met;
-    if (span) NSVCD__CERTIFY_BLOCK(p, i, j, l, fixed, span, apart, &normal, below);
-    met &= ~apart;
+    NSVCD__EACH_SLICE(s) {
+      uint32_t below;
+      if (!(met >> s & NSVCD__SLICE_MASK)) continue;
+      const nsvcd__v3 normal = nsvcd__normal_to_try(p, l, fixed, s, k);
+      const uint32_t apart = nsvcd__normals_part(p, l, fixed, s, ends, margin, normal, &below) << s & met;
+      if (span) NSVCD__CERTIFY_BLOCK(p, i, j, l, fixed, span, apart, s, &normal, below << s);
+      met &= ~apart;
+    }
   }
   (void)i;
   (void)j;
@@ -8100,11 +8122,13 @@ static nsvcd__verdict nsvcd__settle_row(nsvcd__proof *p, size_t i, size_t j, siz
   uint32_t met = nsvcd__row_left(p, i, j, l, fixed, 2, span, margin);
   for (; met; met &= met - 1) {
     const nsvcd__f3 last = nsvcd__f3_round(p->parting);
-    const nsvcd__v3 normal = nsvcd__v3_set(last);
     const float along = quanta + span->rounding + nsvcd__clearance_of(p) + nsvcd__deviation(span, last, reach);
-    const uint32_t apart = nsvcd__normals_part(p, l, fixed, 2, along, normal, &below) & met;
-    NSVCD__CERTIFY_BLOCK(p, i, j, l, fixed, span, apart, &normal, below);
-    met &= ~apart;
+    NSVCD__EACH_SLICE(s) {
+      const nsvcd__v3 normal = nsvcd__v3_set(last);
+      const uint32_t apart = nsvcd__normals_part(p, l, fixed, s, 2, along, normal, &below) << s & met;
+      NSVCD__CERTIFY_BLOCK(p, i, j, l, fixed, span, apart, s, &normal, below << s);
+      met &= ~apart;
+    }
     if (!met) break;
     if (patience == 0) return NSVCD__TOO_LONG;
     const size_t listing = p->moving_block.first + l;
@@ -8139,7 +8163,7 @@ static NSVCD__APART nsvcd__verdict nsvcd__settle_triangles(nsvcd__proof *p, size
         if (p->work > p->limit) return NSVCD__UNDECIDED;
         for (size_t l = 0; l < p->moving_block.count; l++) {
           if (!(lanes >> l & 1)) {
-            NSVCD__CERTIFY_BLOCK(p, i, j, l, &p->fixed_blocks[n], span, 0xffff, NULL, 0);
+            NSVCD__CERTIFY_BLOCK(p, i, j, l, &p->fixed_blocks[n], span, 0xffff, 0, NULL, 0);
             continue;
           }
           const nsvcd__verdict row = nsvcd__settle_row(p, i, j, l, n, span, margin, u0, u1, patience);
@@ -8406,14 +8430,20 @@ static int nsvcd__ray_crosses(const nsvcd__ray *ray, const nsvcd__d3 *t, double 
 // Lanes of 16 spheres, in the body's frame, that the ray meets.
 static uint32_t nsvcd__spheres_on_ray(const nsvcd_body *b, const nsvcd__ray *ray, const float *x, const float *y,
                                       const float *z, const float *r) {
-  const nsvcd__v3 centre = nsvcd__v3_of(nsvcd__v_load(x), nsvcd__v_load(y), nsvcd__v_load(z));
-  const nsvcd__v3 n = nsvcd__v3_set(nsvcd__f3_round(ray->direction));
-  const nsvcd__v3 d = nsvcd__v3_sub(centre, nsvcd__v3_set(nsvcd__f3_round(ray->from)));
-  const nsvcd__v3 off = nsvcd__v3_cross(d, n);
-  const nsvcd__v rounding = nsvcd__v_set((float)ray->margin + 4 * NSVCD__ROUNDING * b->extent);
-  const nsvcd__v reach = nsvcd__v_add(nsvcd__v_load(r), rounding);
-  const uint32_t near_line = nsvcd__v_le(nsvcd__v3_dot(off, off), nsvcd__v_signed_square(reach));
-  return near_line & nsvcd__v_le(nsvcd__v_negate(reach), nsvcd__v3_dot(d, n));
+  const nsvcd__f3 from = nsvcd__f3_round(ray->from);
+  const nsvcd__f3 direction = nsvcd__f3_round(ray->direction);
+  const float rounding = (float)ray->margin + 4 * NSVCD__ROUNDING * b->extent;
+  uint32_t met = 0;
+  NSVCD__EACH_SLICE(l) {
+    const nsvcd__v3 centre = nsvcd__v3_of(nsvcd__v_load(x + l), nsvcd__v_load(y + l), nsvcd__v_load(z + l));
+    const nsvcd__v3 n = nsvcd__v3_set(direction);
+    const nsvcd__v3 d = nsvcd__v3_sub(centre, nsvcd__v3_set(from));
+    const nsvcd__v3 off = nsvcd__v3_cross(d, n);
+    const nsvcd__v reach = nsvcd__v_add(nsvcd__v_load(r + l), nsvcd__v_set(rounding));
+    const uint32_t near_line = nsvcd__v_le(nsvcd__v3_dot(off, off), nsvcd__v_signed_square(reach));
+    met |= (near_line & nsvcd__v_le(nsvcd__v_negate(reach), nsvcd__v3_dot(d, n))) << l;
+  }
+  return met;
 }
 
 // The same, as a filter of a walk.
@@ -8447,24 +8477,29 @@ static int nsvcd__is_new(nsvcd__proof *p, size_t *count, uint32_t number, int *u
 // edges and the ray are products of an edge and a place on it, both off by rounding of the corners: by no more than
 // `rounding`, square metres.
 static uint32_t nsvcd__lanes_on_ray(nsvcd__block *block, const nsvcd__ray *ray, float margin, float rounding) {
-  const nsvcd__v3 from = nsvcd__v3_set(nsvcd__f3_round(ray->from));
-  const nsvcd__v3 direction = nsvcd__v3_set(nsvcd__f3_round(ray->direction));
-  const nsvcd__v3 a = nsvcd__v3_load(block->corners[0], 0);
-  const nsvcd__v3 b = nsvcd__v3_load(block->corners[1], 0);
-  const nsvcd__v3 c = nsvcd__v3_load(block->corners[2], 0);
-  const nsvcd__v3 ab = nsvcd__v3_cross(nsvcd__v3_sub(b, a), direction);
-  const nsvcd__v3 bc = nsvcd__v3_cross(nsvcd__v3_sub(c, b), direction);
-  const nsvcd__v3 ca = nsvcd__v3_cross(nsvcd__v3_sub(a, c), direction);
-  const nsvcd__v by_ab = nsvcd__v3_dot(ab, nsvcd__v3_sub(a, from));
-  const nsvcd__v by_bc = nsvcd__v3_dot(bc, nsvcd__v3_sub(b, from));
-  const nsvcd__v by_ca = nsvcd__v3_dot(ca, nsvcd__v3_sub(c, from));
-  const nsvcd__v least = nsvcd__v_min(by_ab, nsvcd__v_min(by_bc, by_ca));
-  const nsvcd__v most = nsvcd__v_max(by_ab, nsvcd__v_max(by_bc, by_ca));
-  const nsvcd__v longest = nsvcd__v_max(nsvcd__v3_length(ab), nsvcd__v_max(nsvcd__v3_length(bc), nsvcd__v3_length(ca)));
-  const nsvcd__v allowed = nsvcd__v_fma(nsvcd__v_set(margin), longest, nsvcd__v_set(rounding));
-  const uint32_t exist = ((uint32_t)1 << (block->count - 1) << 1) - 1;
-  const uint32_t missed = nsvcd__v_lt(least, nsvcd__v_negate(allowed)) & nsvcd__v_lt(allowed, most);
-  return exist & ~missed;
+  const nsvcd__f3 start = nsvcd__f3_round(ray->from);
+  const nsvcd__f3 way = nsvcd__f3_round(ray->direction);
+  uint32_t missed = 0;
+  NSVCD__EACH_SLICE(l) {
+    const nsvcd__v3 from = nsvcd__v3_set(start);
+    const nsvcd__v3 direction = nsvcd__v3_set(way);
+    const nsvcd__v3 a = nsvcd__v3_load(block->corners[0], l);
+    const nsvcd__v3 b = nsvcd__v3_load(block->corners[1], l);
+    const nsvcd__v3 c = nsvcd__v3_load(block->corners[2], l);
+    const nsvcd__v3 ab = nsvcd__v3_cross(nsvcd__v3_sub(b, a), direction);
+    const nsvcd__v3 bc = nsvcd__v3_cross(nsvcd__v3_sub(c, b), direction);
+    const nsvcd__v3 ca = nsvcd__v3_cross(nsvcd__v3_sub(a, c), direction);
+    const nsvcd__v by_ab = nsvcd__v3_dot(ab, nsvcd__v3_sub(a, from));
+    const nsvcd__v by_bc = nsvcd__v3_dot(bc, nsvcd__v3_sub(b, from));
+    const nsvcd__v by_ca = nsvcd__v3_dot(ca, nsvcd__v3_sub(c, from));
+    const nsvcd__v least = nsvcd__v_min(by_ab, nsvcd__v_min(by_bc, by_ca));
+    const nsvcd__v most = nsvcd__v_max(by_ab, nsvcd__v_max(by_bc, by_ca));
+    const nsvcd__v longer = nsvcd__v_max(nsvcd__v3_length(bc), nsvcd__v3_length(ca));
+    const nsvcd__v longest = nsvcd__v_max(nsvcd__v3_length(ab), longer);
+    const nsvcd__v allowed = nsvcd__v_fma(nsvcd__v_set(margin), longest, nsvcd__v_set(rounding));
+    missed |= (nsvcd__v_lt(least, nsvcd__v_negate(allowed)) & nsvcd__v_lt(allowed, most)) << l;
+  }
+  return (((uint32_t)1 << (block->count - 1) << 1) - 1) & ~missed;
 }
 
 // How often the surface of the closed components winds about a point, by one ray; *unclear if it cannot tell. A triangle
@@ -8516,10 +8551,14 @@ typedef struct nsvcd__surroundings {
 // Lanes of 16 spheres that come within that; a filter of a walk.
 static uint32_t nsvcd__is_around(const void *what, const float *x, const float *y, const float *z, const float *r) {
   const nsvcd__surroundings *here = (const nsvcd__surroundings *)what;
-  const nsvcd__v3 centre = nsvcd__v3_of(nsvcd__v_load(x), nsvcd__v_load(y), nsvcd__v_load(z));
-  const nsvcd__v3 d = nsvcd__v3_sub(centre, nsvcd__v3_set(here->place));
-  const nsvcd__v reach = nsvcd__v_add(nsvcd__v_load(r), nsvcd__v_set(here->distance));
-  return nsvcd__v_le(nsvcd__v3_dot(d, d), nsvcd__v_signed_square(reach));
+  uint32_t met = 0;
+  NSVCD__EACH_SLICE(l) {
+    const nsvcd__v3 centre = nsvcd__v3_of(nsvcd__v_load(x + l), nsvcd__v_load(y + l), nsvcd__v_load(z + l));
+    const nsvcd__v3 d = nsvcd__v3_sub(centre, nsvcd__v3_set(here->place));
+    const nsvcd__v reach = nsvcd__v_add(nsvcd__v_load(r + l), nsvcd__v_set(here->distance));
+    met |= nsvcd__v_le(nsvcd__v3_dot(d, d), nsvcd__v_signed_square(reach)) << l;
+  }
+  return met;
 }
 
 // Is a stored triangle of patch i so close to the place that the true surface may be on its other side? `distance`: that
@@ -8599,16 +8638,21 @@ static int nsvcd__is_enclosed(nsvcd__proof *p, const nsvcd__facets *f, double un
 static int nsvcd__sticks_out(const nsvcd__facets *inner, const nsvcd__transform *start, float scale,
                              const nsvcd_body *outer) {
   const nsvcd_body *b = inner->body;
-  const nsvcd__v3 centre = nsvcd__v3_set(nsvcd__f3_of(outer->centre[0], outer->centre[1], outer->centre[2]));
+  const nsvcd__f3 centre = nsvcd__f3_of(outer->centre[0], outer->centre[1], outer->centre[2]);
   const float rounding = 4 * NSVCD__ROUNDING * (scale * b->extent + outer->extent);
-  const nsvcd__v radius = nsvcd__v_set(outer->radius + rounding);
   for (size_t first = 0; first < b->padded; first += NSVCD__LANES) {
-    const nsvcd__v3 own = nsvcd__v3_of(nsvcd__v_load(nsvcd__body_x(b) + first), nsvcd__v_load(nsvcd__body_y(b) + first),
-                                       nsvcd__v_load(nsvcd__body_z(b) + first));
-    const nsvcd__v3 d = nsvcd__v3_sub(nsvcd__v3_transform(start, own), centre);
-    const nsvcd__v r = nsvcd__v_load(nsvcd__body_r(b) + first);
-    const nsvcd__v limit = nsvcd__v_fma(nsvcd__v_set(scale), r, radius);
-    uint32_t out = nsvcd__v_lt(nsvcd__v_mul(limit, limit), nsvcd__v3_dot(d, d));
+    const float *x = nsvcd__body_x(b) + first;
+    const float *y = nsvcd__body_y(b) + first;
+    const float *z = nsvcd__body_z(b) + first;
+    const float *r = nsvcd__body_r(b) + first;
+    uint32_t out = 0;
+    NSVCD__EACH_SLICE(l) {
+      const nsvcd__v3 own = nsvcd__v3_of(nsvcd__v_load(x + l), nsvcd__v_load(y + l), nsvcd__v_load(z + l));
+      const nsvcd__v3 d = nsvcd__v3_sub(nsvcd__v3_transform(start, own), nsvcd__v3_set(centre));
+      const nsvcd__v radius = nsvcd__v_set(outer->radius + rounding);
+      const nsvcd__v limit = nsvcd__v_fma(nsvcd__v_set(scale), nsvcd__v_load(r + l), radius);
+      out |= nsvcd__v_lt(nsvcd__v_mul(limit, limit), nsvcd__v3_dot(d, d)) << l;
+    }
     for (; out; out &= out - 1) {
       const size_t i = first + nsvcd__lowest_bit(out);
       if (i < inner->body->points && inner->hull_counts[i]) return 1;
@@ -8627,16 +8671,21 @@ static uint32_t nsvcd__seeds_near(const nsvcd__facets *inner, size_t first, cons
     const float *seed = inner->seeds + 3 * (first + (l < left ? l : 0));
     for (size_t k = 0; k < 3; k++) lanes[k][l] = seed[k];
   }
-  const nsvcd__v3 seen = nsvcd__v3_transform(start, nsvcd__v3_load(lanes, 0));
-  const nsvcd__v3 d = nsvcd__v3_sub(seen, nsvcd__v3_set(nsvcd__f3_of(o->centre[0], o->centre[1], o->centre[2])));
+  const nsvcd__f3 centre = nsvcd__f3_of(o->centre[0], o->centre[1], o->centre[2]);
   const float remote = nsvcd__f3_length(start->position) + scale * inner->body->extent + o->extent;
   const float rounding = 4 * NSVCD__ROUNDING * remote;
-  const nsvcd__v radius = nsvcd__v_set(o->radius + rounding);
-  uint32_t nearby = nsvcd__v_le(nsvcd__v3_dot(d, d), nsvcd__v_mul(radius, radius));
-  const nsvcd__v at[3] = {seen.x, seen.y, seen.z};
-  for (size_t k = 0; k < 3; k++) {
-    nearby &= nsvcd__v_le(nsvcd__v_set(outer->box[k] - rounding), at[k]);
-    nearby &= nsvcd__v_le(at[k], nsvcd__v_set(outer->box[3 + k] + rounding));
+  uint32_t nearby = 0;
+  NSVCD__EACH_SLICE(l) {
+    const nsvcd__v3 seen = nsvcd__v3_transform(start, nsvcd__v3_load(lanes, l));
+    const nsvcd__v3 d = nsvcd__v3_sub(seen, nsvcd__v3_set(centre));
+    const nsvcd__v radius = nsvcd__v_set(o->radius + rounding);
+    const nsvcd__v at[3] = {seen.x, seen.y, seen.z};
+    uint32_t slice = nsvcd__v_le(nsvcd__v3_dot(d, d), nsvcd__v_mul(radius, radius));
+    for (size_t k = 0; k < 3; k++) {
+      slice &= nsvcd__v_le(nsvcd__v_set(outer->box[k] - rounding), at[k]);
+      slice &= nsvcd__v_le(at[k], nsvcd__v_set(outer->box[3 + k] + rounding));
+    }
+    nearby |= slice << l;
   }
   return nearby;
 }
@@ -8743,36 +8792,38 @@ static uint64_t nsvcd__segments_that_matter(const nsvcd__proof *p, const nsvcd__
 // for 16 more.
 static void nsvcd__collect_items(nsvcd__proof *p, const nsvcd__workspace *work, size_t g, size_t j, uint64_t *left) {
   const nsvcd_body *moving = p->moving.body, *fixed = p->fixed.body;
-  const nsvcd__v3 centre = nsvcd__v3_set(nsvcd__facet_centre(&p->fixed, j));
-  const nsvcd__v r = nsvcd__v_set(nsvcd__body_r(fixed)[j]);
-  const nsvcd__v own = nsvcd__v_load(nsvcd__body_r(moving) + NSVCD__GROUP * g);
-  const nsvcd__v radii = nsvcd__v_fma(nsvcd__v_set(work->scale), own, r);
+  const nsvcd__f3 place = nsvcd__facet_centre(&p->fixed, j);
+  const float radius = nsvcd__body_r(fixed)[j];
+  const float *own = nsvcd__body_r(moving) + NSVCD__GROUP * g;
   *left &= nsvcd__segments_that_matter(p, work);
   for (; *left && p->fresh_count + NSVCD__GROUP <= NSVCD__FRESH; *left &= *left - 1) {
     const size_t s = nsvcd__lowest_bit(*left);
     const nsvcd__chords *c = &work->members[s];
-    const nsvcd__v3 start = nsvcd__v3_of(nsvcd__v_load(c->x), nsvcd__v_load(c->y), nsvcd__v_load(c->z));
-    const nsvcd__v3 v = nsvcd__v3_of(nsvcd__v_load(c->vx), nsvcd__v_load(c->vy), nsvcd__v_load(c->vz));
-    const nsvcd__v3 d = nsvcd__v3_sub(start, centre);
-    const nsvcd__v tau = nsvcd__v_clamp(nsvcd__v_mul(nsvcd__v3_dot(d, v), nsvcd__v_load(c->inverse)), 0, 1);
-    const nsvcd__v3 closest = nsvcd__v3_fma(tau, v, d);
-    const nsvcd__v square = nsvcd__v3_dot(closest, closest);
-    const nsvcd__v limit = nsvcd__v_signed_square(nsvcd__v_add(nsvcd__v_load(c->reach), r));
-    uint32_t met = nsvcd__v_le(square, limit);
+    float squares[NSVCD__LANES];
+    float share[NSVCD__LANES];
+    uint32_t met = 0;
+    NSVCD__EACH_SLICE(l) {
+      const nsvcd__v3 start = nsvcd__v3_of(nsvcd__v_load(c->x + l), nsvcd__v_load(c->y + l), nsvcd__v_load(c->z + l));
+      const nsvcd__v3 v = nsvcd__v3_of(nsvcd__v_load(c->vx + l), nsvcd__v_load(c->vy + l), nsvcd__v_load(c->vz + l));
+      const nsvcd__v3 d = nsvcd__v3_sub(start, nsvcd__v3_set(place));
+      const nsvcd__v tau = nsvcd__v_clamp(nsvcd__v_mul(nsvcd__v3_dot(d, v), nsvcd__v_load(c->inverse + l)), 0, 1);
+      const nsvcd__v3 closest = nsvcd__v3_fma(tau, v, d);
+      const nsvcd__v square = nsvcd__v3_dot(closest, closest);
+      const nsvcd__v reach = nsvcd__v_add(nsvcd__v_load(c->reach + l), nsvcd__v_set(radius));
+      met |= nsvcd__v_le(square, nsvcd__v_signed_square(reach)) << l;
+      nsvcd__v_store(squares + l, square);
+      nsvcd__v_store(share + l, tau);
+    }
     NSVCD__TALLY(tests, 1);
     if (!met) continue;
     met = nsvcd__discs_meet(p, c, g, j, nsvcd__segment_span(p, work, s), work->remote, met);
-    if (!met) continue;
-
-    float depth[NSVCD__LANES], share[NSVCD__LANES];
-    const nsvcd__v most = nsvcd__v_max(radii, nsvcd__v_set(1e-30f));
-    nsvcd__v_store(depth, nsvcd__v_sub(nsvcd__v_set(1), nsvcd__v_div(nsvcd__v_sqrt(square), most)));
-    nsvcd__v_store(share, tau);
     for (; met; met &= met - 1) {
       const size_t l = nsvcd__lowest_bit(met);
       const size_t i = NSVCD__GROUP * g + l;
       if (p->moving.hull_counts[i] == 0) continue;
-      const nsvcd__item item = {(uint16_t)i, (uint16_t)j, (uint16_t)s, 0, depth[l], share[l]};
+      const float radii = work->scale * own[l] + radius;
+      const float depth = 1 - sqrtf(squares[l]) / (radii > 1e-30f ? radii : 1e-30f);
+      const nsvcd__item item = {(uint16_t)i, (uint16_t)j, (uint16_t)s, 0, depth, share[l]};
       p->fresh[p->fresh_count++] = item;
     }
   }
