@@ -26,7 +26,7 @@ ifeq ($(BENCH),quick)
 COUNT ?= 200
 endif
 
-.PHONY: bench-asks bench-level race mutants bench-plan preview profile instructions sizes bench check-extremes all demo test assets problems accuracy weights format clean help check-header check-tiles check-32 check-examples check-problems check-gradient check-motions
+.PHONY: bench-asks bench-level bench-scale race mutants bench-plan preview profile instructions sizes bench check-extremes all demo test assets problems accuracy weights format clean help check-header check-tiles check-32 check-examples check-problems check-gradient check-motions
 .DELETE_ON_ERROR:
 
 PLANNERS = build/dish_insertion build/bimanual_insertion build/mining_site
@@ -235,6 +235,11 @@ build/bench_asks: tests/bench_asks.c examples/problem_file.h $(LIBRARY) | build
 # A level as one body, against its local pieces; MOTIONS of each set.
 build/bench_level: tests/bench_level.c tests/level_scene.h examples/level.h examples/shapes.h tests/oracle.h $(LIBRARY) | build
 	$(CC) $(ALL_CFLAGS) -Wno-unused-function -o $@ tests/bench_level.c -lm
+# What a scene costs: bytes, encoding, queries, against triangles and N.
+build/bench_scale: tests/bench_scale.c tests/level_scene.h examples/level.h examples/shapes.h tests/oracle.h $(LIBRARY) | build
+	$(CC) $(ALL_CFLAGS) -Wno-unused-function -o $@ tests/bench_scale.c -lm
+bench-scale: build/bench_scale  ## bytes and microseconds against triangles, 12 to a million, and against N: table, build/scale.svg
+	build/bench_scale
 bench-level: build/bench_level  ## a level of 20 m as one body: encoding, memory, and motions of a frame
 	for n in 20000 60000 200000 1000000; do build/bench_level $$n $(or $(LEVEL_MOTIONS),200) || exit 1; done
 bench-asks: build/bench_asks build/game $(DATA)/standard.txt $(DATA)/hollow.txt $(DATA)/rest.txt  ## what first contacts, clearances and skins cost
