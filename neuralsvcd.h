@@ -87,7 +87,8 @@
 //   two bodies, the one that rests or is the larger, in units of its scale.
 //   For the network, resolution is the limit: a patch must not be much larger than the clearance in question. With 512
 //   patches each, a body of 5 cm against one of 0.3, 1, 3 and 20 m is judged right in 98.5, 93.5, 74 and 54 % of
-//   problems near contact; with the large mesh cut to what the motion can reach (nsvcd_mesh_cut), in 99 %.
+//   problems near contact; with the large mesh cut to what the motion can reach (nsvcd_mesh_cut), in 99 %. For the proof
+//   the size of patches decides only what an answer costs.
 //   NaN and infinity are refused on the bits, also under -ffast-math.
 #ifndef NEURALSVCD_H
 #define NEURALSVCD_H
@@ -181,9 +182,9 @@ NSVCDDEF nsvcd_result nsvcd_obj_load(const char *path, const nsvcd_allocator *al
 #endif
 #endif
 #ifndef NSVCD_NO_ENCODER
-// The part of a mesh within the box low..high (its own frame): a body of 512 patches resolves 20 m to no better than a
-// metre, so encode of a large mesh only what the moving body can reach - the box over its sweep, grown a little - as an
-// `open` body. Triangles are cut at the box; vertices are not shared. part: given back by nsvcd_mesh_free. On failure
+// The part of a mesh within the box low..high (its own frame), for where a large mesh changes all the time, or the network
+// is to answer, which needs patches not much larger than the gap in question: encode only what the moving body can reach -
+// the box over its sweep, grown a little - as an `open` body. A mesh that stays is better encoded whole, once. Triangles are cut at the box; vertices are not shared. part: given back by nsvcd_mesh_free. On failure
 // it is left as it was. Errors: ARGUMENT (also a box that is not finite, or has no volume), EMPTY (nothing of it in the
 // box), and those of a mesh that nsvcd_encode would refuse; MEMORY, TOO_LARGE. Source: Sutherland and Hodgman 1974.
 NSVCDDEF nsvcd_result nsvcd_mesh_cut(const nsvcd_mesh *mesh, const float low[3], const float high[3],
@@ -399,7 +400,8 @@ typedef struct nsvcd_answer {
 // body is a and which b. Bodies of Ga and Gb groups of 16 patches and a motion of S segments, 16 or so up to 320 degrees
 // of turn and 64 at most, take at most 18 S Ga Gb + 3 S tests of 16 spheres against one; then a proof takes options.work
 // units, and the network the tiny decoder on 12 K pairs and the chosen one on K (tiny alone: on 3 K), and 32 distances
-// per patch. On failure `answer` is left as it was: ARGUMENT (NULL, a count, or an option out of its range), POSE, SCALE,
+// per patch. Of bodies of more than 512 patches only those groups count that the other body comes near, and some 16 tests
+// more for each level of spheres and each 16 spheres of it that it comes near. On failure `answer` is left as it was: ARGUMENT (NULL, a count, or an option out of its range), POSE, SCALE,
 // SAME, WORKSPACE, and BODY where a body has not what the method needs. Source: the proof: this library, see *proof*
 // below; the network: NeuralSVCD, algorithm 1.
 // What a proof says is about the surfaces of the two meshes, scaled and posed exactly as described: CERTIFIED_FREE and
