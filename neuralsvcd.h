@@ -5221,7 +5221,7 @@ static void nsvcd__v_quat_normalize(nsvcd__v *q) {
   for (size_t k = 0; k < 4; k++) q[k] = nsvcd__v_div(q[k], length);
 }
 
-// Poses of both bodies at 16 times, in the world.
+// Poses of both bodies at the times of one slice, in the world.
 typedef struct nsvcd__v_poses {
   nsvcd__v q[4];        // of the moving body, of any length
   nsvcd__v fixed_q[4];  // of the fixed one, unit; only where it moves
@@ -5467,8 +5467,7 @@ static nsvcd__v3 nsvcd__v3_unit(nsvcd__v3 a) {
 
 // Bounds of the total length of a track's rotation arcs, radians, and of the longest.
 static void nsvcd__measure_turn(const nsvcd__track *track, float *turn, float *widest) {
-  float chord2[NSVCD__LANES], sums[NSVCD__LANES], longest[NSVCD__LANES];
-  nsvcd__v sum = nsvcd__v_set(0), most = sum;
+  float chord2[NSVCD__LANES], sums[NSVCD__LANES] = {0}, longest[NSVCD__LANES] = {0};
   for (size_t first = 0; first + 1 < track->count; first += NSVCD__LANES) {
     const size_t left = track->count - 1 - first;
     const size_t count = left < NSVCD__LANES ? left : NSVCD__LANES;
@@ -5481,12 +5480,12 @@ static void nsvcd__measure_turn(const nsvcd__track *track, float *turn, float *w
       for (size_t k = 0; k < 4; k++) d[k] = sign * b[k] - a[k];
       chord2[l] = (d[0] * d[0] + d[1] * d[1]) + (d[2] * d[2] + d[3] * d[3]);
     }
-    const nsvcd__v arc = nsvcd__v_arc_bound(nsvcd__v_load(chord2));
-    sum = nsvcd__v_add(sum, arc);
-    most = nsvcd__v_max(most, arc);
+    NSVCD__EACH_SLICE(l) {
+      const nsvcd__v arc = nsvcd__v_arc_bound(nsvcd__v_load(chord2 + l));
+      nsvcd__v_store(sums + l, nsvcd__v_add(nsvcd__v_load(sums + l), arc));
+      nsvcd__v_store(longest + l, nsvcd__v_max(nsvcd__v_load(longest + l), arc));
+    }
   }
-  nsvcd__v_store(sums, sum);
-  nsvcd__v_store(longest, most);
   *turn = 0;
   *widest = 0;
   for (size_t l = 0; l < NSVCD__LANES; l++) {
@@ -5540,7 +5539,7 @@ static void nsvcd__knots_read(const nsvcd__motion *motion, const uint32_t *ticks
   }
 }
 
-// 16 of them, from the one in lane `first` (0 or 1) on.
+// A slice of them, from the one in lane `first` on, up to LANES - SLICE + 1: there is one knot more than lanes.
 static nsvcd__v_poses nsvcd__knots_load(const nsvcd__motion *motion, const nsvcd__knots *from, size_t first) {
   nsvcd__v_poses out;
   for (size_t k = 0; k < 3; k++) out.p[k] = nsvcd__v_load(from->p[k] + first);
@@ -5554,14 +5553,14 @@ static nsvcd__v_poses nsvcd__knots_load(const nsvcd__motion *motion, const nsvcd
   return out;
 }
 
-// `seen`: the quaternions as the fixed body sees them.
-static void nsvcd__knots_keep(const nsvcd__motion *motion, const nsvcd__v_poses *at, const nsvcd__v *seen,
+// `seen`: the quaternions as the fixed body sees them. l: the slice's first lane, here and below.
+static void nsvcd__knots_keep(const nsvcd__motion *motion, const nsvcd__v_poses *at, const nsvcd__v *seen, size_t l,
                               nsvcd__knots *out) {
-  for (size_t k = 0; k < 4; k++) nsvcd__v_store(out->q[k], at->q[k]);
-  for (size_t k = 0; k < 4; k++) nsvcd__v_store(out->seen[k], seen[k]);
+  for (size_t k = 0; k < 4; k++) nsvcd__v_store(out->q[k] + l, at->q[k]);
+  for (size_t k = 0; k < 4; k++) nsvcd__v_store(out->seen[k] + l, seen[k]);
   if (!motion->fixed_moves) return;
-  for (size_t k = 0; k < 3; k++) nsvcd__v_store(out->p[k], at->p[k]);
-  for (size_t k = 0; k < 4; k++) nsvcd__v_store(out->fixed_q[k], at->fixed_q[k]);
+  for (size_t k = 0; k < 3; k++) nsvcd__v_store(out->p[k] + l, at->p[k]);
+  for (size_t k = 0; k < 4; k++) nsvcd__v_store(out->fixed_q[k] + l, at->fixed_q[k]);
 }
 
 // A bound of the angle between a (4) and b (4), unit quaternions, lane by lane.
@@ -5583,9 +5582,10 @@ static nsvcd__v nsvcd__v_turn_off_axis(nsvcd__v3 axis, const nsvcd__v *from, con
   return nsvcd__v_mul(nsvcd__v_mul(arc, nsvcd__v_set(0.3931f)), nsvcd__v_sqrt(nsvcd__v3_dot(across, across)));
 }
 
-static void nsvcd__v_load_all(float (*from)[NSVCD__LANES], nsvcd__v *values, size_t count) {
-  for (size_t k = 0; k < count; k++) values[k] = nsvcd__v_load(from[k]);
+static void nsvcd__v_load_all(float (*from)[NSVCD__LANES], size_t l, nsvcd__v *values, size_t count) {
+  for (size_t k = 0; k < count; k++) values[k] = nsvcd__v_load(from[k] + l);
 }
+// most: of the slice.
 static void nsvcd__v_keep_most(float *most, nsvcd__v value) {
   nsvcd__v_store(most, nsvcd__v_max(nsvcd__v_load(most), value));
 }
@@ -5593,33 +5593,40 @@ static void nsvcd__v_keep_most(float *most, nsvcd__v value) {
 // Poses at the starts of 16 segments, whose ticks are begin[0..16]. Starts the visit of the knots within.
 static NSVCD__APART void nsvcd__cut_starts(const nsvcd__motion *motion, const uint32_t *begin, nsvcd__segments *out,
                                            nsvcd__cut *cut) {
-  nsvcd__v seen[4], m[9], p[3];
-  const nsvcd__v scale = nsvcd__v_set(motion->scale);
   memset(&cut->most, 0, sizeof cut->most);
   nsvcd__knots_read(motion, begin, NSVCD__LANES + 1, &cut->here);
-  const nsvcd__v_poses at = nsvcd__knots_load(motion, &cut->here, 0);
-  nsvcd__v_seen(motion, &at, seen, p);
-  nsvcd__v_matrix(seen, m);
-  nsvcd__knots_keep(motion, &at, seen, &cut->last);
-  for (size_t i = 0; i < 9; i++) nsvcd__v_store(out->rotation[i], nsvcd__v_mul(scale, m[i]));
-  for (size_t i = 0; i < 3; i++) nsvcd__v_store(out->position[i], p[i]);
+  NSVCD__EACH_SLICE(l) {
+    nsvcd__v seen[4], m[9], p[3];
+    const nsvcd__v scale = nsvcd__v_set(motion->scale);
+    const nsvcd__v_poses at = nsvcd__knots_load(motion, &cut->here, l);
+    nsvcd__v_seen(motion, &at, seen, p);
+    nsvcd__v_matrix(seen, m);
+    nsvcd__knots_keep(motion, &at, seen, l, &cut->last);
+    for (size_t i = 0; i < 9; i++) nsvcd__v_store(out->rotation[i] + l, nsvcd__v_mul(scale, m[i]));
+    for (size_t i = 0; i < 3; i++) nsvcd__v_store(out->position[i] + l, p[i]);
+  }
 }
 
 // And at their ends, of which the starts are known.
 static NSVCD__APART void nsvcd__cut_ends(const nsvcd__motion *motion, nsvcd__segments *out, nsvcd__cut *cut) {
-  nsvcd__v seen[4], m[9], p[3], last_seen[4];
-  const nsvcd__v scale = nsvcd__v_set(motion->scale);
-  const nsvcd__v_poses at = nsvcd__knots_load(motion, &cut->here, 1);
-  nsvcd__v_seen(motion, &at, seen, p);
-  nsvcd__v_matrix(seen, m);
-  nsvcd__knots_keep(motion, &at, seen, &cut->end);
-  for (size_t i = 0; i < 9; i++) {
-    nsvcd__v_store(out->turned[i], nsvcd__v_sub(nsvcd__v_mul(scale, m[i]), nsvcd__v_load(out->rotation[i])));
+  NSVCD__EACH_SLICE(l) {
+    nsvcd__v seen[4], m[9], p[3], last_seen[4];
+    const nsvcd__v scale = nsvcd__v_set(motion->scale);
+    const nsvcd__v_poses at = nsvcd__knots_load(motion, &cut->here, l + 1);
+    nsvcd__v_seen(motion, &at, seen, p);
+    nsvcd__v_matrix(seen, m);
+    nsvcd__knots_keep(motion, &at, seen, l, &cut->end);
+    for (size_t i = 0; i < 9; i++) {
+      const nsvcd__v end = nsvcd__v_mul(scale, m[i]);
+      nsvcd__v_store(out->turned[i] + l, nsvcd__v_sub(end, nsvcd__v_load(out->rotation[i] + l)));
+    }
+    for (size_t i = 0; i < 3; i++) {
+      nsvcd__v_store(out->moved[i] + l, nsvcd__v_sub(p[i], nsvcd__v_load(out->position[i] + l)));
+    }
+    nsvcd__v_load_all(cut->last.seen, l, last_seen, 4);
+    nsvcd__v3_store(out->axis, l, nsvcd__v3_unit(nsvcd__v_turn_between(last_seen, seen)));
+    nsvcd__v3_store(out->way, l, nsvcd__v3_unit(nsvcd__v3_load(out->moved, l)));
   }
-  for (size_t i = 0; i < 3; i++) nsvcd__v_store(out->moved[i], nsvcd__v_sub(p[i], nsvcd__v_load(out->position[i])));
-  nsvcd__v_load_all(cut->last.seen, last_seen, 4);
-  nsvcd__v3_store(out->axis, 0, nsvcd__v3_unit(nsvcd__v_turn_between(last_seen, seen)));
-  nsvcd__v3_store(out->way, 0, nsvcd__v3_unit(nsvcd__v3_load(out->moved, 0)));
 }
 
 // Of arcs in which both bodies move. With w and w' the rotation vectors of the moving and the fixed body over the arc, in
@@ -5628,7 +5635,7 @@ static NSVCD__APART void nsvcd__cut_ends(const nsvcd__motion *motion, nsvcd__seg
 //   o x (o x Rx) + (o x w') x Rx   -   2 w' x v + w' x (w' x d)
 // so that the arc leaves its chord by (|o|^2 + |o x w'|) / 8 |x| and (2 |w' x v| + |w'| |w' x d|) / 8 at most.
 static void nsvcd__cut_double_arc(const nsvcd__motion *motion, const nsvcd__v_poses *from, const nsvcd__v_poses *to,
-                                  nsvcd__cut *cut) {
+                                  size_t l, nsvcd__cut *cut) {
   const nsvcd__v eighth = nsvcd__v_set(0.12501f);
   nsvcd__v cosine, fixed_cosine;
   const nsvcd__v3 half = nsvcd__v_shorter_turn_between(from->q, to->q, &cosine);
@@ -5645,7 +5652,7 @@ static void nsvcd__cut_double_arc(const nsvcd__motion *motion, const nsvcd__v_po
   turn = nsvcd__v_fma(nsvcd__v_set(2e-6f), nsvcd__v_add(sine, fixed_sine), turn);
   const nsvcd__v fixed_turn = nsvcd__v_arc(from->fixed_q, to->fixed_q);
   const nsvcd__v bulge = nsvcd__v_mul(nsvcd__v_mul(turn, nsvcd__v_add(turn, fixed_turn)), eighth);
-  nsvcd__v_keep_most(cut->most.arc_bulge, bulge);
+  nsvcd__v_keep_most(cut->most.arc_bulge + l, bulge);
 
   const nsvcd__v3 d0 = nsvcd__v3_of(from->p[0], from->p[1], from->p[2]);
   const nsvcd__v3 d1 = nsvcd__v3_of(to->p[0], to->p[1], to->p[2]);
@@ -5653,73 +5660,113 @@ static void nsvcd__cut_double_arc(const nsvcd__motion *motion, const nsvcd__v_po
   const nsvcd__v way = nsvcd__v3_length(nsvcd__v3_sub(d1, d0));
   const nsvcd__v both = nsvcd__v_fma(fixed_turn, remote, nsvcd__v_add(way, way));
   const nsvcd__v metres = nsvcd__v_mul(nsvcd__v_mul(fixed_turn, both), eighth);
-  nsvcd__v_keep_most(cut->most.arc_drift, nsvcd__v_div(metres, nsvcd__v_set(motion->unit)));
-  nsvcd__v_store(cut->most.sum, nsvcd__v_add(nsvcd__v_load(cut->most.sum), fixed_turn));
+  nsvcd__v_keep_most(cut->most.arc_drift + l, nsvcd__v_div(metres, nsvcd__v_set(motion->unit)));
+  nsvcd__v_store(cut->most.sum + l, nsvcd__v_add(nsvcd__v_load(cut->most.sum + l), fixed_turn));
 }
 
 // Adds the arc from the last knot to this one, which becomes the last.
-static void nsvcd__cut_arc(const nsvcd__motion *motion, const nsvcd__v_poses *at, const nsvcd__v *seen,
+static void nsvcd__cut_arc(const nsvcd__motion *motion, const nsvcd__v_poses *at, const nsvcd__v *seen, size_t l,
                            nsvcd__segments *out, nsvcd__cut *cut) {
-  const nsvcd__v_poses last = nsvcd__knots_load(motion, &cut->last, 0);
+  const nsvcd__v_poses last = nsvcd__knots_load(motion, &cut->last, l);
   const nsvcd__v arc = nsvcd__v_arc(last.q, at->q);
-  nsvcd__v_store(cut->most.sum, nsvcd__v_add(nsvcd__v_load(cut->most.sum), arc));
+  nsvcd__v_store(cut->most.sum + l, nsvcd__v_add(nsvcd__v_load(cut->most.sum + l), arc));
   if (motion->fixed_moves) {
-    nsvcd__cut_double_arc(motion, &last, at, cut);
+    nsvcd__cut_double_arc(motion, &last, at, l, cut);
   } else {
     nsvcd__v last_seen[4];
-    nsvcd__v_load_all(cut->last.seen, last_seen, 4);
-    nsvcd__v_keep_most(cut->most.arc_bulge, nsvcd__v_mul(nsvcd__v_mul(arc, arc), nsvcd__v_set(0.125f)));
-    nsvcd__v_keep_most(cut->most.axis_turn, nsvcd__v_turn_off_axis(nsvcd__v3_load(out->axis, 0), last_seen, seen, arc));
+    const nsvcd__v3 axis = nsvcd__v3_load(out->axis, l);
+    nsvcd__v_load_all(cut->last.seen, l, last_seen, 4);
+    nsvcd__v_keep_most(cut->most.arc_bulge + l, nsvcd__v_mul(nsvcd__v_mul(arc, arc), nsvcd__v_set(0.125f)));
+    nsvcd__v_keep_most(cut->most.axis_turn + l, nsvcd__v_turn_off_axis(axis, last_seen, seen, arc));
   }
-  nsvcd__knots_keep(motion, at, seen, &cut->last);
+  nsvcd__knots_keep(motion, at, seen, l, &cut->last);
 }
 
 static NSVCD__APART void nsvcd__cut_last_arc(const nsvcd__motion *motion, nsvcd__segments *out, nsvcd__cut *cut) {
-  nsvcd__v seen[4];
-  const nsvcd__v_poses end = nsvcd__knots_load(motion, &cut->end, 0);
-  nsvcd__v_load_all(cut->end.seen, seen, 4);
-  nsvcd__cut_arc(motion, &end, seen, out, cut);
+  NSVCD__EACH_SLICE(l) {
+    nsvcd__v seen[4];
+    const nsvcd__v_poses end = nsvcd__knots_load(motion, &cut->end, l);
+    nsvcd__v_load_all(cut->end.seen, l, seen, 4);
+    nsvcd__cut_arc(motion, &end, seen, l, out, cut);
+  }
+}
+
+// Adds what a knot is off its segment's chord by, of which a share of u lies before it. seen, at: its pose as the fixed
+// body sees it.
+static void nsvcd__cut_off_chord(const nsvcd__motion *motion, nsvcd__v u, const nsvcd__v *seen, const nsvcd__v *at,
+                                 size_t l, nsvcd__segments *out, nsvcd__cut *cut) {
+  nsvcd__v r[9];
+  const nsvcd__v scale = nsvcd__v_set(motion->scale);
+  nsvcd__v square = nsvcd__v_set(0);
+  nsvcd__v_matrix(seen, r);
+  for (size_t i = 0; i < 9; i++) {
+    const nsvcd__v chord = nsvcd__v_fma(u, nsvcd__v_load(out->turned[i] + l), nsvcd__v_load(out->rotation[i] + l));
+    r[i] = nsvcd__v_sub(nsvcd__v_mul(scale, r[i]), chord);
+    square = nsvcd__v_fma(r[i], r[i], square);
+  }
+  const nsvcd__v3 chord = nsvcd__v3_fma(u, nsvcd__v3_load(out->moved, l), nsvcd__v3_load(out->position, l));
+  const nsvcd__v3 off = nsvcd__v3_sub(nsvcd__v3_of(at[0], at[1], at[2]), chord);
+  nsvcd__v_keep_most(cut->most.bulge + l, square);
+  nsvcd__v_keep_most(cut->most.spread + l, nsvcd__v3_dot(off, off));
+
+  const nsvcd__v3 axis = nsvcd__v3_load(out->axis, l);
+  const nsvcd__v3 row0 = nsvcd__v3_of(r[0], r[1], r[2]);
+  const nsvcd__v3 row1 = nsvcd__v3_of(r[3], r[4], r[5]);
+  const nsvcd__v3 row2 = nsvcd__v3_of(r[6], r[7], r[8]);
+  const nsvcd__v3 along = nsvcd__v3_fma(axis.x, row0, nsvcd__v3_fma(axis.y, row1, nsvcd__v3_scale(row2, axis.z)));
+  const nsvcd__v3 off_way = nsvcd__v3_cross(nsvcd__v3_load(out->way, l), off);
+  const nsvcd__v off_axis = nsvcd__v3_dot(axis, off);
+  nsvcd__v_keep_most(cut->most.axis_bulge + l, nsvcd__v3_dot(along, along));
+  nsvcd__v_keep_most(cut->most.axis_drift + l, nsvcd__v_mul(off_axis, off_axis));
+  nsvcd__v_keep_most(cut->most.way_drift + l, nsvcd__v3_dot(off_way, off_way));
 }
 
 // Visits a knot of each segment: ticks (16), of segments that begin at begin[0..15] and end at begin[1..16].
 static NSVCD__APART void nsvcd__cut_knot(const nsvcd__motion *motion, const uint32_t *begin, const uint32_t *ticks,
                                          nsvcd__segments *out, nsvcd__cut *cut) {
-  nsvcd__v seen[4], r[9], at[3];
   float share[NSVCD__LANES];
   nsvcd__knots_read(motion, ticks, NSVCD__LANES, &cut->here);
-  const nsvcd__v_poses poses = nsvcd__knots_load(motion, &cut->here, 0);
-  nsvcd__v_seen(motion, &poses, seen, at);
-  nsvcd__cut_arc(motion, &poses, seen, out, cut);
   for (size_t l = 0; l < NSVCD__LANES; l++) {
     const uint32_t length = begin[l + 1] - begin[l];
     share[l] = length ? (float)(ticks[l] - begin[l]) / (float)length : 0;
   }
-
-  // What it is off its segment's chord by.
-  const nsvcd__v u = nsvcd__v_load(share);
-  const nsvcd__v scale = nsvcd__v_set(motion->scale);
-  nsvcd__v square = nsvcd__v_set(0);
-  nsvcd__v_matrix(seen, r);
-  for (size_t i = 0; i < 9; i++) {
-    const nsvcd__v chord = nsvcd__v_fma(u, nsvcd__v_load(out->turned[i]), nsvcd__v_load(out->rotation[i]));
-    r[i] = nsvcd__v_sub(nsvcd__v_mul(scale, r[i]), chord);
-    square = nsvcd__v_fma(r[i], r[i], square);
+  NSVCD__EACH_SLICE(l) {
+    nsvcd__v seen[4], at[3];
+    const nsvcd__v_poses poses = nsvcd__knots_load(motion, &cut->here, l);
+    nsvcd__v_seen(motion, &poses, seen, at);
+    nsvcd__cut_arc(motion, &poses, seen, l, out, cut);
+    nsvcd__cut_off_chord(motion, nsvcd__v_load(share + l), seen, at, l, out, cut);
   }
-  const nsvcd__v3 chord = nsvcd__v3_fma(u, nsvcd__v3_load(out->moved, 0), nsvcd__v3_load(out->position, 0));
-  const nsvcd__v3 off = nsvcd__v3_sub(nsvcd__v3_of(at[0], at[1], at[2]), chord);
-  nsvcd__v_keep_most(cut->most.bulge, square);
-  nsvcd__v_keep_most(cut->most.spread, nsvcd__v3_dot(off, off));
+}
 
-  const nsvcd__v3 axis = nsvcd__v3_load(out->axis, 0);
-  const nsvcd__v3 row0 = nsvcd__v3_of(r[0], r[1], r[2]);
-  const nsvcd__v3 row1 = nsvcd__v3_of(r[3], r[4], r[5]);
-  const nsvcd__v3 row2 = nsvcd__v3_of(r[6], r[7], r[8]);
-  const nsvcd__v3 along = nsvcd__v3_fma(axis.x, row0, nsvcd__v3_fma(axis.y, row1, nsvcd__v3_scale(row2, axis.z)));
-  const nsvcd__v3 off_way = nsvcd__v3_cross(nsvcd__v3_load(out->way, 0), off);
-  const nsvcd__v off_axis = nsvcd__v3_dot(axis, off);
-  nsvcd__v_keep_most(cut->most.axis_bulge, nsvcd__v3_dot(along, along));
-  nsvcd__v_keep_most(cut->most.axis_drift, nsvcd__v_mul(off_axis, off_axis));
-  nsvcd__v_keep_most(cut->most.way_drift, nsvcd__v3_dot(off_way, off_way));
+// The deviations of segments whose knots have all been visited.
+static void nsvcd__cut_deviations(const nsvcd__motion *motion, float lengths, size_t l, nsvcd__segments *out,
+                                  const nsvcd__cut *cut) {
+  const nsvcd__v scale = nsvcd__v_set(motion->scale);
+  const nsvcd__v off_chord = nsvcd__v_sqrt(nsvcd__v_load(cut->most.spread + l));
+  const nsvcd__v drift = nsvcd__v_add(off_chord, nsvcd__v_load(cut->most.arc_drift + l));
+  const nsvcd__v arc_bulge = nsvcd__v_mul(scale, nsvcd__v_load(cut->most.arc_bulge + l));
+  const nsvcd__v bulge = nsvcd__v_add(arc_bulge, nsvcd__v_sqrt(nsvcd__v_load(cut->most.bulge + l)));
+  nsvcd__v_store(out->bulge + l, bulge);
+  nsvcd__v_store(out->drift + l, drift);
+  nsvcd__v_store(out->bulge_along_axis + l, bulge);
+  nsvcd__v_store(out->drift_along_axis + l, drift);
+  nsvcd__v_store(out->drift_off_way + l, drift);
+  if (!motion->fixed_moves) {
+    const nsvcd__v axis_turn = nsvcd__v_mul(scale, nsvcd__v_load(cut->most.axis_turn + l));
+    const nsvcd__v axis_bulge = nsvcd__v_sqrt(nsvcd__v_load(cut->most.axis_bulge + l));
+    nsvcd__v_store(out->bulge_along_axis + l, nsvcd__v_add(axis_bulge, axis_turn));
+    nsvcd__v_store(out->drift_along_axis + l, nsvcd__v_sqrt(nsvcd__v_load(cut->most.axis_drift + l)));
+    nsvcd__v_store(out->drift_off_way + l, nsvcd__v_sqrt(nsvcd__v_load(cut->most.way_drift + l)));
+  }
+
+  const nsvcd__v3 start = nsvcd__v3_load(out->position, l);
+  const nsvcd__v3 end = nsvcd__v3_add(start, nsvcd__v3_load(out->moved, l));
+  const nsvcd__v remote = nsvcd__v_add(nsvcd__v3_length(start), nsvcd__v3_length(end));
+  const nsvcd__v all = nsvcd__v_add(remote, nsvcd__v_add(drift, nsvcd__v_set(lengths)));
+  const nsvcd__v rounding = nsvcd__v_mul(all, nsvcd__v_set(NSVCD__ROUNDING));
+  nsvcd__v_store(out->rounding + l, rounding);
+  nsvcd__v_store(out->spread + l, nsvcd__v_add(rounding, drift));
 }
 
 // 16 segments, of which `count` exist; `begin`: (17) their ends in ticks. turn: arc of each.
@@ -5739,30 +5786,7 @@ static void nsvcd__cut_block(const nsvcd__motion *motion, const uint32_t *begin,
     if (within) nsvcd__cut_knot(motion, begin, ticks, out, cut);
   }
   nsvcd__cut_last_arc(motion, out, cut);
-
-  const nsvcd__v scale = nsvcd__v_set(motion->scale);
-  const nsvcd__v drift = nsvcd__v_add(nsvcd__v_sqrt(nsvcd__v_load(cut->most.spread)), nsvcd__v_load(cut->most.arc_drift));
-  const nsvcd__v arc_bulge = nsvcd__v_mul(scale, nsvcd__v_load(cut->most.arc_bulge));
-  const nsvcd__v bulge = nsvcd__v_add(arc_bulge, nsvcd__v_sqrt(nsvcd__v_load(cut->most.bulge)));
-  nsvcd__v_store(out->bulge, bulge);
-  nsvcd__v_store(out->drift, drift);
-  nsvcd__v_store(out->bulge_along_axis, bulge);
-  nsvcd__v_store(out->drift_along_axis, drift);
-  nsvcd__v_store(out->drift_off_way, drift);
-  if (!motion->fixed_moves) {
-    const nsvcd__v axis_turn = nsvcd__v_mul(scale, nsvcd__v_load(cut->most.axis_turn));
-    nsvcd__v_store(out->bulge_along_axis, nsvcd__v_add(nsvcd__v_sqrt(nsvcd__v_load(cut->most.axis_bulge)), axis_turn));
-    nsvcd__v_store(out->drift_along_axis, nsvcd__v_sqrt(nsvcd__v_load(cut->most.axis_drift)));
-    nsvcd__v_store(out->drift_off_way, nsvcd__v_sqrt(nsvcd__v_load(cut->most.way_drift)));
-  }
-
-  const nsvcd__v3 start = nsvcd__v3_load(out->position, 0);
-  const nsvcd__v remote = nsvcd__v_add(nsvcd__v3_length(start),
-                                       nsvcd__v3_length(nsvcd__v3_add(start, nsvcd__v3_load(out->moved, 0))));
-  const nsvcd__v all = nsvcd__v_add(remote, nsvcd__v_add(drift, nsvcd__v_set(lengths)));
-  const nsvcd__v rounding = nsvcd__v_mul(all, nsvcd__v_set(NSVCD__ROUNDING));
-  nsvcd__v_store(out->rounding, rounding);
-  nsvcd__v_store(out->spread, nsvcd__v_add(rounding, drift));
+  NSVCD__EACH_SLICE(l) nsvcd__cut_deviations(motion, lengths, l, out, cut);
   memcpy(turn, cut->most.sum, sizeof cut->most.sum);
   for (size_t l = count; l < NSVCD__LANES; l++) out->spread[l] = NSVCD__NOWHERE;  // these meet nothing
 }
