@@ -5836,46 +5836,58 @@ static void nsvcd__cut_motion(nsvcd__motion *motion, float lengths, nsvcd__works
 }
 #endif
 
-// Stores chords: x0 (3), v (3), reach. FLT_MIN keeps a chord of no length finite.
-static void nsvcd__chords_store(nsvcd__chords *c, const nsvcd__v *x, const nsvcd__v *v, nsvcd__v reach) {
+// Stores a slice of chords, from lane l on: x0 (3), v (3), reach. FLT_MIN keeps a chord of no length finite.
+static void nsvcd__chords_store(nsvcd__chords *c, size_t l, const nsvcd__v *x, const nsvcd__v *v, nsvcd__v reach) {
   const nsvcd__v square = nsvcd__v_max(nsvcd__v_dot3(v, v), nsvcd__v_set(1.2e-38f));
-  nsvcd__v_store(c->x, x[0]), nsvcd__v_store(c->y, x[1]), nsvcd__v_store(c->z, x[2]);
-  nsvcd__v_store(c->vx, v[0]), nsvcd__v_store(c->vy, v[1]), nsvcd__v_store(c->vz, v[2]);
-  nsvcd__v_store(c->inverse, nsvcd__v_div(nsvcd__v_set(-1), square));
-  nsvcd__v_store(c->reach, reach);
+  nsvcd__v_store(c->x + l, x[0]);
+  nsvcd__v_store(c->y + l, x[1]);
+  nsvcd__v_store(c->z + l, x[2]);
+  nsvcd__v_store(c->vx + l, v[0]);
+  nsvcd__v_store(c->vy + l, v[1]);
+  nsvcd__v_store(c->vz + l, v[2]);
+  nsvcd__v_store(c->inverse + l, nsvcd__v_div(nsvcd__v_set(-1), square));
+  nsvcd__v_store(c->reach + l, reach);
 }
 
 // Chords of one sphere (centre x y z, radius r, body frame) in the segments of a block.
 static void nsvcd__chords_of_sphere(const nsvcd__segments *b, float x, float y, float z, float r, nsvcd__chords *out) {
-  const nsvcd__v centre[3] = {nsvcd__v_set(x), nsvcd__v_set(y), nsvcd__v_set(z)};
   const float length = sqrtf(x * x + y * y + z * z);
-  nsvcd__v x0[3], v[3];
-  for (size_t i = 0; i < 3; i++) {
-    x0[i] = nsvcd__v_load(b->position[i]), v[i] = nsvcd__v_load(b->moved[i]);
-    for (size_t k = 0; k < 3; k++) {
-      x0[i] = nsvcd__v_fma(nsvcd__v_load(b->rotation[3 * i + k]), centre[k], x0[i]);
-      v[i] = nsvcd__v_fma(nsvcd__v_load(b->turned[3 * i + k]), centre[k], v[i]);
+  NSVCD__EACH_SLICE(l) {
+    const nsvcd__v centre[3] = {nsvcd__v_set(x), nsvcd__v_set(y), nsvcd__v_set(z)};
+    nsvcd__v x0[3], v[3];
+    for (size_t i = 0; i < 3; i++) {
+      x0[i] = nsvcd__v_load(b->position[i] + l);
+      v[i] = nsvcd__v_load(b->moved[i] + l);
+      for (size_t k = 0; k < 3; k++) {
+        x0[i] = nsvcd__v_fma(nsvcd__v_load(b->rotation[3 * i + k] + l), centre[k], x0[i]);
+        v[i] = nsvcd__v_fma(nsvcd__v_load(b->turned[3 * i + k] + l), centre[k], v[i]);
+      }
     }
+    const nsvcd__v spread = nsvcd__v_load(b->spread + l);
+    const nsvcd__v deviation = nsvcd__v_fma(nsvcd__v_load(b->bulge + l), nsvcd__v_set(length), spread);
+    nsvcd__chords_store(out, l, x0, v, nsvcd__v_add(deviation, nsvcd__v_set(r)));
   }
-  const nsvcd__v deviation = nsvcd__v_fma(nsvcd__v_load(b->bulge), nsvcd__v_set(length), nsvcd__v_load(b->spread));
-  nsvcd__chords_store(out, x0, v, nsvcd__v_add(deviation, nsvcd__v_set(r)));
 }
 
 // Chords of 16 spheres in one segment: lane s of a block. No centre is farther from the body's origin than `remote`, in
 // that body's own frame, as all that is given; scale: of the body.
 static void nsvcd__chords_of_members(const nsvcd__segments *b, size_t s, const float *x, const float *y, const float *z,
                                      const float *r, float scale, float remote, nsvcd__chords *out) {
-  const nsvcd__v centre[3] = {nsvcd__v_load(x), nsvcd__v_load(y), nsvcd__v_load(z)};
-  nsvcd__v x0[3], v[3];
-  for (size_t i = 0; i < 3; i++) {
-    x0[i] = nsvcd__v_set(b->position[i][s]), v[i] = nsvcd__v_set(b->moved[i][s]);
-    for (size_t k = 0; k < 3; k++) {
-      x0[i] = nsvcd__v_fma(nsvcd__v_set(b->rotation[3 * i + k][s]), centre[k], x0[i]);
-      v[i] = nsvcd__v_fma(nsvcd__v_set(b->turned[3 * i + k][s]), centre[k], v[i]);
+  const float deviation = b->spread[s] + b->bulge[s] * remote;
+  NSVCD__EACH_SLICE(l) {
+    const nsvcd__v centre[3] = {nsvcd__v_load(x + l), nsvcd__v_load(y + l), nsvcd__v_load(z + l)};
+    nsvcd__v x0[3], v[3];
+    for (size_t i = 0; i < 3; i++) {
+      x0[i] = nsvcd__v_set(b->position[i][s]);
+      v[i] = nsvcd__v_set(b->moved[i][s]);
+      for (size_t k = 0; k < 3; k++) {
+        x0[i] = nsvcd__v_fma(nsvcd__v_set(b->rotation[3 * i + k][s]), centre[k], x0[i]);
+        v[i] = nsvcd__v_fma(nsvcd__v_set(b->turned[3 * i + k][s]), centre[k], v[i]);
+      }
     }
+    const nsvcd__v reach = nsvcd__v_fma(nsvcd__v_set(scale), nsvcd__v_load(r + l), nsvcd__v_set(deviation));
+    nsvcd__chords_store(out, l, x0, v, reach);
   }
-  const nsvcd__v deviation = nsvcd__v_set(b->spread[s] + b->bulge[s] * remote);
-  nsvcd__chords_store(out, x0, v, nsvcd__v_fma(nsvcd__v_set(scale), nsvcd__v_load(r), deviation));
 }
 
 // The square of a sum of radii, with its sign: a negative sum (padding) meets nothing.
@@ -5891,31 +5903,41 @@ NSVCD__INLINE nsvcd__v nsvcd__nearest2(const nsvcd__v *d, const nsvcd__v *v, nsv
   return nsvcd__v_dot3(nearest, nearest);
 }
 
-// The test. d: from the resting centre to the start of the chord, v: the chord. Bit l: lane l comes within `reach`.
+// The test. d: from the resting centre to the start of the chord, v: the chord. A bit for each lane of the slice: does
+// it come within `reach`?
 NSVCD__INLINE uint32_t nsvcd__comes_within(const nsvcd__v *d, const nsvcd__v *v, nsvcd__v inverse, nsvcd__v reach) {
   return nsvcd__v_le(nsvcd__nearest2(d, v, inverse), nsvcd__v_signed_square(reach));
 }
 
 // 16 moving spheres, or one in 16 segments, against one resting sphere.
 static uint32_t nsvcd__meet(const nsvcd__chords *c, float x, float y, float z, float r) {
-  const nsvcd__v d[3] = {nsvcd__v_sub(nsvcd__v_load(c->x), nsvcd__v_set(x)),
-                         nsvcd__v_sub(nsvcd__v_load(c->y), nsvcd__v_set(y)),
-                         nsvcd__v_sub(nsvcd__v_load(c->z), nsvcd__v_set(z))};
-  const nsvcd__v v[3] = {nsvcd__v_load(c->vx), nsvcd__v_load(c->vy), nsvcd__v_load(c->vz)};
+  uint32_t met = 0;
   NSVCD__TALLY(tests, 1);
-  return nsvcd__comes_within(d, v, nsvcd__v_load(c->inverse), nsvcd__v_add(nsvcd__v_load(c->reach), nsvcd__v_set(r)));
+  NSVCD__EACH_SLICE(l) {
+    const nsvcd__v d[3] = {nsvcd__v_sub(nsvcd__v_load(c->x + l), nsvcd__v_set(x)),
+                           nsvcd__v_sub(nsvcd__v_load(c->y + l), nsvcd__v_set(y)),
+                           nsvcd__v_sub(nsvcd__v_load(c->z + l), nsvcd__v_set(z))};
+    const nsvcd__v v[3] = {nsvcd__v_load(c->vx + l), nsvcd__v_load(c->vy + l), nsvcd__v_load(c->vz + l)};
+    const nsvcd__v reach = nsvcd__v_add(nsvcd__v_load(c->reach + l), nsvcd__v_set(r));
+    met |= nsvcd__comes_within(d, v, nsvcd__v_load(c->inverse + l), reach) << l;
+  }
+  return met;
 }
 
 // Lane s of a chord against 16 resting spheres.
 static uint32_t nsvcd__meet_members(const nsvcd__chords *c, size_t s, const float *x, const float *y, const float *z,
                                     const float *r) {
-  const nsvcd__v d[3] = {nsvcd__v_sub(nsvcd__v_set(c->x[s]), nsvcd__v_load(x)),
-                         nsvcd__v_sub(nsvcd__v_set(c->y[s]), nsvcd__v_load(y)),
-                         nsvcd__v_sub(nsvcd__v_set(c->z[s]), nsvcd__v_load(z))};
-  const nsvcd__v v[3] = {nsvcd__v_set(c->vx[s]), nsvcd__v_set(c->vy[s]), nsvcd__v_set(c->vz[s])};
+  uint32_t met = 0;
   NSVCD__TALLY(tests, 1);
-  return nsvcd__comes_within(d, v, nsvcd__v_set(c->inverse[s]),
-                             nsvcd__v_add(nsvcd__v_set(c->reach[s]), nsvcd__v_load(r)));
+  NSVCD__EACH_SLICE(l) {
+    const nsvcd__v d[3] = {nsvcd__v_sub(nsvcd__v_set(c->x[s]), nsvcd__v_load(x + l)),
+                           nsvcd__v_sub(nsvcd__v_set(c->y[s]), nsvcd__v_load(y + l)),
+                           nsvcd__v_sub(nsvcd__v_set(c->z[s]), nsvcd__v_load(z + l))};
+    const nsvcd__v v[3] = {nsvcd__v_set(c->vx[s]), nsvcd__v_set(c->vy[s]), nsvcd__v_set(c->vz[s])};
+    const nsvcd__v reach = nsvcd__v_add(nsvcd__v_set(c->reach[s]), nsvcd__v_load(r + l));
+    met |= nsvcd__comes_within(d, v, nsvcd__v_set(c->inverse[s]), reach) << l;
+  }
+  return met;
 }
 
 // The segments among `wanted` in which a sphere with chords[] (one block per 16 segments) meets a resting one.
@@ -5971,8 +5993,8 @@ static void nsvcd__candidates_add(nsvcd__candidates *kept, const nsvcd__candidat
   }
 }
 
-// Runs that are still growing, one per lane. Places on a segment's line are counted in segments from its start:
-// `nearest` on the whole line, `half2` the square of what it is from there to where the spheres first touch.
+// Runs of a slice that are still growing, one per lane. Places on a segment's line are counted in segments from its
+// start: `nearest` on the whole line, `half2` the square of what it is from there to where the spheres first touch.
 typedef struct nsvcd__runs {
   uint32_t open;        // lanes
   size_t oldest, last;  // segments: in which the oldest of them began, and the last that all of them reach
@@ -5981,15 +6003,16 @@ typedef struct nsvcd__runs {
   nsvcd__v square, least_segment, least;  // of the least distance: its square, and where
 } nsvcd__runs;
 
-// Ends the runs of `lanes` and hands them on. Lane l: patch GROUP g + l of the moving body, patch j of the fixed one.
+// Ends the runs of `lanes` of a slice and hands them on. Its first lane is patch i of the moving body; j: the patch of
+// the fixed one.
 static void nsvcd__runs_close(nsvcd__runs *runs, uint32_t lanes, const nsvcd__workspace *work, const nsvcd_body *moving,
-                              size_t g, const nsvcd_body *fixed, size_t j, nsvcd__candidates *kept) {
+                              size_t i, const nsvcd_body *fixed, size_t j, nsvcd__candidates *kept) {
   const float *time = work->time;
   const nsvcd__v zero = nsvcd__v_set(0), one = nsvcd__v_set(1);
-  const nsvcd__v r = nsvcd__v_mul(nsvcd__v_set(work->scale), nsvcd__v_load(nsvcd__body_r(moving) + NSVCD__GROUP * g));
+  const nsvcd__v r = nsvcd__v_mul(nsvcd__v_set(work->scale), nsvcd__v_load(nsvcd__body_r(moving) + i));
   const nsvcd__v radii = nsvcd__v_max(nsvcd__v_add(r, nsvcd__v_set(nsvcd__body_r(fixed)[j])), nsvcd__v_set(1e-30f));
-  float first[NSVCD__LANES], enter[NSVCD__LANES], leave[NSVCD__LANES], least_segment[NSVCD__LANES], least[NSVCD__LANES],
-      depth[NSVCD__LANES];
+  float first[NSVCD__SLICE], enter[NSVCD__SLICE], leave[NSVCD__SLICE], least_segment[NSVCD__SLICE], least[NSVCD__SLICE],
+      depth[NSVCD__SLICE];
   runs->open &= ~lanes;
   if (kept->count == kept->limit) {  // most are shallower than all that is kept: only counted
     const float share = kept->limit ? (1 - kept->items[0].depth) * 1.000001f : 0;
@@ -6008,7 +6031,7 @@ static void nsvcd__runs_close(nsvcd__runs *runs, uint32_t lanes, const nsvcd__wo
   nsvcd__v_store(depth, nsvcd__v_sub(one, nsvcd__v_div(nsvcd__v_sqrt(runs->square), radii)));
   for (; lanes; lanes &= lanes - 1) {
     const size_t l = nsvcd__lowest_bit(lanes), a = (size_t)first[l], b = runs->last, c = (size_t)least_segment[l];
-    nsvcd__candidate candidate = {(uint16_t)(NSVCD__GROUP * g + l),
+    nsvcd__candidate candidate = {(uint16_t)(i + l),
                                   (uint16_t)j,
                                   time[a] + enter[l] * (time[a + 1] - time[a]),
                                   time[b] + leave[l] * (time[b + 1] - time[b]),
@@ -6022,9 +6045,12 @@ static void nsvcd__runs_close(nsvcd__runs *runs, uint32_t lanes, const nsvcd__wo
   }
 }
 
-// The 16 members of moving group g against patch j of the fixed body, in the segments `wanted`.
-static void nsvcd__members_against_patch(const nsvcd__workspace *work, const nsvcd_body *moving, size_t g,
-                                         const nsvcd_body *fixed, size_t j, uint64_t wanted, nsvcd__candidates *kept) {
+// A slice of the members of moving group g, from lane l on, against patch j of the fixed body, in the segments
+// `wanted`. Where a run is cut because it turns too far depends on the others of its slice: where slices are narrow,
+// there are fewer such cuts. No run turns farther than it may.
+static void nsvcd__slice_against_patch(const nsvcd__workspace *work, const nsvcd_body *moving, size_t g, size_t l,
+                                       const nsvcd_body *fixed, size_t j, uint64_t wanted, nsvcd__candidates *kept) {
+  const size_t i = NSVCD__GROUP * g + l;
   const nsvcd__v half = nsvcd__v_set(0.5f), one = nsvcd__v_set(1), zero = nsvcd__v_set(0),
                  r = nsvcd__v_set(nsvcd__body_r(fixed)[j]);
   const nsvcd__v centre[3] = {nsvcd__v_set(nsvcd__body_x(fixed)[j]), nsvcd__v_set(nsvcd__body_y(fixed)[j]),
@@ -6033,12 +6059,12 @@ static void nsvcd__members_against_patch(const nsvcd__workspace *work, const nsv
   for (; wanted; wanted &= wanted - 1) {
     const size_t s = nsvcd__lowest_bit(wanted);
     const nsvcd__chords *c = &work->members[s];
-    NSVCD__TALLY(tests, 1);
-    const nsvcd__v d[3] = {nsvcd__v_sub(nsvcd__v_load(c->x), centre[0]), nsvcd__v_sub(nsvcd__v_load(c->y), centre[1]),
-                           nsvcd__v_sub(nsvcd__v_load(c->z), centre[2])};
-    const nsvcd__v v[3] = {nsvcd__v_load(c->vx), nsvcd__v_load(c->vy), nsvcd__v_load(c->vz)};
-    const nsvcd__v inverse = nsvcd__v_load(c->inverse),
-                   limit = nsvcd__v_signed_square(nsvcd__v_add(nsvcd__v_load(c->reach), r));
+    const nsvcd__v d[3] = {nsvcd__v_sub(nsvcd__v_load(c->x + l), centre[0]),
+                           nsvcd__v_sub(nsvcd__v_load(c->y + l), centre[1]),
+                           nsvcd__v_sub(nsvcd__v_load(c->z + l), centre[2])};
+    const nsvcd__v v[3] = {nsvcd__v_load(c->vx + l), nsvcd__v_load(c->vy + l), nsvcd__v_load(c->vz + l)};
+    const nsvcd__v inverse = nsvcd__v_load(c->inverse + l),
+                   limit = nsvcd__v_signed_square(nsvcd__v_add(nsvcd__v_load(c->reach + l), r));
     const nsvcd__v nearest = nsvcd__v_mul(nsvcd__v_dot3(d, v), inverse), tau = nsvcd__v_clamp(nearest, 0, 1);
     nsvcd__v chord[3], line[3];
     for (size_t k = 0; k < 3; k++) chord[k] = nsvcd__v_fma(tau, v[k], d[k]);
@@ -6048,7 +6074,7 @@ static void nsvcd__members_against_patch(const nsvcd__workspace *work, const nsv
     if (runs.open && (runs.last + 1 != s || work->turn[s + 1] - work->turn[runs.oldest] > NSVCD__RUN_TURN)) {
       ended = runs.open, runs.fresh = one;
     }
-    if (ended) nsvcd__runs_close(&runs, ended, work, moving, g, fixed, j, kept);
+    if (ended) nsvcd__runs_close(&runs, ended, work, moving, i, fixed, j, kept);
     if (!met) {
       runs.fresh = one;
       continue;
@@ -6069,7 +6095,14 @@ static void nsvcd__members_against_patch(const nsvcd__workspace *work, const nsv
     if (!runs.open) runs.oldest = s;
     runs.open = met, runs.last = s;
   }
-  if (runs.open) nsvcd__runs_close(&runs, runs.open, work, moving, g, fixed, j, kept);
+  if (runs.open) nsvcd__runs_close(&runs, runs.open, work, moving, i, fixed, j, kept);
+}
+
+// The 16 members of moving group g against patch j of the fixed body, in the segments `wanted`.
+static void nsvcd__members_against_patch(const nsvcd__workspace *work, const nsvcd_body *moving, size_t g,
+                                         const nsvcd_body *fixed, size_t j, uint64_t wanted, nsvcd__candidates *kept) {
+  NSVCD__TALLY(tests, nsvcd__bit_count(wanted));
+  NSVCD__EACH_SLICE(l) nsvcd__slice_against_patch(work, moving, g, l, fixed, j, wanted, kept);
 }
 
 #endif  // NSVCD_NO_NETWORK
@@ -6084,52 +6117,64 @@ static void nsvcd__chords_of_group(nsvcd__workspace *work, const nsvcd_body *mov
   }
 }
 
+// Grows a slice of boxes, from lane l on, by chords where they are near the fixed body.
+static void nsvcd__boxes_grow(const nsvcd__chords *c, size_t l, const nsvcd_body *fixed, nsvcd__boxes *out) {
+  const nsvcd__v x[3] = {nsvcd__v_load(c->x + l), nsvcd__v_load(c->y + l), nsvcd__v_load(c->z + l)};
+  const nsvcd__v v[3] = {nsvcd__v_load(c->vx + l), nsvcd__v_load(c->vy + l), nsvcd__v_load(c->vz + l)};
+  const nsvcd__v d[3] = {nsvcd__v_sub(x[0], nsvcd__v_set(fixed->centre[0])),
+                         nsvcd__v_sub(x[1], nsvcd__v_set(fixed->centre[1])),
+                         nsvcd__v_sub(x[2], nsvcd__v_set(fixed->centre[2]))};
+  const nsvcd__v reach = nsvcd__v_load(c->reach + l);
+  const nsvcd__v sum = nsvcd__v_add(reach, nsvcd__v_set(fixed->radius));
+  const nsvcd__v square = nsvcd__nearest2(d, v, nsvcd__v_load(c->inverse + l));
+  const nsvcd__v nearby = nsvcd__v_pick(square, nsvcd__v_signed_square(sum), reach, nsvcd__v_set(NSVCD__NOWHERE));
+  for (size_t k = 0; k < 3; k++) {
+    const nsvcd__v end = nsvcd__v_add(x[k], v[k]);
+    const nsvcd__v low = nsvcd__v_sub(nsvcd__v_min(x[k], end), nearby);
+    const nsvcd__v high = nsvcd__v_add(nsvcd__v_max(x[k], end), nearby);
+    nsvcd__v_store(out->low[k] + l, nsvcd__v_min(nsvcd__v_load(out->low[k] + l), low));
+    nsvcd__v_store(out->high[k] + l, nsvcd__v_max(nsvcd__v_load(out->high[k] + l), high));
+  }
+}
+
 // Boxes in which 16 groups of the moving tile, from `first`, stay as long as they are near the fixed body: its axes,
 // metres. Empty ones, low above high, for those that never are. wanted: the segments to look at.
 static void nsvcd__boxes_of_groups(const nsvcd__workspace *work, const nsvcd_body *moving, size_t first,
                                    const nsvcd_body *fixed, uint64_t wanted, nsvcd__boxes *out) {
   const nsvcd__tile *tile = &work->moving_tile;
-  const nsvcd__v nowhere = nsvcd__v_set(NSVCD__NOWHERE), zero = nsvcd__v_set(0);
-  nsvcd__v low[3], high[3];
   NSVCD__TALLY(tests, nsvcd__bit_count(wanted));
-  for (size_t k = 0; k < 3; k++) low[k] = nsvcd__v_sub(zero, nowhere), high[k] = nowhere;
+  for (size_t n = 0; n < 3 * NSVCD__LANES; n++) {
+    out->low[n / NSVCD__LANES][n % NSVCD__LANES] = -NSVCD__NOWHERE;
+    out->high[n / NSVCD__LANES][n % NSVCD__LANES] = NSVCD__NOWHERE;
+  }
   for (; wanted; wanted &= wanted - 1) {
     const size_t s = nsvcd__lowest_bit(wanted);
     nsvcd__chords c;
     nsvcd__chords_of_members(&work->blocks[s / NSVCD__LANES], s % NSVCD__LANES, tile->spheres[0] + first,
                              tile->spheres[1] + first, tile->spheres[2] + first, tile->spheres[3] + first, work->scale,
                              moving->extent, &c);
-    const nsvcd__v x[3] = {nsvcd__v_load(c.x), nsvcd__v_load(c.y), nsvcd__v_load(c.z)};
-    const nsvcd__v v[3] = {nsvcd__v_load(c.vx), nsvcd__v_load(c.vy), nsvcd__v_load(c.vz)};
-    const nsvcd__v d[3] = {nsvcd__v_sub(x[0], nsvcd__v_set(fixed->centre[0])),
-                           nsvcd__v_sub(x[1], nsvcd__v_set(fixed->centre[1])),
-                           nsvcd__v_sub(x[2], nsvcd__v_set(fixed->centre[2]))};
-    const nsvcd__v reach = nsvcd__v_load(c.reach), sum = nsvcd__v_add(reach, nsvcd__v_set(fixed->radius));
-    const nsvcd__v square = nsvcd__nearest2(d, v, nsvcd__v_load(c.inverse));
-    const nsvcd__v nearby = nsvcd__v_pick(square, nsvcd__v_signed_square(sum), reach, nowhere);
-    for (size_t k = 0; k < 3; k++) {
-      const nsvcd__v end = nsvcd__v_add(x[k], v[k]);
-      low[k] = nsvcd__v_min(low[k], nsvcd__v_sub(nsvcd__v_min(x[k], end), nearby));
-      high[k] = nsvcd__v_max(high[k], nsvcd__v_add(nsvcd__v_max(x[k], end), nearby));
-    }
+    NSVCD__EACH_SLICE(l) nsvcd__boxes_grow(&c, l, fixed, out);
   }
-  for (size_t k = 0; k < 3; k++) nsvcd__v_store(out->low[k], low[k]), nsvcd__v_store(out->high[k], high[k]);
 }
 
 // 16 spheres that touch a box.
 static uint32_t nsvcd__spheres_at_box(const float *low, const float *high, const float *x, const float *y, const float *z,
                                       const float *r) {
   const float *centre[3] = {x, y, z};
-  const nsvcd__v zero = nsvcd__v_set(0);
-  nsvcd__v square = zero;
-  for (size_t k = 0; k < 3; k++) {
-    const nsvcd__v c = nsvcd__v_load(centre[k]);
-    const nsvcd__v below = nsvcd__v_sub(nsvcd__v_set(low[k]), c);
-    const nsvcd__v above = nsvcd__v_sub(c, nsvcd__v_set(high[k]));
-    const nsvcd__v d = nsvcd__v_max(nsvcd__v_max(below, above), zero);
-    square = nsvcd__v_fma(d, d, square);
+  uint32_t touched = 0;
+  NSVCD__EACH_SLICE(l) {
+    const nsvcd__v zero = nsvcd__v_set(0);
+    nsvcd__v square = zero;
+    for (size_t k = 0; k < 3; k++) {
+      const nsvcd__v c = nsvcd__v_load(centre[k] + l);
+      const nsvcd__v below = nsvcd__v_sub(nsvcd__v_set(low[k]), c);
+      const nsvcd__v above = nsvcd__v_sub(c, nsvcd__v_set(high[k]));
+      const nsvcd__v d = nsvcd__v_max(nsvcd__v_max(below, above), zero);
+      square = nsvcd__v_fma(d, d, square);
+    }
+    touched |= nsvcd__v_le(square, nsvcd__v_signed_square(nsvcd__v_load(r + l))) << l;
   }
-  return nsvcd__v_le(square, nsvcd__v_signed_square(nsvcd__v_load(r)));
+  return touched;
 }
 
 // Groups of the fixed tile whose spheres touch the box in lane l.
@@ -6217,8 +6262,10 @@ static void nsvcd__tile_fill_all(nsvcd__tile *tile, const nsvcd_body *body) {
 
 // Filters of a walk, given the workspace. All spheres that there are.
 static uint32_t nsvcd__exists(const void *what, const float *x, const float *y, const float *z, const float *r) {
+  uint32_t exists = 0;
   (void)what, (void)x, (void)y, (void)z;
-  return nsvcd__v_le(nsvcd__v_set(0), nsvcd__v_load(r));
+  NSVCD__EACH_SLICE(l) exists |= nsvcd__v_le(nsvcd__v_set(0), nsvcd__v_load(r + l)) << l;
+  return exists;
 }
 
 // Spheres of the moving body that meet that of the fixed one.
