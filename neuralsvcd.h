@@ -5224,7 +5224,7 @@ static void nsvcd__v_quat_normalize(nsvcd__v *q) {
   for (size_t k = 0; k < 4; k++) q[k] = nsvcd__v_div(q[k], length);
 }
 
-// Poses of both bodies at 16 times, in the world.
+// Poses of both bodies at the times of one slice, in the world.
 typedef struct nsvcd__v_poses {
   nsvcd__v q[4];        // of the moving body, of any length
   nsvcd__v fixed_q[4];  // of the fixed one, unit; only where it moves
@@ -5470,8 +5470,7 @@ static nsvcd__v3 nsvcd__v3_unit(nsvcd__v3 a) {
 
 // Bounds of the total length of a track's rotation arcs, radians, and of the longest.
 static void nsvcd__measure_turn(const nsvcd__track *track, float *turn, float *widest) {
-  float chord2[NSVCD__LANES], sums[NSVCD__LANES], longest[NSVCD__LANES];
-  nsvcd__v sum = nsvcd__v_set(0), most = sum;
+  float chord2[NSVCD__LANES], sums[NSVCD__LANES] = {0}, longest[NSVCD__LANES] = {0};
   for (size_t first = 0; first + 1 < track->count; first += NSVCD__LANES) {
     const size_t left = track->count - 1 - first;
     const size_t count = left < NSVCD__LANES ? left : NSVCD__LANES;
@@ -5484,12 +5483,12 @@ static void nsvcd__measure_turn(const nsvcd__track *track, float *turn, float *w
       for (size_t k = 0; k < 4; k++) d[k] = sign * b[k] - a[k];
       chord2[l] = (d[0] * d[0] + d[1] * d[1]) + (d[2] * d[2] + d[3] * d[3]);
     }
-    const nsvcd__v arc = nsvcd__v_arc_bound(nsvcd__v_load(chord2));
-    sum = nsvcd__v_add(sum, arc);
-    most = nsvcd__v_max(most, arc);
+    NSVCD__EACH_SLICE(l) {
+      const nsvcd__v arc = nsvcd__v_arc_bound(nsvcd__v_load(chord2 + l));
+      nsvcd__v_store(sums + l, nsvcd__v_add(nsvcd__v_load(sums + l), arc));
+      nsvcd__v_store(longest + l, nsvcd__v_max(nsvcd__v_load(longest + l), arc));
+    }
   }
-  nsvcd__v_store(sums, sum);
-  nsvcd__v_store(longest, most);
   *turn = 0;
   *widest = 0;
   for (size_t l = 0; l < NSVCD__LANES; l++) {
@@ -5543,7 +5542,7 @@ static void nsvcd__knots_read(const nsvcd__motion *motion, const uint32_t *ticks
   }
 }
 
-// 16 of them, from the one in lane `first` (0 or 1) on.
+// A slice of them, from the one in lane `first` on, up to LANES - SLICE + 1: there is one knot more than lanes.
 static nsvcd__v_poses nsvcd__knots_load(const nsvcd__motion *motion, const nsvcd__knots *from, size_t first) {
   nsvcd__v_poses out;
   for (size_t k = 0; k < 3; k++) out.p[k] = nsvcd__v_load(from->p[k] + first);
@@ -5557,14 +5556,14 @@ static nsvcd__v_poses nsvcd__knots_load(const nsvcd__motion *motion, const nsvcd
   return out;
 }
 
-// `seen`: the quaternions as the fixed body sees them.
-static void nsvcd__knots_keep(const nsvcd__motion *motion, const nsvcd__v_poses *at, const nsvcd__v *seen,
+// `seen`: the quaternions as the fixed body sees them. l: the slice's first lane, here and below.
+static void nsvcd__knots_keep(const nsvcd__motion *motion, const nsvcd__v_poses *at, const nsvcd__v *seen, size_t l,
                               nsvcd__knots *out) {
-  for (size_t k = 0; k < 4; k++) nsvcd__v_store(out->q[k], at->q[k]);
-  for (size_t k = 0; k < 4; k++) nsvcd__v_store(out->seen[k], seen[k]);
+  for (size_t k = 0; k < 4; k++) nsvcd__v_store(out->q[k] + l, at->q[k]);
+  for (size_t k = 0; k < 4; k++) nsvcd__v_store(out->seen[k] + l, seen[k]);
   if (!motion->fixed_moves) return;
-  for (size_t k = 0; k < 3; k++) nsvcd__v_store(out->p[k], at->p[k]);
-  for (size_t k = 0; k < 4; k++) nsvcd__v_store(out->fixed_q[k], at->fixed_q[k]);
+  for (size_t k = 0; k < 3; k++) nsvcd__v_store(out->p[k] + l, at->p[k]);
+  for (size_t k = 0; k < 4; k++) nsvcd__v_store(out->fixed_q[k] + l, at->fixed_q[k]);
 }
 
 // A bound of the angle between a (4) and b (4), unit quaternions, lane by lane.
@@ -5586,9 +5585,10 @@ static nsvcd__v nsvcd__v_turn_off_axis(nsvcd__v3 axis, const nsvcd__v *from, con
   return nsvcd__v_mul(nsvcd__v_mul(arc, nsvcd__v_set(0.3931f)), nsvcd__v_sqrt(nsvcd__v3_dot(across, across)));
 }
 
-static void nsvcd__v_load_all(float (*from)[NSVCD__LANES], nsvcd__v *values, size_t count) {
-  for (size_t k = 0; k < count; k++) values[k] = nsvcd__v_load(from[k]);
+static void nsvcd__v_load_all(float (*from)[NSVCD__LANES], size_t l, nsvcd__v *values, size_t count) {
+  for (size_t k = 0; k < count; k++) values[k] = nsvcd__v_load(from[k] + l);
 }
+// most: of the slice.
 static void nsvcd__v_keep_most(float *most, nsvcd__v value) {
   nsvcd__v_store(most, nsvcd__v_max(nsvcd__v_load(most), value));
 }
@@ -5596,33 +5596,40 @@ static void nsvcd__v_keep_most(float *most, nsvcd__v value) {
 // Poses at the starts of 16 segments, whose ticks are begin[0..16]. Starts the visit of the knots within.
 static NSVCD__APART void nsvcd__cut_starts(const nsvcd__motion *motion, const uint32_t *begin, nsvcd__segments *out,
                                            nsvcd__cut *cut) {
-  nsvcd__v seen[4], m[9], p[3];
-  const nsvcd__v scale = nsvcd__v_set(motion->scale);
   memset(&cut->most, 0, sizeof cut->most);
   nsvcd__knots_read(motion, begin, NSVCD__LANES + 1, &cut->here);
-  const nsvcd__v_poses at = nsvcd__knots_load(motion, &cut->here, 0);
-  nsvcd__v_seen(motion, &at, seen, p);
-  nsvcd__v_matrix(seen, m);
-  nsvcd__knots_keep(motion, &at, seen, &cut->last);
-  for (size_t i = 0; i < 9; i++) nsvcd__v_store(out->rotation[i], nsvcd__v_mul(scale, m[i]));
-  for (size_t i = 0; i < 3; i++) nsvcd__v_store(out->position[i], p[i]);
+  NSVCD__EACH_SLICE(l) {
+    nsvcd__v seen[4], m[9], p[3];
+    const nsvcd__v scale = nsvcd__v_set(motion->scale);
+    const nsvcd__v_poses at = nsvcd__knots_load(motion, &cut->here, l);
+    nsvcd__v_seen(motion, &at, seen, p);
+    nsvcd__v_matrix(seen, m);
+    nsvcd__knots_keep(motion, &at, seen, l, &cut->last);
+    for (size_t i = 0; i < 9; i++) nsvcd__v_store(out->rotation[i] + l, nsvcd__v_mul(scale, m[i]));
+    for (size_t i = 0; i < 3; i++) nsvcd__v_store(out->position[i] + l, p[i]);
+  }
 }
 
 // And at their ends, of which the starts are known.
 static NSVCD__APART void nsvcd__cut_ends(const nsvcd__motion *motion, nsvcd__segments *out, nsvcd__cut *cut) {
-  nsvcd__v seen[4], m[9], p[3], last_seen[4];
-  const nsvcd__v scale = nsvcd__v_set(motion->scale);
-  const nsvcd__v_poses at = nsvcd__knots_load(motion, &cut->here, 1);
-  nsvcd__v_seen(motion, &at, seen, p);
-  nsvcd__v_matrix(seen, m);
-  nsvcd__knots_keep(motion, &at, seen, &cut->end);
-  for (size_t i = 0; i < 9; i++) {
-    nsvcd__v_store(out->turned[i], nsvcd__v_sub(nsvcd__v_mul(scale, m[i]), nsvcd__v_load(out->rotation[i])));
+  NSVCD__EACH_SLICE(l) {
+    nsvcd__v seen[4], m[9], p[3], last_seen[4];
+    const nsvcd__v scale = nsvcd__v_set(motion->scale);
+    const nsvcd__v_poses at = nsvcd__knots_load(motion, &cut->here, l + 1);
+    nsvcd__v_seen(motion, &at, seen, p);
+    nsvcd__v_matrix(seen, m);
+    nsvcd__knots_keep(motion, &at, seen, l, &cut->end);
+    for (size_t i = 0; i < 9; i++) {
+      const nsvcd__v end = nsvcd__v_mul(scale, m[i]);
+      nsvcd__v_store(out->turned[i] + l, nsvcd__v_sub(end, nsvcd__v_load(out->rotation[i] + l)));
+    }
+    for (size_t i = 0; i < 3; i++) {
+      nsvcd__v_store(out->moved[i] + l, nsvcd__v_sub(p[i], nsvcd__v_load(out->position[i] + l)));
+    }
+    nsvcd__v_load_all(cut->last.seen, l, last_seen, 4);
+    nsvcd__v3_store(out->axis, l, nsvcd__v3_unit(nsvcd__v_turn_between(last_seen, seen)));
+    nsvcd__v3_store(out->way, l, nsvcd__v3_unit(nsvcd__v3_load(out->moved, l)));
   }
-  for (size_t i = 0; i < 3; i++) nsvcd__v_store(out->moved[i], nsvcd__v_sub(p[i], nsvcd__v_load(out->position[i])));
-  nsvcd__v_load_all(cut->last.seen, last_seen, 4);
-  nsvcd__v3_store(out->axis, 0, nsvcd__v3_unit(nsvcd__v_turn_between(last_seen, seen)));
-  nsvcd__v3_store(out->way, 0, nsvcd__v3_unit(nsvcd__v3_load(out->moved, 0)));
 }
 
 // Of arcs in which both bodies move. With w and w' the rotation vectors of the moving and the fixed body over the arc, in
@@ -5631,7 +5638,7 @@ static NSVCD__APART void nsvcd__cut_ends(const nsvcd__motion *motion, nsvcd__seg
 //   o x (o x Rx) + (o x w') x Rx   -   2 w' x v + w' x (w' x d)
 // so that the arc leaves its chord by (|o|^2 + |o x w'|) / 8 |x| and (2 |w' x v| + |w'| |w' x d|) / 8 at most.
 static void nsvcd__cut_double_arc(const nsvcd__motion *motion, const nsvcd__v_poses *from, const nsvcd__v_poses *to,
-                                  nsvcd__cut *cut) {
+                                  size_t l, nsvcd__cut *cut) {
   const nsvcd__v eighth = nsvcd__v_set(0.12501f);
   nsvcd__v cosine, fixed_cosine;
   const nsvcd__v3 half = nsvcd__v_shorter_turn_between(from->q, to->q, &cosine);
@@ -5648,7 +5655,7 @@ static void nsvcd__cut_double_arc(const nsvcd__motion *motion, const nsvcd__v_po
   turn = nsvcd__v_fma(nsvcd__v_set(2e-6f), nsvcd__v_add(sine, fixed_sine), turn);
   const nsvcd__v fixed_turn = nsvcd__v_arc(from->fixed_q, to->fixed_q);
   const nsvcd__v bulge = nsvcd__v_mul(nsvcd__v_mul(turn, nsvcd__v_add(turn, fixed_turn)), eighth);
-  nsvcd__v_keep_most(cut->most.arc_bulge, bulge);
+  nsvcd__v_keep_most(cut->most.arc_bulge + l, bulge);
 
   const nsvcd__v3 d0 = nsvcd__v3_of(from->p[0], from->p[1], from->p[2]);
   const nsvcd__v3 d1 = nsvcd__v3_of(to->p[0], to->p[1], to->p[2]);
@@ -5656,73 +5663,113 @@ static void nsvcd__cut_double_arc(const nsvcd__motion *motion, const nsvcd__v_po
   const nsvcd__v way = nsvcd__v3_length(nsvcd__v3_sub(d1, d0));
   const nsvcd__v both = nsvcd__v_fma(fixed_turn, remote, nsvcd__v_add(way, way));
   const nsvcd__v metres = nsvcd__v_mul(nsvcd__v_mul(fixed_turn, both), eighth);
-  nsvcd__v_keep_most(cut->most.arc_drift, nsvcd__v_div(metres, nsvcd__v_set(motion->unit)));
-  nsvcd__v_store(cut->most.sum, nsvcd__v_add(nsvcd__v_load(cut->most.sum), fixed_turn));
+  nsvcd__v_keep_most(cut->most.arc_drift + l, nsvcd__v_div(metres, nsvcd__v_set(motion->unit)));
+  nsvcd__v_store(cut->most.sum + l, nsvcd__v_add(nsvcd__v_load(cut->most.sum + l), fixed_turn));
 }
 
 // Adds the arc from the last knot to this one, which becomes the last.
-static void nsvcd__cut_arc(const nsvcd__motion *motion, const nsvcd__v_poses *at, const nsvcd__v *seen,
+static void nsvcd__cut_arc(const nsvcd__motion *motion, const nsvcd__v_poses *at, const nsvcd__v *seen, size_t l,
                            nsvcd__segments *out, nsvcd__cut *cut) {
-  const nsvcd__v_poses last = nsvcd__knots_load(motion, &cut->last, 0);
+  const nsvcd__v_poses last = nsvcd__knots_load(motion, &cut->last, l);
   const nsvcd__v arc = nsvcd__v_arc(last.q, at->q);
-  nsvcd__v_store(cut->most.sum, nsvcd__v_add(nsvcd__v_load(cut->most.sum), arc));
+  nsvcd__v_store(cut->most.sum + l, nsvcd__v_add(nsvcd__v_load(cut->most.sum + l), arc));
   if (motion->fixed_moves) {
-    nsvcd__cut_double_arc(motion, &last, at, cut);
+    nsvcd__cut_double_arc(motion, &last, at, l, cut);
   } else {
     nsvcd__v last_seen[4];
-    nsvcd__v_load_all(cut->last.seen, last_seen, 4);
-    nsvcd__v_keep_most(cut->most.arc_bulge, nsvcd__v_mul(nsvcd__v_mul(arc, arc), nsvcd__v_set(0.125f)));
-    nsvcd__v_keep_most(cut->most.axis_turn, nsvcd__v_turn_off_axis(nsvcd__v3_load(out->axis, 0), last_seen, seen, arc));
+    const nsvcd__v3 axis = nsvcd__v3_load(out->axis, l);
+    nsvcd__v_load_all(cut->last.seen, l, last_seen, 4);
+    nsvcd__v_keep_most(cut->most.arc_bulge + l, nsvcd__v_mul(nsvcd__v_mul(arc, arc), nsvcd__v_set(0.125f)));
+    nsvcd__v_keep_most(cut->most.axis_turn + l, nsvcd__v_turn_off_axis(axis, last_seen, seen, arc));
   }
-  nsvcd__knots_keep(motion, at, seen, &cut->last);
+  nsvcd__knots_keep(motion, at, seen, l, &cut->last);
 }
 
 static NSVCD__APART void nsvcd__cut_last_arc(const nsvcd__motion *motion, nsvcd__segments *out, nsvcd__cut *cut) {
-  nsvcd__v seen[4];
-  const nsvcd__v_poses end = nsvcd__knots_load(motion, &cut->end, 0);
-  nsvcd__v_load_all(cut->end.seen, seen, 4);
-  nsvcd__cut_arc(motion, &end, seen, out, cut);
+  NSVCD__EACH_SLICE(l) {
+    nsvcd__v seen[4];
+    const nsvcd__v_poses end = nsvcd__knots_load(motion, &cut->end, l);
+    nsvcd__v_load_all(cut->end.seen, l, seen, 4);
+    nsvcd__cut_arc(motion, &end, seen, l, out, cut);
+  }
+}
+
+// Adds what a knot is off its segment's chord by, of which a share of u lies before it. seen, at: its pose as the fixed
+// body sees it.
+static void nsvcd__cut_off_chord(const nsvcd__motion *motion, nsvcd__v u, const nsvcd__v *seen, const nsvcd__v *at,
+                                 size_t l, nsvcd__segments *out, nsvcd__cut *cut) {
+  nsvcd__v r[9];
+  const nsvcd__v scale = nsvcd__v_set(motion->scale);
+  nsvcd__v square = nsvcd__v_set(0);
+  nsvcd__v_matrix(seen, r);
+  for (size_t i = 0; i < 9; i++) {
+    const nsvcd__v chord = nsvcd__v_fma(u, nsvcd__v_load(out->turned[i] + l), nsvcd__v_load(out->rotation[i] + l));
+    r[i] = nsvcd__v_sub(nsvcd__v_mul(scale, r[i]), chord);
+    square = nsvcd__v_fma(r[i], r[i], square);
+  }
+  const nsvcd__v3 chord = nsvcd__v3_fma(u, nsvcd__v3_load(out->moved, l), nsvcd__v3_load(out->position, l));
+  const nsvcd__v3 off = nsvcd__v3_sub(nsvcd__v3_of(at[0], at[1], at[2]), chord);
+  nsvcd__v_keep_most(cut->most.bulge + l, square);
+  nsvcd__v_keep_most(cut->most.spread + l, nsvcd__v3_dot(off, off));
+
+  const nsvcd__v3 axis = nsvcd__v3_load(out->axis, l);
+  const nsvcd__v3 row0 = nsvcd__v3_of(r[0], r[1], r[2]);
+  const nsvcd__v3 row1 = nsvcd__v3_of(r[3], r[4], r[5]);
+  const nsvcd__v3 row2 = nsvcd__v3_of(r[6], r[7], r[8]);
+  const nsvcd__v3 along = nsvcd__v3_fma(axis.x, row0, nsvcd__v3_fma(axis.y, row1, nsvcd__v3_scale(row2, axis.z)));
+  const nsvcd__v3 off_way = nsvcd__v3_cross(nsvcd__v3_load(out->way, l), off);
+  const nsvcd__v off_axis = nsvcd__v3_dot(axis, off);
+  nsvcd__v_keep_most(cut->most.axis_bulge + l, nsvcd__v3_dot(along, along));
+  nsvcd__v_keep_most(cut->most.axis_drift + l, nsvcd__v_mul(off_axis, off_axis));
+  nsvcd__v_keep_most(cut->most.way_drift + l, nsvcd__v3_dot(off_way, off_way));
 }
 
 // Visits a knot of each segment: ticks (16), of segments that begin at begin[0..15] and end at begin[1..16].
 static NSVCD__APART void nsvcd__cut_knot(const nsvcd__motion *motion, const uint32_t *begin, const uint32_t *ticks,
                                          nsvcd__segments *out, nsvcd__cut *cut) {
-  nsvcd__v seen[4], r[9], at[3];
   float share[NSVCD__LANES];
   nsvcd__knots_read(motion, ticks, NSVCD__LANES, &cut->here);
-  const nsvcd__v_poses poses = nsvcd__knots_load(motion, &cut->here, 0);
-  nsvcd__v_seen(motion, &poses, seen, at);
-  nsvcd__cut_arc(motion, &poses, seen, out, cut);
   for (size_t l = 0; l < NSVCD__LANES; l++) {
     const uint32_t length = begin[l + 1] - begin[l];
     share[l] = length ? (float)(ticks[l] - begin[l]) / (float)length : 0;
   }
-
-  // What it is off its segment's chord by.
-  const nsvcd__v u = nsvcd__v_load(share);
-  const nsvcd__v scale = nsvcd__v_set(motion->scale);
-  nsvcd__v square = nsvcd__v_set(0);
-  nsvcd__v_matrix(seen, r);
-  for (size_t i = 0; i < 9; i++) {
-    const nsvcd__v chord = nsvcd__v_fma(u, nsvcd__v_load(out->turned[i]), nsvcd__v_load(out->rotation[i]));
-    r[i] = nsvcd__v_sub(nsvcd__v_mul(scale, r[i]), chord);
-    square = nsvcd__v_fma(r[i], r[i], square);
+  NSVCD__EACH_SLICE(l) {
+    nsvcd__v seen[4], at[3];
+    const nsvcd__v_poses poses = nsvcd__knots_load(motion, &cut->here, l);
+    nsvcd__v_seen(motion, &poses, seen, at);
+    nsvcd__cut_arc(motion, &poses, seen, l, out, cut);
+    nsvcd__cut_off_chord(motion, nsvcd__v_load(share + l), seen, at, l, out, cut);
   }
-  const nsvcd__v3 chord = nsvcd__v3_fma(u, nsvcd__v3_load(out->moved, 0), nsvcd__v3_load(out->position, 0));
-  const nsvcd__v3 off = nsvcd__v3_sub(nsvcd__v3_of(at[0], at[1], at[2]), chord);
-  nsvcd__v_keep_most(cut->most.bulge, square);
-  nsvcd__v_keep_most(cut->most.spread, nsvcd__v3_dot(off, off));
+}
 
-  const nsvcd__v3 axis = nsvcd__v3_load(out->axis, 0);
-  const nsvcd__v3 row0 = nsvcd__v3_of(r[0], r[1], r[2]);
-  const nsvcd__v3 row1 = nsvcd__v3_of(r[3], r[4], r[5]);
-  const nsvcd__v3 row2 = nsvcd__v3_of(r[6], r[7], r[8]);
-  const nsvcd__v3 along = nsvcd__v3_fma(axis.x, row0, nsvcd__v3_fma(axis.y, row1, nsvcd__v3_scale(row2, axis.z)));
-  const nsvcd__v3 off_way = nsvcd__v3_cross(nsvcd__v3_load(out->way, 0), off);
-  const nsvcd__v off_axis = nsvcd__v3_dot(axis, off);
-  nsvcd__v_keep_most(cut->most.axis_bulge, nsvcd__v3_dot(along, along));
-  nsvcd__v_keep_most(cut->most.axis_drift, nsvcd__v_mul(off_axis, off_axis));
-  nsvcd__v_keep_most(cut->most.way_drift, nsvcd__v3_dot(off_way, off_way));
+// The deviations of segments whose knots have all been visited.
+static void nsvcd__cut_deviations(const nsvcd__motion *motion, float lengths, size_t l, nsvcd__segments *out,
+                                  const nsvcd__cut *cut) {
+  const nsvcd__v scale = nsvcd__v_set(motion->scale);
+  const nsvcd__v off_chord = nsvcd__v_sqrt(nsvcd__v_load(cut->most.spread + l));
+  const nsvcd__v drift = nsvcd__v_add(off_chord, nsvcd__v_load(cut->most.arc_drift + l));
+  const nsvcd__v arc_bulge = nsvcd__v_mul(scale, nsvcd__v_load(cut->most.arc_bulge + l));
+  const nsvcd__v bulge = nsvcd__v_add(arc_bulge, nsvcd__v_sqrt(nsvcd__v_load(cut->most.bulge + l)));
+  nsvcd__v_store(out->bulge + l, bulge);
+  nsvcd__v_store(out->drift + l, drift);
+  nsvcd__v_store(out->bulge_along_axis + l, bulge);
+  nsvcd__v_store(out->drift_along_axis + l, drift);
+  nsvcd__v_store(out->drift_off_way + l, drift);
+  if (!motion->fixed_moves) {
+    const nsvcd__v axis_turn = nsvcd__v_mul(scale, nsvcd__v_load(cut->most.axis_turn + l));
+    const nsvcd__v axis_bulge = nsvcd__v_sqrt(nsvcd__v_load(cut->most.axis_bulge + l));
+    nsvcd__v_store(out->bulge_along_axis + l, nsvcd__v_add(axis_bulge, axis_turn));
+    nsvcd__v_store(out->drift_along_axis + l, nsvcd__v_sqrt(nsvcd__v_load(cut->most.axis_drift + l)));
+    nsvcd__v_store(out->drift_off_way + l, nsvcd__v_sqrt(nsvcd__v_load(cut->most.way_drift + l)));
+  }
+
+  const nsvcd__v3 start = nsvcd__v3_load(out->position, l);
+  const nsvcd__v3 end = nsvcd__v3_add(start, nsvcd__v3_load(out->moved, l));
+  const nsvcd__v remote = nsvcd__v_add(nsvcd__v3_length(start), nsvcd__v3_length(end));
+  const nsvcd__v all = nsvcd__v_add(remote, nsvcd__v_add(drift, nsvcd__v_set(lengths)));
+  const nsvcd__v rounding = nsvcd__v_mul(all, nsvcd__v_set(NSVCD__ROUNDING));
+  nsvcd__v_store(out->rounding + l, rounding);
+  nsvcd__v_store(out->spread + l, nsvcd__v_add(rounding, drift));
 }
 
 // 16 segments, of which `count` exist; `begin`: (17) their ends in ticks. turn: arc of each.
@@ -5742,30 +5789,7 @@ static void nsvcd__cut_block(const nsvcd__motion *motion, const uint32_t *begin,
     if (within) nsvcd__cut_knot(motion, begin, ticks, out, cut);
   }
   nsvcd__cut_last_arc(motion, out, cut);
-
-  const nsvcd__v scale = nsvcd__v_set(motion->scale);
-  const nsvcd__v drift = nsvcd__v_add(nsvcd__v_sqrt(nsvcd__v_load(cut->most.spread)), nsvcd__v_load(cut->most.arc_drift));
-  const nsvcd__v arc_bulge = nsvcd__v_mul(scale, nsvcd__v_load(cut->most.arc_bulge));
-  const nsvcd__v bulge = nsvcd__v_add(arc_bulge, nsvcd__v_sqrt(nsvcd__v_load(cut->most.bulge)));
-  nsvcd__v_store(out->bulge, bulge);
-  nsvcd__v_store(out->drift, drift);
-  nsvcd__v_store(out->bulge_along_axis, bulge);
-  nsvcd__v_store(out->drift_along_axis, drift);
-  nsvcd__v_store(out->drift_off_way, drift);
-  if (!motion->fixed_moves) {
-    const nsvcd__v axis_turn = nsvcd__v_mul(scale, nsvcd__v_load(cut->most.axis_turn));
-    nsvcd__v_store(out->bulge_along_axis, nsvcd__v_add(nsvcd__v_sqrt(nsvcd__v_load(cut->most.axis_bulge)), axis_turn));
-    nsvcd__v_store(out->drift_along_axis, nsvcd__v_sqrt(nsvcd__v_load(cut->most.axis_drift)));
-    nsvcd__v_store(out->drift_off_way, nsvcd__v_sqrt(nsvcd__v_load(cut->most.way_drift)));
-  }
-
-  const nsvcd__v3 start = nsvcd__v3_load(out->position, 0);
-  const nsvcd__v remote = nsvcd__v_add(nsvcd__v3_length(start),
-                                       nsvcd__v3_length(nsvcd__v3_add(start, nsvcd__v3_load(out->moved, 0))));
-  const nsvcd__v all = nsvcd__v_add(remote, nsvcd__v_add(drift, nsvcd__v_set(lengths)));
-  const nsvcd__v rounding = nsvcd__v_mul(all, nsvcd__v_set(NSVCD__ROUNDING));
-  nsvcd__v_store(out->rounding, rounding);
-  nsvcd__v_store(out->spread, nsvcd__v_add(rounding, drift));
+  NSVCD__EACH_SLICE(l) nsvcd__cut_deviations(motion, lengths, l, out, cut);
   memcpy(turn, cut->most.sum, sizeof cut->most.sum);
   for (size_t l = count; l < NSVCD__LANES; l++) out->spread[l] = NSVCD__NOWHERE;  // these meet nothing
 }
@@ -5815,46 +5839,58 @@ static void nsvcd__cut_motion(nsvcd__motion *motion, float lengths, nsvcd__works
 }
 #endif
 
-// Stores chords: x0 (3), v (3), reach. FLT_MIN keeps a chord of no length finite.
-static void nsvcd__chords_store(nsvcd__chords *c, const nsvcd__v *x, const nsvcd__v *v, nsvcd__v reach) {
+// Stores a slice of chords, from lane l on: x0 (3), v (3), reach. FLT_MIN keeps a chord of no length finite.
+static void nsvcd__chords_store(nsvcd__chords *c, size_t l, const nsvcd__v *x, const nsvcd__v *v, nsvcd__v reach) {
   const nsvcd__v square = nsvcd__v_max(nsvcd__v_dot3(v, v), nsvcd__v_set(1.2e-38f));
-  nsvcd__v_store(c->x, x[0]), nsvcd__v_store(c->y, x[1]), nsvcd__v_store(c->z, x[2]);
-  nsvcd__v_store(c->vx, v[0]), nsvcd__v_store(c->vy, v[1]), nsvcd__v_store(c->vz, v[2]);
-  nsvcd__v_store(c->inverse, nsvcd__v_div(nsvcd__v_set(-1), square));
-  nsvcd__v_store(c->reach, reach);
+  nsvcd__v_store(c->x + l, x[0]);
+  nsvcd__v_store(c->y + l, x[1]);
+  nsvcd__v_store(c->z + l, x[2]);
+  nsvcd__v_store(c->vx + l, v[0]);
+  nsvcd__v_store(c->vy + l, v[1]);
+  nsvcd__v_store(c->vz + l, v[2]);
+  nsvcd__v_store(c->inverse + l, nsvcd__v_div(nsvcd__v_set(-1), square));
+  nsvcd__v_store(c->reach + l, reach);
 }
 
 // Chords of one sphere (centre x y z, radius r, body frame) in the segments of a block.
 static void nsvcd__chords_of_sphere(const nsvcd__segments *b, float x, float y, float z, float r, nsvcd__chords *out) {
-  const nsvcd__v centre[3] = {nsvcd__v_set(x), nsvcd__v_set(y), nsvcd__v_set(z)};
   const float length = sqrtf(x * x + y * y + z * z);
-  nsvcd__v x0[3], v[3];
-  for (size_t i = 0; i < 3; i++) {
-    x0[i] = nsvcd__v_load(b->position[i]), v[i] = nsvcd__v_load(b->moved[i]);
-    for (size_t k = 0; k < 3; k++) {
-      x0[i] = nsvcd__v_fma(nsvcd__v_load(b->rotation[3 * i + k]), centre[k], x0[i]);
-      v[i] = nsvcd__v_fma(nsvcd__v_load(b->turned[3 * i + k]), centre[k], v[i]);
+  NSVCD__EACH_SLICE(l) {
+    const nsvcd__v centre[3] = {nsvcd__v_set(x), nsvcd__v_set(y), nsvcd__v_set(z)};
+    nsvcd__v x0[3], v[3];
+    for (size_t i = 0; i < 3; i++) {
+      x0[i] = nsvcd__v_load(b->position[i] + l);
+      v[i] = nsvcd__v_load(b->moved[i] + l);
+      for (size_t k = 0; k < 3; k++) {
+        x0[i] = nsvcd__v_fma(nsvcd__v_load(b->rotation[3 * i + k] + l), centre[k], x0[i]);
+        v[i] = nsvcd__v_fma(nsvcd__v_load(b->turned[3 * i + k] + l), centre[k], v[i]);
+      }
     }
+    const nsvcd__v spread = nsvcd__v_load(b->spread + l);
+    const nsvcd__v deviation = nsvcd__v_fma(nsvcd__v_load(b->bulge + l), nsvcd__v_set(length), spread);
+    nsvcd__chords_store(out, l, x0, v, nsvcd__v_add(deviation, nsvcd__v_set(r)));
   }
-  const nsvcd__v deviation = nsvcd__v_fma(nsvcd__v_load(b->bulge), nsvcd__v_set(length), nsvcd__v_load(b->spread));
-  nsvcd__chords_store(out, x0, v, nsvcd__v_add(deviation, nsvcd__v_set(r)));
 }
 
 // Chords of 16 spheres in one segment: lane s of a block. No centre is farther from the body's origin than `remote`, in
 // that body's own frame, as all that is given; scale: of the body.
 static void nsvcd__chords_of_members(const nsvcd__segments *b, size_t s, const float *x, const float *y, const float *z,
                                      const float *r, float scale, float remote, nsvcd__chords *out) {
-  const nsvcd__v centre[3] = {nsvcd__v_load(x), nsvcd__v_load(y), nsvcd__v_load(z)};
-  nsvcd__v x0[3], v[3];
-  for (size_t i = 0; i < 3; i++) {
-    x0[i] = nsvcd__v_set(b->position[i][s]), v[i] = nsvcd__v_set(b->moved[i][s]);
-    for (size_t k = 0; k < 3; k++) {
-      x0[i] = nsvcd__v_fma(nsvcd__v_set(b->rotation[3 * i + k][s]), centre[k], x0[i]);
-      v[i] = nsvcd__v_fma(nsvcd__v_set(b->turned[3 * i + k][s]), centre[k], v[i]);
+  const float deviation = b->spread[s] + b->bulge[s] * remote;
+  NSVCD__EACH_SLICE(l) {
+    const nsvcd__v centre[3] = {nsvcd__v_load(x + l), nsvcd__v_load(y + l), nsvcd__v_load(z + l)};
+    nsvcd__v x0[3], v[3];
+    for (size_t i = 0; i < 3; i++) {
+      x0[i] = nsvcd__v_set(b->position[i][s]);
+      v[i] = nsvcd__v_set(b->moved[i][s]);
+      for (size_t k = 0; k < 3; k++) {
+        x0[i] = nsvcd__v_fma(nsvcd__v_set(b->rotation[3 * i + k][s]), centre[k], x0[i]);
+        v[i] = nsvcd__v_fma(nsvcd__v_set(b->turned[3 * i + k][s]), centre[k], v[i]);
+      }
     }
+    const nsvcd__v reach = nsvcd__v_fma(nsvcd__v_set(scale), nsvcd__v_load(r + l), nsvcd__v_set(deviation));
+    nsvcd__chords_store(out, l, x0, v, reach);
   }
-  const nsvcd__v deviation = nsvcd__v_set(b->spread[s] + b->bulge[s] * remote);
-  nsvcd__chords_store(out, x0, v, nsvcd__v_fma(nsvcd__v_set(scale), nsvcd__v_load(r), deviation));
 }
 
 // The square of a sum of radii, with its sign: a negative sum (padding) meets nothing.
@@ -5870,31 +5906,41 @@ NSVCD__INLINE nsvcd__v nsvcd__nearest2(const nsvcd__v *d, const nsvcd__v *v, nsv
   return nsvcd__v_dot3(nearest, nearest);
 }
 
-// The test. d: from the resting centre to the start of the chord, v: the chord. Bit l: lane l comes within `reach`.
+// The test. d: from the resting centre to the start of the chord, v: the chord. A bit for each lane of the slice: does
+// it come within `reach`?
 NSVCD__INLINE uint32_t nsvcd__comes_within(const nsvcd__v *d, const nsvcd__v *v, nsvcd__v inverse, nsvcd__v reach) {
   return nsvcd__v_le(nsvcd__nearest2(d, v, inverse), nsvcd__v_signed_square(reach));
 }
 
 // 16 moving spheres, or one in 16 segments, against one resting sphere.
 static uint32_t nsvcd__meet(const nsvcd__chords *c, float x, float y, float z, float r) {
-  const nsvcd__v d[3] = {nsvcd__v_sub(nsvcd__v_load(c->x), nsvcd__v_set(x)),
-                         nsvcd__v_sub(nsvcd__v_load(c->y), nsvcd__v_set(y)),
-                         nsvcd__v_sub(nsvcd__v_load(c->z), nsvcd__v_set(z))};
-  const nsvcd__v v[3] = {nsvcd__v_load(c->vx), nsvcd__v_load(c->vy), nsvcd__v_load(c->vz)};
+  uint32_t met = 0;
   NSVCD__TALLY(tests, 1);
-  return nsvcd__comes_within(d, v, nsvcd__v_load(c->inverse), nsvcd__v_add(nsvcd__v_load(c->reach), nsvcd__v_set(r)));
+  NSVCD__EACH_SLICE(l) {
+    const nsvcd__v d[3] = {nsvcd__v_sub(nsvcd__v_load(c->x + l), nsvcd__v_set(x)),
+                           nsvcd__v_sub(nsvcd__v_load(c->y + l), nsvcd__v_set(y)),
+                           nsvcd__v_sub(nsvcd__v_load(c->z + l), nsvcd__v_set(z))};
+    const nsvcd__v v[3] = {nsvcd__v_load(c->vx + l), nsvcd__v_load(c->vy + l), nsvcd__v_load(c->vz + l)};
+    const nsvcd__v reach = nsvcd__v_add(nsvcd__v_load(c->reach + l), nsvcd__v_set(r));
+    met |= nsvcd__comes_within(d, v, nsvcd__v_load(c->inverse + l), reach) << l;
+  }
+  return met;
 }
 
 // Lane s of a chord against 16 resting spheres.
 static uint32_t nsvcd__meet_members(const nsvcd__chords *c, size_t s, const float *x, const float *y, const float *z,
                                     const float *r) {
-  const nsvcd__v d[3] = {nsvcd__v_sub(nsvcd__v_set(c->x[s]), nsvcd__v_load(x)),
-                         nsvcd__v_sub(nsvcd__v_set(c->y[s]), nsvcd__v_load(y)),
-                         nsvcd__v_sub(nsvcd__v_set(c->z[s]), nsvcd__v_load(z))};
-  const nsvcd__v v[3] = {nsvcd__v_set(c->vx[s]), nsvcd__v_set(c->vy[s]), nsvcd__v_set(c->vz[s])};
+  uint32_t met = 0;
   NSVCD__TALLY(tests, 1);
-  return nsvcd__comes_within(d, v, nsvcd__v_set(c->inverse[s]),
-                             nsvcd__v_add(nsvcd__v_set(c->reach[s]), nsvcd__v_load(r)));
+  NSVCD__EACH_SLICE(l) {
+    const nsvcd__v d[3] = {nsvcd__v_sub(nsvcd__v_set(c->x[s]), nsvcd__v_load(x + l)),
+                           nsvcd__v_sub(nsvcd__v_set(c->y[s]), nsvcd__v_load(y + l)),
+                           nsvcd__v_sub(nsvcd__v_set(c->z[s]), nsvcd__v_load(z + l))};
+    const nsvcd__v v[3] = {nsvcd__v_set(c->vx[s]), nsvcd__v_set(c->vy[s]), nsvcd__v_set(c->vz[s])};
+    const nsvcd__v reach = nsvcd__v_add(nsvcd__v_set(c->reach[s]), nsvcd__v_load(r + l));
+    met |= nsvcd__comes_within(d, v, nsvcd__v_set(c->inverse[s]), reach) << l;
+  }
+  return met;
 }
 
 // The segments among `wanted` in which a sphere with chords[] (one block per 16 segments) meets a resting one.
@@ -5950,8 +5996,8 @@ static void nsvcd__candidates_add(nsvcd__candidates *kept, const nsvcd__candidat
   }
 }
 
-// Runs that are still growing, one per lane. Places on a segment's line are counted in segments from its start:
-// `nearest` on the whole line, `half2` the square of what it is from there to where the spheres first touch.
+// Runs of a slice that are still growing, one per lane. Places on a segment's line are counted in segments from its
+// start: `nearest` on the whole line, `half2` the square of what it is from there to where the spheres first touch.
 typedef struct nsvcd__runs {
   uint32_t open;        // lanes
   size_t oldest, last;  // segments: in which the oldest of them began, and the last that all of them reach
@@ -5960,15 +6006,16 @@ typedef struct nsvcd__runs {
   nsvcd__v square, least_segment, least;  // of the least distance: its square, and where
 } nsvcd__runs;
 
-// Ends the runs of `lanes` and hands them on. Lane l: patch GROUP g + l of the moving body, patch j of the fixed one.
+// Ends the runs of `lanes` of a slice and hands them on. Its first lane is patch i of the moving body; j: the patch of
+// the fixed one.
 static void nsvcd__runs_close(nsvcd__runs *runs, uint32_t lanes, const nsvcd__workspace *work, const nsvcd_body *moving,
-                              size_t g, const nsvcd_body *fixed, size_t j, nsvcd__candidates *kept) {
+                              size_t i, const nsvcd_body *fixed, size_t j, nsvcd__candidates *kept) {
   const float *time = work->time;
   const nsvcd__v zero = nsvcd__v_set(0), one = nsvcd__v_set(1);
-  const nsvcd__v r = nsvcd__v_mul(nsvcd__v_set(work->scale), nsvcd__v_load(nsvcd__body_r(moving) + NSVCD__GROUP * g));
+  const nsvcd__v r = nsvcd__v_mul(nsvcd__v_set(work->scale), nsvcd__v_load(nsvcd__body_r(moving) + i));
   const nsvcd__v radii = nsvcd__v_max(nsvcd__v_add(r, nsvcd__v_set(nsvcd__body_r(fixed)[j])), nsvcd__v_set(1e-30f));
-  float first[NSVCD__LANES], enter[NSVCD__LANES], leave[NSVCD__LANES], least_segment[NSVCD__LANES], least[NSVCD__LANES],
-      depth[NSVCD__LANES];
+  float first[NSVCD__SLICE], enter[NSVCD__SLICE], leave[NSVCD__SLICE], least_segment[NSVCD__SLICE], least[NSVCD__SLICE],
+      depth[NSVCD__SLICE];
   runs->open &= ~lanes;
   if (kept->count == kept->limit) {  // most are shallower than all that is kept: only counted
     const float share = kept->limit ? (1 - kept->items[0].depth) * 1.000001f : 0;
@@ -5987,7 +6034,7 @@ static void nsvcd__runs_close(nsvcd__runs *runs, uint32_t lanes, const nsvcd__wo
   nsvcd__v_store(depth, nsvcd__v_sub(one, nsvcd__v_div(nsvcd__v_sqrt(runs->square), radii)));
   for (; lanes; lanes &= lanes - 1) {
     const size_t l = nsvcd__lowest_bit(lanes), a = (size_t)first[l], b = runs->last, c = (size_t)least_segment[l];
-    nsvcd__candidate candidate = {(uint16_t)(NSVCD__GROUP * g + l),
+    nsvcd__candidate candidate = {(uint16_t)(i + l),
                                   (uint16_t)j,
                                   time[a] + enter[l] * (time[a + 1] - time[a]),
                                   time[b] + leave[l] * (time[b + 1] - time[b]),
@@ -6001,9 +6048,12 @@ static void nsvcd__runs_close(nsvcd__runs *runs, uint32_t lanes, const nsvcd__wo
   }
 }
 
-// The 16 members of moving group g against patch j of the fixed body, in the segments `wanted`.
-static void nsvcd__members_against_patch(const nsvcd__workspace *work, const nsvcd_body *moving, size_t g,
-                                         const nsvcd_body *fixed, size_t j, uint64_t wanted, nsvcd__candidates *kept) {
+// A slice of the members of moving group g, from lane l on, against patch j of the fixed body, in the segments
+// `wanted`. Where a run is cut because it turns too far depends on the others of its slice: where slices are narrow,
+// there are fewer such cuts. No run turns farther than it may.
+static void nsvcd__slice_against_patch(const nsvcd__workspace *work, const nsvcd_body *moving, size_t g, size_t l,
+                                       const nsvcd_body *fixed, size_t j, uint64_t wanted, nsvcd__candidates *kept) {
+  const size_t i = NSVCD__GROUP * g + l;
   const nsvcd__v half = nsvcd__v_set(0.5f), one = nsvcd__v_set(1), zero = nsvcd__v_set(0),
                  r = nsvcd__v_set(nsvcd__body_r(fixed)[j]);
   const nsvcd__v centre[3] = {nsvcd__v_set(nsvcd__body_x(fixed)[j]), nsvcd__v_set(nsvcd__body_y(fixed)[j]),
@@ -6012,12 +6062,12 @@ static void nsvcd__members_against_patch(const nsvcd__workspace *work, const nsv
   for (; wanted; wanted &= wanted - 1) {
     const size_t s = nsvcd__lowest_bit(wanted);
     const nsvcd__chords *c = &work->members[s];
-    NSVCD__TALLY(tests, 1);
-    const nsvcd__v d[3] = {nsvcd__v_sub(nsvcd__v_load(c->x), centre[0]), nsvcd__v_sub(nsvcd__v_load(c->y), centre[1]),
-                           nsvcd__v_sub(nsvcd__v_load(c->z), centre[2])};
-    const nsvcd__v v[3] = {nsvcd__v_load(c->vx), nsvcd__v_load(c->vy), nsvcd__v_load(c->vz)};
-    const nsvcd__v inverse = nsvcd__v_load(c->inverse),
-                   limit = nsvcd__v_signed_square(nsvcd__v_add(nsvcd__v_load(c->reach), r));
+    const nsvcd__v d[3] = {nsvcd__v_sub(nsvcd__v_load(c->x + l), centre[0]),
+                           nsvcd__v_sub(nsvcd__v_load(c->y + l), centre[1]),
+                           nsvcd__v_sub(nsvcd__v_load(c->z + l), centre[2])};
+    const nsvcd__v v[3] = {nsvcd__v_load(c->vx + l), nsvcd__v_load(c->vy + l), nsvcd__v_load(c->vz + l)};
+    const nsvcd__v inverse = nsvcd__v_load(c->inverse + l),
+                   limit = nsvcd__v_signed_square(nsvcd__v_add(nsvcd__v_load(c->reach + l), r));
     const nsvcd__v nearest = nsvcd__v_mul(nsvcd__v_dot3(d, v), inverse), tau = nsvcd__v_clamp(nearest, 0, 1);
     nsvcd__v chord[3], line[3];
     for (size_t k = 0; k < 3; k++) chord[k] = nsvcd__v_fma(tau, v[k], d[k]);
@@ -6027,7 +6077,7 @@ static void nsvcd__members_against_patch(const nsvcd__workspace *work, const nsv
     if (runs.open && (runs.last + 1 != s || work->turn[s + 1] - work->turn[runs.oldest] > NSVCD__RUN_TURN)) {
       ended = runs.open, runs.fresh = one;
     }
-    if (ended) nsvcd__runs_close(&runs, ended, work, moving, g, fixed, j, kept);
+    if (ended) nsvcd__runs_close(&runs, ended, work, moving, i, fixed, j, kept);
     if (!met) {
       runs.fresh = one;
       continue;
@@ -6048,7 +6098,14 @@ static void nsvcd__members_against_patch(const nsvcd__workspace *work, const nsv
     if (!runs.open) runs.oldest = s;
     runs.open = met, runs.last = s;
   }
-  if (runs.open) nsvcd__runs_close(&runs, runs.open, work, moving, g, fixed, j, kept);
+  if (runs.open) nsvcd__runs_close(&runs, runs.open, work, moving, i, fixed, j, kept);
+}
+
+// The 16 members of moving group g against patch j of the fixed body, in the segments `wanted`.
+static void nsvcd__members_against_patch(const nsvcd__workspace *work, const nsvcd_body *moving, size_t g,
+                                         const nsvcd_body *fixed, size_t j, uint64_t wanted, nsvcd__candidates *kept) {
+  NSVCD__TALLY(tests, nsvcd__bit_count(wanted));
+  NSVCD__EACH_SLICE(l) nsvcd__slice_against_patch(work, moving, g, l, fixed, j, wanted, kept);
 }
 
 #endif  // NSVCD_NO_NETWORK
@@ -6063,52 +6120,64 @@ static void nsvcd__chords_of_group(nsvcd__workspace *work, const nsvcd_body *mov
   }
 }
 
+// Grows a slice of boxes, from lane l on, by chords where they are near the fixed body.
+static void nsvcd__boxes_grow(const nsvcd__chords *c, size_t l, const nsvcd_body *fixed, nsvcd__boxes *out) {
+  const nsvcd__v x[3] = {nsvcd__v_load(c->x + l), nsvcd__v_load(c->y + l), nsvcd__v_load(c->z + l)};
+  const nsvcd__v v[3] = {nsvcd__v_load(c->vx + l), nsvcd__v_load(c->vy + l), nsvcd__v_load(c->vz + l)};
+  const nsvcd__v d[3] = {nsvcd__v_sub(x[0], nsvcd__v_set(fixed->centre[0])),
+                         nsvcd__v_sub(x[1], nsvcd__v_set(fixed->centre[1])),
+                         nsvcd__v_sub(x[2], nsvcd__v_set(fixed->centre[2]))};
+  const nsvcd__v reach = nsvcd__v_load(c->reach + l);
+  const nsvcd__v sum = nsvcd__v_add(reach, nsvcd__v_set(fixed->radius));
+  const nsvcd__v square = nsvcd__nearest2(d, v, nsvcd__v_load(c->inverse + l));
+  const nsvcd__v nearby = nsvcd__v_pick(square, nsvcd__v_signed_square(sum), reach, nsvcd__v_set(NSVCD__NOWHERE));
+  for (size_t k = 0; k < 3; k++) {
+    const nsvcd__v end = nsvcd__v_add(x[k], v[k]);
+    const nsvcd__v low = nsvcd__v_sub(nsvcd__v_min(x[k], end), nearby);
+    const nsvcd__v high = nsvcd__v_add(nsvcd__v_max(x[k], end), nearby);
+    nsvcd__v_store(out->low[k] + l, nsvcd__v_min(nsvcd__v_load(out->low[k] + l), low));
+    nsvcd__v_store(out->high[k] + l, nsvcd__v_max(nsvcd__v_load(out->high[k] + l), high));
+  }
+}
+
 // Boxes in which 16 groups of the moving tile, from `first`, stay as long as they are near the fixed body: its axes,
 // metres. Empty ones, low above high, for those that never are. wanted: the segments to look at.
 static void nsvcd__boxes_of_groups(const nsvcd__workspace *work, const nsvcd_body *moving, size_t first,
                                    const nsvcd_body *fixed, uint64_t wanted, nsvcd__boxes *out) {
   const nsvcd__tile *tile = &work->moving_tile;
-  const nsvcd__v nowhere = nsvcd__v_set(NSVCD__NOWHERE), zero = nsvcd__v_set(0);
-  nsvcd__v low[3], high[3];
   NSVCD__TALLY(tests, nsvcd__bit_count(wanted));
-  for (size_t k = 0; k < 3; k++) low[k] = nsvcd__v_sub(zero, nowhere), high[k] = nowhere;
+  for (size_t n = 0; n < 3 * NSVCD__LANES; n++) {
+    out->low[n / NSVCD__LANES][n % NSVCD__LANES] = -NSVCD__NOWHERE;
+    out->high[n / NSVCD__LANES][n % NSVCD__LANES] = NSVCD__NOWHERE;
+  }
   for (; wanted; wanted &= wanted - 1) {
     const size_t s = nsvcd__lowest_bit(wanted);
     nsvcd__chords c;
     nsvcd__chords_of_members(&work->blocks[s / NSVCD__LANES], s % NSVCD__LANES, tile->spheres[0] + first,
                              tile->spheres[1] + first, tile->spheres[2] + first, tile->spheres[3] + first, work->scale,
                              moving->extent, &c);
-    const nsvcd__v x[3] = {nsvcd__v_load(c.x), nsvcd__v_load(c.y), nsvcd__v_load(c.z)};
-    const nsvcd__v v[3] = {nsvcd__v_load(c.vx), nsvcd__v_load(c.vy), nsvcd__v_load(c.vz)};
-    const nsvcd__v d[3] = {nsvcd__v_sub(x[0], nsvcd__v_set(fixed->centre[0])),
-                           nsvcd__v_sub(x[1], nsvcd__v_set(fixed->centre[1])),
-                           nsvcd__v_sub(x[2], nsvcd__v_set(fixed->centre[2]))};
-    const nsvcd__v reach = nsvcd__v_load(c.reach), sum = nsvcd__v_add(reach, nsvcd__v_set(fixed->radius));
-    const nsvcd__v square = nsvcd__nearest2(d, v, nsvcd__v_load(c.inverse));
-    const nsvcd__v nearby = nsvcd__v_pick(square, nsvcd__v_signed_square(sum), reach, nowhere);
-    for (size_t k = 0; k < 3; k++) {
-      const nsvcd__v end = nsvcd__v_add(x[k], v[k]);
-      low[k] = nsvcd__v_min(low[k], nsvcd__v_sub(nsvcd__v_min(x[k], end), nearby));
-      high[k] = nsvcd__v_max(high[k], nsvcd__v_add(nsvcd__v_max(x[k], end), nearby));
-    }
+    NSVCD__EACH_SLICE(l) nsvcd__boxes_grow(&c, l, fixed, out);
   }
-  for (size_t k = 0; k < 3; k++) nsvcd__v_store(out->low[k], low[k]), nsvcd__v_store(out->high[k], high[k]);
 }
 
 // 16 spheres that touch a box.
 static uint32_t nsvcd__spheres_at_box(const float *low, const float *high, const float *x, const float *y, const float *z,
                                       const float *r) {
   const float *centre[3] = {x, y, z};
-  const nsvcd__v zero = nsvcd__v_set(0);
-  nsvcd__v square = zero;
-  for (size_t k = 0; k < 3; k++) {
-    const nsvcd__v c = nsvcd__v_load(centre[k]);
-    const nsvcd__v below = nsvcd__v_sub(nsvcd__v_set(low[k]), c);
-    const nsvcd__v above = nsvcd__v_sub(c, nsvcd__v_set(high[k]));
-    const nsvcd__v d = nsvcd__v_max(nsvcd__v_max(below, above), zero);
-    square = nsvcd__v_fma(d, d, square);
+  uint32_t touched = 0;
+  NSVCD__EACH_SLICE(l) {
+    const nsvcd__v zero = nsvcd__v_set(0);
+    nsvcd__v square = zero;
+    for (size_t k = 0; k < 3; k++) {
+      const nsvcd__v c = nsvcd__v_load(centre[k] + l);
+      const nsvcd__v below = nsvcd__v_sub(nsvcd__v_set(low[k]), c);
+      const nsvcd__v above = nsvcd__v_sub(c, nsvcd__v_set(high[k]));
+      const nsvcd__v d = nsvcd__v_max(nsvcd__v_max(below, above), zero);
+      square = nsvcd__v_fma(d, d, square);
+    }
+    touched |= nsvcd__v_le(square, nsvcd__v_signed_square(nsvcd__v_load(r + l))) << l;
   }
-  return nsvcd__v_le(square, nsvcd__v_signed_square(nsvcd__v_load(r)));
+  return touched;
 }
 
 // Groups of the fixed tile whose spheres touch the box in lane l.
@@ -6196,8 +6265,10 @@ static void nsvcd__tile_fill_all(nsvcd__tile *tile, const nsvcd_body *body) {
 
 // Filters of a walk, given the workspace. All spheres that there are.
 static uint32_t nsvcd__exists(const void *what, const float *x, const float *y, const float *z, const float *r) {
+  uint32_t exists = 0;
   (void)what, (void)x, (void)y, (void)z;
-  return nsvcd__v_le(nsvcd__v_set(0), nsvcd__v_load(r));
+  NSVCD__EACH_SLICE(l) exists |= nsvcd__v_le(nsvcd__v_set(0), nsvcd__v_load(r + l)) << l;
+  return exists;
 }
 
 // Spheres of the moving body that meet that of the fixed one.
