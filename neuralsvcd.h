@@ -4485,16 +4485,18 @@ static nsvcd__f3 nsvcd__facet_centre(const nsvcd__facets *f, size_t patch) {
   return nsvcd__f3_of(nsvcd__body_x(b)[patch], nsvcd__body_y(b)[patch], nsvcd__body_z(b)[patch]);
 }
 
-// Vertices first .. first + 15 of a patch, the last one repeated.
-NSVCD__INLINE nsvcd__v3 nsvcd__facet_vertices(const nsvcd__facets *f, size_t patch, size_t first, size_t count) {
+// Vertices first .. first + 15 of a patch, the last one repeated: the slice of them that begins with lane l.
+NSVCD__INLINE nsvcd__v3 nsvcd__facet_vertices(const nsvcd__facets *f, size_t patch, size_t first, size_t count,
+                                              size_t l) {
   static const float lane[NSVCD__LANES] = {0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15};
   const size_t all = f->first_vertex[patch + 1] - f->first_vertex[patch];
   const int16_t *x = f->vertices + 3 * (size_t)f->first_vertex[patch] + first;
   const nsvcd__v step = nsvcd__v_set(f->steps[patch]);
   const nsvcd__v last = nsvcd__v_set((float)(count - 1));
-  const nsvcd__v index = nsvcd__v_load(lane);
-  nsvcd__v3 q = nsvcd__v3_of(nsvcd__v_load_int16(x), nsvcd__v_load_int16(x + all), nsvcd__v_load_int16(x + 2 * all));
-  if (count < NSVCD__LANES) {
+  const nsvcd__v index = nsvcd__v_load(lane + l);
+  nsvcd__v3 q = nsvcd__v3_of(nsvcd__v_load_int16(x + l), nsvcd__v_load_int16(x + all + l),
+                             nsvcd__v_load_int16(x + 2 * all + l));
+  if (count < l + NSVCD__SLICE) {
     q.x = nsvcd__v_pick(index, last, q.x, nsvcd__v_set((float)x[count - 1]));
     q.y = nsvcd__v_pick(index, last, q.y, nsvcd__v_set((float)x[all + count - 1]));
     q.z = nsvcd__v_pick(index, last, q.z, nsvcd__v_set((float)x[2 * all + count - 1]));
@@ -7265,10 +7267,12 @@ static void nsvcd__part_groups(const nsvcd__proof *p, nsvcd__workspace *work) {
 
 // The hulls of an item's patches, posed, into the workspace.
 static void nsvcd__pose_hulls(nsvcd__proof *p, size_t i, size_t j, const nsvcd__span *span) {
-  const nsvcd__v3 moving = nsvcd__facet_vertices(&p->moving, i, 0, p->moving.hull_counts[i]);
-  nsvcd__v3_store(p->hull_start, 0, nsvcd__v3_transform(&span->start, moving));
-  nsvcd__v3_store(p->hull_end, 0, nsvcd__v3_transform(&span->end, moving));
-  nsvcd__v3_store(p->hull_rest, 0, nsvcd__facet_vertices(&p->fixed, j, 0, p->fixed.hull_counts[j]));
+  NSVCD__EACH_SLICE(l) {
+    const nsvcd__v3 moving = nsvcd__facet_vertices(&p->moving, i, 0, p->moving.hull_counts[i], l);
+    nsvcd__v3_store(p->hull_start, l, nsvcd__v3_transform(&span->start, moving));
+    nsvcd__v3_store(p->hull_end, l, nsvcd__v3_transform(&span->end, moving));
+    nsvcd__v3_store(p->hull_rest, l, nsvcd__facet_vertices(&p->fixed, j, 0, p->fixed.hull_counts[j], l));
+  }
 }
 
 static nsvcd__f3 nsvcd__lane_of(float (*lanes)[NSVCD__LANES], size_t l) {
@@ -7283,18 +7287,36 @@ typedef struct nsvcd__support {
   nsvcd__f3 difference;
 } nsvcd__support;
 
+// The lesser of the least number so far and that of a slice. What is no number stays none, and parts nothing.
+static inline float nsvcd__least_of(float least, float of_slice) {
+  return least < of_slice || least != least ? least : of_slice;
+}
+
 NSVCD__INLINE nsvcd__support nsvcd__support_along(nsvcd__proof *p, nsvcd__f3 normal) {
-  const nsvcd__v3 n = nsvcd__v3_set(normal);
-  const nsvcd__v at_start = nsvcd__v3_dot(n, nsvcd__v3_load(p->hull_start, 0));
-  const nsvcd__v at_end = nsvcd__v3_dot(n, nsvcd__v3_load(p->hull_end, 0));
-  const nsvcd__v at_rest = nsvcd__v_negate(nsvcd__v3_dot(n, nsvcd__v3_load(p->hull_rest, 0)));
-  const nsvcd__v at_either = nsvcd__v_min(at_start, at_end);
-  const float lowest = nsvcd__v_least(at_either);
-  const float highest = -nsvcd__v_least(at_rest);
+  float either[NSVCD__LANES], rest[NSVCD__LANES];  // the moving side's lower heights, and the resting side's, negated
+  float lowest = HUGE_VALF, lowest_rest = HUGE_VALF;
+  uint32_t starts = 0, least = 0, least_rest = 0;
+  NSVCD__EACH_SLICE(l) {
+    const nsvcd__v3 n = nsvcd__v3_set(normal);
+    const nsvcd__v at_start = nsvcd__v3_dot(n, nsvcd__v3_load(p->hull_start, l));
+    const nsvcd__v at_end = nsvcd__v3_dot(n, nsvcd__v3_load(p->hull_end, l));
+    const nsvcd__v at_rest = nsvcd__v_negate(nsvcd__v3_dot(n, nsvcd__v3_load(p->hull_rest, l)));
+    const nsvcd__v at_either = nsvcd__v_min(at_start, at_end);
+    nsvcd__v_store(either + l, at_either);
+    nsvcd__v_store(rest + l, at_rest);
+    lowest = nsvcd__least_of(lowest, nsvcd__v_least(at_either));
+    lowest_rest = nsvcd__least_of(lowest_rest, nsvcd__v_least(at_rest));
+    starts |= nsvcd__v_le(at_start, at_end) << l;
+  }
+  NSVCD__EACH_SLICE(l) {
+    least |= nsvcd__v_le(nsvcd__v_load(either + l), nsvcd__v_set(lowest)) << l;
+    least_rest |= nsvcd__v_le(nsvcd__v_load(rest + l), nsvcd__v_set(lowest_rest)) << l;
+  }
+  const float highest = -lowest_rest;
   // Were a number not one, no lane would compare: then the last one.
-  const size_t a = nsvcd__lowest_bit(nsvcd__v_le(at_either, nsvcd__v_set(lowest)) | 0x8000);
-  const size_t b = nsvcd__lowest_bit(nsvcd__v_le(at_rest, nsvcd__v_set(-highest)) | 0x8000);
-  const int is_start = (nsvcd__v_le(at_start, at_end) >> a & 1) != 0;
+  const size_t a = nsvcd__lowest_bit(least | 0x8000);
+  const size_t b = nsvcd__lowest_bit(least_rest | 0x8000);
+  const int is_start = (starts >> a & 1) != 0;
   const nsvcd__f3 moving = nsvcd__lane_of(is_start ? p->hull_start : p->hull_end, a);
   const nsvcd__support out = {lowest - highest, nsvcd__f3_sub(moving, nsvcd__lane_of(p->hull_rest, b))};
   return out;
@@ -8219,7 +8241,7 @@ static float nsvcd__least_height(nsvcd__proof *p, const nsvcd__span *span, size_
   nsvcd__height *known = &p->heights[(NSVCD__GROUP * s + i % NSVCD__GROUP) % NSVCD__HEIGHTS];
   if (known->plane == p->plane && known->key == key) return known->height;
   const nsvcd__v3 n = nsvcd__v3_set(p->held);
-  const nsvcd__v3 hull = nsvcd__facet_vertices(&p->moving, i, 0, p->moving.hull_counts[i]);
+  const nsvcd__v3 hull = nsvcd__facet_vertices(&p->moving, i, 0, p->moving.hull_counts[i], 0);
   const nsvcd__v at_start = nsvcd__v3_dot(n, nsvcd__v3_transform(&span->start, hull));
   const nsvcd__v at_end = nsvcd__v3_dot(n, nsvcd__v3_transform(&span->end, hull));
   const float lowest = nsvcd__v_least(nsvcd__v_min(at_start, at_end));
@@ -8234,7 +8256,7 @@ static float nsvcd__least_height(nsvcd__proof *p, const nsvcd__span *span, size_
 static float nsvcd__greatest_height(nsvcd__proof *p, size_t j) {
   nsvcd__height *known = &p->rest_heights[j % NSVCD__REST_HEIGHTS];
   if (known->plane == p->plane && known->key == j) return known->height;
-  const nsvcd__v3 hull = nsvcd__facet_vertices(&p->fixed, j, 0, p->fixed.hull_counts[j]);
+  const nsvcd__v3 hull = nsvcd__facet_vertices(&p->fixed, j, 0, p->fixed.hull_counts[j], 0);
   const float highest = -nsvcd__v_least(nsvcd__v_negate(nsvcd__v3_dot(nsvcd__v3_set(p->held), hull)));
   known->plane = p->plane;
   known->key = (uint32_t)j;
@@ -8855,8 +8877,8 @@ static NSVCD__APART double nsvcd__guess_clearance(nsvcd__proof *p, const nsvcd__
     }
   }
   float lanes[3][NSVCD__LANES], least_square = HUGE_VALF;
-  const nsvcd__v3 rest = nsvcd__facet_vertices(&p->fixed, j, 0, p->fixed.hull_counts[j]);
-  const nsvcd__v3 moving = nsvcd__facet_vertices(&p->moving, i, 0, p->moving.hull_counts[i]);
+  const nsvcd__v3 rest = nsvcd__facet_vertices(&p->fixed, j, 0, p->fixed.hull_counts[j], 0);
+  const nsvcd__v3 moving = nsvcd__facet_vertices(&p->moving, i, 0, p->moving.hull_counts[i], 0);
   nsvcd__v3_store(lanes, 0, nsvcd__v3_transform(&pose, moving));
   for (size_t l = 0; l < NSVCD__LANES; l++) {
     const nsvcd__v3 d = nsvcd__v3_sub(rest, nsvcd__v3_set(nsvcd__f3_of(lanes[0][l], lanes[1][l], lanes[2][l])));
