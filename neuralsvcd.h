@@ -7050,7 +7050,7 @@ NSVCD__INLINE nsvcd__v_approach nsvcd__v_approach_load(const nsvcd__approach *a,
 }
 
 #ifdef NSVCD__CERTIFIES
-// The lanes `apart` of a slice: their plane is normal to theirs of `plane`, the moving side on the other in `below`.
+// Lanes `apart` of a slice, their planes normal to `plane`. In lanes `below` the moving side is on the other side.
 static void nsvcd__certify_discs(const nsvcd__approach *a, const nsvcd__span *span, size_t l, uint32_t apart,
                                  uint32_t below, nsvcd__v3 plane) {
   float lanes[3][NSVCD__LANES];
