@@ -4488,16 +4488,18 @@ static nsvcd__f3 nsvcd__facet_centre(const nsvcd__facets *f, size_t patch) {
   return nsvcd__f3_of(nsvcd__body_x(b)[patch], nsvcd__body_y(b)[patch], nsvcd__body_z(b)[patch]);
 }
 
-// Vertices first .. first + 15 of a patch, the last one repeated.
-NSVCD__INLINE nsvcd__v3 nsvcd__facet_vertices(const nsvcd__facets *f, size_t patch, size_t first, size_t count) {
+// Vertices first .. first + 15 of a patch, the last one repeated: the slice of them that begins with lane l.
+NSVCD__INLINE nsvcd__v3 nsvcd__facet_vertices(const nsvcd__facets *f, size_t patch, size_t first, size_t count,
+                                              size_t l) {
   static const float lane[NSVCD__LANES] = {0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15};
   const size_t all = f->first_vertex[patch + 1] - f->first_vertex[patch];
   const int16_t *x = f->vertices + 3 * (size_t)f->first_vertex[patch] + first;
   const nsvcd__v step = nsvcd__v_set(f->steps[patch]);
   const nsvcd__v last = nsvcd__v_set((float)(count - 1));
-  const nsvcd__v index = nsvcd__v_load(lane);
-  nsvcd__v3 q = nsvcd__v3_of(nsvcd__v_load_int16(x), nsvcd__v_load_int16(x + all), nsvcd__v_load_int16(x + 2 * all));
-  if (count < NSVCD__LANES) {
+  const nsvcd__v index = nsvcd__v_load(lane + l);
+  nsvcd__v3 q = nsvcd__v3_of(nsvcd__v_load_int16(x + l), nsvcd__v_load_int16(x + all + l),
+                             nsvcd__v_load_int16(x + 2 * all + l));
+  if (count < l + NSVCD__SLICE) {
     q.x = nsvcd__v_pick(index, last, q.x, nsvcd__v_set((float)x[count - 1]));
     q.y = nsvcd__v_pick(index, last, q.y, nsvcd__v_set((float)x[all + count - 1]));
     q.z = nsvcd__v_pick(index, last, q.z, nsvcd__v_set((float)x[2 * all + count - 1]));
@@ -7000,7 +7002,7 @@ static float nsvcd__deviation(const nsvcd__span *span, nsvcd__f3 n, float reach)
   return drift + reach * (along * span->bulge_along_axis + across * span->bulge);
 }
 
-// The same for 16 directions, or one direction in 16 spans.
+// The same for a slice of directions, or one direction in a slice of spans.
 typedef struct nsvcd__v_span {
   nsvcd__v3 axis, way;
   nsvcd__v rounding, drift, bulge, bulge_along_axis, drift_along_axis, drift_off_way;
@@ -7018,16 +7020,19 @@ NSVCD__INLINE nsvcd__v_span nsvcd__v_span_set(const nsvcd__span *span) {
   out.drift_off_way = nsvcd__v_set(span->drift_off_way);
   return out;
 }
-NSVCD__INLINE nsvcd__v_span nsvcd__v_span_load(const nsvcd__segments *block) {
+// Lanes l and on of a block.
+NSVCD__INLINE nsvcd__v_span nsvcd__v_span_load(const nsvcd__segments *block, size_t l) {
   nsvcd__v_span out;
-  out.axis = nsvcd__v3_of(nsvcd__v_load(block->axis[0]), nsvcd__v_load(block->axis[1]), nsvcd__v_load(block->axis[2]));
-  out.way = nsvcd__v3_of(nsvcd__v_load(block->way[0]), nsvcd__v_load(block->way[1]), nsvcd__v_load(block->way[2]));
-  out.rounding = nsvcd__v_load(block->rounding);
-  out.drift = nsvcd__v_load(block->drift);
-  out.bulge = nsvcd__v_load(block->bulge);
-  out.bulge_along_axis = nsvcd__v_load(block->bulge_along_axis);
-  out.drift_along_axis = nsvcd__v_load(block->drift_along_axis);
-  out.drift_off_way = nsvcd__v_load(block->drift_off_way);
+  out.axis = nsvcd__v3_of(nsvcd__v_load(block->axis[0] + l), nsvcd__v_load(block->axis[1] + l),
+                          nsvcd__v_load(block->axis[2] + l));
+  out.way = nsvcd__v3_of(nsvcd__v_load(block->way[0] + l), nsvcd__v_load(block->way[1] + l),
+                         nsvcd__v_load(block->way[2] + l));
+  out.rounding = nsvcd__v_load(block->rounding + l);
+  out.drift = nsvcd__v_load(block->drift + l);
+  out.bulge = nsvcd__v_load(block->bulge + l);
+  out.bulge_along_axis = nsvcd__v_load(block->bulge_along_axis + l);
+  out.drift_along_axis = nsvcd__v_load(block->drift_along_axis + l);
+  out.drift_off_way = nsvcd__v_load(block->drift_off_way + l);
   return out;
 }
 NSVCD__INLINE nsvcd__v nsvcd__v_deviation(const nsvcd__v_span *span, nsvcd__v3 n, float reach) {
@@ -7058,7 +7063,7 @@ static float nsvcd__patch_reach(const nsvcd__facets *f, size_t patch) {
 
 // ---- discs
 
-// What all 16 patches of a moving group reach along a direction, from their centres.
+// What a slice of the 16 patches of a moving group reaches along a direction, from their centres.
 typedef struct nsvcd__reach_along {
   nsvcd__v low, high;
 } nsvcd__reach_along;
@@ -7079,120 +7084,163 @@ static inline nsvcd__f3 nsvcd__f3_rotate_back(const float *m, nsvcd__f3 a) {
                       m[2] * a.x + m[5] * a.y + m[8] * a.z);
 }
 
-// What a lane of a group, in a segment, looks like to a resting patch.
+// The lanes of a slice among 16.
+static inline uint32_t nsvcd__lanes_of_slice(uint32_t lanes, size_t l) {
+  return lanes >> l & (((uint32_t)1 << NSVCD__SLICE) - 1);
+}
+
+// What a moving group, in a segment, looks like to a resting patch.
 typedef struct nsvcd__approach {
-  nsvcd__v3 from, chord;       // from the resting centre to the moving one, and its way
-  nsvcd__v3 normal;            // of the moving disc, its body's frame
-  nsvcd__v low, high, across;  // of the moving disc, in its body's units
-  float scale, per_scale;      // of the moving body
-  float reach;                 // no point of the group is farther from the body's origin, in its body's units
+  size_t group, patch;          // the moving group, the resting patch
+  nsvcd__f3 centre;             // of the resting patch
+  const nsvcd__chords *chords;  // of the group's patches,
+  const float *discs;           // and their discs, in the moving body's units (6, stride)
+  size_t stride;
+  float scale, per_scale;  // of the moving body
+  float reach;             // no point of the group is farther from the body's origin, in its body's units
   float clearance;
 } nsvcd__approach;
 
-// Lanes that the plane normal to the resting disc parts: on the side of its normal, or on the other (`below`).
-static uint32_t nsvcd__apart_by_fixed_disc(const nsvcd__approach *a, const nsvcd__span *span, nsvcd__f3 normal,
-                                           float low, float high, uint32_t *below) {
-  const nsvcd__v3 n = nsvcd__v3_set(normal);
-  const nsvcd__v3 at_start = nsvcd__v3_set(nsvcd__f3_rotate_back(span->start.rotation, normal));
-  const nsvcd__v3 at_end = nsvcd__v3_set(nsvcd__f3_rotate_back(span->end.rotation, normal));
-  const nsvcd__v side_start = nsvcd__v3_length(nsvcd__v3_cross(at_start, a->normal));
-  const nsvcd__v side_end = nsvcd__v3_length(nsvcd__v3_cross(at_end, a->normal));
-  const nsvcd__reach_along start =
-      nsvcd__disc_along(a->low, a->high, a->across, nsvcd__v3_dot(at_start, a->normal), side_start);
-  const nsvcd__reach_along end =
-      nsvcd__disc_along(a->low, a->high, a->across, nsvcd__v3_dot(at_end, a->normal), side_end);
+// A slice of it, lane by lane.
+typedef struct nsvcd__v_approach {
+  nsvcd__v3 from, chord;       // from the resting centre to the moving one, and its way
+  nsvcd__v3 normal;            // of the moving disc, its body's frame
+  nsvcd__v low, high, across;  // of the moving disc, in its body's units
+} nsvcd__v_approach;
 
-  const nsvcd__v height = nsvcd__v3_dot(n, a->from);
-  const nsvcd__v height_end = nsvcd__v_add(height, nsvcd__v3_dot(n, a->chord));
-  const nsvcd__v lowest = nsvcd__v_min(nsvcd__v_add(height, start.low), nsvcd__v_add(height_end, end.low));
-  const nsvcd__v highest = nsvcd__v_max(nsvcd__v_add(height, start.high), nsvcd__v_add(height_end, end.high));
+NSVCD__INLINE nsvcd__v_approach nsvcd__v_approach_load(const nsvcd__approach *a, size_t l) {
+  const nsvcd__chords *c = a->chords;
+  const float *d = a->discs + l;
+  const size_t stride = a->stride;
+  const nsvcd__v3 start = nsvcd__v3_of(nsvcd__v_load(c->x + l), nsvcd__v_load(c->y + l), nsvcd__v_load(c->z + l));
+  nsvcd__v_approach out;
+  out.from = nsvcd__v3_sub(start, nsvcd__v3_set(a->centre));
+  out.chord = nsvcd__v3_of(nsvcd__v_load(c->vx + l), nsvcd__v_load(c->vy + l), nsvcd__v_load(c->vz + l));
+  out.normal = nsvcd__v3_of(nsvcd__v_load(d), nsvcd__v_load(d + stride), nsvcd__v_load(d + 2 * stride));
+  out.low = nsvcd__v_load(d + 3 * stride);
+  out.high = nsvcd__v_load(d + 4 * stride);
+  out.across = nsvcd__v_load(d + 5 * stride);
+  return out;
+}
+
+#ifdef NSVCD__CERTIFIES
+// Lanes `apart` of a slice, their planes normal to `plane`. In lanes `below` the moving side is on the other side.
+static void nsvcd__certify_discs(const nsvcd__approach *a, const nsvcd__span *span, size_t l, uint32_t apart,
+                                 uint32_t below, nsvcd__v3 plane) {
+  float lanes[3][NSVCD__LANES];
+  nsvcd__v3_store(lanes, l, plane);
+  for (size_t k = 0; k < NSVCD__SLICE; k++) {
+    const float sign = below >> k & 1 ? -1.0f : 1.0f;
+    const float normal[3] = {sign * lanes[0][l + k], sign * lanes[1][l + k], sign * lanes[2][l + k]};
+    if (apart >> k & 1) {
+      NSVCD__CERTIFY(NSVCD__BY_DISC, NSVCD__GROUP * a->group + l + k, a->patch, NSVCD_NONE, NSVCD_NONE, span->t_start,
+                     span->t_end, normal);
+    }
+  }
+}
+#define NSVCD__CERTIFY_DISCS(a, span, l, apart, below, plane) nsvcd__certify_discs(a, span, l, apart, below, plane)
+#else
+#define NSVCD__CERTIFY_DISCS(a, span, l, apart, below, plane) ((void)0)
+#endif
+
+// Lanes of `met` that the plane normal to the resting disc parts: on the side of its normal, or on the other (`below`).
+static uint32_t nsvcd__apart_by_fixed_disc(const nsvcd__approach *a, const nsvcd__span *span, nsvcd__f3 normal,
+                                           float low, float high, uint32_t met) {
+  const nsvcd__f3 normal_at_start = nsvcd__f3_rotate_back(span->start.rotation, normal);
+  const nsvcd__f3 normal_at_end = nsvcd__f3_rotate_back(span->end.rotation, normal);
   const float deviation = a->clearance + span->rounding + nsvcd__deviation(span, normal, a->reach);
-  *below = nsvcd__v_lt(highest, nsvcd__v_set(low - deviation));
-  return nsvcd__v_lt(nsvcd__v_set(high + deviation), lowest) | *below;
+  uint32_t apart = 0;
+  NSVCD__EACH_SLICE(l) {
+    const uint32_t wanted = nsvcd__lanes_of_slice(met, l);
+    if (!wanted) continue;
+    const nsvcd__v_approach seen = nsvcd__v_approach_load(a, l);
+    const nsvcd__v3 n = nsvcd__v3_set(normal);
+    const nsvcd__v3 at_start = nsvcd__v3_set(normal_at_start);
+    const nsvcd__v3 at_end = nsvcd__v3_set(normal_at_end);
+    const nsvcd__v side_start = nsvcd__v3_length(nsvcd__v3_cross(at_start, seen.normal));
+    const nsvcd__v side_end = nsvcd__v3_length(nsvcd__v3_cross(at_end, seen.normal));
+    const nsvcd__reach_along start =
+        nsvcd__disc_along(seen.low, seen.high, seen.across, nsvcd__v3_dot(at_start, seen.normal), side_start);
+    const nsvcd__reach_along end =
+        nsvcd__disc_along(seen.low, seen.high, seen.across, nsvcd__v3_dot(at_end, seen.normal), side_end);
+
+    const nsvcd__v height = nsvcd__v3_dot(n, seen.from);
+    const nsvcd__v height_end = nsvcd__v_add(height, nsvcd__v3_dot(n, seen.chord));
+    const nsvcd__v lowest = nsvcd__v_min(nsvcd__v_add(height, start.low), nsvcd__v_add(height_end, end.low));
+    const nsvcd__v highest = nsvcd__v_max(nsvcd__v_add(height, start.high), nsvcd__v_add(height_end, end.high));
+    const uint32_t below = nsvcd__v_lt(highest, nsvcd__v_set(low - deviation));
+    const uint32_t above = nsvcd__v_lt(nsvcd__v_set(high + deviation), lowest);
+    const uint32_t parted = (above | below) & wanted;
+    NSVCD__CERTIFY_DISCS(a, span, l, parted, below, n);
+    apart |= parted << l;
+  }
+  return apart;
 }
 
 // The same with the plane normal to the mean w of the moving disc's normals m0 and m1 at both ends. |w| <= 1. These
 // normals make the same angle with w: along it they are |w|^2, across it no more than half of what they differ by.
 static uint32_t nsvcd__apart_by_moving_disc(const nsvcd__approach *a, const nsvcd__span *span, nsvcd__f3 normal,
-                                            float low, float high, float across, nsvcd__v3 *plane, uint32_t *below) {
+                                            float low, float high, float across, uint32_t met) {
   const float half = 0.5f * a->per_scale;  // rotations in a span are times the scale
-  const nsvcd__v scale = nsvcd__v_set(a->scale);
+  uint32_t apart = 0;
   nsvcd__transform middle, half_turn;
   for (size_t i = 0; i < 9; i++) {
     half_turn.rotation[i] = half * (span->end.rotation[i] - span->start.rotation[i]);
     middle.rotation[i] = half * (span->end.rotation[i] + span->start.rotation[i]);
   }
   middle.position = half_turn.position = nsvcd__f3_of(0, 0, 0);
-  const nsvcd__v3 w = nsvcd__v3_transform(&middle, a->normal);
-  const nsvcd__v3 n = nsvcd__v3_set(normal);
-  const nsvcd__v turned = nsvcd__v3_length(nsvcd__v3_transform(&half_turn, a->normal));
-  const nsvcd__reach_along moving = nsvcd__disc_along(
-      a->low, a->high, a->across, nsvcd__v_mul(scale, nsvcd__v3_dot(w, w)), nsvcd__v_mul(scale, turned));
-  const nsvcd__reach_along fixed = nsvcd__disc_along(nsvcd__v_set(low), nsvcd__v_set(high), nsvcd__v_set(across),
-                                                     nsvcd__v3_dot(w, n), nsvcd__v3_length(nsvcd__v3_cross(w, n)));
+  NSVCD__EACH_SLICE(l) {
+    const uint32_t wanted = nsvcd__lanes_of_slice(met, l);
+    if (!wanted) continue;
+    const nsvcd__v_approach seen = nsvcd__v_approach_load(a, l);
+    const nsvcd__v scale = nsvcd__v_set(a->scale);
+    const nsvcd__v3 w = nsvcd__v3_transform(&middle, seen.normal);
+    const nsvcd__v3 n = nsvcd__v3_set(normal);
+    const nsvcd__v turned = nsvcd__v3_length(nsvcd__v3_transform(&half_turn, seen.normal));
+    const nsvcd__reach_along moving =
+        nsvcd__disc_along(seen.low, seen.high, seen.across, nsvcd__v_mul(scale, nsvcd__v3_dot(w, w)),
+                          nsvcd__v_mul(scale, turned));
+    const nsvcd__reach_along fixed = nsvcd__disc_along(nsvcd__v_set(low), nsvcd__v_set(high), nsvcd__v_set(across),
+                                                       nsvcd__v3_dot(w, n), nsvcd__v3_length(nsvcd__v3_cross(w, n)));
 
-  const nsvcd__v height = nsvcd__v3_dot(w, a->from);
-  const nsvcd__v height_end = nsvcd__v_add(height, nsvcd__v3_dot(w, a->chord));
-  const nsvcd__v_span spans = nsvcd__v_span_set(span);
-  const nsvcd__v allowed = nsvcd__v_set(span->rounding + a->clearance);
-  const nsvcd__v deviation = nsvcd__v_add(allowed, nsvcd__v_deviation(&spans, w, a->reach));
-  const nsvcd__v lowest = nsvcd__v_add(nsvcd__v_min(height, height_end), moving.low);
-  const nsvcd__v highest = nsvcd__v_add(nsvcd__v_max(height, height_end), moving.high);
-  *plane = w;
-  *below = nsvcd__v_lt(highest, nsvcd__v_sub(fixed.low, deviation));
-  return nsvcd__v_lt(nsvcd__v_add(fixed.high, deviation), lowest) | *below;
-}
-
-#ifdef NSVCD__CERTIFIES
-static void nsvcd__certify_discs(size_t g, size_t j, const nsvcd__span *span, uint32_t apart, uint32_t below,
-                                 nsvcd__v3 plane) {
-  float lanes[3][NSVCD__LANES];
-  nsvcd__v3_store(lanes, 0, plane);
-  for (size_t l = 0; l < NSVCD__LANES; l++) {
-    const float sign = below >> l & 1 ? -1.0f : 1.0f;
-    const float normal[3] = {sign * lanes[0][l], sign * lanes[1][l], sign * lanes[2][l]};
-    if (apart >> l & 1) {
-      NSVCD__CERTIFY(NSVCD__BY_DISC, NSVCD__GROUP * g + l, j, NSVCD_NONE, NSVCD_NONE, span->t_start, span->t_end, normal);
-    }
+    const nsvcd__v height = nsvcd__v3_dot(w, seen.from);
+    const nsvcd__v height_end = nsvcd__v_add(height, nsvcd__v3_dot(w, seen.chord));
+    const nsvcd__v_span spans = nsvcd__v_span_set(span);
+    const nsvcd__v allowed = nsvcd__v_set(span->rounding + a->clearance);
+    const nsvcd__v deviation = nsvcd__v_add(allowed, nsvcd__v_deviation(&spans, w, a->reach));
+    const nsvcd__v lowest = nsvcd__v_add(nsvcd__v_min(height, height_end), moving.low);
+    const nsvcd__v highest = nsvcd__v_add(nsvcd__v_max(height, height_end), moving.high);
+    const uint32_t below = nsvcd__v_lt(highest, nsvcd__v_sub(fixed.low, deviation));
+    const uint32_t above = nsvcd__v_lt(nsvcd__v_add(fixed.high, deviation), lowest);
+    const uint32_t parted = (above | below) & wanted;
+    NSVCD__CERTIFY_DISCS(a, span, l, parted, below, w);
+    apart |= parted << l;
   }
+  return apart;
 }
-#define NSVCD__CERTIFY_DISCS(g, j, span, apart, below, plane) nsvcd__certify_discs(g, j, span, apart, below, plane)
-#else
-#define NSVCD__CERTIFY_DISCS(g, j, span, apart, below, plane) ((void)(plane), (void)(below))
-#endif
 
 // Of the lanes `met` of moving group g in a segment, those that discs do not part from resting patch j.
 static uint32_t nsvcd__discs_meet(const nsvcd__proof *p, const nsvcd__chords *c, size_t g, size_t j,
                                   const nsvcd__span *span, float reach, uint32_t met) {
-  const size_t i = NSVCD__GROUP * g;
-  const size_t moving_padded = p->moving.body->padded;
   const size_t fixed_padded = p->fixed.body->padded;
-  const float *m = p->moving.discs + i;
   const float *f = p->fixed.discs + j;
   const nsvcd__f3 normal = nsvcd__f3_of(f[0], f[fixed_padded], f[2 * fixed_padded]);
   const float low = f[3 * fixed_padded], high = f[4 * fixed_padded], across = f[5 * fixed_padded];
   nsvcd__approach a;
-  const nsvcd__v3 start = nsvcd__v3_of(nsvcd__v_load(c->x), nsvcd__v_load(c->y), nsvcd__v_load(c->z));
-  a.from = nsvcd__v3_sub(start, nsvcd__v3_set(nsvcd__facet_centre(&p->fixed, j)));
-  a.chord = nsvcd__v3_of(nsvcd__v_load(c->vx), nsvcd__v_load(c->vy), nsvcd__v_load(c->vz));
-  a.normal = nsvcd__v3_of(nsvcd__v_load(m), nsvcd__v_load(m + moving_padded), nsvcd__v_load(m + 2 * moving_padded));
-  a.low = nsvcd__v_load(m + 3 * moving_padded);
-  a.high = nsvcd__v_load(m + 4 * moving_padded);
-  a.across = nsvcd__v_load(m + 5 * moving_padded);
+  a.group = g;
+  a.patch = j;
+  a.centre = nsvcd__facet_centre(&p->fixed, j);
+  a.chords = c;
+  a.discs = p->moving.discs + NSVCD__GROUP * g;
+  a.stride = p->moving.body->padded;
   a.scale = p->motion->scale;
   a.per_scale = p->motion->per_scale;
   a.reach = reach;
   a.clearance = nsvcd__clearance_of(p);
 
-  uint32_t below;
-  uint32_t apart = nsvcd__apart_by_fixed_disc(&a, span, normal, low, high, &below) & met;
-  nsvcd__v3 plane = nsvcd__v3_set(normal);
-  NSVCD__CERTIFY_DISCS(g, j, span, apart, below, plane);
-  met &= ~apart;
+  met &= ~nsvcd__apart_by_fixed_disc(&a, span, normal, low, high, met);
   if (!met) return 0;
-  apart = nsvcd__apart_by_moving_disc(&a, span, normal, low, high, across, &plane, &below) & met;
-  NSVCD__CERTIFY_DISCS(g, j, span, apart, below, plane);
-  return met & ~apart;
+  return met & ~nsvcd__apart_by_moving_disc(&a, span, normal, low, high, across, met);
 }
 
 // ---- discs of groups, 16 segments at a time
@@ -7218,33 +7266,33 @@ NSVCD__INLINE nsvcd__reach_along nsvcd__one_disc_along(const nsvcd__disc *disc, 
   return nsvcd__disc_along(nsvcd__v_set(disc->low), nsvcd__v_set(disc->high), nsvcd__v_set(disc->across), along, across);
 }
 
-// 16 matrices, (9, LANES), times one vector; and back.
-NSVCD__INLINE nsvcd__v3 nsvcd__v3_turned(float (*m)[NSVCD__LANES], nsvcd__f3 a) {
+// A slice of 16 matrices, (9, LANES), times one vector; and back.
+NSVCD__INLINE nsvcd__v3 nsvcd__v3_turned(float (*m)[NSVCD__LANES], size_t l, nsvcd__f3 a) {
   const nsvcd__v3 v = nsvcd__v3_set(a);
-  return nsvcd__v3_of(nsvcd__v3_dot(nsvcd__v3_load(m, 0), v), nsvcd__v3_dot(nsvcd__v3_load(m + 3, 0), v),
-                      nsvcd__v3_dot(nsvcd__v3_load(m + 6, 0), v));
+  return nsvcd__v3_of(nsvcd__v3_dot(nsvcd__v3_load(m, l), v), nsvcd__v3_dot(nsvcd__v3_load(m + 3, l), v),
+                      nsvcd__v3_dot(nsvcd__v3_load(m + 6, l), v));
 }
-NSVCD__INLINE nsvcd__v3 nsvcd__v3_turned_back(float (*m)[NSVCD__LANES], nsvcd__f3 a) {
-  const nsvcd__v3 sum = nsvcd__v3_scale(nsvcd__v3_load(m, 0), nsvcd__v_set(a.x));
-  return nsvcd__v3_fma(nsvcd__v_set(a.z), nsvcd__v3_load(m + 6, 0),
-                       nsvcd__v3_fma(nsvcd__v_set(a.y), nsvcd__v3_load(m + 3, 0), sum));
+NSVCD__INLINE nsvcd__v3 nsvcd__v3_turned_back(float (*m)[NSVCD__LANES], size_t l, nsvcd__f3 a) {
+  const nsvcd__v3 sum = nsvcd__v3_scale(nsvcd__v3_load(m, l), nsvcd__v_set(a.x));
+  return nsvcd__v3_fma(nsvcd__v_set(a.z), nsvcd__v3_load(m + 6, l),
+                       nsvcd__v3_fma(nsvcd__v_set(a.y), nsvcd__v3_load(m + 3, l), sum));
 }
 
-// Segments of a block in which discs part a moving group from a resting one. The planes are those of single discs,
-// nsvcd__apart_by_fixed_disc and nsvcd__apart_by_moving_disc, with all in lanes but the discs.
-static uint32_t nsvcd__groups_apart(nsvcd__segments *block, const nsvcd__chords *c, const nsvcd__disc *moving,
+// Of a slice of a block's segments, those in which discs part a moving group from a resting one. The planes are those of
+// single discs, nsvcd__apart_by_fixed_disc and nsvcd__apart_by_moving_disc, with all in lanes but the discs.
+static uint32_t nsvcd__groups_apart(nsvcd__segments *block, const nsvcd__chords *c, size_t l, const nsvcd__disc *moving,
                                     const nsvcd__disc *fixed, nsvcd__f3 fixed_centre, float scale, float reach,
                                     float clearance, nsvcd__v3 *planes, uint32_t *below) {
-  const nsvcd__v_span spans = nsvcd__v_span_load(block);
+  const nsvcd__v_span spans = nsvcd__v_span_load(block, l);
   const nsvcd__v allowed = nsvcd__v_add(spans.rounding, nsvcd__v_set(clearance));
   const nsvcd__v3 n = nsvcd__v3_set(fixed->normal);
   const nsvcd__v3 m = nsvcd__v3_set(moving->normal);
-  const nsvcd__v3 from = nsvcd__v3_sub(nsvcd__v3_of(nsvcd__v_load(c->x), nsvcd__v_load(c->y), nsvcd__v_load(c->z)),
-                                       nsvcd__v3_set(fixed_centre));
-  const nsvcd__v3 chord = nsvcd__v3_of(nsvcd__v_load(c->vx), nsvcd__v_load(c->vy), nsvcd__v_load(c->vz));
+  const nsvcd__v3 centre = nsvcd__v3_of(nsvcd__v_load(c->x + l), nsvcd__v_load(c->y + l), nsvcd__v_load(c->z + l));
+  const nsvcd__v3 from = nsvcd__v3_sub(centre, nsvcd__v3_set(fixed_centre));
+  const nsvcd__v3 chord = nsvcd__v3_of(nsvcd__v_load(c->vx + l), nsvcd__v_load(c->vy + l), nsvcd__v_load(c->vz + l));
 
-  const nsvcd__v3 at_start = nsvcd__v3_turned_back(block->rotation, fixed->normal);
-  const nsvcd__v3 at_end = nsvcd__v3_add(at_start, nsvcd__v3_turned_back(block->turned, fixed->normal));
+  const nsvcd__v3 at_start = nsvcd__v3_turned_back(block->rotation, l, fixed->normal);
+  const nsvcd__v3 at_end = nsvcd__v3_add(at_start, nsvcd__v3_turned_back(block->turned, l, fixed->normal));
   const nsvcd__reach_along start = nsvcd__one_disc_along(moving, nsvcd__v3_dot(at_start, m),
                                                          nsvcd__v3_length(nsvcd__v3_cross(at_start, m)));
   const nsvcd__reach_along end =
@@ -7258,8 +7306,8 @@ static uint32_t nsvcd__groups_apart(nsvcd__segments *block, const nsvcd__chords 
   const uint32_t by_fixed = nsvcd__v_lt(nsvcd__v_add(nsvcd__v_set(fixed->high), deviation), lowest) | below[0];
 
   const nsvcd__v half = nsvcd__v_set(0.5f / scale), whole = nsvcd__v_set(1 / scale), size = nsvcd__v_set(scale);
-  const nsvcd__v3 turned = nsvcd__v3_scale(nsvcd__v3_turned(block->turned, moving->normal), half);
-  const nsvcd__v3 w = nsvcd__v3_fma(whole, nsvcd__v3_turned(block->rotation, moving->normal), turned);
+  const nsvcd__v3 turned = nsvcd__v3_scale(nsvcd__v3_turned(block->turned, l, moving->normal), half);
+  const nsvcd__v3 w = nsvcd__v3_fma(whole, nsvcd__v3_turned(block->rotation, l, moving->normal), turned);
   const nsvcd__reach_along own = nsvcd__one_disc_along(moving, nsvcd__v_mul(size, nsvcd__v3_dot(w, w)),
                                                        nsvcd__v_mul(size, nsvcd__v3_length(turned)));
   const nsvcd__reach_along other =
@@ -7278,17 +7326,17 @@ static uint32_t nsvcd__groups_apart(nsvcd__segments *block, const nsvcd__chords 
 }
 
 #ifdef NSVCD__CERTIFIES
-// All pairs of members of two groups, in the segments `apart` of a block.
-static void nsvcd__certify_groups(const nsvcd__proof *p, const nsvcd__workspace *work, size_t block, size_t g, size_t h,
+// All pairs of members of two groups, in the segments `apart` of a slice that begins with segment `first`.
+static void nsvcd__certify_groups(const nsvcd__proof *p, const nsvcd__workspace *work, size_t first, size_t g, size_t h,
                                   uint32_t apart, const nsvcd__v3 *planes, const uint32_t *below) {
   float lanes[2][3][NSVCD__LANES];
   for (size_t k = 0; k < 2; k++) nsvcd__v3_store(lanes[k], 0, planes[k]);
-  for (size_t l = 0; l < NSVCD__LANES; l++) {
+  for (size_t l = 0; l < NSVCD__SLICE; l++) {
     if (!(apart >> l & 1)) continue;
     const size_t which = below[2] >> l & 1 ? 0 : 1;
     const float sign = below[which] >> l & 1 ? -1.0f : 1.0f;
     const float normal[3] = {sign * lanes[which][0][l], sign * lanes[which][1][l], sign * lanes[which][2][l]};
-    const nsvcd__span span = nsvcd__span_of_segment(p->motion, work, NSVCD__LANES * block + l);
+    const nsvcd__span span = nsvcd__span_of_segment(p->motion, work, first + l);
     for (size_t k = 0; k < NSVCD__GROUP * NSVCD__GROUP; k++) {
       const size_t i = NSVCD__GROUP * g + k / NSVCD__GROUP, j = NSVCD__GROUP * h + k % NSVCD__GROUP;
       if (i >= p->moving.body->points || j >= p->fixed.body->points) continue;
@@ -7296,10 +7344,10 @@ static void nsvcd__certify_groups(const nsvcd__proof *p, const nsvcd__workspace 
     }
   }
 }
-#define NSVCD__CERTIFY_GROUPS(p, work, block, g, h, apart, planes, below) \
-  nsvcd__certify_groups(p, work, block, g, h, apart, planes, below)
+#define NSVCD__CERTIFY_GROUPS(p, work, first, g, h, apart, planes, below) \
+  nsvcd__certify_groups(p, work, first, g, h, apart, planes, below)
 #else
-#define NSVCD__CERTIFY_GROUPS(p, work, block, g, h, apart, planes, below) ((void)0)
+#define NSVCD__CERTIFY_GROUPS(p, work, first, g, h, apart, planes, below) ((void)0)
 #endif
 
 // Clears the segments in which discs part moving group g from the resting ones that it meets, its chords being those in
@@ -7322,14 +7370,20 @@ static void nsvcd__part_groups(const nsvcd__proof *p, nsvcd__workspace *work) {
     uint64_t *met = &nsvcd__nearby(work, turn)[at];
     for (size_t b = 0; b < NSVCD__BLOCKS && *met >> (NSVCD__LANES * b); b++) {
       const uint32_t there = (uint32_t)(*met >> (NSVCD__LANES * b)) & 0xffff;
-      nsvcd__v3 planes[2];
-      uint32_t below[3];
       if (!there) continue;
       NSVCD__TALLY(tests, 1);
-      const uint32_t apart = there & nsvcd__groups_apart(&work->blocks[b], &work->group[b], &own, &disc, fixed_centre,
-                                                         work->scale, reach, nsvcd__clearance_of(p), planes, below);
-      NSVCD__CERTIFY_GROUPS(p, work, b, g, h, apart, planes, below);
-      *met &= ~((uint64_t)apart << (NSVCD__LANES * b));
+      NSVCD__EACH_SLICE(l) {
+        const uint32_t wanted = nsvcd__lanes_of_slice(there, l);
+        nsvcd__v3 planes[2];
+        uint32_t below[3];
+        if (!wanted) continue;
+        const uint32_t parted =
+            nsvcd__groups_apart(&work->blocks[b], &work->group[b], l, &own, &disc, fixed_centre, work->scale, reach,
+                                nsvcd__clearance_of(p), planes, below);
+        const uint32_t apart = wanted & parted;
+        NSVCD__CERTIFY_GROUPS(p, work, NSVCD__LANES * b + l, g, h, apart, planes, below);
+        *met &= ~((uint64_t)apart << (NSVCD__LANES * b + l));
+      }
     }
     if (!*met) work->waiting &= ~((uint32_t)1 << at);
   }
@@ -7339,10 +7393,12 @@ static void nsvcd__part_groups(const nsvcd__proof *p, nsvcd__workspace *work) {
 
 // The hulls of an item's patches, posed, into the workspace.
 static void nsvcd__pose_hulls(nsvcd__proof *p, size_t i, size_t j, const nsvcd__span *span) {
-  const nsvcd__v3 moving = nsvcd__facet_vertices(&p->moving, i, 0, p->moving.hull_counts[i]);
-  nsvcd__v3_store(p->hull_start, 0, nsvcd__v3_transform(&span->start, moving));
-  nsvcd__v3_store(p->hull_end, 0, nsvcd__v3_transform(&span->end, moving));
-  nsvcd__v3_store(p->hull_rest, 0, nsvcd__facet_vertices(&p->fixed, j, 0, p->fixed.hull_counts[j]));
+  NSVCD__EACH_SLICE(l) {
+    const nsvcd__v3 moving = nsvcd__facet_vertices(&p->moving, i, 0, p->moving.hull_counts[i], l);
+    nsvcd__v3_store(p->hull_start, l, nsvcd__v3_transform(&span->start, moving));
+    nsvcd__v3_store(p->hull_end, l, nsvcd__v3_transform(&span->end, moving));
+    nsvcd__v3_store(p->hull_rest, l, nsvcd__facet_vertices(&p->fixed, j, 0, p->fixed.hull_counts[j], l));
+  }
 }
 
 static nsvcd__f3 nsvcd__lane_of(float (*lanes)[NSVCD__LANES], size_t l) {
@@ -7357,18 +7413,36 @@ typedef struct nsvcd__support {
   nsvcd__f3 difference;
 } nsvcd__support;
 
+// The lesser of the least number so far and that of a slice. What is no number stays none, and parts nothing.
+static inline float nsvcd__least_of(float least, float of_slice) {
+  return least < of_slice || least != least ? least : of_slice;
+}
+
 NSVCD__INLINE nsvcd__support nsvcd__support_along(nsvcd__proof *p, nsvcd__f3 normal) {
-  const nsvcd__v3 n = nsvcd__v3_set(normal);
-  const nsvcd__v at_start = nsvcd__v3_dot(n, nsvcd__v3_load(p->hull_start, 0));
-  const nsvcd__v at_end = nsvcd__v3_dot(n, nsvcd__v3_load(p->hull_end, 0));
-  const nsvcd__v at_rest = nsvcd__v_negate(nsvcd__v3_dot(n, nsvcd__v3_load(p->hull_rest, 0)));
-  const nsvcd__v at_either = nsvcd__v_min(at_start, at_end);
-  const float lowest = nsvcd__v_least(at_either);
-  const float highest = -nsvcd__v_least(at_rest);
+  float either[NSVCD__LANES], rest[NSVCD__LANES];  // the moving side's lower heights, and the resting side's, negated
+  float lowest = HUGE_VALF, lowest_rest = HUGE_VALF;
+  uint32_t starts = 0, least = 0, least_rest = 0;
+  NSVCD__EACH_SLICE(l) {
+    const nsvcd__v3 n = nsvcd__v3_set(normal);
+    const nsvcd__v at_start = nsvcd__v3_dot(n, nsvcd__v3_load(p->hull_start, l));
+    const nsvcd__v at_end = nsvcd__v3_dot(n, nsvcd__v3_load(p->hull_end, l));
+    const nsvcd__v at_rest = nsvcd__v_negate(nsvcd__v3_dot(n, nsvcd__v3_load(p->hull_rest, l)));
+    const nsvcd__v at_either = nsvcd__v_min(at_start, at_end);
+    nsvcd__v_store(either + l, at_either);
+    nsvcd__v_store(rest + l, at_rest);
+    lowest = nsvcd__least_of(lowest, nsvcd__v_least(at_either));
+    lowest_rest = nsvcd__least_of(lowest_rest, nsvcd__v_least(at_rest));
+    starts |= nsvcd__v_le(at_start, at_end) << l;
+  }
+  NSVCD__EACH_SLICE(l) {
+    least |= nsvcd__v_le(nsvcd__v_load(either + l), nsvcd__v_set(lowest)) << l;
+    least_rest |= nsvcd__v_le(nsvcd__v_load(rest + l), nsvcd__v_set(lowest_rest)) << l;
+  }
+  const float highest = -lowest_rest;
   // Were a number not one, no lane would compare: then the last one.
-  const size_t a = nsvcd__lowest_bit(nsvcd__v_le(at_either, nsvcd__v_set(lowest)) | 0x8000);
-  const size_t b = nsvcd__lowest_bit(nsvcd__v_le(at_rest, nsvcd__v_set(-highest)) | 0x8000);
-  const int is_start = (nsvcd__v_le(at_start, at_end) >> a & 1) != 0;
+  const size_t a = nsvcd__lowest_bit(least | 0x8000);
+  const size_t b = nsvcd__lowest_bit(least_rest | 0x8000);
+  const int is_start = (starts >> a & 1) != 0;
   const nsvcd__f3 moving = nsvcd__lane_of(is_start ? p->hull_start : p->hull_end, a);
   const nsvcd__support out = {lowest - highest, nsvcd__f3_sub(moving, nsvcd__lane_of(p->hull_rest, b))};
   return out;
@@ -8316,7 +8390,7 @@ static float nsvcd__least_height(nsvcd__proof *p, const nsvcd__span *span, size_
   nsvcd__height *known = &p->heights[(NSVCD__GROUP * s + i % NSVCD__GROUP) % NSVCD__HEIGHTS];
   if (known->plane == p->plane && known->key == key) return known->height;
   const nsvcd__v3 n = nsvcd__v3_set(p->held);
-  const nsvcd__v3 hull = nsvcd__facet_vertices(&p->moving, i, 0, p->moving.hull_counts[i]);
+  const nsvcd__v3 hull = nsvcd__facet_vertices(&p->moving, i, 0, p->moving.hull_counts[i], 0);
   const nsvcd__v at_start = nsvcd__v3_dot(n, nsvcd__v3_transform(&span->start, hull));
   const nsvcd__v at_end = nsvcd__v3_dot(n, nsvcd__v3_transform(&span->end, hull));
   const float lowest = nsvcd__v_least(nsvcd__v_min(at_start, at_end));
@@ -8331,7 +8405,7 @@ static float nsvcd__least_height(nsvcd__proof *p, const nsvcd__span *span, size_
 static float nsvcd__greatest_height(nsvcd__proof *p, size_t j) {
   nsvcd__height *known = &p->rest_heights[j % NSVCD__REST_HEIGHTS];
   if (known->plane == p->plane && known->key == j) return known->height;
-  const nsvcd__v3 hull = nsvcd__facet_vertices(&p->fixed, j, 0, p->fixed.hull_counts[j]);
+  const nsvcd__v3 hull = nsvcd__facet_vertices(&p->fixed, j, 0, p->fixed.hull_counts[j], 0);
   const float highest = -nsvcd__v_least(nsvcd__v_negate(nsvcd__v3_dot(nsvcd__v3_set(p->held), hull)));
   known->plane = p->plane;
   known->key = (uint32_t)j;
@@ -8979,8 +9053,8 @@ static NSVCD__APART double nsvcd__guess_clearance(nsvcd__proof *p, const nsvcd__
     }
   }
   float lanes[3][NSVCD__LANES], least_square = HUGE_VALF;
-  const nsvcd__v3 rest = nsvcd__facet_vertices(&p->fixed, j, 0, p->fixed.hull_counts[j]);
-  const nsvcd__v3 moving = nsvcd__facet_vertices(&p->moving, i, 0, p->moving.hull_counts[i]);
+  const nsvcd__v3 rest = nsvcd__facet_vertices(&p->fixed, j, 0, p->fixed.hull_counts[j], 0);
+  const nsvcd__v3 moving = nsvcd__facet_vertices(&p->moving, i, 0, p->moving.hull_counts[i], 0);
   nsvcd__v3_store(lanes, 0, nsvcd__v3_transform(&pose, moving));
   for (size_t l = 0; l < NSVCD__LANES; l++) {
     const nsvcd__v3 d = nsvcd__v3_sub(rest, nsvcd__v3_set(nsvcd__f3_of(lanes[0][l], lanes[1][l], lanes[2][l])));
