@@ -3828,9 +3828,9 @@ static void nsvcd__encode_patch(const float *points, const float *normals, size_
 #define NSVCD__VECTORS (8 * NSVCD_W_CHANNELS)  // numbers of a latent's vectors: (3, CHANNELS), then (5, CHANNELS)
 #define NSVCD__TURN 34                         // numbers of D: (3, 3), then (5, 5)
 
-// D of 16 matrices m, lane by lane, times `scale`: (TURN, LANES). Column k of degree 2 is the image of basis vector k,
-// a degree2 of m's columns.
-static void nsvcd__wigner(const nsvcd__v *m, nsvcd__v scale, float (*out)[NSVCD__LANES]) {
+// D of a slice of matrices m, lane by lane, times `scale`: (TURN, SLICE). Column k of degree 2 is the image of basis
+// vector k, a degree2 of m's columns.
+static void nsvcd__wigner(const nsvcd__v *m, nsvcd__v scale, float (*out)[NSVCD__SLICE]) {
   const nsvcd__v half_root3 = nsvcd__v_set(0.8660254037844386f), half = nsvcd__v_set(0.5f);
   const nsvcd__v third = nsvcd__v_mul(scale, nsvcd__v_set(1.0f / 3)),
                  root = nsvcd__v_mul(scale, nsvcd__v_set(0.5773502691896258f));
@@ -3848,7 +3848,7 @@ static void nsvcd__wigner(const nsvcd__v *m, nsvcd__v scale, float (*out)[NSVCD_
   }
   const nsvcd__v twice = nsvcd__v_add(root, root);
   for (size_t k = 0; k < 5; k++) {
-    float(*row)[NSVCD__LANES] = out + 9 + 5 * k;
+    float(*row)[NSVCD__SLICE] = out + 9 + 5 * k;
     const nsvcd__v rest = nsvcd__v_add(q[3][k], q[4][k]);
     nsvcd__v_store(row[0], nsvcd__v_mul(twice, q[0][k])), nsvcd__v_store(row[1], nsvcd__v_mul(twice, q[1][k]));
     nsvcd__v_store(row[2], nsvcd__v_mul(third, nsvcd__v_sub(nsvcd__v_add(q[5][k], q[5][k]), rest)));
@@ -3857,8 +3857,8 @@ static void nsvcd__wigner(const nsvcd__v *m, nsvcd__v scale, float (*out)[NSVCD_
   }
 }
 
-// One degree: out (size, CHANNELS) = D (size * size, LANES) of lane l times latent (size, CHANNELS).
-NSVCD__INLINE void nsvcd__turn_degree(const float *latent, float (*turn)[NSVCD__LANES], size_t l, size_t size,
+// One degree: out (size, CHANNELS) = D (size * size, SLICE) of lane l times latent (size, CHANNELS).
+NSVCD__INLINE void nsvcd__turn_degree(const float *latent, float (*turn)[NSVCD__SLICE], size_t l, size_t size,
                                       float *out) {
   for (size_t i = 0; i < size; i++) {
     float sum[NSVCD_W_CHANNELS] = {0};
@@ -3870,8 +3870,8 @@ NSVCD__INLINE void nsvcd__turn_degree(const float *latent, float (*turn)[NSVCD__
   }
 }
 
-// A stored latent, turned by D (TURN, LANES) of lane l: vectors (8, CHANNELS), scalars (SCALARS).
-static void nsvcd__turn_latent(const int8_t *z, float (*turn)[NSVCD__LANES], size_t l, float *vectors, float *scalars) {
+// A stored latent, turned by D (TURN, SLICE) of lane l: vectors (8, CHANNELS), scalars (SCALARS).
+static void nsvcd__turn_latent(const int8_t *z, float (*turn)[NSVCD__SLICE], size_t l, float *vectors, float *scalars) {
   float latent[NSVCD__LATENT];
   for (size_t k = 0; k < NSVCD__LATENT; k++) latent[k] = (float)z[k];
   nsvcd__turn_degree(latent, turn, l, 3, vectors);
@@ -9296,7 +9296,7 @@ static NSVCD__APART void nsvcd__lift_motion(nsvcd__proof *p, nsvcd__workspace *w
 #define NSVCD__PROBES NSVCD__LANES
 #define NSVCD__CLEARANCE 1.0f
 
-// Least |p_i - x| / r_i over the patches, squared, at 16 places.
+// Least |p_i - x| / r_i over the patches, squared, at a slice of places.
 static nsvcd__v nsvcd__clearance2(const nsvcd_body *body, const nsvcd__v *place) {
   const float *x = nsvcd__body_x(body), *y = nsvcd__body_y(body), *z = nsvcd__body_z(body), *r = nsvcd__body_r(body);
   nsvcd__v least = nsvcd__v_set(1e30f);
@@ -9312,21 +9312,24 @@ static nsvcd__v nsvcd__clearance2(const nsvcd_body *body, const nsvcd__v *place)
 static float nsvcd__winding_number(const nsvcd_body *body, const float *point) {
   const float *x = nsvcd__body_x(body), *y = nsvcd__body_y(body), *z = nsvcd__body_z(body);
   const float *areas = nsvcd__body_areas(body);
-  const nsvcd__v at[3] = {nsvcd__v_set(point[0]), nsvcd__v_set(point[1]), nsvcd__v_set(point[2])};
-  nsvcd__v sum = nsvcd__v_set(0);
-  for (size_t i = 0; i < body->padded; i += NSVCD__LANES) {
-    const nsvcd__v d[3] = {nsvcd__v_sub(nsvcd__v_load(x + i), at[0]), nsvcd__v_sub(nsvcd__v_load(y + i), at[1]),
-                           nsvcd__v_sub(nsvcd__v_load(z + i), at[2])};
-    const nsvcd__v area[3] = {nsvcd__v_load(areas + i), nsvcd__v_load(areas + body->padded + i),
-                              nsvcd__v_load(areas + 2 * body->padded + i)};
-    const nsvcd__v length = nsvcd__v_max(nsvcd__v_length3(d), nsvcd__v_set(1e-30f));
-    const nsvcd__v inverse = nsvcd__v_div(nsvcd__v_set(1), length);
-    const nsvcd__v cosine = nsvcd__v_mul(nsvcd__v_dot3(area, d), inverse);  // step by step: the cube may overflow
-    sum = nsvcd__v_add(sum, nsvcd__v_mul(nsvcd__v_mul(cosine, inverse), inverse));
+  float lanes[NSVCD__LANES];
+  float total = 0;
+  NSVCD__EACH_SLICE(l) {
+    const nsvcd__v at[3] = {nsvcd__v_set(point[0]), nsvcd__v_set(point[1]), nsvcd__v_set(point[2])};
+    nsvcd__v sum = nsvcd__v_set(0);
+    for (size_t i = l; i < body->padded; i += NSVCD__LANES) {
+      const nsvcd__v d[3] = {nsvcd__v_sub(nsvcd__v_load(x + i), at[0]), nsvcd__v_sub(nsvcd__v_load(y + i), at[1]),
+                             nsvcd__v_sub(nsvcd__v_load(z + i), at[2])};
+      const nsvcd__v area[3] = {nsvcd__v_load(areas + i), nsvcd__v_load(areas + body->padded + i),
+                                nsvcd__v_load(areas + 2 * body->padded + i)};
+      const nsvcd__v length = nsvcd__v_max(nsvcd__v_length3(d), nsvcd__v_set(1e-30f));
+      const nsvcd__v inverse = nsvcd__v_div(nsvcd__v_set(1), length);
+      const nsvcd__v cosine = nsvcd__v_mul(nsvcd__v_dot3(area, d), inverse);  // step by step: the cube may overflow
+      sum = nsvcd__v_add(sum, nsvcd__v_mul(nsvcd__v_mul(cosine, inverse), inverse));
+    }
+    nsvcd__v_store(lanes + l, sum);
   }
-  float lanes[NSVCD__LANES], total = 0;
-  nsvcd__v_store(lanes, sum);
-  for (size_t l = 0; l < NSVCD__LANES; l++) total += lanes[l];
+  for (size_t l = 0; l < NSVCD__LANES; l++) total += lanes[l];  // in this order, whatever the slices
   return total / 12.5663706f;
 }
 
@@ -9335,21 +9338,26 @@ static int nsvcd__is_inside(const nsvcd_body *inner, const nsvcd_body *outer, fl
                             const float *position) {
   float places[3][NSVCD__PROBES], clearance[NSVCD__PROBES], point[3];
   if (outer->open) return 0;
-  nsvcd__v place[3], off[3];
   for (size_t k = 0; k < NSVCD__PROBES; k++) {
     const size_t i = k * inner->points / NSVCD__PROBES;  // neighbours are stored together: equal steps spread over it
     const float p[3] = {nsvcd__body_x(inner)[i], nsvcd__body_y(inner)[i], nsvcd__body_z(inner)[i]};
     nsvcd__mul33_vec(rotation, p, point);
     for (size_t n = 0; n < 3; n++) places[n][k] = scale * point[n] + position[n];
   }
-  for (size_t n = 0; n < 3; n++) {
-    place[n] = nsvcd__v_load(places[n]);
-    off[n] = nsvcd__v_sub(place[n], nsvcd__v_set(outer->centre[n]));
-  }
   // One that sticks out of the outer body's sphere says it all.
-  if (nsvcd__v_le(nsvcd__v_length3(off), nsvcd__v_set(outer->radius)) != 0xffff) return 0;
+  uint32_t within = 0;
+  NSVCD__EACH_SLICE(l) {
+    nsvcd__v off[3];
+    for (size_t n = 0; n < 3; n++) off[n] = nsvcd__v_sub(nsvcd__v_load(places[n] + l), nsvcd__v_set(outer->centre[n]));
+    within |= nsvcd__v_le(nsvcd__v_length3(off), nsvcd__v_set(outer->radius)) << l;
+  }
+  if (within != 0xffff) return 0;
+  NSVCD__EACH_SLICE(l) {
+    const nsvcd__v place[3] = {nsvcd__v_load(places[0] + l), nsvcd__v_load(places[1] + l),
+                               nsvcd__v_load(places[2] + l)};
+    nsvcd__v_store(clearance + l, nsvcd__clearance2(outer, place));
+  }
   size_t best = 0;
-  nsvcd__v_store(clearance, nsvcd__clearance2(outer, place));
   for (size_t k = 1; k < NSVCD__PROBES; k++) best = clearance[k] > clearance[best] ? k : best;
   if (clearance[best] < NSVCD__CLEARANCE * NSVCD__CLEARANCE) return 0;
   for (size_t n = 0; n < 3; n++) point[n] = places[n][best];
@@ -9384,23 +9392,45 @@ static int nsvcd__is_contained(const nsvcd_body *moving, const nsvcd_body *fixed
 // Degenerate cases: centres that coincide (to 1e-5 of r1 + r2) take the lean, else x, as axis 1; a reference that
 // vanishes takes the coordinate axis farthest from axis 1 as axis 2.
 //
-// Pairs go through in batches of 16, one per lane; only their latents are turned pair by pair, channels side by side.
+// Pairs are asked about in batches of 16, at most. They become inputs a slice at a time, one per lane (only their
+// latents are turned pair by pair, channels side by side), and these go through the layers some rows at a time.
 
 #define NSVCD__BATCH NSVCD__LANES
+// Rows of inputs at a time, and the step in which the layers of floats go through them: where there are no vectors, there
+// may be no stack for more, and without floats nothing is gained by more than one.
+#if NSVCD__SLICE > 1
+#define NSVCD__ROWS NSVCD__BATCH
+#define NSVCD__ROW_STEP 4
+#elif !defined(NSVCD_NO_FLOAT)
+#define NSVCD__ROWS 4
+#define NSVCD__ROW_STEP 4
+#else
+#define NSVCD__ROWS 1
+#define NSVCD__ROW_STEP 1
+#endif
 #define NSVCD__FACTS 12
 #define NSVCD__INPUTS (2 * NSVCD__LATENT + NSVCD__FACTS)
 #define NSVCD__DECODER_IN ((NSVCD__INPUTS + 15) / 16 * 16)  // zeros at the end
-#define NSVCD__MOST_INPUTS (NSVCD_W_WIDEST > NSVCD__DECODER_IN ? NSVCD_W_WIDEST : NSVCD__DECODER_IN)  // of a layer
+// Outputs of a layer, of the heads that are compiled; the tests hold them against weights.h.
+#ifndef NSVCD_NO_BASE
+#define NSVCD__WIDEST NSVCD_W_WIDEST
+#elif !defined(NSVCD_NO_SMALL)
+#define NSVCD__WIDEST 96
+#else
+#define NSVCD__WIDEST 32
+#endif
+#define NSVCD__MOST_INPUTS (NSVCD__WIDEST > NSVCD__DECODER_IN ? NSVCD__WIDEST : NSVCD__DECODER_IN)  // of a layer
 #define NSVCD__LEAN 0.05f  // share of the lean in axis 2
 #define NSVCD__SIDE 1e-4f  // a lean less than this to one side of axes 1 and 2 is on neither
 
+// A slice of pairs.
 typedef struct nsvcd__pairs {
   nsvcd__v p1[3], p2[3];  // centres at mid-interval: of the moving patch, of the fixed one; the fixed body's frame
   nsvcd__v r1, r2;        // metres
   nsvcd__v rotation[9];   // of the moving body at mid-interval
   nsvcd__v v[3];          // half displacement of the point midway between p1 and p2, as part of the moving body
   nsvcd__v w[3];          // half rotation vector
-  const int8_t *z1[NSVCD__BATCH], *z2[NSVCD__BATCH];  // latents, body frames
+  const int8_t *z1[NSVCD__SLICE], *z2[NSVCD__SLICE];  // latents, body frames
 } nsvcd__pairs;
 
 // Half the rotation vector of a unit quaternion, from the sine s of half the angle: asin(s) / s times its vector part.
@@ -9412,7 +9442,7 @@ static void nsvcd__v_half_rotation(const nsvcd__v *q, nsvcd__v *w) {
   for (size_t k = 0; k < 5; k++) ratio = nsvcd__v_fma(ratio, square, nsvcd__v_set(series[k]));
   uint32_t wide = nsvcd__v_le(nsvcd__v_set(0.25f), square);  // over 60 degrees: a motion of few samples
   if (wide) {
-    float r[NSVCD__LANES], s2[NSVCD__LANES], c[NSVCD__LANES];
+    float r[NSVCD__SLICE], s2[NSVCD__SLICE], c[NSVCD__SLICE];
     nsvcd__v_store(r, ratio), nsvcd__v_store(s2, square), nsvcd__v_store(c, nsvcd__v_mul(sign, q[3]));
     for (; wide; wide &= wide - 1) {
       const size_t l = nsvcd__lowest_bit(wide);
@@ -9423,12 +9453,12 @@ static void nsvcd__v_half_rotation(const nsvcd__v *q, nsvcd__v *w) {
   for (size_t k = 0; k < 3; k++) w[k] = nsvcd__v_mul(nsvcd__v_mul(sign, ratio), q[k]);
 }
 
-// A track's poses at `count` times t in [0,1], one per lane: unit quaternions q (4), and positions from an origin, (3).
+// A track's poses at `count` times t in [0,1], 1 to SLICE, one per lane: unit quaternions q (4), and positions from an origin, (3).
 static void nsvcd__track_poses_at(const nsvcd__track *track, const float *t, size_t count, const float *origin,
                                   nsvcd__v *q, nsvcd__v *p) {
-  float from[7][NSVCD__LANES] = {{0}}, to[7][NSVCD__LANES] = {{0}}, share[NSVCD__LANES] = {0};
+  float from[7][NSVCD__SLICE] = {{0}}, to[7][NSVCD__SLICE] = {{0}}, share[NSVCD__SLICE] = {0};
   const size_t last = track->count > 1 ? track->count - 2 : 0;
-  for (size_t l = count; l < NSVCD__LANES; l++) from[6][l] = 1;
+  for (size_t l = count; l < NSVCD__SLICE; l++) from[6][l] = 1;
   for (size_t l = 0; l < count; l++) {
     const float at = track->count > 1 ? t[l] * (float)(last + 1) : 0;
     const size_t k = (size_t)at < last ? (size_t)at : last;
@@ -9460,7 +9490,8 @@ static void nsvcd__track_poses_at(const nsvcd__track *track, const float *t, siz
   nsvcd__v_quat_normalize(q);
 }
 
-// Poses in the fixed body's frame at `count` times t in [0,1], one per lane: unit quaternions q (4), positions p (3).
+// Poses in the fixed body's frame at `count` times t in [0,1], 1 to SLICE, one per lane: unit quaternions q (4),
+// positions p (3).
 static void nsvcd__v_poses_at(const nsvcd__motion *motion, const float *t, size_t count, nsvcd__v *q, nsvcd__v *p) {
   nsvcd__v_poses at;
   nsvcd__track_poses_at(&motion->moving, t, count, motion->fixed_position, at.q, at.p);
@@ -9472,10 +9503,10 @@ static void nsvcd__v_poses_at(const nsvcd__motion *motion, const float *t, size_
   nsvcd__v_seen(motion, &at, q, p);
 }
 
-// The pairs of `count` candidates, 1 to 16. What is in the lanes beyond does not matter.
+// The pairs of `count` candidates, 1 to SLICE. What is in the lanes beyond does not matter.
 static void nsvcd__pairs_of(const nsvcd_body *moving, const nsvcd_body *fixed, const nsvcd__motion *motion,
                             nsvcd__candidate *const *candidates, size_t count, nsvcd__pairs *pairs) {
-  float lanes[8][NSVCD__LANES] = {{0}}, enter[NSVCD__LANES], leave[NSVCD__LANES], middle[NSVCD__LANES];
+  float lanes[8][NSVCD__SLICE] = {{0}}, enter[NSVCD__SLICE], leave[NSVCD__SLICE], middle[NSVCD__SLICE];
   const float scale = motion->scale;
   for (size_t l = 0; l < count; l++) {
     const nsvcd__candidate *candidate = candidates[l];
@@ -9587,7 +9618,7 @@ static void nsvcd__views_of(const nsvcd__pairs *pairs, size_t count, nsvcd__view
   const nsvcd__v inverse = nsvcd__v_div(nsvcd__v_set(1), nsvcd__v_reach(pairs)), step = nsvcd__v_set(1.0f / 127);
   const nsvcd__v k1 = nsvcd__v_mul(pairs->r1, inverse), k2 = nsvcd__v_mul(pairs->r2, inverse);
   const nsvcd__v order = nsvcd__v_pick(pairs->r2, pairs->r1, nsvcd__v_set(1), nsvcd__v_set(-1));
-  float mean[6][NSVCD__LANES] = {{0}};
+  float mean[6][NSVCD__SLICE] = {{0}};
   nsvcd__v mean1[3], turned[3];
   for (size_t l = 0; l < count; l++) {
     for (size_t k = 0; k < 3; k++) {
@@ -9608,14 +9639,14 @@ static void nsvcd__views_of(const nsvcd__pairs *pairs, size_t count, nsvcd__view
   view->side = nsvcd__v_pair_frame(view->d, view->lean, view->v, view->w, view->frame);
 }
 
-// Appendix F: the inputs of the decoder for the first `count` pairs, x (16, DECODER_IN): vectors of the larger patch
-// and of the other, their scalars, and twelve facts of the geometry.
+// Appendix F: the inputs of the decoder for the first `count` pairs of a slice, x (count, DECODER_IN): vectors of the
+// larger patch and of the other, their scalars, and twelve facts of the geometry.
 static void nsvcd__invariants(const nsvcd__pairs *pairs, size_t count, float *x) {
   nsvcd__views view;
   nsvcd__views_of(pairs, count, &view);
   const nsvcd__v step = nsvcd__v_set(1.0f / 127), k1 = view.k1, k2 = view.k2, order = view.order, side = view.side;
   const nsvcd__v *d = view.d, *v = view.v, *w = view.w, *frame = view.frame;
-  float turn1[NSVCD__TURN][NSVCD__LANES], turn2[NSVCD__TURN][NSVCD__LANES], facts[NSVCD__FACTS][NSVCD__LANES];
+  float turn1[NSVCD__TURN][NSVCD__SLICE], turn2[NSVCD__TURN][NSVCD__SLICE], facts[NSVCD__FACTS][NSVCD__SLICE];
   nsvcd__v frame1[9], closest[3], turn[3];
   for (size_t i = 0; i < 9; i++) {
     const nsvcd__v *row = frame + i / 3 * 3, *column = pairs->rotation + i % 3;
@@ -9648,8 +9679,19 @@ static void nsvcd__invariants(const nsvcd__pairs *pairs, size_t count, float *x)
   }
 }
 
+// The inputs of the decoder for `count` candidates, x (count, DECODER_IN), a slice of them at a time.
+static void nsvcd__inputs_of(const nsvcd_body *moving, const nsvcd_body *fixed, const nsvcd__motion *motion,
+                             nsvcd__candidate *const *candidates, size_t count, float *x) {
+  for (size_t l = 0; l < count; l += NSVCD__SLICE) {
+    const size_t size = count - l < NSVCD__SLICE ? count - l : NSVCD__SLICE;
+    nsvcd__pairs pairs;
+    nsvcd__pairs_of(moving, fixed, motion, candidates + l, size, &pairs);
+    nsvcd__invariants(&pairs, size, x + NSVCD__DECODER_IN * l);
+  }
+}
+
 #ifndef NSVCD_NO_FLOAT
-// `rows` rows of a layer, `tiles` times 16 outputs each: y = w^T x + bias. x (rows, from), y (rows, to), w (inputs,
+// `rows` rows of a layer, `tiles` slices of outputs each: y = w^T x + bias. x (rows, from), y (rows, to), w (inputs,
 // outputs). rows * tiles sums must fit into the registers.
 NSVCD__INLINE void nsvcd__layer_tile(const float *w, const float *bias, size_t inputs, size_t outputs, const float *x,
                                      size_t from, float *y, size_t to, int relu, size_t rows, size_t tiles) {
@@ -9657,11 +9699,11 @@ NSVCD__INLINE void nsvcd__layer_tile(const float *w, const float *bias, size_t i
   NSVCD__UNROLL
   for (size_t p = 0; p < rows; p++) {
     NSVCD__UNROLL
-    for (size_t t = 0; t < tiles; t++) sum[p][t] = nsvcd__v_load(bias + NSVCD__LANES * t);
+    for (size_t t = 0; t < tiles; t++) sum[p][t] = nsvcd__v_load(bias + NSVCD__SLICE * t);
   }
   for (size_t i = 0; i < inputs; i++, w += outputs) {
     NSVCD__UNROLL
-    for (size_t t = 0; t < tiles; t++) column[t] = nsvcd__v_load(w + NSVCD__LANES * t);
+    for (size_t t = 0; t < tiles; t++) column[t] = nsvcd__v_load(w + NSVCD__SLICE * t);
     NSVCD__UNROLL
     for (size_t p = 0; p < rows; p++) {
       const nsvcd__v input = nsvcd__v_set(x[from * p + i]);
@@ -9673,14 +9715,15 @@ NSVCD__INLINE void nsvcd__layer_tile(const float *w, const float *bias, size_t i
   for (size_t p = 0; p < rows; p++) {
     NSVCD__UNROLL
     for (size_t t = 0; t < tiles; t++) {
-      nsvcd__v_store(y + to * p + NSVCD__LANES * t, relu ? nsvcd__v_max(sum[p][t], nsvcd__v_set(0)) : sum[p][t]);
+      nsvcd__v_store(y + to * p + NSVCD__SLICE * t, relu ? nsvcd__v_max(sum[p][t], nsvcd__v_set(0)) : sum[p][t]);
     }
   }
 }
 
 // One layer for `rows` pairs, a multiple of 4. outputs: a multiple of 16. The weights of the largest head do not fit
-// into the first cache, so the more rows at a time the better: 8 by 2 or 4 by 4 sums in 32 registers, 4 by 1 (of 2 or 4
-// words) in fewer.
+// into the first cache, so the more rows at a time the better: 8 by 2 or 4 by 4 sums in 32 registers, 4 by 16 outputs, or
+// by 4 slices where that is less, in fewer.
+#define NSVCD__TILES (NSVCD__LANES / NSVCD__SLICE < 4 ? NSVCD__LANES / NSVCD__SLICE : 4)
 static void nsvcd__layer(const float *w, const float *bias, size_t inputs, size_t outputs, size_t rows, const float *x,
                          size_t from, float *y, size_t to, int relu) {
   size_t p = 0, o;
@@ -9705,8 +9748,8 @@ static void nsvcd__layer(const float *w, const float *bias, size_t inputs, size_
 #else
   for (; p < rows; p += 4) {
     const float *row = x + from * p;
-    for (o = 0; o < outputs; o += NSVCD__LANES) {
-      nsvcd__layer_tile(w + o, bias + o, inputs, outputs, row, from, y + to * p + o, to, relu, 4, 1);
+    for (o = 0; o < outputs; o += NSVCD__TILES * NSVCD__SLICE) {
+      nsvcd__layer_tile(w + o, bias + o, inputs, outputs, row, from, y + to * p + o, to, relu, 4, NSVCD__TILES);
     }
   }
 #endif
@@ -9718,10 +9761,11 @@ static void nsvcd__layer(const float *w, const float *bias, size_t inputs, size_
 // instructions multiply unsigned by signed bytes; sums are exact in int32, and 128 times the sum of the weights too
 // much.
 //   nsvcd__to_bytes   x (inputs) -> bytes (inputs); returns the step
-//   nsvcd__dot_bytes  bytes (4, inputs), w (inputs / 4, outputs, 4) -> dot (4, outputs)
+//   nsvcd__dot_bytes  bytes (BYTE_ROWS, inputs), w (inputs / 4, outputs, 4) -> dot (BYTE_ROWS, outputs)
 //   nsvcd__from_dots  dot (outputs) -> y (outputs)
 // Inputs and outputs are multiples of 16.
 #if defined(__AVX512VNNI__) && !defined(NSVCD_NO_SIMD)
+#define NSVCD__BYTE_ROWS 4  // at a time: they share the weights that are loaded
 static float nsvcd__to_bytes(const float *x, size_t inputs, uint8_t *bytes) {
   __m512 most = _mm512_set1_ps(1e-20f);
   for (size_t i = 0; i < inputs; i += 16) most = _mm512_max_ps(most, _mm512_abs_ps(_mm512_loadu_ps(x + i)));
@@ -9776,6 +9820,7 @@ static void nsvcd__from_dots(const int32_t *dot, const float *sum, const float *
   }
 }
 #else
+#define NSVCD__BYTE_ROWS 1
 static float nsvcd__to_bytes(const float *x, size_t inputs, uint8_t *bytes) {
   float most = 1e-20f;
   for (size_t i = 0; i < inputs; i++) most = fabsf(x[i]) > most ? fabsf(x[i]) : most;
@@ -9784,14 +9829,11 @@ static float nsvcd__to_bytes(const float *x, size_t inputs, uint8_t *bytes) {
   return most / 127;
 }
 static void nsvcd__dot_bytes(const int8_t *w, size_t inputs, size_t outputs, const uint8_t *bytes, int32_t *dot) {
-  memset(dot, 0, 4 * outputs * sizeof *dot);
-  for (size_t p = 0; p < 4; p++, bytes += inputs, dot += outputs) {
-    const int8_t *row = w;
-    for (size_t i = 0; i < inputs; i += 4, row += 4 * outputs) {
-      const int32_t x0 = bytes[i], x1 = bytes[i + 1], x2 = bytes[i + 2], x3 = bytes[i + 3];
-      for (size_t o = 0; o < outputs; o++) {
-        dot[o] += (x0 * row[4 * o] + x1 * row[4 * o + 1]) + (x2 * row[4 * o + 2] + x3 * row[4 * o + 3]);
-      }
+  memset(dot, 0, outputs * sizeof *dot);
+  for (size_t i = 0; i < inputs; i += 4, w += 4 * outputs) {
+    const int32_t x0 = bytes[i], x1 = bytes[i + 1], x2 = bytes[i + 2], x3 = bytes[i + 3];
+    for (size_t o = 0; o < outputs; o++) {
+      dot[o] += (x0 * w[4 * o] + x1 * w[4 * o + 1]) + (x2 * w[4 * o + 2] + x3 * w[4 * o + 3]);
     }
   }
 }
@@ -9803,40 +9845,81 @@ static void nsvcd__from_dots(const int32_t *dot, const float *sum, const float *
   }
 }
 #endif
-#endif  // NSVCD_NO_INT8
 
-// x (16, DECODER_IN) -> the logits of the first `count` pairs by `head`, in fp32 or int8 arithmetic. Four rows at a
-// time: x must hold numbers up to a multiple of 4.
-static void nsvcd__head_logits(const nsvcd__head *head, const float *x, size_t count, int int8, float *logits) {
+// As nsvcd__head_logits, in int8 arithmetic. A row is bytes before its outputs are written: they may take its place.
+static void nsvcd__head_by_bytes(const nsvcd__head *head, const float *x, size_t count, float *logits) {
   const float *bias = nsvcd_w_decoder_bias + head->outputs;
-  float a[NSVCD__BATCH * NSVCD_W_WIDEST], b[NSVCD__BATCH * NSVCD_W_WIDEST], *to = a;
-  size_t from = NSVCD__DECODER_IN, weights = head->weights, output = head->outputs;
+  float y[NSVCD__ROWS * NSVCD__WIDEST];
+  size_t from = NSVCD__DECODER_IN;
+  size_t weights = head->weights;
+  size_t output = head->outputs;
   for (size_t l = 0; l < head->layers; l++) {
-    const size_t inputs = head->sizes[l], outputs = head->sizes[l + 1];
+    const size_t inputs = head->sizes[l];
+    const size_t outputs = head->sizes[l + 1];
     const int relu = l + 1 < head->layers;
-#ifndef NSVCD_NO_FLOAT
-    if (!int8) {
-      nsvcd__layer(nsvcd_w_decoder + weights, bias, inputs, outputs, nsvcd__round_up(count, 4), x, from, to,
-                   NSVCD_W_WIDEST, relu);
-    }
-#endif
-#ifndef NSVCD_NO_INT8
-    for (size_t first = 0; int8 && first < count; first += 4) {
-      uint8_t bytes[4 * NSVCD__MOST_INPUTS];
-      int32_t dot[4 * NSVCD_W_WIDEST];
-      float step[4];
-      for (size_t p = 0; p < 4; p++) step[p] = nsvcd__to_bytes(x + from * (first + p), inputs, bytes + inputs * p);
+    for (size_t first = 0; first < count; first += NSVCD__BYTE_ROWS) {
+      uint8_t bytes[NSVCD__BYTE_ROWS * NSVCD__MOST_INPUTS];
+      int32_t dot[NSVCD__BYTE_ROWS * NSVCD__WIDEST];
+      float step[NSVCD__BYTE_ROWS];
+      for (size_t p = 0; p < NSVCD__BYTE_ROWS; p++) {
+        step[p] = nsvcd__to_bytes(x + from * (first + p), inputs, bytes + inputs * p);
+      }
       nsvcd__dot_bytes(nsvcd_w_decoder_int8 + weights, inputs, outputs, bytes, dot);
-      for (size_t p = 0; p < 4; p++) {
+      for (size_t p = 0; p < NSVCD__BYTE_ROWS; p++) {
         nsvcd__from_dots(dot + outputs * p, nsvcd_w_decoder_sum + output, nsvcd_w_decoder_scale + output, bias, step[p],
-                         outputs, relu, to + NSVCD_W_WIDEST * (first + p));
+                         outputs, relu, y + NSVCD__WIDEST * (first + p));
       }
     }
-#endif
-    bias += outputs, weights += inputs * outputs, output += outputs;
-    x = to, from = NSVCD_W_WIDEST, to = to == a ? b : a;
+    bias += outputs;
+    weights += inputs * outputs;
+    output += outputs;
+    x = y;
+    from = NSVCD__WIDEST;
   }
   for (size_t p = 0; p < count; p++) logits[p] = x[from * p];
+}
+#endif  // NSVCD_NO_INT8
+
+#ifndef NSVCD_NO_FLOAT
+// As nsvcd__head_logits, in fp32.
+static void nsvcd__head_by_floats(const nsvcd__head *head, const float *x, size_t count, float *logits) {
+  const float *bias = nsvcd_w_decoder_bias + head->outputs;
+  float a[NSVCD__ROWS * NSVCD__WIDEST];
+  float b[NSVCD__ROWS * NSVCD__WIDEST];
+  float *to = a;
+  size_t from = NSVCD__DECODER_IN;
+  size_t weights = head->weights;
+  for (size_t l = 0; l < head->layers; l++) {
+    const size_t inputs = head->sizes[l];
+    const size_t outputs = head->sizes[l + 1];
+    const size_t rows = nsvcd__round_up(count, NSVCD__ROW_STEP);
+    const int relu = l + 1 < head->layers;
+    nsvcd__layer(nsvcd_w_decoder + weights, bias, inputs, outputs, rows, x, from, to, NSVCD__WIDEST, relu);
+    bias += outputs;
+    weights += inputs * outputs;
+    x = to;
+    from = NSVCD__WIDEST;
+    to = to == a ? b : a;
+  }
+  for (size_t p = 0; p < count; p++) logits[p] = x[from * p];
+}
+#endif  // NSVCD_NO_FLOAT
+
+// x (ROWS, DECODER_IN) -> the logits of the first `count` pairs by `head`, in fp32 or int8 arithmetic. Some rows at a
+// time: x must hold numbers up to a multiple of ROW_STEP.
+static void nsvcd__head_logits(const nsvcd__head *head, const float *x, size_t count, int int8, float *logits) {
+  (void)int8;
+#ifndef NSVCD_NO_INT8
+#ifndef NSVCD_NO_FLOAT
+  if (!int8) {
+    nsvcd__head_by_floats(head, x, count, logits);
+    return;
+  }
+#endif
+  nsvcd__head_by_bytes(head, x, count, logits);
+#else
+  nsvcd__head_by_floats(head, x, count, logits);
+#endif
 }
 
 #endif  // NSVCD_NO_NETWORK
@@ -10180,14 +10263,17 @@ static int nsvcd__threshold(size_t model, float recall, size_t points1, size_t p
 // Scores of `count` candidates, 1 to 16, by a head.
 static void nsvcd__decode(const nsvcd_body *moving, const nsvcd_body *fixed, const nsvcd__motion *motion,
                           nsvcd__candidate *const *candidates, size_t count, const nsvcd__head *head, int int8) {
-  nsvcd__pairs pairs;
-  float x[NSVCD__BATCH * NSVCD__DECODER_IN], logits[NSVCD__BATCH];
-  nsvcd__pairs_of(moving, fixed, motion, candidates, count, &pairs);
-  nsvcd__invariants(&pairs, count, x);
-  // The layers take four rows at a time.
-  memset(x + NSVCD__DECODER_IN * count, 0, (nsvcd__round_up(count, 4) - count) * NSVCD__DECODER_IN * sizeof *x);
-  nsvcd__head_logits(head, x, count, int8, logits);
-  for (size_t k = 0; k < count; k++) candidates[k]->score = logits[k];
+  for (size_t first = 0; first < count; first += NSVCD__ROWS) {
+    const size_t rows = count - first < NSVCD__ROWS ? count - first : NSVCD__ROWS;
+    float x[NSVCD__ROWS * NSVCD__DECODER_IN];
+    float logits[NSVCD__ROWS];
+    nsvcd__inputs_of(moving, fixed, motion, candidates + first, rows, x);
+    // The layers take some rows at a time.
+    const size_t unused = nsvcd__round_up(rows, NSVCD__ROW_STEP) - rows;
+    memset(x + NSVCD__DECODER_IN * rows, 0, unused * NSVCD__DECODER_IN * sizeof *x);
+    nsvcd__head_logits(head, x, rows, int8, logits);
+    for (size_t k = 0; k < rows; k++) candidates[first + k]->score = logits[k];
+  }
 }
 
 // Options with the defaults filled in.
@@ -10851,7 +10937,7 @@ static void nsvcd__by_length3(const float *a, float by, float *by_a) {
   if (length > 1e-6f) nsvcd__add_scaled3(by / length, a, by_a);
 }
 static void nsvcd__first_lanes(const nsvcd__v *a, size_t count, float *out) {
-  float lanes[NSVCD__LANES];
+  float lanes[NSVCD__SLICE];
   for (size_t k = 0; k < count; k++) nsvcd__v_store(lanes, a[k]), out[k] = lanes[0];
 }
 
@@ -10867,22 +10953,22 @@ static void nsvcd__add_turned3(const float *a, const float *n, float along, floa
 
 // ---- head
 
-// The weights of a layer from input i to outputs o .. o + 15. weights, output: where the layer's begin.
+// The weights of a layer from input i to outputs o .. o + SLICE - 1. weights, output: where the layer's begin.
 NSVCD__INLINE nsvcd__v nsvcd__weights_at(size_t weights, size_t output, size_t outputs, size_t i, size_t o) {
 #ifndef NSVCD_NO_FLOAT
   (void)output;
   return nsvcd__v_load(nsvcd_w_decoder + weights + outputs * i + o);
 #else
   const int8_t *w = nsvcd_w_decoder_int8 + weights + 4 * (outputs * (i / 4) + o) + i % 4;
-  float lanes[NSVCD__LANES];
-  for (size_t l = 0; l < NSVCD__LANES; l++) lanes[l] = (float)w[4 * l] * nsvcd_w_decoder_scale[output + o + l];
+  float lanes[NSVCD__SLICE];
+  for (size_t l = 0; l < NSVCD__SLICE; l++) lanes[l] = (float)w[4 * l] * nsvcd_w_decoder_scale[output + o + l];
   return nsvcd__v_load(lanes);
 #endif
 }
 
 // The derivative of a head's logit by its inputs: x, by_x (DECODER_IN). That of ReLU at 0 is 0.
 static void nsvcd__head_gradient(const nsvcd__head *head, const float *x, float *by_x) {
-  float values[5][NSVCD_W_WIDEST], by[NSVCD__MOST_INPUTS] = {1}, by_inputs[NSVCD__MOST_INPUTS], lanes[NSVCD__LANES];
+  float values[5][NSVCD__WIDEST], by[NSVCD__MOST_INPUTS] = {1}, by_inputs[NSVCD__MOST_INPUTS], lanes[NSVCD__LANES];
   size_t weights = head->weights, output = head->outputs, l = 0;
   for (; l + 1 < head->layers; l++) {
     const size_t inputs = head->sizes[l], outputs = head->sizes[l + 1];
@@ -10892,7 +10978,7 @@ static void nsvcd__head_gradient(const nsvcd__head *head, const float *x, float 
     for (size_t i = 0; i < inputs; i++) {
       if (!(in[i] < 0 || in[i] > 0)) continue;  // about half of them
       const nsvcd__v input = nsvcd__v_set(in[i]);
-      for (size_t o = 0; o < outputs; o += NSVCD__LANES) {
+      for (size_t o = 0; o < outputs; o += NSVCD__SLICE) {
         const nsvcd__v w = nsvcd__weights_at(weights, output, outputs, i, o);
         nsvcd__v_store(y + o, nsvcd__v_fma(input, w, nsvcd__v_load(y + o)));
       }
@@ -10903,13 +10989,15 @@ static void nsvcd__head_gradient(const nsvcd__head *head, const float *x, float 
   for (;; l--) {
     const size_t inputs = head->sizes[l], outputs = head->sizes[l + 1];
     for (size_t i = 0; i < inputs; i++) {
-      nsvcd__v sum = nsvcd__v_set(0);
       by_inputs[i] = 0;
       if (l > 0 && !(values[l - 1][i] > 0)) continue;
-      for (size_t o = 0; o < outputs; o += NSVCD__LANES) {
-        sum = nsvcd__v_fma(nsvcd__weights_at(weights, output, outputs, i, o), nsvcd__v_load(by + o), sum);
+      NSVCD__EACH_SLICE(s) {
+        nsvcd__v sum = nsvcd__v_set(0);
+        for (size_t o = s; o < outputs; o += NSVCD__LANES) {
+          sum = nsvcd__v_fma(nsvcd__weights_at(weights, output, outputs, i, o), nsvcd__v_load(by + o), sum);
+        }
+        nsvcd__v_store(lanes + s, sum);
       }
-      nsvcd__v_store(lanes, sum);
       for (size_t k = 0; k < NSVCD__LANES; k++) by_inputs[i] += lanes[k];
     }
     memcpy(by, by_inputs, inputs * sizeof *by);
@@ -11122,15 +11210,19 @@ static void nsvcd__instants_of(const nsvcd__task *ask, const nsvcd__candidate *c
   at->enters = time[a] < t0 && t0 < time[a + 1];
   at->leaves = time[b] < t1 && t1 < time[b + 1];
   const float scale = ask->motion.scale;
-  const nsvcd__v c[3] = {nsvcd__v_set(scale * nsvcd__body_x(moving)[i]), nsvcd__v_set(scale * nsvcd__body_y(moving)[i]),
-                         nsvcd__v_set(scale * nsvcd__body_z(moving)[i])};
-  nsvcd__v q[4], p[3], r[9], arm[3];
-  float lanes[NSVCD__LANES], places[NSVCD__LANES];
-  nsvcd__v_poses_at(&ask->motion, t, 7, q, p);
-  nsvcd__v_matrix(q, r), nsvcd__v_mul33_vec(r, c, arm);
-  for (size_t k = 0; k < 3; k++) {
-    nsvcd__v_store(lanes, arm[k]), nsvcd__v_store(places, nsvcd__v_add(arm[k], p[k]));
-    for (size_t l = 0; l < 7; l++) at->arm[l][k] = lanes[l], at->place[l][k] = places[l];
+  for (size_t first = 0; first < 7; first += NSVCD__SLICE) {
+    const size_t count = 7 - first < NSVCD__SLICE ? 7 - first : NSVCD__SLICE;
+    const nsvcd__v c[3] = {nsvcd__v_set(scale * nsvcd__body_x(moving)[i]),
+                           nsvcd__v_set(scale * nsvcd__body_y(moving)[i]),
+                           nsvcd__v_set(scale * nsvcd__body_z(moving)[i])};
+    nsvcd__v q[4], p[3], r[9], arm[3];
+    float lanes[NSVCD__SLICE], places[NSVCD__SLICE];
+    nsvcd__v_poses_at(&ask->motion, t + first, count, q, p);
+    nsvcd__v_matrix(q, r), nsvcd__v_mul33_vec(r, c, arm);
+    for (size_t k = 0; k < 3; k++) {
+      nsvcd__v_store(lanes, arm[k]), nsvcd__v_store(places, nsvcd__v_add(arm[k], p[k]));
+      for (size_t l = 0; l < count; l++) at->arm[first + l][k] = lanes[l], at->place[first + l][k] = places[l];
+    }
   }
 }
 
@@ -11168,7 +11260,7 @@ static void nsvcd__gradient(const nsvcd__task *ask, const nsvcd__decisive *decis
   nsvcd__pairs pairs;
   nsvcd__by_pair by;
   nsvcd__instants at;
-  float x[NSVCD__BATCH * NSVCD__DECODER_IN], by_x[NSVCD__DECODER_IN], w[3], n[3], centre[3], arm[3];
+  float x[NSVCD__DECODER_IN], by_x[NSVCD__DECODER_IN], w[3], n[3], centre[3], arm[3];
   nsvcd__pairs_of(ask->moving, ask->fixed, &ask->motion, &one, 1, &pairs);
   nsvcd__invariants(&pairs, 1, x);
   nsvcd__head_gradient(decisive->head, x, by_x);

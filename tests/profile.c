@@ -35,12 +35,20 @@ static void keep_least(double *times, size_t stage, double since) {
   times[stage] = fmin(times[stage], 1e6 * (seconds() - since));
 }
 
+// Any number of pairs, as many at a time as nsvcd__decode takes.
+static void logits_of(const nsvcd__head *head, const float *x, size_t count, int int8, float *logits) {
+  for (size_t first = 0; first < count; first += NSVCD__ROWS) {
+    const size_t rows = count - first < NSVCD__ROWS ? count - first : NSVCD__ROWS;
+    nsvcd__head_logits(head, x + NSVCD__DECODER_IN * first, rows, int8, logits + first);
+  }
+}
+
 // One run of every stage; times: (STAGES), the least so far.
 static void run_stages(const question *q, nsvcd__query *work, double *times) {
   nsvcd__motion motion;
   nsvcd__candidates kept;
   nsvcd__candidate *batch[NSVCD__BATCH];
-  nsvcd__pairs pairs;
+  nsvcd__pairs pairs[NSVCD__BATCH / NSVCD__SLICE];
   static float x[NSVCD__BATCH * NSVCD__DECODER_IN], logits[NSVCD__BATCH];
   float rotation[9], position[3];
   double start = seconds();
@@ -62,15 +70,19 @@ static void run_stages(const question *q, nsvcd__query *work, double *times) {
   if (!kept.count) return;
   for (size_t k = 0; k < NSVCD__BATCH; k++) batch[k] = &kept.items[k % kept.count];
   start = seconds();
-  nsvcd__pairs_of(q->moving, q->fixed, &motion, batch, NSVCD__BATCH, &pairs);
+  NSVCD__EACH_SLICE(l) {
+    nsvcd__pairs_of(q->moving, q->fixed, &motion, batch + l, NSVCD__SLICE, &pairs[l / NSVCD__SLICE]);
+  }
   keep_least(times, PAIRS, start), start = seconds();
-  nsvcd__invariants(&pairs, NSVCD__BATCH, x);
+  NSVCD__EACH_SLICE(l) {
+    nsvcd__invariants(&pairs[l / NSVCD__SLICE], NSVCD__SLICE, x + NSVCD__DECODER_IN * l);
+  }
   keep_least(times, INVARIANTS, start), start = seconds();
-  nsvcd__head_logits(&nsvcd_w_heads[0], x, 16, 0, logits);
+  logits_of(&nsvcd_w_heads[0], x, 16, 0, logits);
   keep_least(times, TINY, start), start = seconds();
-  nsvcd__head_logits(&nsvcd_w_heads[2], x, 8, 0, logits);
+  logits_of(&nsvcd_w_heads[2], x, 8, 0, logits);
   keep_least(times, BASE, start), start = seconds();
-  nsvcd__head_logits(&nsvcd_w_heads[2], x, 8, 1, logits);
+  logits_of(&nsvcd_w_heads[2], x, 8, 1, logits);
   keep_least(times, BASE_INT8, start);
 }
 
@@ -167,7 +179,7 @@ static double head_gflops(size_t model, size_t rows, int int8) {
   for (size_t l = 0; l < head->layers; l++) flops += 2.0 * head->sizes[l] * head->sizes[l + 1];
   for (int run = 0; run < 5; run++) {
     const double start = seconds();
-    for (int n = 0; n < 5000; n++) nsvcd__head_logits(head, x, rows, int8, logits);
+    for (int n = 0; n < 5000; n++) logits_of(head, x, rows, int8, logits);
     best = fmax(best, 5000 * flops * (double)rows / (seconds() - start) * 1e-9);
   }
   return best;

@@ -350,16 +350,18 @@ static void poses_at_are_poses(void) {
     size_t count = pick(1, 40);
     nsvcd_pose fixed = {{1, -2, 0.5f}, {0, 0, 0, 1}};
     float times[NSVCD__LANES], lanes[12][NSVCD__LANES];
-    nsvcd__v q[4], p[3], m[9];
     nsvcd__motion motion;
     random_quat(fixed.rotation);
     random_motion(count, trial % 3, uniform(0, 12), 1, middle);
     CHECK_EQ(motion_init(poses, count, &fixed, &motion), NSVCD_OK);
     for (size_t l = 0; l < NSVCD__LANES; l++) times[l] = l == 0 ? 0 : l == 1 ? 1 : (float)uniform(0, 1);
-    nsvcd__v_poses_at(&motion, times, NSVCD__LANES, q, p);
-    nsvcd__v_matrix(q, m);
-    for (size_t k = 0; k < 9; k++) nsvcd__v_store(lanes[k], m[k]);
-    for (size_t k = 0; k < 3; k++) nsvcd__v_store(lanes[9 + k], p[k]);
+    NSVCD__EACH_SLICE(l) {
+      nsvcd__v q[4], p[3], m[9];
+      nsvcd__v_poses_at(&motion, times + l, NSVCD__SLICE, q, p);
+      nsvcd__v_matrix(q, m);
+      for (size_t k = 0; k < 9; k++) nsvcd__v_store(lanes[k] + l, m[k]);
+      for (size_t k = 0; k < 3; k++) nsvcd__v_store(lanes[9 + k] + l, p[k]);
+    }
     for (size_t l = 0; l < NSVCD__LANES; l++) {
       float rotation[9], position[3];
       nsvcd__motion_pose(&motion, times[l], rotation, position);
@@ -374,7 +376,7 @@ static void poses_at_are_poses(void) {
 static void half_rotation_vector(void) {
   const double angles[12] = {0, 1e-8, 1e-6, 1e-4, 1e-2, 0.5, 1.04, 1.05, 1.5, 3, 3.14, 3.1415};
   for (int trial = 0; trial < 1200; trial++) {
-    float random[4], lane[NSVCD__LANES];
+    float random[4], lane[NSVCD__SLICE];
     double axis[3], length, angle = angles[trial % 12], s = sin(angle / 2), sign = trial % 5 ? 1 : -1;
     random_quat(random);
     length = sqrt((double)(random[0] * random[0] + random[1] * random[1] + random[2] * random[2]));
@@ -385,7 +387,7 @@ static void half_rotation_vector(void) {
     nsvcd__v_half_rotation(q, w);
     for (int k = 0; k < 3; k++) {
       nsvcd__v_store(lane, w[k]);
-      CHECK_NEAR(lane[trial % NSVCD__LANES], 0.5 * angle * axis[k], 3e-6);
+      CHECK_NEAR(lane[trial % NSVCD__SLICE], 0.5 * angle * axis[k], 3e-6);
     }
   }
 }
@@ -672,9 +674,9 @@ static void containment(void) {
       double distance = uniform(0, 2);
       for (int k = 0; k < 3; k++) way[k] = rotation[3 * k], at[k] = (float)distance * way[k];
       const nsvcd__v place[3] = {nsvcd__v_set(at[0]), nsvcd__v_set(at[1]), nsvcd__v_set(at[2])};
-      float lanes[NSVCD__LANES];
+      float lanes[NSVCD__SLICE];
       nsvcd__v_store(lanes, nsvcd__clearance2(outer, place));
-      double clearance = sqrt((double)lanes[7]);
+      double clearance = sqrt((double)lanes[7 % NSVCD__SLICE]);
       int bin = clearance < 1 ? 0 : clearance < 1.5 ? 1 : clearance < 2 ? 2 : 3;
       double want = distance < 1 ? 1 : 0;
       double off = fabs((double)nsvcd__winding_number(outer, at) - want);

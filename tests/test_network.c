@@ -34,41 +34,42 @@ typedef struct pair_data {
   const int8_t *z1, *z2;
 } pair_data;
 
-// In lane `lane`; the others hold the same pair, pushed apart.
+// In lane `lane`, of a slice; the others hold the same pair, pushed apart.
 static void inputs_in_lane(const pair_data *pair, size_t lane, float *x) {  // (DECODER_IN)
-  static float batch[NSVCD__BATCH * NSVCD__DECODER_IN];
+  static float batch[NSVCD__SLICE * NSVCD__DECODER_IN];
   const float *from[5] = {pair->p1, pair->p2, pair->rotation, pair->v, pair->w};
   nsvcd__pairs pairs;
   nsvcd__v *to[5] = {pairs.p1, pairs.p2, pairs.rotation, pairs.v, pairs.w};
   for (size_t n = 0; n < 5; n++) {
     for (size_t k = 0; k < (n == 2 ? 9u : 3u); k++) {
-      float lanes[NSVCD__LANES];
-      for (size_t l = 0; l < NSVCD__LANES; l++) lanes[l] = from[n][k] + (n == 0 && l != lane ? 0.1f * (float)l : 0);
+      float lanes[NSVCD__SLICE];
+      for (size_t l = 0; l < NSVCD__SLICE; l++) lanes[l] = from[n][k] + (n == 0 && l != lane ? 0.1f * (float)l : 0);
       to[n][k] = nsvcd__v_load(lanes);
     }
   }
   pairs.r1 = nsvcd__v_set(pair->r1), pairs.r2 = nsvcd__v_set(pair->r2);
-  for (size_t l = 0; l < NSVCD__LANES; l++) pairs.z1[l] = pair->z1, pairs.z2[l] = pair->z2;
-  nsvcd__invariants(&pairs, NSVCD__LANES, batch);
+  for (size_t l = 0; l < NSVCD__SLICE; l++) pairs.z1[l] = pair->z1, pairs.z2[l] = pair->z2;
+  nsvcd__invariants(&pairs, NSVCD__SLICE, batch);
   memcpy(x, batch + NSVCD__DECODER_IN * lane, NSVCD__DECODER_IN * sizeof *x);
 }
-static void inputs_of(const pair_data *pair, float *x) { inputs_in_lane(pair, 5, x); }
+static void inputs_of(const pair_data *pair, float *x) { inputs_in_lane(pair, 5 % NSVCD__SLICE, x); }
 
 static float head_logit(const nsvcd__head *head, const float *x, int int8) {
-  static float batch[NSVCD__BATCH * NSVCD__DECODER_IN];
-  float logits[NSVCD__BATCH];
-  for (size_t p = 0; p < 7; p++) memcpy(batch + NSVCD__DECODER_IN * p, x, NSVCD__DECODER_IN * sizeof *x);
-  nsvcd__head_logits(head, batch, 7, int8, logits);
-  return logits[6];
+  static float batch[NSVCD__ROWS * NSVCD__DECODER_IN];
+  const size_t rows = NSVCD__ROWS < 7 ? NSVCD__ROWS : 7;
+  float logits[NSVCD__ROWS];
+  for (size_t p = 0; p < rows; p++) memcpy(batch + NSVCD__DECODER_IN * p, x, NSVCD__DECODER_IN * sizeof *x);
+  nsvcd__head_logits(head, batch, rows, int8, logits);
+  return logits[rows - 1];
 }
 
 // D(R) as floats: (9 + 25).
 static void wigner(const float *r, float *d) {
   nsvcd__v m[9];
-  float lanes[NSVCD__TURN][NSVCD__LANES];
+  float lanes[NSVCD__TURN][NSVCD__SLICE];
   for (size_t k = 0; k < 9; k++) m[k] = nsvcd__v_set(r[k]);
   nsvcd__wigner(m, nsvcd__v_set(1), lanes);
-  for (size_t k = 0; k < NSVCD__TURN; k++) d[k] = lanes[k][3];
+  for (size_t k = 0; k < NSVCD__TURN; k++) d[k] = lanes[k][3 % NSVCD__SLICE];
 }
 
 // D(R) z of a latent's vectors: (3, CHANNELS), then (5, CHANNELS).
