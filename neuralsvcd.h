@@ -7951,14 +7951,14 @@ static void nsvcd__block_box(nsvcd__proof *p, size_t ends) {
 }
 
 // The least of 16 numbers, and the greatest.
-static float nsvcd__least_of(const float *lanes) {
+static float nsvcd__least_lane(const float *lanes) {
   float least = HUGE_VALF;
-  NSVCD__EACH_SLICE(l) least = fminf(least, nsvcd__v_least(nsvcd__v_load(lanes + l)));
+  NSVCD__EACH_SLICE(l) least = nsvcd__least_of(least, nsvcd__v_least(nsvcd__v_load(lanes + l)));
   return least;
 }
-static float nsvcd__greatest_of(const float *lanes) {
+static float nsvcd__greatest_lane(const float *lanes) {
   float least = HUGE_VALF;
-  NSVCD__EACH_SLICE(l) least = fminf(least, nsvcd__v_least(nsvcd__v_negate(nsvcd__v_load(lanes + l))));
+  NSVCD__EACH_SLICE(l) least = nsvcd__least_of(least, nsvcd__v_least(nsvcd__v_negate(nsvcd__v_load(lanes + l))));
   return -least;
 }
 
@@ -7971,10 +7971,10 @@ static void nsvcd__window_load(nsvcd__proof *p, size_t j, size_t first) {
   for (size_t n = first; n < end && p->window < NSVCD__WINDOW; n += NSVCD__LANES) {
     nsvcd__block *block = &p->fixed_blocks[p->window];
     nsvcd__block_load(&p->fixed, j, n, end - n < NSVCD__LANES ? end - n : NSVCD__LANES, block);
-    p->bounds[p->window].low = nsvcd__f3_of(nsvcd__least_of(block->low[0]), nsvcd__least_of(block->low[1]),
-                                            nsvcd__least_of(block->low[2]));
-    p->bounds[p->window].high = nsvcd__f3_of(nsvcd__greatest_of(block->high[0]), nsvcd__greatest_of(block->high[1]),
-                                             nsvcd__greatest_of(block->high[2]));
+    p->bounds[p->window].low = nsvcd__f3_of(nsvcd__least_lane(block->low[0]), nsvcd__least_lane(block->low[1]),
+                                            nsvcd__least_lane(block->low[2]));
+    p->bounds[p->window].high = nsvcd__f3_of(nsvcd__greatest_lane(block->high[0]), nsvcd__greatest_lane(block->high[1]),
+                                             nsvcd__greatest_lane(block->high[2]));
     p->window++;
   }
 }
@@ -8389,11 +8389,14 @@ static float nsvcd__least_height(nsvcd__proof *p, const nsvcd__span *span, size_
   const uint32_t key = (uint32_t)(i * NSVCD__MAX_SEGMENTS + s);
   nsvcd__height *known = &p->heights[(NSVCD__GROUP * s + i % NSVCD__GROUP) % NSVCD__HEIGHTS];
   if (known->plane == p->plane && known->key == key) return known->height;
-  const nsvcd__v3 n = nsvcd__v3_set(p->held);
-  const nsvcd__v3 hull = nsvcd__facet_vertices(&p->moving, i, 0, p->moving.hull_counts[i], 0);
-  const nsvcd__v at_start = nsvcd__v3_dot(n, nsvcd__v3_transform(&span->start, hull));
-  const nsvcd__v at_end = nsvcd__v3_dot(n, nsvcd__v3_transform(&span->end, hull));
-  const float lowest = nsvcd__v_least(nsvcd__v_min(at_start, at_end));
+  float lowest = HUGE_VALF;
+  NSVCD__EACH_SLICE(l) {
+    const nsvcd__v3 n = nsvcd__v3_set(p->held);
+    const nsvcd__v3 hull = nsvcd__facet_vertices(&p->moving, i, 0, p->moving.hull_counts[i], l);
+    const nsvcd__v at_start = nsvcd__v3_dot(n, nsvcd__v3_transform(&span->start, hull));
+    const nsvcd__v at_end = nsvcd__v3_dot(n, nsvcd__v3_transform(&span->end, hull));
+    lowest = nsvcd__least_of(lowest, nsvcd__v_least(nsvcd__v_min(at_start, at_end)));
+  }
   const float slack = (p->motion->scale * p->moving.slacks[i] + span->rounding) * nsvcd__f3_length(p->held);
   known->plane = p->plane;
   known->key = key;
@@ -8405,8 +8408,13 @@ static float nsvcd__least_height(nsvcd__proof *p, const nsvcd__span *span, size_
 static float nsvcd__greatest_height(nsvcd__proof *p, size_t j) {
   nsvcd__height *known = &p->rest_heights[j % NSVCD__REST_HEIGHTS];
   if (known->plane == p->plane && known->key == j) return known->height;
-  const nsvcd__v3 hull = nsvcd__facet_vertices(&p->fixed, j, 0, p->fixed.hull_counts[j], 0);
-  const float highest = -nsvcd__v_least(nsvcd__v_negate(nsvcd__v3_dot(nsvcd__v3_set(p->held), hull)));
+  float highest = HUGE_VALF;  // negated
+  NSVCD__EACH_SLICE(l) {
+    const nsvcd__v3 hull = nsvcd__facet_vertices(&p->fixed, j, 0, p->fixed.hull_counts[j], l);
+    const nsvcd__v height = nsvcd__v3_dot(nsvcd__v3_set(p->held), hull);
+    highest = nsvcd__least_of(highest, nsvcd__v_least(nsvcd__v_negate(height)));
+  }
+  highest = -highest;
   known->plane = p->plane;
   known->key = (uint32_t)j;
   known->height = highest + p->fixed.slacks[j] * nsvcd__f3_length(p->held);
@@ -9053,12 +9061,16 @@ static NSVCD__APART double nsvcd__guess_clearance(nsvcd__proof *p, const nsvcd__
     }
   }
   float lanes[3][NSVCD__LANES], least_square = HUGE_VALF;
-  const nsvcd__v3 rest = nsvcd__facet_vertices(&p->fixed, j, 0, p->fixed.hull_counts[j], 0);
-  const nsvcd__v3 moving = nsvcd__facet_vertices(&p->moving, i, 0, p->moving.hull_counts[i], 0);
-  nsvcd__v3_store(lanes, 0, nsvcd__v3_transform(&pose, moving));
-  for (size_t l = 0; l < NSVCD__LANES; l++) {
-    const nsvcd__v3 d = nsvcd__v3_sub(rest, nsvcd__v3_set(nsvcd__f3_of(lanes[0][l], lanes[1][l], lanes[2][l])));
-    least_square = fminf(least_square, nsvcd__v_least(nsvcd__v3_dot(d, d)));
+  NSVCD__EACH_SLICE(l) {
+    const nsvcd__v3 moving = nsvcd__facet_vertices(&p->moving, i, 0, p->moving.hull_counts[i], l);
+    nsvcd__v3_store(lanes, l, nsvcd__v3_transform(&pose, moving));
+  }
+  NSVCD__EACH_SLICE(l) {
+    const nsvcd__v3 rest = nsvcd__facet_vertices(&p->fixed, j, 0, p->fixed.hull_counts[j], l);
+    for (size_t n = 0; n < NSVCD__LANES; n++) {
+      const nsvcd__v3 d = nsvcd__v3_sub(rest, nsvcd__v3_set(nsvcd__lane_of(lanes, n)));
+      least_square = nsvcd__least_of(least_square, nsvcd__v_least(nsvcd__v3_dot(d, d)));
+    }
   }
   const float rounding = 4 * NSVCD__ROUNDING * (p->lengths + nsvcd__f3_length(pose.position));
   return 1.0001 * sqrt((double)least_square) + (double)(rounding + 2 * nsvcd__quanta_of(p, i, j));
