@@ -723,12 +723,10 @@ static inline nsvcd__d3 nsvcd__d3_widen(nsvcd__f3 a) {
 // What is done 16 lanes wide is done a *slice* at a time: as many lanes as a register holds. A function over 16 lanes goes
 // through its slices in a loop, and keeps no more than one of them in its variables; on a machine without vectors a slice is
 // one lane.
-#define NSVCD__SLICE NSVCD__LANES
-#define NSVCD__SLICE_MASK (((uint32_t)1 << (NSVCD__SLICE - 1) << 1) - 1)
-#define NSVCD__EACH_SLICE(l) for (size_t l = 0; l < NSVCD__LANES; l += NSVCD__SLICE)
 
 #if !defined(NSVCD_NO_SIMD) && defined(__AVX512F__)
 #include <immintrin.h>
+#define NSVCD__SLICE 16
 typedef __m512 nsvcd__v;
 static inline nsvcd__v nsvcd__v_load(const float *p) { return _mm512_loadu_ps(p); }
 static inline void nsvcd__v_store(float *p, nsvcd__v a) { _mm512_storeu_ps(p, a); }
@@ -752,192 +750,129 @@ static inline nsvcd__v nsvcd__v_load_int16(const int16_t *p) {
   return _mm512_cvtepi32_ps(_mm512_cvtepi16_epi32(packed));
 }
 
-#elif !defined(NSVCD_NO_SIMD) && (defined(__AVX2__) && defined(__FMA__) || defined(__SSE2__) || defined(__aarch64__))
-#if defined(__AVX2__) && defined(__FMA__)
+#elif !defined(NSVCD_NO_SIMD) && defined(__AVX2__) && defined(__FMA__)
 #include <immintrin.h>
-#define NSVCD__WORDS 2  // registers per vector
-typedef __m256 nsvcd__word;
-static inline nsvcd__word nsvcd__w_load(const float *p) { return _mm256_loadu_ps(p); }
-static inline void nsvcd__w_store(float *p, nsvcd__word a) { _mm256_storeu_ps(p, a); }
-static inline nsvcd__word nsvcd__w_set(float x) { return _mm256_set1_ps(x); }
-static inline nsvcd__word nsvcd__w_add(nsvcd__word a, nsvcd__word b) { return _mm256_add_ps(a, b); }
-static inline nsvcd__word nsvcd__w_sub(nsvcd__word a, nsvcd__word b) { return _mm256_sub_ps(a, b); }
-static inline nsvcd__word nsvcd__w_mul(nsvcd__word a, nsvcd__word b) { return _mm256_mul_ps(a, b); }
-static inline nsvcd__word nsvcd__w_div(nsvcd__word a, nsvcd__word b) { return _mm256_div_ps(a, b); }
-static inline nsvcd__word nsvcd__w_fma(nsvcd__word a, nsvcd__word b, nsvcd__word c) { return _mm256_fmadd_ps(a, b, c); }
-static inline nsvcd__word nsvcd__w_min(nsvcd__word a, nsvcd__word b) { return _mm256_min_ps(a, b); }
-static inline nsvcd__word nsvcd__w_max(nsvcd__word a, nsvcd__word b) { return _mm256_max_ps(a, b); }
-static inline nsvcd__word nsvcd__w_sqrt(nsvcd__word a) { return _mm256_sqrt_ps(a); }
-static inline uint32_t nsvcd__w_le(nsvcd__word a, nsvcd__word b) {
+#define NSVCD__SLICE 8
+typedef __m256 nsvcd__v;
+static inline nsvcd__v nsvcd__v_load(const float *p) { return _mm256_loadu_ps(p); }
+static inline void nsvcd__v_store(float *p, nsvcd__v a) { _mm256_storeu_ps(p, a); }
+static inline nsvcd__v nsvcd__v_set(float x) { return _mm256_set1_ps(x); }
+static inline nsvcd__v nsvcd__v_add(nsvcd__v a, nsvcd__v b) { return _mm256_add_ps(a, b); }
+static inline nsvcd__v nsvcd__v_sub(nsvcd__v a, nsvcd__v b) { return _mm256_sub_ps(a, b); }
+static inline nsvcd__v nsvcd__v_mul(nsvcd__v a, nsvcd__v b) { return _mm256_mul_ps(a, b); }
+static inline nsvcd__v nsvcd__v_div(nsvcd__v a, nsvcd__v b) { return _mm256_div_ps(a, b); }
+static inline nsvcd__v nsvcd__v_fma(nsvcd__v a, nsvcd__v b, nsvcd__v c) { return _mm256_fmadd_ps(a, b, c); }
+static inline nsvcd__v nsvcd__v_min(nsvcd__v a, nsvcd__v b) { return _mm256_min_ps(a, b); }
+static inline nsvcd__v nsvcd__v_max(nsvcd__v a, nsvcd__v b) { return _mm256_max_ps(a, b); }
+static inline nsvcd__v nsvcd__v_sqrt(nsvcd__v a) { return _mm256_sqrt_ps(a); }
+static inline uint32_t nsvcd__v_le(nsvcd__v a, nsvcd__v b) {
   return (uint32_t)_mm256_movemask_ps(_mm256_cmp_ps(a, b, _CMP_LE_OQ));
 }
-static inline uint32_t nsvcd__w_lt(nsvcd__word a, nsvcd__word b) {
+static inline uint32_t nsvcd__v_lt(nsvcd__v a, nsvcd__v b) {
   return (uint32_t)_mm256_movemask_ps(_mm256_cmp_ps(a, b, _CMP_LT_OQ));
 }
-static inline nsvcd__word nsvcd__w_pick(nsvcd__word a, nsvcd__word b, nsvcd__word x, nsvcd__word y) {
+static inline nsvcd__v nsvcd__v_pick(nsvcd__v a, nsvcd__v b, nsvcd__v x, nsvcd__v y) {
   return _mm256_blendv_ps(y, x, _mm256_cmp_ps(a, b, _CMP_LE_OQ));
 }
-static inline float nsvcd__w_least(nsvcd__word a) {
+static inline float nsvcd__v_least(nsvcd__v a) {
   const __m128 four = _mm_min_ps(_mm256_castps256_ps128(a), _mm256_extractf128_ps(a, 1));
   const __m128 two = _mm_min_ps(four, _mm_movehl_ps(four, four));
   return _mm_cvtss_f32(_mm_min_ss(two, _mm_shuffle_ps(two, two, 1)));
 }
-static inline nsvcd__word nsvcd__w_load_int16(const int16_t *p) {
+static inline nsvcd__v nsvcd__v_load_int16(const int16_t *p) {
   const __m128i packed = _mm_loadu_si128((const __m128i *)(const void *)p);
   return _mm256_cvtepi32_ps(_mm256_cvtepi16_epi32(packed));
 }
-#elif defined(__SSE2__)
+
+#elif !defined(NSVCD_NO_SIMD) && defined(__SSE2__)
 #include <emmintrin.h>
-#define NSVCD__WORDS 4
-typedef __m128 nsvcd__word;
-static inline nsvcd__word nsvcd__w_load(const float *p) { return _mm_loadu_ps(p); }
-static inline void nsvcd__w_store(float *p, nsvcd__word a) { _mm_storeu_ps(p, a); }
-static inline nsvcd__word nsvcd__w_set(float x) { return _mm_set1_ps(x); }
-static inline nsvcd__word nsvcd__w_add(nsvcd__word a, nsvcd__word b) { return _mm_add_ps(a, b); }
-static inline nsvcd__word nsvcd__w_sub(nsvcd__word a, nsvcd__word b) { return _mm_sub_ps(a, b); }
-static inline nsvcd__word nsvcd__w_mul(nsvcd__word a, nsvcd__word b) { return _mm_mul_ps(a, b); }
-static inline nsvcd__word nsvcd__w_div(nsvcd__word a, nsvcd__word b) { return _mm_div_ps(a, b); }
-static inline nsvcd__word nsvcd__w_fma(nsvcd__word a, nsvcd__word b, nsvcd__word c) {
+#define NSVCD__SLICE 4
+typedef __m128 nsvcd__v;
+static inline nsvcd__v nsvcd__v_load(const float *p) { return _mm_loadu_ps(p); }
+static inline void nsvcd__v_store(float *p, nsvcd__v a) { _mm_storeu_ps(p, a); }
+static inline nsvcd__v nsvcd__v_set(float x) { return _mm_set1_ps(x); }
+static inline nsvcd__v nsvcd__v_add(nsvcd__v a, nsvcd__v b) { return _mm_add_ps(a, b); }
+static inline nsvcd__v nsvcd__v_sub(nsvcd__v a, nsvcd__v b) { return _mm_sub_ps(a, b); }
+static inline nsvcd__v nsvcd__v_mul(nsvcd__v a, nsvcd__v b) { return _mm_mul_ps(a, b); }
+static inline nsvcd__v nsvcd__v_div(nsvcd__v a, nsvcd__v b) { return _mm_div_ps(a, b); }
+static inline nsvcd__v nsvcd__v_fma(nsvcd__v a, nsvcd__v b, nsvcd__v c) {
   return _mm_add_ps(_mm_mul_ps(a, b), c);
 }
-static inline nsvcd__word nsvcd__w_min(nsvcd__word a, nsvcd__word b) { return _mm_min_ps(a, b); }
-static inline nsvcd__word nsvcd__w_max(nsvcd__word a, nsvcd__word b) { return _mm_max_ps(a, b); }
-static inline nsvcd__word nsvcd__w_sqrt(nsvcd__word a) { return _mm_sqrt_ps(a); }
-static inline uint32_t nsvcd__w_le(nsvcd__word a, nsvcd__word b) {
+static inline nsvcd__v nsvcd__v_min(nsvcd__v a, nsvcd__v b) { return _mm_min_ps(a, b); }
+static inline nsvcd__v nsvcd__v_max(nsvcd__v a, nsvcd__v b) { return _mm_max_ps(a, b); }
+static inline nsvcd__v nsvcd__v_sqrt(nsvcd__v a) { return _mm_sqrt_ps(a); }
+static inline uint32_t nsvcd__v_le(nsvcd__v a, nsvcd__v b) {
   return (uint32_t)_mm_movemask_ps(_mm_cmple_ps(a, b));
 }
-static inline uint32_t nsvcd__w_lt(nsvcd__word a, nsvcd__word b) {
+static inline uint32_t nsvcd__v_lt(nsvcd__v a, nsvcd__v b) {
   return (uint32_t)_mm_movemask_ps(_mm_cmplt_ps(a, b));
 }
-static inline nsvcd__word nsvcd__w_pick(nsvcd__word a, nsvcd__word b, nsvcd__word x, nsvcd__word y) {
+static inline nsvcd__v nsvcd__v_pick(nsvcd__v a, nsvcd__v b, nsvcd__v x, nsvcd__v y) {
   const __m128 mask = _mm_cmple_ps(a, b);
   return _mm_or_ps(_mm_and_ps(mask, x), _mm_andnot_ps(mask, y));
 }
-static inline float nsvcd__w_least(nsvcd__word a) {
+static inline float nsvcd__v_least(nsvcd__v a) {
   const __m128 two = _mm_min_ps(a, _mm_movehl_ps(a, a));
   return _mm_cvtss_f32(_mm_min_ss(two, _mm_shuffle_ps(two, two, 1)));
 }
-static inline nsvcd__word nsvcd__w_load_int16(const int16_t *p) {
+static inline nsvcd__v nsvcd__v_load_int16(const int16_t *p) {
   const __m128i packed = _mm_loadl_epi64((const __m128i *)(const void *)p);
   return _mm_cvtepi32_ps(_mm_srai_epi32(_mm_unpacklo_epi16(packed, packed), 16));
 }
-#else
+
+#elif !defined(NSVCD_NO_SIMD) && defined(__aarch64__)
 #include <arm_neon.h>
-#define NSVCD__WORDS 4
-typedef float32x4_t nsvcd__word;
-static inline nsvcd__word nsvcd__w_load(const float *p) { return vld1q_f32(p); }
-static inline void nsvcd__w_store(float *p, nsvcd__word a) { vst1q_f32(p, a); }
-static inline nsvcd__word nsvcd__w_set(float x) { return vdupq_n_f32(x); }
-static inline nsvcd__word nsvcd__w_add(nsvcd__word a, nsvcd__word b) { return vaddq_f32(a, b); }
-static inline nsvcd__word nsvcd__w_sub(nsvcd__word a, nsvcd__word b) { return vsubq_f32(a, b); }
-static inline nsvcd__word nsvcd__w_mul(nsvcd__word a, nsvcd__word b) { return vmulq_f32(a, b); }
-static inline nsvcd__word nsvcd__w_div(nsvcd__word a, nsvcd__word b) { return vdivq_f32(a, b); }
-static inline nsvcd__word nsvcd__w_fma(nsvcd__word a, nsvcd__word b, nsvcd__word c) { return vfmaq_f32(c, a, b); }
-static inline nsvcd__word nsvcd__w_min(nsvcd__word a, nsvcd__word b) { return vminq_f32(a, b); }
-static inline nsvcd__word nsvcd__w_max(nsvcd__word a, nsvcd__word b) { return vmaxq_f32(a, b); }
-static inline nsvcd__word nsvcd__w_sqrt(nsvcd__word a) { return vsqrtq_f32(a); }
-static inline uint32_t nsvcd__w_bits(uint32x4_t lanes) {
+#define NSVCD__SLICE 4
+typedef float32x4_t nsvcd__v;
+static inline nsvcd__v nsvcd__v_load(const float *p) { return vld1q_f32(p); }
+static inline void nsvcd__v_store(float *p, nsvcd__v a) { vst1q_f32(p, a); }
+static inline nsvcd__v nsvcd__v_set(float x) { return vdupq_n_f32(x); }
+static inline nsvcd__v nsvcd__v_add(nsvcd__v a, nsvcd__v b) { return vaddq_f32(a, b); }
+static inline nsvcd__v nsvcd__v_sub(nsvcd__v a, nsvcd__v b) { return vsubq_f32(a, b); }
+static inline nsvcd__v nsvcd__v_mul(nsvcd__v a, nsvcd__v b) { return vmulq_f32(a, b); }
+static inline nsvcd__v nsvcd__v_div(nsvcd__v a, nsvcd__v b) { return vdivq_f32(a, b); }
+static inline nsvcd__v nsvcd__v_fma(nsvcd__v a, nsvcd__v b, nsvcd__v c) { return vfmaq_f32(c, a, b); }
+static inline nsvcd__v nsvcd__v_min(nsvcd__v a, nsvcd__v b) { return vminq_f32(a, b); }
+static inline nsvcd__v nsvcd__v_max(nsvcd__v a, nsvcd__v b) { return vmaxq_f32(a, b); }
+static inline nsvcd__v nsvcd__v_sqrt(nsvcd__v a) { return vsqrtq_f32(a); }
+static inline uint32_t nsvcd__v_bits(uint32x4_t lanes) {
   static const uint32_t bit[4] = {1, 2, 4, 8};
   return vaddvq_u32(vandq_u32(lanes, vld1q_u32(bit)));
 }
-static inline uint32_t nsvcd__w_le(nsvcd__word a, nsvcd__word b) { return nsvcd__w_bits(vcleq_f32(a, b)); }
-static inline uint32_t nsvcd__w_lt(nsvcd__word a, nsvcd__word b) { return nsvcd__w_bits(vcltq_f32(a, b)); }
-static inline nsvcd__word nsvcd__w_pick(nsvcd__word a, nsvcd__word b, nsvcd__word x, nsvcd__word y) {
+static inline uint32_t nsvcd__v_le(nsvcd__v a, nsvcd__v b) { return nsvcd__v_bits(vcleq_f32(a, b)); }
+static inline uint32_t nsvcd__v_lt(nsvcd__v a, nsvcd__v b) { return nsvcd__v_bits(vcltq_f32(a, b)); }
+static inline nsvcd__v nsvcd__v_pick(nsvcd__v a, nsvcd__v b, nsvcd__v x, nsvcd__v y) {
   return vbslq_f32(vcleq_f32(a, b), x, y);
 }
-static inline float nsvcd__w_least(nsvcd__word a) { return vminvq_f32(a); }
-static inline nsvcd__word nsvcd__w_load_int16(const int16_t *p) { return vcvtq_f32_s32(vmovl_s16(vld1_s16(p))); }
-#endif
-typedef struct nsvcd__v {
-  nsvcd__word w[NSVCD__WORDS];
-} nsvcd__v;
-#define NSVCD__EACH_WORD(expression)                               \
-  nsvcd__v out;                                                    \
-  NSVCD__UNROLL                                                    \
-  for (size_t i = 0; i < NSVCD__WORDS; i++) out.w[i] = expression; \
-  return out
-static inline nsvcd__v nsvcd__v_load(const float *p) {
-  NSVCD__EACH_WORD(nsvcd__w_load(p + NSVCD__LANES / NSVCD__WORDS * i));
-}
-static inline void nsvcd__v_store(float *p, nsvcd__v a) {
-  for (size_t i = 0; i < NSVCD__WORDS; i++) nsvcd__w_store(p + NSVCD__LANES / NSVCD__WORDS * i, a.w[i]);
-}
-static inline nsvcd__v nsvcd__v_set(float x) { NSVCD__EACH_WORD(nsvcd__w_set(x)); }
-static inline nsvcd__v nsvcd__v_add(nsvcd__v a, nsvcd__v b) { NSVCD__EACH_WORD(nsvcd__w_add(a.w[i], b.w[i])); }
-static inline nsvcd__v nsvcd__v_sub(nsvcd__v a, nsvcd__v b) { NSVCD__EACH_WORD(nsvcd__w_sub(a.w[i], b.w[i])); }
-static inline nsvcd__v nsvcd__v_mul(nsvcd__v a, nsvcd__v b) { NSVCD__EACH_WORD(nsvcd__w_mul(a.w[i], b.w[i])); }
-static inline nsvcd__v nsvcd__v_div(nsvcd__v a, nsvcd__v b) { NSVCD__EACH_WORD(nsvcd__w_div(a.w[i], b.w[i])); }
-static inline nsvcd__v nsvcd__v_fma(nsvcd__v a, nsvcd__v b, nsvcd__v c) {
-  NSVCD__EACH_WORD(nsvcd__w_fma(a.w[i], b.w[i], c.w[i]));
-}
-static inline nsvcd__v nsvcd__v_min(nsvcd__v a, nsvcd__v b) { NSVCD__EACH_WORD(nsvcd__w_min(a.w[i], b.w[i])); }
-static inline nsvcd__v nsvcd__v_max(nsvcd__v a, nsvcd__v b) { NSVCD__EACH_WORD(nsvcd__w_max(a.w[i], b.w[i])); }
-static inline nsvcd__v nsvcd__v_sqrt(nsvcd__v a) { NSVCD__EACH_WORD(nsvcd__w_sqrt(a.w[i])); }
-static inline uint32_t nsvcd__v_le(nsvcd__v a, nsvcd__v b) {
-  uint32_t bits = 0;
-  for (size_t i = 0; i < NSVCD__WORDS; i++) bits |= nsvcd__w_le(a.w[i], b.w[i]) << (NSVCD__LANES / NSVCD__WORDS * i);
-  return bits;
-}
-static inline uint32_t nsvcd__v_lt(nsvcd__v a, nsvcd__v b) {
-  uint32_t bits = 0;
-  for (size_t i = 0; i < NSVCD__WORDS; i++) bits |= nsvcd__w_lt(a.w[i], b.w[i]) << (NSVCD__LANES / NSVCD__WORDS * i);
-  return bits;
-}
-static inline nsvcd__v nsvcd__v_pick(nsvcd__v a, nsvcd__v b, nsvcd__v x, nsvcd__v y) {
-  NSVCD__EACH_WORD(nsvcd__w_pick(a.w[i], b.w[i], x.w[i], y.w[i]));
-}
-static inline float nsvcd__v_least(nsvcd__v a) {
-  nsvcd__word least = a.w[0];
-  for (size_t i = 1; i < NSVCD__WORDS; i++) least = nsvcd__w_min(least, a.w[i]);
-  return nsvcd__w_least(least);
-}
-static inline nsvcd__v nsvcd__v_load_int16(const int16_t *p) {
-  NSVCD__EACH_WORD(nsvcd__w_load_int16(p + NSVCD__LANES / NSVCD__WORDS * i));
-}
+static inline float nsvcd__v_least(nsvcd__v a) { return vminvq_f32(a); }
+static inline nsvcd__v nsvcd__v_load_int16(const int16_t *p) { return vcvtq_f32_s32(vmovl_s16(vld1_s16(p))); }
 
 #else
-typedef struct nsvcd__v {
-  float f[NSVCD__LANES];
-} nsvcd__v;
-#define NSVCD__EACH_LANE(expression)                               \
-  nsvcd__v out;                                                    \
-  for (size_t i = 0; i < NSVCD__LANES; i++) out.f[i] = expression; \
-  return out
-static inline nsvcd__v nsvcd__v_load(const float *p) { NSVCD__EACH_LANE(p[i]); }
-static inline void nsvcd__v_store(float *p, nsvcd__v a) { memcpy(p, a.f, sizeof a.f); }
-static inline nsvcd__v nsvcd__v_set(float x) { NSVCD__EACH_LANE(x); }
-static inline nsvcd__v nsvcd__v_add(nsvcd__v a, nsvcd__v b) { NSVCD__EACH_LANE(a.f[i] + b.f[i]); }
-static inline nsvcd__v nsvcd__v_sub(nsvcd__v a, nsvcd__v b) { NSVCD__EACH_LANE(a.f[i] - b.f[i]); }
-static inline nsvcd__v nsvcd__v_mul(nsvcd__v a, nsvcd__v b) { NSVCD__EACH_LANE(a.f[i] * b.f[i]); }
-static inline nsvcd__v nsvcd__v_div(nsvcd__v a, nsvcd__v b) { NSVCD__EACH_LANE(a.f[i] / b.f[i]); }
-static inline nsvcd__v nsvcd__v_fma(nsvcd__v a, nsvcd__v b, nsvcd__v c) { NSVCD__EACH_LANE(a.f[i] * b.f[i] + c.f[i]); }
-static inline nsvcd__v nsvcd__v_min(nsvcd__v a, nsvcd__v b) { NSVCD__EACH_LANE(a.f[i] < b.f[i] ? a.f[i] : b.f[i]); }
-static inline nsvcd__v nsvcd__v_max(nsvcd__v a, nsvcd__v b) { NSVCD__EACH_LANE(a.f[i] > b.f[i] ? a.f[i] : b.f[i]); }
-static inline nsvcd__v nsvcd__v_sqrt(nsvcd__v a) { NSVCD__EACH_LANE(sqrtf(a.f[i])); }
-// Bit i is set where a <= b.
-static inline uint32_t nsvcd__v_le(nsvcd__v a, nsvcd__v b) {
-  uint32_t bits = 0;
-  for (size_t i = 0; i < NSVCD__LANES; i++) bits |= (uint32_t)(a.f[i] <= b.f[i]) << i;
-  return bits;
-}
-// Bit i is set where a < b.
-static inline uint32_t nsvcd__v_lt(nsvcd__v a, nsvcd__v b) {
-  uint32_t bits = 0;
-  for (size_t i = 0; i < NSVCD__LANES; i++) bits |= (uint32_t)(a.f[i] < b.f[i]) << i;
-  return bits;
-}
+#define NSVCD__SLICE 1
+typedef float nsvcd__v;
+static inline nsvcd__v nsvcd__v_load(const float *p) { return *p; }
+static inline void nsvcd__v_store(float *p, nsvcd__v a) { *p = a; }
+static inline nsvcd__v nsvcd__v_set(float x) { return x; }
+static inline nsvcd__v nsvcd__v_add(nsvcd__v a, nsvcd__v b) { return a + b; }
+static inline nsvcd__v nsvcd__v_sub(nsvcd__v a, nsvcd__v b) { return a - b; }
+static inline nsvcd__v nsvcd__v_mul(nsvcd__v a, nsvcd__v b) { return a * b; }
+static inline nsvcd__v nsvcd__v_div(nsvcd__v a, nsvcd__v b) { return a / b; }
+static inline nsvcd__v nsvcd__v_fma(nsvcd__v a, nsvcd__v b, nsvcd__v c) { return a * b + c; }
+static inline nsvcd__v nsvcd__v_min(nsvcd__v a, nsvcd__v b) { return a < b ? a : b; }
+static inline nsvcd__v nsvcd__v_max(nsvcd__v a, nsvcd__v b) { return a > b ? a : b; }
+static inline nsvcd__v nsvcd__v_sqrt(nsvcd__v a) { return sqrtf(a); }
+// Bit i is set where a <= b in lane i of the slice, or a < b.
+static inline uint32_t nsvcd__v_le(nsvcd__v a, nsvcd__v b) { return a <= b; }
+static inline uint32_t nsvcd__v_lt(nsvcd__v a, nsvcd__v b) { return a < b; }
 // a <= b ? x : y.
-static inline nsvcd__v nsvcd__v_pick(nsvcd__v a, nsvcd__v b, nsvcd__v x, nsvcd__v y) {
-  NSVCD__EACH_LANE(a.f[i] <= b.f[i] ? x.f[i] : y.f[i]);
-}
+static inline nsvcd__v nsvcd__v_pick(nsvcd__v a, nsvcd__v b, nsvcd__v x, nsvcd__v y) { return a <= b ? x : y; }
 // The least of all lanes.
-static inline float nsvcd__v_least(nsvcd__v a) {
-  float least = a.f[0];
-  for (size_t i = 1; i < NSVCD__LANES; i++) least = a.f[i] < least ? a.f[i] : least;
-  return least;
-}
-static inline nsvcd__v nsvcd__v_load_int16(const int16_t *p) { NSVCD__EACH_LANE((float)p[i]); }
+static inline float nsvcd__v_least(nsvcd__v a) { return a; }
+static inline nsvcd__v nsvcd__v_load_int16(const int16_t *p) { return (float)*p; }
 #endif
+
+#define NSVCD__SLICE_MASK (((uint32_t)1 << (NSVCD__SLICE - 1) << 1) - 1)
+#define NSVCD__EACH_SLICE(l) for (size_t l = 0; l < NSVCD__LANES; l += NSVCD__SLICE)
 
 // x y + z w + ... as the sweep and the decoder need them. a, b: three vectors each.
 static inline nsvcd__v nsvcd__v_dot3(const nsvcd__v *a, const nsvcd__v *b) {
