@@ -7213,8 +7213,8 @@ NSVCD__INLINE nsvcd__v3 nsvcd__v3_turned_back(float (*m)[NSVCD__LANES], size_t l
                        nsvcd__v3_fma(nsvcd__v_set(a.y), nsvcd__v3_load(m + 3, l), sum));
 }
 
-// Of a slice of a block's segments, those in which discs part a moving group from a resting one. The planes are those of
-// single discs, nsvcd__apart_by_fixed_disc and nsvcd__apart_by_moving_disc, with all in lanes but the discs.
+// Segments of a slice of a block in which discs part a moving group from a resting one. The planes are those of single
+// discs, nsvcd__apart_by_fixed_disc and nsvcd__apart_by_moving_disc, with all in lanes but the discs.
 static uint32_t nsvcd__groups_apart(nsvcd__segments *block, const nsvcd__chords *c, size_t l, const nsvcd__disc *moving,
                                     const nsvcd__disc *fixed, nsvcd__f3 fixed_centre, float scale, float reach,
                                     float clearance, nsvcd__v3 *planes, uint32_t *below) {
