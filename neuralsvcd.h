@@ -3805,8 +3805,11 @@ NSVCD__INLINE void nsvcd__turn_degree(const float *latent, float (*turn)[NSVCD__
   }
 }
 
-// A stored latent, turned by D (TURN, SLICE) of lane l: vectors (8, CHANNELS), scalars (SCALARS).
-static void nsvcd__turn_latent(const int8_t *z, float (*turn)[NSVCD__SLICE], size_t l, float *vectors, float *scalars) {
+// A stored latent, turned by D (TURN, SLICE) of lane l, to its place of two (0, 1) in a row of the decoder's inputs:
+// vectors (2, 8, CHANNELS), then scalars (2, SCALARS).
+static void nsvcd__turn_latent(const int8_t *z, float (*turn)[NSVCD__SLICE], size_t l, size_t place, float *row) {
+  float *vectors = row + NSVCD__VECTORS * place;
+  float *scalars = row + 2 * NSVCD__VECTORS + NSVCD_W_SCALARS * place;
   float latent[NSVCD__LATENT];
   for (size_t k = 0; k < NSVCD__LATENT; k++) latent[k] = (float)z[k];
   nsvcd__turn_degree(latent, turn, l, 3, vectors);
@@ -9451,8 +9454,9 @@ static void nsvcd__v_poses_at(const nsvcd__motion *motion, const float *t, size_
 }
 
 // The pairs of `count` candidates, 1 to SLICE. What is in the lanes beyond does not matter.
-static void nsvcd__pairs_of(const nsvcd_body *moving, const nsvcd_body *fixed, const nsvcd__motion *motion,
-                            nsvcd__candidate *const *candidates, size_t count, nsvcd__pairs *pairs) {
+static NSVCD__APART void nsvcd__pairs_of(const nsvcd_body *moving, const nsvcd_body *fixed,
+                                         const nsvcd__motion *motion, nsvcd__candidate *const *candidates, size_t count,
+                                         nsvcd__pairs *pairs) {
   float lanes[8][NSVCD__SLICE] = {{0}}, enter[NSVCD__SLICE], leave[NSVCD__SLICE], middle[NSVCD__SLICE];
   const float scale = motion->scale;
   for (size_t l = 0; l < count; l++) {
@@ -9588,19 +9592,17 @@ static void nsvcd__views_of(const nsvcd__pairs *pairs, size_t count, nsvcd__view
 
 // Appendix F: the inputs of the decoder for the first `count` pairs of a slice, x (count, DECODER_IN): vectors of the
 // larger patch and of the other, their scalars, and twelve facts of the geometry.
-static void nsvcd__invariants(const nsvcd__pairs *pairs, size_t count, float *x) {
+static NSVCD__APART void nsvcd__invariants(const nsvcd__pairs *pairs, size_t count, float *x) {
   nsvcd__views view;
   nsvcd__views_of(pairs, count, &view);
   const nsvcd__v step = nsvcd__v_set(1.0f / 127), k1 = view.k1, k2 = view.k2, order = view.order, side = view.side;
   const nsvcd__v *d = view.d, *v = view.v, *w = view.w, *frame = view.frame;
-  float turn1[NSVCD__TURN][NSVCD__SLICE], turn2[NSVCD__TURN][NSVCD__SLICE], facts[NSVCD__FACTS][NSVCD__SLICE];
+  float latent_turn[NSVCD__TURN][NSVCD__SLICE], facts[NSVCD__FACTS][NSVCD__SLICE];
   nsvcd__v frame1[9], closest[3], turn[3];
   for (size_t i = 0; i < 9; i++) {
     const nsvcd__v *row = frame + i / 3 * 3, *column = pairs->rotation + i % 3;
     frame1[i] = nsvcd__v_fma(row[0], column[0], nsvcd__v_fma(row[1], column[3], nsvcd__v_mul(row[2], column[6])));
   }
-  nsvcd__wigner(frame1, nsvcd__v_mul(k1, step), turn1);
-  nsvcd__wigner(frame, nsvcd__v_mul(k2, step), turn2);
 
   const nsvcd__v speed2 = nsvcd__v_dot3(v, v);
   nsvcd__v tau = nsvcd__v_div(nsvcd__v_dot3(d, v), nsvcd__v_add(speed2, nsvcd__v_set(1e-6f)));
@@ -9616,11 +9618,14 @@ static void nsvcd__invariants(const nsvcd__pairs *pairs, size_t count, float *x)
   nsvcd__v_store(facts[10], nsvcd__v_sqrt(speed2)), nsvcd__v_store(facts[11], nsvcd__v_length3(w));
 
   const uint32_t keep = nsvcd__v_le(nsvcd__v_set(0), order);
+  nsvcd__wigner(frame1, nsvcd__v_mul(k1, step), latent_turn);
+  for (size_t l = 0; l < count; l++) {
+    nsvcd__turn_latent(pairs->z1[l], latent_turn, l, keep >> l & 1 ? 0 : 1, x + NSVCD__DECODER_IN * l);
+  }
+  nsvcd__wigner(frame, nsvcd__v_mul(k2, step), latent_turn);
   for (size_t l = 0; l < count; l++, x += NSVCD__DECODER_IN) {
-    const size_t first = keep >> l & 1 ? 0 : 1, second = 1 - first;
     float *scalars = x + 2 * NSVCD__VECTORS;
-    nsvcd__turn_latent(pairs->z1[l], turn1, l, x + NSVCD__VECTORS * first, scalars + NSVCD_W_SCALARS * first);
-    nsvcd__turn_latent(pairs->z2[l], turn2, l, x + NSVCD__VECTORS * second, scalars + NSVCD_W_SCALARS * second);
+    nsvcd__turn_latent(pairs->z2[l], latent_turn, l, keep >> l & 1 ? 1 : 0, x);
     for (size_t k = 0; k < NSVCD__FACTS; k++) scalars[2 * NSVCD_W_SCALARS + k] = facts[k][l];
     for (size_t k = NSVCD__INPUTS; k < NSVCD__DECODER_IN; k++) x[k] = 0;
   }
@@ -9794,7 +9799,7 @@ static void nsvcd__from_dots(const int32_t *dot, const float *sum, const float *
 #endif
 
 // As nsvcd__head_logits, in int8 arithmetic. A row is bytes before its outputs are written: they may take its place.
-static void nsvcd__head_by_bytes(const nsvcd__head *head, const float *x, size_t count, float *logits) {
+static NSVCD__APART void nsvcd__head_by_bytes(const nsvcd__head *head, const float *x, size_t count, float *logits) {
   const float *bias = nsvcd_w_decoder_bias + head->outputs;
   float y[NSVCD__ROWS * NSVCD__WIDEST];
   size_t from = NSVCD__DECODER_IN;
@@ -9829,7 +9834,7 @@ static void nsvcd__head_by_bytes(const nsvcd__head *head, const float *x, size_t
 
 #ifndef NSVCD_NO_FLOAT
 // As nsvcd__head_logits, in fp32.
-static void nsvcd__head_by_floats(const nsvcd__head *head, const float *x, size_t count, float *logits) {
+static NSVCD__APART void nsvcd__head_by_floats(const nsvcd__head *head, const float *x, size_t count, float *logits) {
   const float *bias = nsvcd_w_decoder_bias + head->outputs;
   float a[NSVCD__ROWS * NSVCD__WIDEST];
   float b[NSVCD__ROWS * NSVCD__WIDEST];
@@ -10914,7 +10919,7 @@ NSVCD__INLINE nsvcd__v nsvcd__weights_at(size_t weights, size_t output, size_t o
 }
 
 // The derivative of a head's logit by its inputs: x, by_x (DECODER_IN). That of ReLU at 0 is 0.
-static void nsvcd__head_gradient(const nsvcd__head *head, const float *x, float *by_x) {
+static NSVCD__APART void nsvcd__head_gradient(const nsvcd__head *head, const float *x, float *by_x) {
   float values[5][NSVCD__WIDEST], by[NSVCD__MOST_INPUTS] = {1}, by_inputs[NSVCD__MOST_INPUTS], lanes[NSVCD__LANES];
   size_t weights = head->weights, output = head->outputs, l = 0;
   for (; l + 1 < head->layers; l++) {
@@ -11035,7 +11040,8 @@ static void nsvcd__by_frame(const nsvcd__view *view, const float *torque, float 
 }
 
 // The adjoint of nsvcd__invariants for the pair in lane 0. x, by_x (DECODER_IN). The unit of length is constant.
-static void nsvcd__by_invariants(const nsvcd__pairs *pairs, const float *x, const float *by_x, nsvcd__by_pair *by) {
+static NSVCD__APART void nsvcd__by_invariants(const nsvcd__pairs *pairs, const float *x, const float *by_x,
+                                              nsvcd__by_pair *by) {
   nsvcd__views views;
   nsvcd__view view;
   float rotation[9], v[3], w[3], mean1[3], lean1[3], k1, by_d[3] = {0}, by_v[3] = {0}, by_w[3] = {0}, by_lean[3] = {0};
