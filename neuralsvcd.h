@@ -5371,6 +5371,12 @@ static void nsvcd__workspace_layout(const nsvcd__needs *needs, char *base, uint6
   work->fixed_tile.gathered = (float *)nsvcd__take(base, used, gathered, sizeof(float));
 }
 
+// What the members of a group will be posed in serves until then, so that it need not come from the stack.
+static nsvcd__chords *nsvcd__spare_chords(const nsvcd__workspace *work) { return &work->members[0]; }
+static nsvcd__boxes *nsvcd__spare_boxes(const nsvcd__workspace *work) {
+  return (nsvcd__boxes *)(void *)&work->members[1];
+}
+
 // The segments in which group g of the moving tile meets each one of the fixed tile.
 static uint64_t *nsvcd__nearby(const nsvcd__workspace *work, size_t g) { return work->nearby + g * work->nearby_stride; }
 
@@ -6092,11 +6098,11 @@ static void nsvcd__boxes_of_groups(const nsvcd__workspace *work, const nsvcd_bod
   }
   for (; wanted; wanted &= wanted - 1) {
     const size_t s = nsvcd__lowest_bit(wanted);
-    nsvcd__chords c;
+    nsvcd__chords *c = nsvcd__spare_chords(work);
     nsvcd__chords_of_members(&work->blocks[s / NSVCD__LANES], s % NSVCD__LANES, tile->spheres[0] + first,
                              tile->spheres[1] + first, tile->spheres[2] + first, tile->spheres[3] + first, work->scale,
-                             moving->extent, &c);
-    NSVCD__EACH_SLICE(l) nsvcd__boxes_grow(&c, l, fixed, out);
+                             moving->extent, c);
+    NSVCD__EACH_SLICE(l) nsvcd__boxes_grow(c, l, fixed, out);
   }
 }
 
@@ -6154,14 +6160,14 @@ static size_t nsvcd__group_against_tile(nsvcd__workspace *work, const nsvcd_body
 // Puts the steps of the search of both tiles in order. wanted: segments in which the bodies' spheres meet.
 static void nsvcd__search_tile(nsvcd__workspace *work, const nsvcd_body *moving, const nsvcd_body *fixed,
                                uint64_t wanted) {
-  size_t meetings[NSVCD__TILE_SLOTS];
-  nsvcd__boxes boxes;
+  uint16_t meetings[NSVCD__TILE_SLOTS];
+  nsvcd__boxes *boxes = nsvcd__spare_boxes(work);
   work->steps = 0;
   work->step = 0;
   work->waiting = 0;
   for (size_t g = 0; g < work->moving_tile.count; g++) {
-    if (g % NSVCD__LANES == 0) nsvcd__boxes_of_groups(work, moving, g, fixed, wanted, &boxes);
-    const uint32_t groups = nsvcd__groups_at_box(&boxes, g % NSVCD__LANES, &work->fixed_tile);
+    if (g % NSVCD__LANES == 0) nsvcd__boxes_of_groups(work, moving, g, fixed, wanted, boxes);
+    const uint32_t groups = nsvcd__groups_at_box(boxes, g % NSVCD__LANES, &work->fixed_tile);
     const size_t count = groups ? nsvcd__group_against_tile(work, moving, g, groups) : 0;
     size_t at = work->steps;
     if (!count) continue;
@@ -6169,7 +6175,7 @@ static void nsvcd__search_tile(nsvcd__workspace *work, const nsvcd_body *moving,
       meetings[at] = meetings[at - 1];
       work->order[at] = work->order[at - 1];
     }
-    meetings[at] = count;
+    meetings[at] = (uint16_t)count;
     work->order[at] = (uint16_t)g;
     work->steps++;
   }
@@ -6219,9 +6225,9 @@ static uint32_t nsvcd__comes_near(const void *what, const float *x, const float 
   uint32_t met = 0;
   for (uint64_t wanted = work->near_segments; wanted; wanted &= wanted - 1) {
     const size_t s = nsvcd__lowest_bit(wanted);
-    nsvcd__chords chords;
-    nsvcd__chords_of_members(&work->blocks[s / NSVCD__LANES], s % NSVCD__LANES, x, y, z, r, work->scale, extent, &chords);
-    met |= nsvcd__meet(&chords, fixed->centre[0], fixed->centre[1], fixed->centre[2], fixed->radius);
+    nsvcd__chords *chords = nsvcd__spare_chords(work);
+    nsvcd__chords_of_members(&work->blocks[s / NSVCD__LANES], s % NSVCD__LANES, x, y, z, r, work->scale, extent, chords);
+    met |= nsvcd__meet(chords, fixed->centre[0], fixed->centre[1], fixed->centre[2], fixed->radius);
   }
   return met;
 }
@@ -10353,7 +10359,7 @@ static nsvcd_result nsvcd__settings_of(const nsvcd_sweep_options *options, size_
   return nsvcd__threshold(model, o->recall, points1, points2, &settings->threshold) ? NSVCD_OK : NSVCD_ERROR_ARGUMENT;
 }
 
-static int nsvcd__starts_inside(const nsvcd__task *ask) {
+static NSVCD__APART int nsvcd__starts_inside(const nsvcd__task *ask) {
   float rotation[9], position[3];
   nsvcd__motion_pose(&ask->motion, 0, rotation, position);
   return nsvcd__is_contained(ask->moving, ask->fixed, ask->motion.scale, rotation, position);
@@ -10447,7 +10453,7 @@ typedef struct nsvcd__hint {
 } nsvcd__hint;
 
 // Does this motion, cut already, clearly collide where the hint says?
-static int nsvcd__collides_again(const nsvcd__task *ask, const nsvcd__hint *hint, nsvcd__query *query,
+static NSVCD__APART int nsvcd__collides_again(const nsvcd__task *ask, const nsvcd__hint *hint, nsvcd__query *query,
                                  nsvcd_answer *answer) {
   const nsvcd__settings *settings = &ask->settings;
   nsvcd__candidates kept;
@@ -10462,53 +10468,52 @@ static int nsvcd__collides_again(const nsvcd__task *ask, const nsvcd__hint *hint
   return answer->logit >= NSVCD__CLEAR_LOGIT;
 }
 
-// Asks the network about a motion that has been prepared. hint: NULL, or that of a batch.
-static void nsvcd__answer(nsvcd__task *ask, nsvcd__query *query, nsvcd__hint *hint, nsvcd_answer *answer) {
+// Searches a motion that has been cut, looking at pairs as they are found, until one is clear or all are known.
+static NSVCD__APART void nsvcd__search_and_judge(nsvcd__task *ask, nsvcd__query *query, nsvcd_answer *answer) {
   nsvcd__workspace *work = &query->broad_phase;
   nsvcd__candidates kept;
+  size_t worth = ask->settings.shortlist < NSVCD__PROBE ? ask->settings.shortlist : NSVCD__PROBE;
+  size_t left = NSVCD__LOOKS * ask->settings.shortlist;
+  int clear = 0;
+  int more = nsvcd__search_begin(ask->moving, ask->fixed, work);
+  nsvcd__candidates_start(&kept, query->kept, ask->settings.shortlist);
+  while (more && !clear) {
+    more = nsvcd__search_step(work, ask->moving, ask->fixed, &kept);
+    // A deep collision shows early. What is scored now need not be scored later, so that looking costs little.
+    if (!more || left < worth || !nsvcd__score(ask, &kept, worth, worth)) continue;
+    left -= worth;
+    clear = nsvcd__is_clear(ask, &kept, 0, answer);
+    if (worth == NSVCD__PROBE) worth = NSVCD__BATCH;
+  }
+  answer->overlapping = kept.total;
+  if (kept.total > 0) answer->status = kept.total > ask->settings.pairs ? NSVCD_STATUS_LIMIT : NSVCD_STATUS_OK;
+  if (clear || kept.count == 0) return;
+  nsvcd__score(ask, &kept, 1, kept.count);
+  if (!nsvcd__is_clear(ask, &kept, 1, answer)) nsvcd__judge(ask, &kept, answer);
+}
+
+// Asks the network about a motion that has been prepared. hint: NULL, or that of a batch.
+static void nsvcd__answer(nsvcd__task *ask, nsvcd__query *query, nsvcd__hint *hint, nsvcd_answer *answer) {
   (void)nsvcd__settings_of(ask->options, ask->moving->points, ask->fixed->points, &ask->settings);  // checked before
-  const nsvcd_answer none = nsvcd__answer_free();
-  nsvcd_answer found = none;
-  if (nsvcd__motion_is_far(&ask->motion, ask->lengths)) {
-    *answer = found;
-    return;
-  }
-  nsvcd__cut_motion(&ask->motion, ask->lengths, work);
-  int clear = hint && hint->known && nsvcd__collides_again(ask, hint, query, &found);
-  if (!clear) {
-    size_t worth = ask->settings.shortlist < NSVCD__PROBE ? ask->settings.shortlist : NSVCD__PROBE;
-    size_t left = NSVCD__LOOKS * ask->settings.shortlist;
-    int more = nsvcd__search_begin(ask->moving, ask->fixed, work);
-    found = none;
+  *answer = nsvcd__answer_free();
+  if (nsvcd__motion_is_far(&ask->motion, ask->lengths)) return;
+  nsvcd__cut_motion(&ask->motion, ask->lengths, &query->broad_phase);
+  if (!(hint && hint->known && nsvcd__collides_again(ask, hint, query, answer))) {
+    *answer = nsvcd__answer_free();
     if (hint && hint->known) hint->known = ++hint->misled < 2;
-    nsvcd__candidates_start(&kept, query->kept, ask->settings.shortlist);
-    while (more && !clear) {
-      more = nsvcd__search_step(work, ask->moving, ask->fixed, &kept);
-      // A deep collision shows early. What is scored now need not be scored later, so that looking costs little.
-      if (!more || left < worth || !nsvcd__score(ask, &kept, worth, worth)) continue;
-      left -= worth;
-      clear = nsvcd__is_clear(ask, &kept, 0, &found);
-      if (worth == NSVCD__PROBE) worth = NSVCD__BATCH;
-    }
-    found.overlapping = kept.total;
-    if (kept.total > 0) found.status = kept.total > ask->settings.pairs ? NSVCD_STATUS_LIMIT : NSVCD_STATUS_OK;
-    if (!clear && kept.count > 0) {
-      nsvcd__score(ask, &kept, 1, kept.count);
-      if (!nsvcd__is_clear(ask, &kept, 1, &found)) nsvcd__judge(ask, &kept, &found);
-    }
+    nsvcd__search_and_judge(ask, query, answer);
   }
-  if (hint && found.logit >= NSVCD__CLEAR_LOGIT) {
-    const nsvcd__hint here = {1, 0, found.patch_a, found.patch_b};
+  if (hint && answer->logit >= NSVCD__CLEAR_LOGIT) {
+    const nsvcd__hint here = {1, 0, answer->patch_a, answer->patch_b};
     *hint = here;
   }
   if (nsvcd__starts_inside(ask)) {  // a body inside another need not touch anything
-    found.status = NSVCD_STATUS_INSIDE;
-    found.logit = NSVCD_LOGIT_CERTAIN;
-    found.contact_time = 0;
-    found.patch_a = found.patch_b = 0;
+    answer->status = NSVCD_STATUS_INSIDE;
+    answer->logit = NSVCD_LOGIT_CERTAIN;
+    answer->contact_time = 0;
+    answer->patch_a = answer->patch_b = 0;
   }
-  found.collides = found.logit > 0;
-  *answer = found;
+  answer->collides = answer->logit > 0;
 }
 
 #endif  // NSVCD_NO_NETWORK
