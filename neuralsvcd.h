@@ -10324,14 +10324,13 @@ static size_t nsvcd__query_layout(const nsvcd__needs *needs, char *base) {
   return (size_t)end;
 }
 
-static nsvcd_answer nsvcd__answer_free(void) {
-  nsvcd_answer answer;
-  memset(&answer, 0, sizeof answer);
-  answer.logit = -NSVCD_LOGIT_CERTAIN;
-  answer.status = NSVCD_STATUS_CERTIFIED_FREE;
-  answer.triangle_a = NSVCD_NO_TRIANGLE;
-  answer.triangle_b = NSVCD_NO_TRIANGLE;
-  return answer;
+// What is said of bodies that never meet.
+static void nsvcd__answer_free(nsvcd_answer *answer) {
+  memset(answer, 0, sizeof *answer);
+  answer->logit = -NSVCD_LOGIT_CERTAIN;
+  answer->status = NSVCD_STATUS_CERTIFIED_FREE;
+  answer->triangle_a = NSVCD_NO_TRIANGLE;
+  answer->triangle_b = NSVCD_NO_TRIANGLE;
 }
 
 // ---- by the network
@@ -10495,11 +10494,11 @@ static NSVCD__APART void nsvcd__search_and_judge(nsvcd__task *ask, nsvcd__query 
 // Asks the network about a motion that has been prepared. hint: NULL, or that of a batch.
 static void nsvcd__answer(nsvcd__task *ask, nsvcd__query *query, nsvcd__hint *hint, nsvcd_answer *answer) {
   (void)nsvcd__settings_of(ask->options, ask->moving->points, ask->fixed->points, &ask->settings);  // checked before
-  *answer = nsvcd__answer_free();
+  nsvcd__answer_free(answer);
   if (nsvcd__motion_is_far(&ask->motion, ask->lengths)) return;
   nsvcd__cut_motion(&ask->motion, ask->lengths, &query->broad_phase);
   if (!(hint && hint->known && nsvcd__collides_again(ask, hint, query, answer))) {
-    *answer = nsvcd__answer_free();
+    nsvcd__answer_free(answer);
     if (hint && hint->known) hint->known = ++hint->misled < 2;
     nsvcd__search_and_judge(ask, query, answer);
   }
@@ -10628,27 +10627,26 @@ static void nsvcd__answer_by_proof(nsvcd__task *ask, nsvcd__query *query, nsvcd_
     verdict = nsvcd__prove_start(p, &query->broad_phase);
   }
 
-  nsvcd_answer found = nsvcd__answer_free();
-  found.work = p->work;
-  if (p->has_contact || verdict == NSVCD__WITHIN) nsvcd__answer_with_contact(p, &found);
-  nsvcd__answer_with_bounds(p, verdict, &found);
+  nsvcd__answer_free(answer);
+  answer->work = p->work;
+  if (p->has_contact || verdict == NSVCD__WITHIN) nsvcd__answer_with_contact(p, answer);
+  nsvcd__answer_with_bounds(p, verdict, answer);
   if (p->measure > 0 && verdict != NSVCD__WITHIN && verdict != NSVCD__UNDECIDED) {
     const double asked = (double)ask->clearance;
     const int is_near = p->has_contact && p->found.distance <= asked;
     const int is_clear = asked > 0 ? p->clearance > asked : !is_near;
     verdict = is_near ? NSVCD__MEETS : is_clear ? NSVCD__FREE : NSVCD__UNDECIDED;
   }
-  found.status = verdict == NSVCD__MEETS     ? NSVCD_STATUS_WITNESS
+  answer->status = verdict == NSVCD__MEETS     ? NSVCD_STATUS_WITNESS
                  : verdict == NSVCD__WITHIN  ? NSVCD_STATUS_INSIDE
                  : verdict == NSVCD__FREE    ? NSVCD_STATUS_CERTIFIED_FREE
                                              : NSVCD_STATUS_UNDECIDED;
   const nsvcd__to_world start = nsvcd__to_world_at(p->motion, 0);
   const nsvcd__d3 lift = nsvcd__rotate(start.rows, nsvcd__d3_load(p->motion->lift));
   const nsvcd__f3 lifted = nsvcd__f3_round(nsvcd__d3_scale(lift, p->skin > 0 ? start.unit : 0));
-  memcpy(found.lift, &lifted, sizeof found.lift);
-  found.collides = verdict != NSVCD__FREE;
-  found.logit = found.collides ? NSVCD_LOGIT_CERTAIN : -NSVCD_LOGIT_CERTAIN;
-  *answer = found;
+  memcpy(answer->lift, &lifted, sizeof answer->lift);
+  answer->collides = verdict != NSVCD__FREE;
+  answer->logit = answer->collides ? NSVCD_LOGIT_CERTAIN : -NSVCD_LOGIT_CERTAIN;
 }
 #endif
 
@@ -11699,7 +11697,8 @@ static nsvcd_answer nsvcd__ask(nsvcd__planner *p, uint32_t k, size_t first, size
   const nsvcd_body *a = p->problem->bodies[pair->a], *b = p->problem->bodies[pair->b];
   nsvcd_pose motion[NSVCD__RUN + 1];
   nsvcd_question question;
-  nsvcd_answer answer = nsvcd__answer_free();
+  nsvcd_answer answer;
+  nsvcd__answer_free(&answer);
   for (size_t n = 0; n <= segments; n++) {
     const nsvcd_pose *row = p->poses + (first + n) * p->problem->body_count;
     nsvcd__relative_pose(&row[pair->a], &row[pair->b], &motion[n]);
