@@ -26,7 +26,7 @@ ifeq ($(BENCH),quick)
 COUNT ?= 200
 endif
 
-.PHONY: bench-asks bench-level bench-scale race mutants bench-plan preview profile instructions sizes bench check-extremes all demo test assets problems accuracy weights format clean help check-header check-tiles check-32 check-examples check-problems check-gradient check-motions
+.PHONY: firmware check-firmware bench-asks bench-level bench-scale race mutants bench-plan preview profile instructions sizes bench check-extremes all demo test assets problems accuracy weights format clean help check-header check-tiles check-32 check-examples check-problems check-gradient check-motions
 .DELETE_ON_ERROR:
 
 PLANNERS = build/dish_insertion build/bimanual_insertion build/mining_site
@@ -112,6 +112,11 @@ check-32:
 	@if echo 'int main(void) { return 0; }' | $(CC) $(CFLAGS_32) -x c -o build/can_32 - 2>/dev/null; then \
 	  $(MAKE) build/test_level_32 build/test_plan_32 && build/test_level_32 && build/test_plan_32 plan_sizes; \
 	else echo "check-32: $(CC) has no libraries for -m32: not tested"; fi
+# On Cortex-M4F and M7 under QEMU, where its tools are there (Debian: gcc-arm-none-eabi, libnewlib-arm-none-eabi, qemu-system-arm).
+check-firmware: | build
+	$(MAKE) -C examples/firmware LEVELS=O2 run
+firmware: | build  ## Cortex-M under QEMU: answers as on the host; flash, RAM, stack and instructions as a table
+	$(MAKE) -C examples/firmware run table
 mutants:  ## the header with one mistake at a time: the tests of the proof must catch each; minutes
 	CC="$(CC)" tests/mutants.sh
 
@@ -135,7 +140,7 @@ check-motions: build/check_motions build/game build/problems build/svcd  ## firs
 check-extremes: build/problems build/svcd  # tiny, huge, far, thin, spinning ...
 	tests/extremes.sh
 
-test: build/tests check-header check-gradient check-examples check-tiles check-32 check-motions check-problems check-extremes  ## everything; the last line is `N passed, N failed`
+test: build/tests check-header check-gradient check-examples check-tiles check-32 check-firmware check-motions check-problems check-extremes  ## everything; the last line is `N passed, N failed`
 	build/tests
 
 # ---------------------------------------------------------------------------------------------------------- accuracy

@@ -1,0 +1,14 @@
+# memory.awk - holds workspace and deepest stack together against what a build may take: of the program's measurements,
+# lines `# METHOD workspace|stack BYTES`. network, proof: bytes.
+/^# [a-z]* workspace / { workspace[FILENAME, $2] = $4 }
+/^# [a-z]* stack / {
+  limit = $2 == "proof" ? proof : network
+  if (FILENAME ~ /both/) limit = proof
+  all = workspace[FILENAME, $2] + $4
+  checked++
+  if (!(all > 0 && all <= limit)) {
+    printf "%s: %d bytes of workspace and stack, of %d\n", FILENAME, all, limit
+    bad = 1
+  }
+}
+END { exit bad || checked == 0 }
