@@ -7141,9 +7141,8 @@ static uint32_t nsvcd__apart_by_moving_disc(const nsvcd__approach *a, const nsvc
     const nsvcd__v3 w = nsvcd__v3_transform(&middle, seen.normal);
     const nsvcd__v3 n = nsvcd__v3_set(normal);
     const nsvcd__v turned = nsvcd__v3_length(nsvcd__v3_transform(&half_turn, seen.normal));
-    const nsvcd__reach_along moving =
-        nsvcd__disc_along(seen.low, seen.high, seen.across, nsvcd__v_mul(scale, nsvcd__v3_dot(w, w)),
-                          nsvcd__v_mul(scale, turned));
+    const nsvcd__reach_along moving = nsvcd__disc_along(
+        seen.low, seen.high, seen.across, nsvcd__v_mul(scale, nsvcd__v3_dot(w, w)), nsvcd__v_mul(scale, turned));
     const nsvcd__reach_along fixed = nsvcd__disc_along(nsvcd__v_set(low), nsvcd__v_set(high), nsvcd__v_set(across),
                                                        nsvcd__v3_dot(w, n), nsvcd__v3_length(nsvcd__v3_cross(w, n)));
 

@@ -28,7 +28,7 @@ lanes without bulge|return nsvcd__v_fma(turn, nsvcd__v_set(reach), nsvcd__v_min(
 lanes without drift|return nsvcd__v_fma(turn, nsvcd__v_set(reach), nsvcd__v_min(by_axis, by_way));|return nsvcd__v_mul(turn, nsvcd__v_set(reach));
 disc without across|nsvcd__v_mul(radius_across, across);|nsvcd__v_mul(nsvcd__v_set(0), nsvcd__v_mul(radius_across, across));
 group of eight|for (size_t i = first; i < first + NSVCD__GROUP \&\& i < f->body->points; i++) {\n    const size_t all|for (size_t i = first; i < first + 8 \&\& i < f->body->points; i++) {\n    const size_t all
-group's disc at the start only|const nsvcd__v3 at_end = nsvcd__v3_add(at_start, nsvcd__v3_turned_back(block->turned, fixed->normal));|const nsvcd__v3 at_end = at_start;
+group's disc at the start only|const nsvcd__v3 at_end = nsvcd__v3_add(at_start, nsvcd__v3_turned_back(block->turned, l, fixed->normal));|const nsvcd__v3 at_end = at_start;
 held plane without deviation|lowest - slack - nsvcd__deviation(span, p->held, nsvcd__patch_reach(\&p->moving, i));|lowest - slack;
 held plane without slack|highest + p->fixed.slacks[j] * nsvcd__f3_length(p->held);|highest;
 heights over another plane|if (known->plane == p->plane \&\& known->key == key) return|if (known->key == key) return
