@@ -28,7 +28,7 @@ static float largest_difference(const float *a, const float *b, size_t count) {
   return most;
 }
 
-// One pair, as the decoder's batches hold sixteen.
+// One pair, as nsvcd__pairs holds a slice of them.
 typedef struct pair_data {
   float p1[3], p2[3], r1, r2, rotation[9], v[3], w[3];
   const int8_t *z1, *z2;
