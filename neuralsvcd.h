@@ -9216,13 +9216,15 @@ static int nsvcd__is_contained(const nsvcd_body *moving, const nsvcd_body *fixed
 #define NSVCD__FACTS 12
 #define NSVCD__INPUTS (2 * NSVCD__LATENT + NSVCD__FACTS)
 #define NSVCD__DECODER_IN ((NSVCD__INPUTS + 15) / 16 * 16)  // zeros at the end
-// Outputs of a layer, of the heads that are compiled; the tests hold them against weights.h.
+// Most outputs of a layer, of the heads that are compiled; the tests hold them against weights.h.
+#define NSVCD__WIDEST_TINY 32
+#define NSVCD__WIDEST_SMALL 96
 #ifndef NSVCD_NO_BASE
 #define NSVCD__WIDEST NSVCD_W_WIDEST
 #elif !defined(NSVCD_NO_SMALL)
-#define NSVCD__WIDEST 96
+#define NSVCD__WIDEST NSVCD__WIDEST_SMALL
 #else
-#define NSVCD__WIDEST 32
+#define NSVCD__WIDEST NSVCD__WIDEST_TINY
 #endif
 #define NSVCD__MOST_INPUTS (NSVCD__WIDEST > NSVCD__DECODER_IN ? NSVCD__WIDEST : NSVCD__DECODER_IN)  // of a layer
 #define NSVCD__LEAN 0.05f  // share of the lean in axis 2

@@ -87,6 +87,14 @@ static void rotate_latent(const float *r, const float *z, float *turned) {
   }
 }
 
+static void heads_fit_their_buffers(void) {
+  const size_t widest[3] = {NSVCD__WIDEST_TINY, NSVCD__WIDEST_SMALL, NSVCD__WIDEST};
+  for (size_t h = 0; h < 3; h++) {
+    const nsvcd__head *head = &nsvcd_w_heads[h];
+    for (size_t l = 1; l <= head->layers; l++) CHECK(head->sizes[l] <= widest[h]);
+  }
+}
+
 static void encoder_matches_the_trainer(void) {
   for (size_t i = 0; i < GOLDEN_PATCHES; i++) {
     float latent[NSVCD__LATENT];
@@ -269,6 +277,7 @@ static void degenerate_pairs_are_finite(void) {
 }
 
 void test_network(void) {
+  RUN(heads_fit_their_buffers);
   RUN(encoder_matches_the_trainer);
   RUN(heads_match_the_trainer);
   RUN(int8_heads_follow_fp32);
