@@ -9351,8 +9351,8 @@ static int nsvcd__is_contained(const nsvcd_body *moving, const nsvcd_body *fixed
 // latents are turned pair by pair, channels side by side), and these go through the layers some rows at a time.
 
 #define NSVCD__BATCH NSVCD__LANES
-// Rows of inputs at a time, and the step in which the layers of floats go through them: where there are no vectors, there
-// may be no stack for more, and without floats nothing is gained by more than one.
+// Rows of inputs at a time, and the step in which the layers of floats go through them: where there are no vectors,
+// there may be no stack for more, and without floats nothing is gained by more than one.
 #if NSVCD__SLICE > 1
 #define NSVCD__ROWS NSVCD__BATCH
 #define NSVCD__ROW_STEP 4
@@ -9366,13 +9366,15 @@ static int nsvcd__is_contained(const nsvcd_body *moving, const nsvcd_body *fixed
 #define NSVCD__FACTS 12
 #define NSVCD__INPUTS (2 * NSVCD__LATENT + NSVCD__FACTS)
 #define NSVCD__DECODER_IN ((NSVCD__INPUTS + 15) / 16 * 16)  // zeros at the end
-// Outputs of a layer, of the heads that are compiled; the tests hold them against weights.h.
+// Most outputs of a layer, of the heads that are compiled; the tests hold them against weights.h.
+#define NSVCD__WIDEST_TINY 32
+#define NSVCD__WIDEST_SMALL 96
 #ifndef NSVCD_NO_BASE
 #define NSVCD__WIDEST NSVCD_W_WIDEST
 #elif !defined(NSVCD_NO_SMALL)
-#define NSVCD__WIDEST 96
+#define NSVCD__WIDEST NSVCD__WIDEST_SMALL
 #else
-#define NSVCD__WIDEST 32
+#define NSVCD__WIDEST NSVCD__WIDEST_TINY
 #endif
 #define NSVCD__MOST_INPUTS (NSVCD__WIDEST > NSVCD__DECODER_IN ? NSVCD__WIDEST : NSVCD__DECODER_IN)  // of a layer
 #define NSVCD__LEAN 0.05f  // share of the lean in axis 2
@@ -9408,7 +9410,8 @@ static void nsvcd__v_half_rotation(const nsvcd__v *q, nsvcd__v *w) {
   for (size_t k = 0; k < 3; k++) w[k] = nsvcd__v_mul(nsvcd__v_mul(sign, ratio), q[k]);
 }
 
-// A track's poses at `count` times t in [0,1], 1 to SLICE, one per lane: unit quaternions q (4), and positions from an origin, (3).
+// A track's poses at `count` times t in [0,1], 1 to SLICE, one per lane: unit quaternions q (4), and positions from an
+// origin, (3).
 static void nsvcd__track_poses_at(const nsvcd__track *track, const float *t, size_t count, const float *origin,
                                   nsvcd__v *q, nsvcd__v *p) {
   float from[7][NSVCD__SLICE] = {{0}}, to[7][NSVCD__SLICE] = {{0}}, share[NSVCD__SLICE] = {0};
@@ -9678,8 +9681,8 @@ NSVCD__INLINE void nsvcd__layer_tile(const float *w, const float *bias, size_t i
 }
 
 // One layer for `rows` pairs, a multiple of 4. outputs: a multiple of 16. The weights of the largest head do not fit
-// into the first cache, so the more rows at a time the better: 8 by 2 or 4 by 4 sums in 32 registers, 4 by 16 outputs, or
-// by 4 slices where that is less, in fewer.
+// into the first cache, so the more rows at a time the better: 8 by 2 or 4 by 4 sums in 32 registers, 4 by 16 outputs,
+// or by 4 slices where that is less, in fewer.
 #define NSVCD__TILES (NSVCD__LANES / NSVCD__SLICE < 4 ? NSVCD__LANES / NSVCD__SLICE : 4)
 static void nsvcd__layer(const float *w, const float *bias, size_t inputs, size_t outputs, size_t rows, const float *x,
                          size_t from, float *y, size_t to, int relu) {

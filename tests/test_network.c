@@ -28,7 +28,7 @@ static float largest_difference(const float *a, const float *b, size_t count) {
   return most;
 }
 
-// One pair, as the decoder's batches hold sixteen.
+// One pair, as nsvcd__pairs holds a slice of them.
 typedef struct pair_data {
   float p1[3], p2[3], r1, r2, rotation[9], v[3], w[3];
   const int8_t *z1, *z2;
@@ -84,6 +84,14 @@ static void rotate_latent(const float *r, const float *z, float *turned) {
       }
       turned[NSVCD_W_CHANNELS * i + c] = sum;
     }
+  }
+}
+
+static void heads_fit_their_buffers(void) {
+  const size_t widest[3] = {NSVCD__WIDEST_TINY, NSVCD__WIDEST_SMALL, NSVCD__WIDEST};
+  for (size_t h = 0; h < 3; h++) {
+    const nsvcd__head *head = &nsvcd_w_heads[h];
+    for (size_t l = 1; l <= head->layers; l++) CHECK(head->sizes[l] <= widest[h]);
   }
 }
 
@@ -269,6 +277,7 @@ static void degenerate_pairs_are_finite(void) {
 }
 
 void test_network(void) {
+  RUN(heads_fit_their_buffers);
   RUN(encoder_matches_the_trainer);
   RUN(heads_match_the_trainer);
   RUN(int8_heads_follow_fp32);
