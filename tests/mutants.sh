@@ -1,14 +1,14 @@
 #!/bin/sh
 # Are the tests of the proof worth anything? Each mutant is the header with one mistake in it; tests/test_proof.c has to
 # fail on it. Prints a line for each, and exits with 1 if one survives. An argument runs only the mutants whose name
-# contains it. About half a minute each.
+# contains it. About half a minute each; PART=0 OF=16 WORK=folder: every 16th of them, in a folder of its own.
 set -u
 CC=${CC:-cc}
 cd "$(dirname "$0")/.." || exit 1
-work=build/mutants
+work=${WORK:-build/mutants}
 mkdir -p $work/tests $work/examples
 cp weights.h $work/
-cp tests/test_proof.c tests/proof_scene.h tests/ask.h tests/check.h tests/oracle.h $work/tests/
+cp tests/test_proof.c tests/proof_scene.h tests/any_query.h tests/ask.h tests/check.h tests/oracle.h $work/tests/
 cp examples/shapes.h $work/examples/
 
 # name | text (occurs once) | what it becomes. Not here: axis_turn left out of bulge_along_axis. The theorem needs it, but no
@@ -23,7 +23,7 @@ hull at the start only|const nsvcd__v at_either = nsvcd__v_min(at_start, at_end)
 deviation without drift|return drift + reach * (along|return 0 * drift + reach * (along
 deviation without bulge|along * span->bulge_along_axis + across * span->bulge);|along * span->bulge_along_axis + 0 * across);
 deviation along the axis|reach * (along * span->bulge_along_axis + across * span->bulge)|reach * (across * span->bulge)
-chords off the axis|nsvcd__v_add(nsvcd__v_sqrt(nsvcd__v_load(cut->most.axis_bulge)), axis_turn)|axis_turn
+chords off the axis|nsvcd__v_add(axis_bulge, axis_turn)|axis_turn
 lanes without bulge|return nsvcd__v_fma(turn, nsvcd__v_set(reach), nsvcd__v_min(by_axis, by_way));|return nsvcd__v_fma(turn, nsvcd__v_set(0 * reach), nsvcd__v_min(by_axis, by_way));
 lanes without drift|return nsvcd__v_fma(turn, nsvcd__v_set(reach), nsvcd__v_min(by_axis, by_way));|return nsvcd__v_mul(turn, nsvcd__v_set(reach));
 disc without across|nsvcd__v_mul(radius_across, across);|nsvcd__v_mul(nsvcd__v_set(0), nsvcd__v_mul(radius_across, across));
@@ -41,18 +41,18 @@ block without quanta|nsvcd__quanta_of(p, i, j) + span->spread + nsvcd__clearance
 block without clearance|span->spread + nsvcd__clearance_of(p) + span->bulge * reach;|span->spread + span->bulge * reach;
 block without bulge|nsvcd__clearance_of(p) + span->bulge * reach;|nsvcd__clearance_of(p) + 0 * reach;
 block at the start only|nsvcd__row_left(p, i, j, l, fixed, 2, span, margin)|nsvcd__row_left(p, i, j, l, fixed, 1, span, margin)
-parting plane at the start only|nsvcd__normals_part(p, l, fixed, 2, along, normal, &below)|nsvcd__normals_part(p, l, fixed, 1, along, normal, &below)
+parting plane at the start only|nsvcd__normals_part(p, l, fixed, s, 2, along, normal, &below)|nsvcd__normals_part(p, l, fixed, s, 1, along, normal, &below)
 parting plane without deviation|quanta + span->rounding + nsvcd__clearance_of(p) + nsvcd__deviation(span, last, reach);|quanta + span->rounding + nsvcd__clearance_of(p) + 0 * reach;
 parting plane without quanta|quanta + span->rounding + nsvcd__clearance_of(p) + nsvcd__deviation(span, last, reach);|0 * quanta + span->rounding + nsvcd__clearance_of(p) + nsvcd__deviation(span, last, reach);
 pose of another arc|known->arc == arc->first \&\& known->ticks == arc->ticks \&\& known->u == u|known->ticks == arc->ticks \&\& known->u == u
 first half only|        ends[left++] = 0.5 * (u + end);\n|        ends[left - 1] = 0.5 * (u + end);\n
 a window forgotten|b < fixed_end; b += NSVCD__WINDOW * NSVCD__LANES) {\n    nsvcd__window_load(p, j, b);\n    for (size_t a = p->moving.first_triangle[i]; a < moving_end; a += NSVCD__LANES) {\n      nsvcd__moving_block_load(p, i, a);\n      nsvcd__block_pose(p, \&span->start, 0);|b < fixed_end; b += 2 * NSVCD__WINDOW * NSVCD__LANES) {\n    nsvcd__window_load(p, j, b);\n    for (size_t a = p->moving.first_triangle[i]; a < moving_end; a += NSVCD__LANES) {\n      nsvcd__moving_block_load(p, i, a);\n      nsvcd__block_pose(p, \&span->start, 0);
-bounds of half a window's block|nsvcd__least_of_lanes(block->low);|nsvcd__f3_scale(nsvcd__f3_add(nsvcd__least_of_lanes(block->low), nsvcd__greatest_of_lanes(block->high)), 0.5f);
-half of the box|nearby \&= nsvcd__v_le(at[k], nsvcd__v_set(outer->box[3 + k] + rounding));|nearby \&= nsvcd__v_le(at[k], nsvcd__v_set(0.5f * outer->box[k] + 0.5f * outer->box[3 + k]));
-rays past half the groups|const size_t g = nsvcd__lowest_bit(groups);\n    uint32_t patches|const size_t g = nsvcd__lowest_bit(groups);\n    if (g % 2) continue;\n    uint32_t patches
+bounds of half a window's block|nsvcd__f3_of(nsvcd__least_lane(block->low[0]),|nsvcd__f3_of(0.5f * (nsvcd__least_lane(block->low[0]) + nsvcd__greatest_lane(block->high[0])),
+half of the box|slice \&= nsvcd__v_le(at[k], nsvcd__v_set(outer->box[3 + k] + rounding));|slice \&= nsvcd__v_le(at[k], nsvcd__v_set(0.5f * outer->box[k] + 0.5f * outer->box[3 + k]));
+rays past half the groups|while (!*unclear \&\& nsvcd__walk_next(\&walk, \&g)) {\n    uint32_t patches|while (!*unclear \&\& nsvcd__walk_next(\&walk, \&g)) {\n    if (g % 2) continue;\n    uint32_t patches
 block's boxes at the start only|nsvcd__block_box(p, 2);|nsvcd__block_box(p, 1);
 last triangle skipped|const size_t moving_end = p->moving.first_triangle[i + 1], fixed_end = p->fixed.first_triangle[j + 1];\n  const float reach|const size_t moving_end = p->moving.first_triangle[i + 1] - 1, fixed_end = p->fixed.first_triangle[j + 1];\n  const float reach
-containment one way|way < 2; way++|way < 1; way++
+containment one way|if (outer->open) return 0;\n  if (e->inner->components|if (outer->open + !e->inner_moves) return 0;\n  if (e->inner->components
 first arc only|at < end \&\& (double)at < p->end;) {|at < end \&\& at == work->begin[item->segment];) {
 a segment dropped|        p->met = nsvcd__group_against_members(work, fixed, h, wanted, p->met_in);\n|        p->met = nsvcd__group_against_members(work, fixed, h, wanted, p->met_in);\n        for (size_t l = 0; l < NSVCD__GROUP; l++) {\n          if (p->met_in[l] \& (p->met_in[l] - 1)) p->met_in[l] \&= p->met_in[l] - 1;\n        }\n
 a full buffer forgotten|        if (p->met_in[l]) return 1;\n|
@@ -66,7 +66,7 @@ arcs of both, no swing|(2 * across + angle * swing);|(2 * across);
 arcs of both, half of the way|(2 * across + angle * swing);|(across + angle * swing);
 knots of one body only|return after_a < after_b ? after_a : after_b;|return after_a;
 group without scale|const float r = work->scale * nsvcd__body_group(moving, 3)[g];|const float r = nsvcd__body_group(moving, 3)[g];
-members without scale|nsvcd__v_fma(nsvcd__v_set(scale), nsvcd__v_load(r), deviation)|nsvcd__v_add(nsvcd__v_load(r), deviation)
+members without scale|nsvcd__v_fma(nsvcd__v_set(scale), nsvcd__v_load(r + l), nsvcd__v_set(deviation))|nsvcd__v_add(nsvcd__v_load(r + l), nsvcd__v_set(deviation))
 discs without scale|nsvcd__v_mul(scale, nsvcd__v3_dot(w, w)), nsvcd__v_mul(scale, turned));|nsvcd__v3_dot(w, w), turned);
 disc without clearance|const float deviation = a->clearance + span->rounding + nsvcd__deviation|const float deviation = span->rounding + nsvcd__deviation
 moving disc without clearance|nsvcd__v_set(span->rounding + a->clearance);|nsvcd__v_set(span->rounding);
@@ -82,6 +82,14 @@ half the first distance|return 1.0001 * sqrt((double)least_square)|return 0.5 * 
 distance without tolerance|fmax(0, distance - p->measure);|fmax(0, distance * 1.01);
 exact poses not lifted|at.position = nsvcd__d3_add(at.position, arc->lift);|at.position = nsvcd__d3_add(at.position, nsvcd__d3_scale(arc->lift, 0));
 lift the wrong way|if (lacks > 0) lift = nsvcd__d3_add(|if (lacks > 0) lift = nsvcd__d3_sub(
+a window of another patch|p->window > 0 \&\& p->fixed_blocks[0].first == first|p->window > 0
+slices of the first plane only|if (!(met >> s \& NSVCD__SLICE_MASK)) continue;|if (k > 0 \&\& NSVCD__SLICE < 16) met = 0;
+tile: every other group|nsvcd__walk_next(walk, \&g)) {\n    float *to|nsvcd__walk_next(walk, \&g) \&\& nsvcd__walk_next(walk, \&g)) {\n    float *to
+tile: the first only|nsvcd__search_next_tile(work, p->moving.body, p->fixed.body));\n  return verdict;|0);\n  return verdict;
+tile: the first only, in order|nsvcd__search_next_tile(work, moving, fixed));\n  if (nsvcd__is_large|0);\n  if (nsvcd__is_large
+tile: skins of the first only|nsvcd__search_next_tile(work, p->moving.body, p->fixed.body);\n    for (size_t n|0;\n    for (size_t n
+tile: way without reach|fminf(start, end) - c->reach[l]|fminf(start, end)
+tile: approached in the first segment|wanted \&\& nearby \& ~met; wanted \&= wanted - 1) {|wanted \&\& nearby \& ~met; wanted = 0) {
 margin of small normals|nsvcd__v_pick(square, nsvcd__v_set(1e-30f), nsvcd__v_set(1e30f), limit)|limit
 LIST
 
@@ -89,6 +97,8 @@ survived=0
 while IFS= read -r line; do
   name=${line%%|*}
   case "$name" in *"${1:-}"*) ;; *) continue ;; esac
+  number=$((${number:-0} + 1))
+  test -z "${OF:-}" || test $((number % OF)) = "$PART" || continue
   LINE="$line" python3 - <<'PYTHON' >$work/neuralsvcd.h || exit 1
 import os, sys
 name, old, new = os.environ['LINE'].split('|', 2)
@@ -98,7 +108,9 @@ if old and text.count(old) != 1:
     sys.exit(f'{name}: found {text.count(old)} times')
 sys.stdout.write(text.replace(old, new) if old else text)
 PYTHON
-  $CC -O2 -march=native -std=c99 -w -DTEST_ALONE -o $work/test $work/tests/test_proof.c -lm || exit 1
+  tile=  # those of tiles are looked for where small bodies make several
+  case "$name" in tile:*) tile=-DNSVCD__TILE=2 ;; esac
+  $CC -O2 -march=native -std=c99 -w $tile -DTEST_ALONE -o $work/test $work/tests/test_proof.c -lm || exit 1
   timeout "${LIMIT:-400}" $work/test >$work/out.txt 2>&1
   code=$?
   if [ $code = 124 ]; then echo "NO END    $name: raise LIMIT, seconds"; survived=1; continue; fi
