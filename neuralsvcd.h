@@ -398,10 +398,13 @@ typedef struct nsvcd_answer {
 // for any question. For arrays of a fixed size see NSVCD_PROOF_WORKSPACE_BYTES.
 // Allocates nothing; threads may share bodies, each with its own workspace; deterministic, and the same verdict whichever
 // body is a and which b. Bodies of Ga and Gb groups of 16 patches and a motion of S segments, 16 or so up to 320 degrees
-// of turn and 64 at most, take at most 18 S Ga Gb + 3 S tests of 16 spheres against one; then a proof takes options.work
-// units, and the network the tiny decoder on 12 K pairs and the chosen one on K (tiny alone: on 3 K), and 32 distances
-// per patch. Of bodies of more than 512 patches only those groups count that the other body comes near, and some 16 tests
-// more for each level of spheres and each 16 spheres of it that it comes near. On failure `answer` is left as it was: ARGUMENT (NULL, a count, or an option out of its range), POSE, SCALE,
+// of turn and 64 at most, take at most 18 S Ga Gb + 3 S tests of 16 spheres against one (the network, of motions that turn
+// by more than 45 degrees, on machines of less than 16 lanes: 34 S Ga Gb); then a proof takes options.work units, and the
+// network the tiny decoder on 12 K pairs and the chosen one on K (tiny alone: on 3 K), and 32 distances per patch. Of
+// bodies of more than 512 patches only those groups count that the other body comes near, and some 16 tests more for each
+// level of spheres and each 16 spheres of it that it comes near. Stack: 5 KB on a desktop; on a Cortex-M, -O2, 3.1 KB for a
+// proof, 2.7 KB for the tiny decoder in int8 (`make firmware`). On failure `answer` is left as it was: ARGUMENT (NULL, a
+// count, or an option out of its range), POSE, SCALE,
 // SAME, WORKSPACE, and BODY where a body has not what the method needs. Source: the proof: this library, see *proof*
 // below; the network: NeuralSVCD, algorithm 1.
 // What a proof says is about the surfaces of the two meshes, scaled and posed exactly as described: CERTIFIED_FREE and
@@ -5994,11 +5997,32 @@ static void nsvcd__runs_close(nsvcd__runs *runs, uint32_t lanes, const nsvcd__wo
   }
 }
 
-// A slice of the members of moving group g, from lane l on, against patch j of the fixed body, in the segments
-// `wanted`. Where a run is cut because it turns too far depends on the others of its slice: where slices are narrow,
-// there are fewer such cuts. No run turns farther than it may.
+// The segments before which all runs of the members of a group against patch j of the fixed body are cut: the oldest of them
+// would turn too far, or a segment is left out in between. Asked for all 16 beforehand, so that machines with narrower
+// slices find the same runs.
+static uint64_t nsvcd__run_cuts(const nsvcd__workspace *work, const nsvcd_body *fixed, size_t j, uint64_t wanted) {
+  uint64_t cuts = wanted & ~(wanted << 1);  // where the segment before is left out
+  uint32_t open = 0;
+  size_t oldest = 0;
+  if (!(work->turn[work->segments] > NSVCD__RUN_TURN)) return cuts;
+  for (; wanted; wanted &= wanted - 1) {
+    const size_t s = nsvcd__lowest_bit(wanted);
+    const uint32_t met = nsvcd__meet(&work->members[s], nsvcd__body_x(fixed)[j], nsvcd__body_y(fixed)[j],
+                                     nsvcd__body_z(fixed)[j], nsvcd__body_r(fixed)[j]);
+    if (open && work->turn[s + 1] - work->turn[oldest] > NSVCD__RUN_TURN) cuts |= (uint64_t)1 << s;
+    if (cuts >> s & 1) open = 0;
+    open &= met;
+    if (!open) oldest = s;
+    open = met;
+  }
+  return cuts;
+}
+
+// A slice of the members of moving group g, from lane l on, against patch j of the fixed body, in the segments `wanted`.
+// cuts: see nsvcd__run_cuts; where a slice is all of them, it finds that itself.
 static void nsvcd__slice_against_patch(const nsvcd__workspace *work, const nsvcd_body *moving, size_t g, size_t l,
-                                       const nsvcd_body *fixed, size_t j, uint64_t wanted, nsvcd__candidates *kept) {
+                                       const nsvcd_body *fixed, size_t j, uint64_t wanted, uint64_t cuts,
+                                       nsvcd__candidates *kept) {
   const size_t i = NSVCD__GROUP * g + l;
   const nsvcd__v half = nsvcd__v_set(0.5f), one = nsvcd__v_set(1), zero = nsvcd__v_set(0),
                  r = nsvcd__v_set(nsvcd__body_r(fixed)[j]);
@@ -6020,8 +6044,12 @@ static void nsvcd__slice_against_patch(const nsvcd__workspace *work, const nsvcd
     const nsvcd__v square = nsvcd__v_dot3(chord, chord);
     const uint32_t met = nsvcd__v_le(square, limit);
     uint32_t ended = runs.open & ~met;
-    if (runs.open && (runs.last + 1 != s || work->turn[s + 1] - work->turn[runs.oldest] > NSVCD__RUN_TURN)) {
-      ended = runs.open, runs.fresh = one;
+    const int by_itself = NSVCD__SLICE == NSVCD__LANES;
+    const int turns = by_itself && work->turn[s + 1] - work->turn[runs.oldest] > NSVCD__RUN_TURN;
+    const int is_cut = by_itself ? runs.open && (runs.last + 1 != s || turns) : (int)(cuts >> s & 1);
+    if (is_cut) {
+      ended = runs.open;
+      runs.fresh = one;
     }
     if (ended) nsvcd__runs_close(&runs, ended, work, moving, i, fixed, j, kept);
     if (!met) {
@@ -6051,7 +6079,8 @@ static void nsvcd__slice_against_patch(const nsvcd__workspace *work, const nsvcd
 static void nsvcd__members_against_patch(const nsvcd__workspace *work, const nsvcd_body *moving, size_t g,
                                          const nsvcd_body *fixed, size_t j, uint64_t wanted, nsvcd__candidates *kept) {
   NSVCD__TALLY(tests, nsvcd__bit_count(wanted));
-  NSVCD__EACH_SLICE(l) nsvcd__slice_against_patch(work, moving, g, l, fixed, j, wanted, kept);
+  const uint64_t cuts = NSVCD__SLICE < NSVCD__LANES ? nsvcd__run_cuts(work, fixed, j, wanted) : 0;
+  NSVCD__EACH_SLICE(l) nsvcd__slice_against_patch(work, moving, g, l, fixed, j, wanted, cuts, kept);
 }
 
 #endif  // NSVCD_NO_NETWORK
