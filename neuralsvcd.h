@@ -8992,6 +8992,37 @@ static NSVCD__APART int nsvcd__collect(nsvcd__proof *p, nsvcd__workspace *work) 
   return 0;
 }
 
+// Patches to look through for one that is near a place of the body's frame: all, or of a large body those of a group that is
+// found by going down the levels of spheres, always to the nearest. There is one with a surface among them.
+static void nsvcd__patches_towards(const nsvcd__facets *f, nsvcd__f3 place, size_t *first, size_t *end) {
+  const nsvcd_body *body = f->body;
+  *first = 0;
+  *end = body->points;
+  if (!nsvcd__is_large(body)) return;
+  size_t from = 0;
+  size_t count = nsvcd__level_of(body->padded, nsvcd__level_count(body->padded) - 1).count;
+  for (size_t k = nsvcd__level_count(body->padded); k-- > 0;) {
+    const nsvcd__level level = nsvcd__level_of(body->padded, k);
+    const float *x = nsvcd__body_floats(body, level.first);
+    size_t nearest = from;
+    float best = HUGE_VALF;
+    for (size_t n = from; n < from + count && n < level.count; n++) {
+      const nsvcd__f3 centre = nsvcd__f3_of(x[n], x[level.slots + n], x[2 * level.slots + n]);
+      const float distance = nsvcd__f3_length(nsvcd__f3_sub(centre, place)) - x[3 * level.slots + n];
+      if (distance >= best) continue;
+      best = distance;
+      nearest = n;
+    }
+    from = NSVCD__GROUP * nearest;
+    count = NSVCD__GROUP;
+  }
+  for (size_t i = from; i < from + NSVCD__GROUP && i < body->points; i++) {
+    if (f->hull_counts[i] == 0) continue;
+    *first = from;
+    *end = from + NSVCD__GROUP < body->points ? from + NSVCD__GROUP : body->points;
+  }
+}
+
 // How near the bodies come for certain, and a little more: the least distance between the vertices of two patches that are
 // near each other at a time when the bodies are. Where `measure` begins.
 static NSVCD__APART double nsvcd__guess_clearance(nsvcd__proof *p, const nsvcd__workspace *work) {
@@ -9009,12 +9040,16 @@ static NSVCD__APART double nsvcd__guess_clearance(nsvcd__proof *p, const nsvcd__
     least = fmin(least, square);
   }
   const nsvcd__transform pose = nsvcd__transform_of(&nearest);
+  const nsvcd__placement back = nsvcd__inverse_placement(&nearest, p->arc.scale);
   nsvcd__f3 target = nsvcd__f3_round(other);
   size_t i = 0, j = 0;
   for (size_t round = 0; round < 2; round++) {  // from one body to the other, and again
+    size_t first, end;
     float best = HUGE_VALF;
     nsvcd__f3 on_moving = target;
-    for (size_t k = 0; k < p->moving.body->points; k++) {
+    const nsvcd__d3 seen = nsvcd__place_point(&back, nsvcd__d3_widen(target));
+    nsvcd__patches_towards(&p->moving, nsvcd__f3_round(seen), &first, &end);
+    for (size_t k = first; k < end; k++) {
       const nsvcd__f3 place = nsvcd__f3_transform(&pose, nsvcd__facet_centre(&p->moving, k));
       const float distance = nsvcd__f3_length(nsvcd__f3_sub(place, target));
       if (p->moving.hull_counts[k] == 0 || distance >= best) continue;
@@ -9023,7 +9058,8 @@ static NSVCD__APART double nsvcd__guess_clearance(nsvcd__proof *p, const nsvcd__
       i = k;
     }
     best = HUGE_VALF;
-    for (size_t k = 0; k < p->fixed.body->points; k++) {
+    nsvcd__patches_towards(&p->fixed, on_moving, &first, &end);
+    for (size_t k = first; k < end; k++) {
       const nsvcd__f3 place = nsvcd__facet_centre(&p->fixed, k);
       const float distance = nsvcd__f3_length(nsvcd__f3_sub(place, on_moving));
       if (p->fixed.hull_counts[k] == 0 || distance >= best) continue;
