@@ -10886,7 +10886,7 @@ NSVCDDEF size_t nsvcd_sweep_workspace_size(const nsvcd_question *question) {
 }
 
 // Checks a question, and that the workspace is large enough for it.
-static nsvcd_result nsvcd__check(const nsvcd_question *question, const void *workspace, size_t workspace_size) {
+static NSVCD__APART nsvcd_result nsvcd__check(const nsvcd_question *question, const void *workspace, size_t workspace_size) {
   const nsvcd_result result = nsvcd__question_check(question);
   if (result) return result;
   const nsvcd__needs needs = nsvcd__needs_of(question);
@@ -10896,7 +10896,7 @@ static nsvcd_result nsvcd__check(const nsvcd_question *question, const void *wor
 }
 
 // Makes a workspace ready for a question that has been checked.
-static nsvcd__query *nsvcd__query_open(const nsvcd_question *question, void *workspace) {
+static NSVCD__APART nsvcd__query *nsvcd__query_open(const nsvcd_question *question, void *workspace) {
   const nsvcd__needs needs = nsvcd__needs_of(question);
   nsvcd__query *query = (nsvcd__query *)workspace;
   (void)nsvcd__query_layout(&needs, (char *)workspace);
