@@ -238,10 +238,10 @@ space := $(subst x,,x x)
 build/bench_asks: tests/bench_asks.c examples/problem_file.h $(LIBRARY) | build
 	$(CC) $(ALL_CFLAGS) -Wno-unused-function -o $@ tests/bench_asks.c -lm
 # A level as one body, against its local pieces; MOTIONS of each set.
-build/bench_level: tests/bench_level.c tests/level_scene.h examples/level.h examples/shapes.h tests/oracle.h $(LIBRARY) | build
+build/bench_level: tests/bench_level.c tests/level_bench.h tests/level_scene.h examples/level.h examples/shapes.h tests/oracle.h $(LIBRARY) | build
 	$(CC) $(ALL_CFLAGS) -Wno-unused-function -o $@ tests/bench_level.c -lm
 # What a scene costs: bytes, encoding, queries, against triangles and N.
-build/bench_scale: tests/bench_scale.c tests/level_scene.h examples/level.h examples/shapes.h tests/oracle.h $(LIBRARY) | build
+build/bench_scale: tests/bench_scale.c tests/level_bench.h tests/level_scene.h examples/level.h examples/shapes.h tests/oracle.h $(LIBRARY) | build
 	$(CC) $(ALL_CFLAGS) -Wno-unused-function -o $@ tests/bench_scale.c -lm
 bench-scale: build/bench_scale  ## bytes and microseconds against triangles, 12 to a million, and against N: table, build/scale.svg
 	build/bench_scale

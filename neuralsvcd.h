@@ -1835,12 +1835,8 @@ static double nsvcd__count_pieces(double ab, double bc, double ca, double limit,
   return pieces > most ? pieces : pieces + nsvcd__count_pieces(0.25 * ab, bc, median, limit, most - pieces);
 }
 
-// The limit on the edges of pieces, raised until there are not too many pieces: larger ones only make larger balls.
-static double nsvcd__piece_limit(const nsvcd__patches *p, const nsvcd_mesh *mesh) {
-  double limit = 0, most = (double)mesh->triangle_count + NSVCD__PIECES_PER_SAMPLE * (double)p->sample_count;
-  for (size_t i = 0; i < p->count; ++i) limit += (double)p->sample_radii[i] / (double)p->count;
-  limit *= NSVCD__PIECE_SIZE;
-  if (!(limit > 0)) return HUGE_VAL;  // all samples of each patch coincide: nothing to go by
+// The limit on the edges of pieces, raised from `limit` until a mesh makes at most so many: *pieces.
+static double nsvcd__raise_limit(const nsvcd_mesh *mesh, double limit, double most, double *pieces) {
   // A triangle makes at least as many pieces as its longest edge has limits: no need to start below that.
   double longest = 0;
   for (size_t t = 0; t < mesh->triangle_count; ++t) {
@@ -1849,15 +1845,25 @@ static double nsvcd__piece_limit(const nsvcd__patches *p, const nsvcd_mesh *mesh
     for (int k = 0; k < 3; ++k) longest = fmax(longest, nsvcd__squared_edge(c[k], c[(k + 1) % 3]));
   }
   for (limit = fmax(limit, sqrt(longest) / most);; limit *= 2) {
-    double pieces = 0;
-    for (size_t t = 0; t < mesh->triangle_count && pieces <= most; ++t) {
+    *pieces = 0;
+    for (size_t t = 0; t < mesh->triangle_count && *pieces <= most; ++t) {
       double c[3][3];
       nsvcd__triangle(mesh, t, c);
-      pieces += nsvcd__count_pieces(nsvcd__squared_edge(c[0], c[1]), nsvcd__squared_edge(c[1], c[2]),
-                                    nsvcd__squared_edge(c[2], c[0]), limit, most - pieces);
+      *pieces += nsvcd__count_pieces(nsvcd__squared_edge(c[0], c[1]), nsvcd__squared_edge(c[1], c[2]),
+                                     nsvcd__squared_edge(c[2], c[0]), limit, most - *pieces);
     }
-    if (pieces <= most) return limit;
+    if (*pieces <= most) return limit;
   }
+}
+
+// The limit for the pieces of patches: larger ones only make larger balls.
+static double nsvcd__piece_limit(const nsvcd__patches *p, const nsvcd_mesh *mesh) {
+  double limit = 0, most = (double)mesh->triangle_count + NSVCD__PIECES_PER_SAMPLE * (double)p->sample_count;
+  double pieces;
+  for (size_t i = 0; i < p->count; ++i) limit += (double)p->sample_radii[i] / (double)p->count;
+  limit *= NSVCD__PIECE_SIZE;
+  if (!(limit > 0)) return HUGE_VAL;  // all samples of each patch coincide: nothing to go by
+  return nsvcd__raise_limit(mesh, limit, most, &pieces);
 }
 
 // Returns the patch of the last piece: the guess for the next.
@@ -2221,27 +2227,13 @@ static nsvcd__d3 nsvcd__regions_point(const nsvcd__regions *r, uint32_t number) 
 static double nsvcd__regions_limit(const nsvcd__regions *r, size_t *triangles, size_t *cuts) {
   const nsvcd_mesh *mesh = r->mesh;
   const double most = (double)mesh->triangle_count + NSVCD__HALVES_PER_REGION * (double)r->count;
-  double limit = NSVCD__REGION_EDGE * sqrt(nsvcd__mesh_area(mesh) / (double)r->count);
-  double longest = 0;
-  for (size_t t = 0; t < mesh->triangle_count; t++) {
-    double c[3][3];
-    nsvcd__triangle(mesh, t, c);
-    for (size_t k = 0; k < 3; k++) longest = fmax(longest, nsvcd__squared_edge(c[k], c[(k + 1) % 3]));
-  }
-  for (limit = fmax(limit, sqrt(longest) / most);; limit *= 2) {
-    double pieces = 0;
-    for (size_t t = 0; t < mesh->triangle_count && pieces <= most; t++) {
-      double c[3][3];
-      nsvcd__triangle(mesh, t, c);
-      pieces += nsvcd__count_pieces(nsvcd__squared_edge(c[0], c[1]), nsvcd__squared_edge(c[1], c[2]),
-                                    nsvcd__squared_edge(c[2], c[0]), limit, most - pieces);
-    }
-    if (!(pieces <= most)) continue;
-    // Lengths of halves are found here by formulas and there from their corners: roundings may part one more or less.
-    *cuts = (size_t)(pieces - (double)mesh->triangle_count) + NSVCD__HALVES_PER_REGION;
-    *triangles = mesh->triangle_count + *cuts;
-    return limit;
-  }
+  const double least = NSVCD__REGION_EDGE * sqrt(nsvcd__mesh_area(mesh) / (double)r->count);
+  double pieces;
+  const double limit = nsvcd__raise_limit(mesh, least, most, &pieces);
+  // Lengths of halves are found here by formulas and there from their corners: roundings may part one more or less.
+  *cuts = (size_t)(pieces - (double)mesh->triangle_count) + NSVCD__HALVES_PER_REGION;
+  *triangles = mesh->triangle_count + *cuts;
+  return limit;
 }
 
 // Adds a triangle, or its halves where an edge is longer than the limit, as long as there is room for these.

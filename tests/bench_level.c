@@ -12,8 +12,8 @@
 
 #include <stdio.h>
 #include <stdlib.h>
-#include <time.h>
 
+#include "level_bench.h"
 #include "level_scene.h"
 
 #define SIDE 20.0       // metres
@@ -22,34 +22,6 @@
 #define MARGIN 1e-4     // metres: nearer to contact than this the oracle's label is not counted
 
 static const char *const set_names[LEVEL_SETS] = {"near", "slide", "dash"};
-
-static double seconds(void) {
-  struct timespec now;
-  clock_gettime(CLOCK_MONOTONIC, &now);
-  return (double)now.tv_sec + 1e-9 * (double)now.tv_nsec;
-}
-
-// ---- memory that is counted
-
-typedef struct heap {
-  size_t now, most;
-} heap;
-
-static void *heap_alloc(size_t size, void *user) {
-  heap *h = (heap *)user;
-  size_t *memory = (size_t *)malloc(size + 16);
-  if (!memory) return NULL;
-  memory[0] = size;
-  h->now += size;
-  h->most = h->now > h->most ? h->now : h->most;
-  return memory + 2;
-}
-static void heap_free(void *memory, void *user) {
-  heap *h = (heap *)user;
-  if (!memory) return;
-  h->now -= ((size_t *)memory)[-2];
-  free((size_t *)memory - 2);
-}
 
 // ---- the comparison
 

@@ -6,40 +6,13 @@
 #define NEURALSVCD_IMPLEMENTATION
 #include "../neuralsvcd.h"
 
-#include <time.h>
 
+#include "level_bench.h"
 #include "level_scene.h"
 
 #define MOTIONS 200
 #define ROWS 40
 #define LEVEL_SIDE 20.0
-
-static double seconds(void) {
-  struct timespec now;
-  clock_gettime(CLOCK_MONOTONIC, &now);
-  return (double)now.tv_sec + 1e-9 * (double)now.tv_nsec;
-}
-
-// ---- memory that is counted
-
-typedef struct heap {
-  size_t now, most;
-} heap;
-
-static void *heap_alloc(size_t size, void *user) {
-  heap *h = (heap *)user;
-  size_t *memory = (size_t *)malloc(size + 16);
-  if (!memory) return NULL;
-  memory[0] = size;
-  h->now += size;
-  h->most = h->now > h->most ? h->now : h->most;
-  return memory + 2;
-}
-static void heap_free(void *memory, void *user) {
-  if (!memory) return;
-  ((heap *)user)->now -= ((size_t *)memory)[-2];
-  free((size_t *)memory - 2);
-}
 
 // ---- a row of the table
 
