@@ -6079,12 +6079,17 @@ static void nsvcd__members_against_patch(const nsvcd__workspace *work, const nsv
 
 // ---- the search
 
-static void nsvcd__chords_of_group(nsvcd__workspace *work, const nsvcd_body *moving, size_t g) {
-  const float *x = nsvcd__body_group(moving, 0), *y = nsvcd__body_group(moving, 1), *z = nsvcd__body_group(moving, 2);
-  const float r = work->scale * nsvcd__body_group(moving, 3)[g];
+// Chords of a sphere of the moving body in all segments, into work->group.
+static void nsvcd__chords_in_all(nsvcd__workspace *work, const float *centre, float radius) {
   for (size_t b = 0; NSVCD__LANES * b < work->segments; b++) {
-    nsvcd__chords_of_sphere(&work->blocks[b], x[g], y[g], z[g], r, &work->group[b]);
+    nsvcd__chords_of_sphere(&work->blocks[b], centre[0], centre[1], centre[2], work->scale * radius, &work->group[b]);
   }
+}
+
+static void nsvcd__chords_of_group(nsvcd__workspace *work, const nsvcd_body *moving, size_t g) {
+  const float centre[3] = {nsvcd__body_group(moving, 0)[g], nsvcd__body_group(moving, 1)[g],
+                           nsvcd__body_group(moving, 2)[g]};
+  nsvcd__chords_in_all(work, centre, nsvcd__body_group(moving, 3)[g]);
 }
 
 // Grows a slice of boxes, from lane l on, by chords where they are near the fixed body.
@@ -6204,12 +6209,6 @@ static void nsvcd__search_tile(nsvcd__workspace *work, const nsvcd_body *moving,
 
 static int nsvcd__is_large(const nsvcd_body *body) { return nsvcd__body_groups(body) > NSVCD__TILE; }
 
-static void nsvcd__chords_of_sphere_everywhere(nsvcd__workspace *work, const float *centre, float radius) {
-  for (size_t b = 0; NSVCD__LANES * b < work->segments; b++) {
-    nsvcd__chords_of_sphere(&work->blocks[b], centre[0], centre[1], centre[2], work->scale * radius, &work->group[b]);
-  }
-}
-
 // Fills a tile with the next groups that a walk finds.
 static void nsvcd__tile_fill(nsvcd__tile *tile, nsvcd__walk *walk) {
   size_t g;
@@ -6272,7 +6271,7 @@ static void nsvcd__chords_of_tile(nsvcd__workspace *work, const nsvcd_body *movi
   if (nsvcd__is_large(moving)) {
     nsvcd__cover_spheres(tile->count, tile->spheres[0], tile->spheres[1], tile->spheres[2], tile->spheres[3], sphere);
   }
-  nsvcd__chords_of_sphere_everywhere(work, sphere, sphere[3]);
+  nsvcd__chords_in_all(work, sphere, sphere[3]);
 }
 
 // Puts a box about the chords of work->group.
@@ -6326,7 +6325,7 @@ static int nsvcd__search_next_tile(nsvcd__workspace *work, const nsvcd_body *mov
 // Starts the search of a motion that has been cut. Returns 0 if the groups' spheres never meet: then there is no step
 // to take.
 static int nsvcd__search_begin(const nsvcd_body *moving, const nsvcd_body *fixed, nsvcd__workspace *work) {
-  nsvcd__chords_of_sphere_everywhere(work, moving->centre, moving->radius);
+  nsvcd__chords_in_all(work, moving->centre, moving->radius);
   uint64_t wanted = ~(uint64_t)0 >> (NSVCD__MAX_SEGMENTS - work->segments);
   wanted = nsvcd__meet_in(work->group, wanted, fixed->centre[0], fixed->centre[1], fixed->centre[2], fixed->radius);
   work->near_segments = wanted;
