@@ -65,7 +65,7 @@ arcs of both, twist forgotten|(arc->turn * arc->turn + twist);|(arc->turn * arc-
 arcs of both, no swing|(2 * across + angle * swing);|(2 * across);
 arcs of both, half of the way|(2 * across + angle * swing);|(across + angle * swing);
 knots of one body only|return after_a < after_b ? after_a : after_b;|return after_a;
-group without scale|const float r = work->scale * nsvcd__body_group(moving, 3)[g];|const float r = nsvcd__body_group(moving, 3)[g];
+group without scale|centre[0], centre[1], centre[2], work->scale * radius,|centre[0], centre[1], centre[2], radius,
 members without scale|nsvcd__v_fma(nsvcd__v_set(scale), nsvcd__v_load(r + l), nsvcd__v_set(deviation))|nsvcd__v_add(nsvcd__v_load(r + l), nsvcd__v_set(deviation))
 discs without scale|nsvcd__v_mul(scale, nsvcd__v3_dot(w, w)), nsvcd__v_mul(scale, turned));|nsvcd__v3_dot(w, w), turned);
 disc without clearance|const float deviation = a->clearance + span->rounding + nsvcd__deviation|const float deviation = span->rounding + nsvcd__deviation
