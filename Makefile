@@ -77,7 +77,7 @@ TEST_OBJECTS = $(TESTS:%=build/%.o)
 # Each test file holds its own copy of the header, and uses only a part of its private functions.
 TEST_WARNINGS = -Wall -Wextra -Werror -Wno-unused-function
 
-build/%.o: tests/%.c tests/check.h tests/ask.h tests/oracle.h tests/query_scene.h tests/proof_scene.h tests/gradient_reference.h examples/shapes.h examples/tasks.h tests/plan_spheres.h tests/bench_spheres.h tests/bench_mesh.h tests/method.h tests/any_query.h tests/level_scene.h examples/level.h $(wildcard tests/data/*.h) $(LIBRARY) | build
+build/%.o: tests/%.c tests/check.h tests/ask.h tests/oracle.h tests/poses.h tests/query_scene.h tests/proof_scene.h tests/gradient_reference.h examples/shapes.h examples/tasks.h tests/plan_spheres.h tests/bench_spheres.h tests/bench_mesh.h tests/method.h tests/any_query.h tests/failing_heap.h tests/level_scene.h examples/level.h $(wildcard tests/data/*.h) $(LIBRARY) | build
 	$(CC) $(CFLAGS) -pthread -std=c99 $(TEST_WARNINGS) $(CCD_CFLAGS) -c -o $@ $<
 build/tests: $(TEST_OBJECTS)
 	$(CC) $(CFLAGS) -pthread -o $@ $(TEST_OBJECTS) $(CCD_LIBS) -lm
@@ -97,16 +97,16 @@ check-gradient: $(GRADIENT_SWITCHES:%=build/gradient_%)
 	@for test in $^; do echo $$test; $$test >$$test.txt || { cat $$test.txt; exit 1; }; tail -1 $$test.txt; done
 
 # The tests of the proof, alone; PROOF_MANY=10 in the environment: 10^6 crossings.
-build/test_proof: tests/test_proof.c tests/proof_scene.h tests/check.h tests/oracle.h examples/shapes.h $(LIBRARY) | build
+build/test_proof: tests/test_proof.c tests/proof_scene.h tests/check.h tests/oracle.h tests/poses.h examples/shapes.h $(LIBRARY) | build
 	$(CC) $(CFLAGS) -std=c99 $(TEST_WARNINGS) -DTEST_ALONE -o $@ $< -lm
 # The same, with tiles of two groups: bodies of more than 32 patches are searched tile by tile.
-build/test_tiles: tests/test_proof.c tests/proof_scene.h tests/check.h tests/oracle.h examples/shapes.h $(LIBRARY) | build
+build/test_tiles: tests/test_proof.c tests/proof_scene.h tests/check.h tests/oracle.h tests/poses.h examples/shapes.h $(LIBRARY) | build
 	$(CC) $(CFLAGS) -std=c99 $(TEST_WARNINGS) -DNSVCD__TILE=2 -DTEST_ALONE -o $@ $< -lm
 check-tiles: build/test_tiles
 	@build/test_tiles >build/test_tiles.txt || { cat build/test_tiles.txt; exit 1; }; echo build/test_tiles; tail -1 build/test_tiles.txt
 # On 32 bits, where sizes end at 4 GB, under sanitizers; where the compiler can (Debian: gcc-multilib).
 CFLAGS_32 = -m32 -msse2 -mfpmath=sse -O1 -fsanitize=address,undefined -fno-sanitize-recover=all
-build/test_%_32: tests/test_%.c tests/check.h tests/level_scene.h examples/level.h examples/shapes.h tests/oracle.h $(LIBRARY) | build
+build/test_%_32: tests/test_%.c tests/check.h tests/failing_heap.h tests/level_scene.h examples/level.h examples/shapes.h tests/oracle.h tests/poses.h $(LIBRARY) | build
 	$(CC) $(CFLAGS_32) -pthread -std=c99 $(TEST_WARNINGS) -DTEST_ALONE -o $@ $< -lm
 check-32:
 	@if echo 'int main(void) { return 0; }' | $(CC) $(CFLAGS_32) -x c -o build/can_32 - 2>/dev/null; then \
@@ -124,7 +124,7 @@ mutants:  ## the header with one mistake at a time: the tests of the proof must 
 # files; FIRST: tolerance of first contacts, a share of the motion. FRAMES=1000 for more.
 FRAMES = 60
 FIRST = 0.01
-build/check_motions: tests/check_motions.c examples/problem_file.h tests/oracle.h $(LIBRARY) | build
+build/check_motions: tests/check_motions.c examples/problem_file.h tests/oracle.h tests/poses.h $(LIBRARY) | build
 	$(CC) $(ALL_CFLAGS) -Wno-unused-function -o $@ tests/check_motions.c -lm
 check-motions: build/check_motions build/game build/problems build/svcd  ## first contacts, clearances and two movers against an oracle
 	@mkdir -p build/motions
@@ -212,7 +212,7 @@ accuracy: build/svcd $(SETS:%=$(DATA)/%.txt)  ## labels the problem sets (minute
 # --------------------------------------------------------------------------------------------------------- benchmark
 
 BENCH_HEADERS = tests/method.h tests/bench_chart.h tests/bench_convex.h tests/bench_grid.h tests/bench_mesh.h tests/bench_spheres.h
-build/bench: tests/bench.c $(BENCH_HEADERS) tests/oracle.h examples/problem_file.h $(LIBRARY) | build
+build/bench: tests/bench.c $(BENCH_HEADERS) tests/oracle.h tests/poses.h examples/problem_file.h $(LIBRARY) | build
 	$(CC) $(ALL_CFLAGS) $(CCD_CFLAGS) -o $@ tests/bench.c $(CCD_LIBS) -lm
 
 # Sets at the extremes: 300 problems each, answered by NeuralSVCD alone.
@@ -238,10 +238,10 @@ space := $(subst x,,x x)
 build/bench_asks: tests/bench_asks.c examples/problem_file.h $(LIBRARY) | build
 	$(CC) $(ALL_CFLAGS) -Wno-unused-function -o $@ tests/bench_asks.c -lm
 # A level as one body, against its local pieces; MOTIONS of each set.
-build/bench_level: tests/bench_level.c tests/level_bench.h tests/level_scene.h examples/level.h examples/shapes.h tests/oracle.h $(LIBRARY) | build
+build/bench_level: tests/bench_level.c tests/level_bench.h tests/level_scene.h examples/level.h examples/shapes.h tests/oracle.h tests/poses.h $(LIBRARY) | build
 	$(CC) $(ALL_CFLAGS) -Wno-unused-function -o $@ tests/bench_level.c -lm
 # What a scene costs: bytes, encoding, queries, against triangles and N.
-build/bench_scale: tests/bench_scale.c tests/level_bench.h tests/level_scene.h examples/level.h examples/shapes.h tests/oracle.h $(LIBRARY) | build
+build/bench_scale: tests/bench_scale.c tests/level_bench.h tests/level_scene.h examples/level.h examples/shapes.h tests/oracle.h tests/poses.h $(LIBRARY) | build
 	$(CC) $(ALL_CFLAGS) -Wno-unused-function -o $@ tests/bench_scale.c -lm
 bench-scale: build/bench_scale  ## bytes and microseconds against triangles, 12 to a million, and against N: table, build/scale.svg
 	build/bench_scale

@@ -21,6 +21,7 @@
 #include "bench_spheres.h"
 #include "method.h"
 #include "oracle.h"
+#include "poses.h"
 
 // ------------------------------------------------------------------------------------------------------------- rows
 
@@ -383,13 +384,6 @@ static void run_baselines(table *t, const problem_set *set, int quick) {
 
 // ----------------------------------------------------------------------------------------------------------- oracle
 
-static oracle_pose to_oracle(const nsvcd_pose *pose) {
-  oracle_pose out;
-  for (int k = 0; k < 3; k++) out.position[k] = (double)pose->position[k];
-  for (int k = 0; k < 4; k++) out.rotation[k] = (double)pose->rotation[k];
-  oracle_quat_normalize(out.rotation);
-  return out;
-}
 static double *to_doubles(const nsvcd_mesh *mesh) {
   double *out = (double *)allocate(3 * mesh->vertex_count * sizeof(double));
   for (size_t i = 0; i < 3 * mesh->vertex_count; i++) out[i] = (double)mesh->positions[i];
@@ -419,8 +413,8 @@ static void run_oracle(table *t, const problem_set *set) {
     load_oracle(&set->meshes[f][p->moving], p->moving_scale, &moving);
     load_oracle(&set->meshes[f][p->fixed], p->fixed_scale, &fixed);
     r->prepare += clock_ms(start) / 2 / (double)set->problems;
-    oracle_pose *poses = (oracle_pose *)allocate(p->count * sizeof *poses), fixed_pose = to_oracle(&p->fixed_pose);
-    for (size_t k = 0; k < p->count; k++) poses[k] = to_oracle(&set->files[f].poses[p->first_pose + k]);
+    oracle_pose *poses = (oracle_pose *)allocate(p->count * sizeof *poses), fixed_pose = pose_widened(&p->fixed_pose);
+    for (size_t k = 0; k < p->count; k++) poses[k] = pose_widened(&set->files[f].poses[p->first_pose + k]);
     oracle_options options = {5e-5, 5e-5, 0, 0};
     oracle_result found;
     TIME(times[i], found = oracle_sweep(&moving, poses, p->count, &fixed, &fixed_pose, &options));

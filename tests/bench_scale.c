@@ -49,7 +49,7 @@ static double mean_query(const level_solid *mover, const level_solid *body, int 
         poses[1].position[k] = poses[0].position[k] + 0.1 * axis[k];
       }
     }
-    const nsvcd_pose stored[2] = {level_pose(&poses[0]), level_pose(&poses[1])};
+    const nsvcd_pose stored[2] = {pose_rounded(&poses[0]), pose_rounded(&poses[1])};
     nsvcd_question question;
     nsvcd_answer answer;
     double best = 1e9;

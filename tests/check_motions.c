@@ -11,6 +11,7 @@
 #define PROGRAM "check_motions"
 #include "../examples/problem_file.h"
 #include "oracle.h"
+#include "poses.h"
 
 #define HAIR 1e-6       // metres: nearer than this to the clearance, advancement stops
 #define MARGIN 1e-4     // metres
@@ -25,11 +26,7 @@ typedef struct track {
 static void read_track(const nsvcd_mover *mover, const oracle_mesh *mesh, track *out) {
   out->count = mover->count;
   out->reach = oracle_length(mesh->center) + mesh->radius;
-  for (size_t i = 0; i < mover->count; i++) {
-    for (int k = 0; k < 3; k++) out->poses[i].position[k] = (double)mover->poses[i].position[k];
-    for (int k = 0; k < 4; k++) out->poses[i].rotation[k] = (double)mover->poses[i].rotation[k];
-    oracle_quat_normalize(out->poses[i].rotation);
-  }
+  for (size_t i = 0; i < mover->count; i++) out->poses[i] = pose_widened(&mover->poses[i]);
 }
 
 // How fast a point may be from t until the next pose, at *next.

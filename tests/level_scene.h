@@ -8,6 +8,7 @@
 
 #include "../examples/level.h"
 #include "oracle.h"
+#include "poses.h"
 
 #define LEVEL_REACH 0.05  // metres by which the local piece is larger than what the motion can reach
 #define LEVEL_BODIES 6
@@ -64,20 +65,6 @@ static void level_make_bodies(level_solid *bodies) {
 }
 
 // ---- motions
-
-static nsvcd_pose level_pose(const oracle_pose *from) {
-  nsvcd_pose to;
-  for (int k = 0; k < 3; k++) to.position[k] = (float)from->position[k];
-  for (int k = 0; k < 4; k++) to.rotation[k] = (float)from->rotation[k];
-  return to;
-}
-static oracle_pose level_stored(const nsvcd_pose *from) {
-  oracle_pose to;
-  for (int k = 0; k < 3; k++) to.position[k] = (double)from->position[k];
-  for (int k = 0; k < 4; k++) to.rotation[k] = (double)from->rotation[k];
-  oracle_quat_normalize(to.rotation);
-  return to;
-}
 
 // The least distance of a motion from the level, stopping early.
 static double level_gap(const level_solid *body, const level_solid *level, const oracle_pose *poses) {
@@ -163,8 +150,8 @@ static level_way level_draw(shapes_rng *rng, int set, const level_solid *bodies,
     way.body = &bodies[shapes_pick(rng, LEVEL_BODIES)];
   } while (!level_motion(rng, set, way.body, level, way.poses));
   for (int n = 0; n < 2; n++) {
-    way.stored[n] = level_pose(&way.poses[n]);
-    way.poses[n] = level_stored(&way.stored[n]);
+    way.stored[n] = pose_rounded(&way.poses[n]);
+    way.poses[n] = pose_widened(&way.stored[n]);
   }
   return way;
 }

@@ -8,7 +8,7 @@ cd "$(dirname "$0")/.." || exit 1
 work=${WORK:-build/mutants}
 mkdir -p $work/tests $work/examples
 cp weights.h $work/
-cp tests/test_proof.c tests/proof_scene.h tests/any_query.h tests/ask.h tests/check.h tests/oracle.h $work/tests/
+cp tests/test_proof.c tests/proof_scene.h tests/poses.h tests/any_query.h tests/ask.h tests/check.h tests/oracle.h $work/tests/
 cp examples/shapes.h $work/examples/
 
 # name | text (occurs once) | what it becomes. Not here: axis_turn left out of bulge_along_axis. The theorem needs it, but no

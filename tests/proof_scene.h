@@ -7,6 +7,7 @@
 
 #include "../examples/shapes.h"
 #include "oracle.h"
+#include "poses.h"
 
 #define PROOF_POOL 96  // points of the surface by which a patch is judged
 #define PROOF_POSES 80
@@ -382,32 +383,13 @@ typedef struct proof_place {
   double matrix[9], position[3];
 } proof_place;
 
-// volatile: where gcc 12.2 vectorizes (double)(float)x it drops both conversions.
-static float proof_to_float(double x) {
-  volatile float rounded = (float)x;
-  return rounded;
-}
-static nsvcd_pose proof_rounded(const oracle_pose *pose) {
-  nsvcd_pose out;
-  for (int k = 0; k < 3; k++) out.position[k] = proof_to_float(pose->position[k]);
-  for (int k = 0; k < 4; k++) out.rotation[k] = proof_to_float(pose->rotation[k]);
-  return out;
-}
-static oracle_pose proof_widened(const nsvcd_pose *pose) {
-  oracle_pose out;
-  for (int k = 0; k < 3; k++) out.position[k] = (double)pose->position[k];
-  for (int k = 0; k < 4; k++) out.rotation[k] = (double)pose->rotation[k];
-  oracle_quat_normalize(out.rotation);
-  return out;
-}
-
 // Rounds the poses to float, and takes them as they then are.
 static void proof_track_set(proof_track *track, const oracle_pose *poses, size_t count) {
   track->count = count;
   track->scale = 1;
   for (size_t i = 0; i < count; i++) {
-    track->raw[i] = proof_rounded(&poses[i]);
-    track->poses[i] = proof_widened(&track->raw[i]);
+    track->raw[i] = pose_rounded(&poses[i]);
+    track->poses[i] = pose_widened(&track->raw[i]);
   }
 }
 static void proof_motion_set(proof_motion *m, const oracle_pose *poses, size_t count,

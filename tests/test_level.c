@@ -8,25 +8,10 @@
 #include <sys/mman.h>
 
 #include "check.h"
+#include "failing_heap.h"
 #include "level_scene.h"
 
 void test_level(void);
-
-// ---- memory whose allocations fail
-
-typedef struct level_heap {
-  int calls, live, fail_at;
-} level_heap;
-static void *level_heap_alloc(size_t size, void *user) {
-  level_heap *heap = (level_heap *)user;
-  if (heap->calls++ == heap->fail_at) return NULL;
-  heap->live++;
-  return malloc(size);
-}
-static void level_heap_free(void *memory, void *user) {
-  if (memory) ((level_heap *)user)->live--;
-  free(memory);
-}
 
 // ---- scenes
 
@@ -440,8 +425,8 @@ static void level_encoding_ends_well(void) {
   const nsvcd_body *body = NULL;
   int fails = 0;
   for (int fail_at = 0; fail_at < 2000; fail_at++) {
-    level_heap heap = {0, 0, fail_at};
-    nsvcd_allocator allocator = {level_heap_alloc, level_heap_free, &heap};
+    failing_heap heap = {0, 0, fail_at};
+    nsvcd_allocator allocator = {failing_heap_alloc, failing_heap_free, &heap};
     const nsvcd_result result = nsvcd_encode(&solid.mesh, &options, &allocator, NULL, 0, &body);
     if (result == NSVCD_OK) {
       CHECK_EQ(heap.live, 1);
@@ -465,8 +450,8 @@ static void level_encoding_ends_well(void) {
   body = NULL;
   const float times = last[2];
   for (float n = 1; n <= times; n++) {
-    level_heap heap = {0, 0, -1};
-    nsvcd_allocator allocator = {level_heap_alloc, level_heap_free, &heap};
+    failing_heap heap = {0, 0, -1};
+    nsvcd_allocator allocator = {failing_heap_alloc, failing_heap_free, &heap};
     const float from[4] = {0, 0, 0, n};
     memcpy(last, from, sizeof last);
     CHECK_EQ(nsvcd_encode(&solid.mesh, &options, &allocator, NULL, 0, &body), NSVCD_ERROR_CANCELLED);

@@ -4,6 +4,7 @@
 #include "../neuralsvcd.h"
 
 #include "check.h"
+#include "failing_heap.h"
 
 #include <locale.h>
 #include <stdio.h>
@@ -23,21 +24,6 @@ static uint32_t mesh_random(void) {  // splitmix64
 static size_t mesh_below(size_t n) { return (size_t)mesh_random() % n; }
 static double mesh_uniform(double low, double high) {
   return low + (high - low) * (double)mesh_random() / 4294967296.0;
-}
-
-// Counts what is allocated and fails allocation number `fail_at` (from 0; -1: never).
-typedef struct mesh_heap {
-  int live, calls, fail_at;
-} mesh_heap;
-static void *mesh_heap_alloc(size_t size, void *user) {
-  mesh_heap *heap = (mesh_heap *)user;
-  if (heap->calls++ == heap->fail_at) return NULL;
-  heap->live++;
-  return malloc(size);
-}
-static void mesh_heap_free(void *memory, void *user) {
-  ((mesh_heap *)user)->live--;
-  free(memory);
 }
 
 static nsvcd_result parse(const char *text, nsvcd_mesh *mesh, size_t *line) {
@@ -289,9 +275,9 @@ static void mesh_obj_refused(void) {
   };
   for (size_t i = 0; i < sizeof cases / sizeof cases[0]; ++i) {
     for (int fail_at = -1; fail_at < 4; ++fail_at) {
-      mesh_heap heap = {0, 0, 0};
+      failing_heap heap = {0, 0, 0};
       heap.fail_at = fail_at;
-      nsvcd_allocator allocator = {mesh_heap_alloc, mesh_heap_free, NULL};
+      nsvcd_allocator allocator = {failing_heap_alloc, failing_heap_free, NULL};
       allocator.user = &heap;
       nsvcd_mesh mesh, before;
       size_t line = 99;
@@ -320,9 +306,9 @@ static void mesh_obj_allocation_fails(void) {
   static const char text[] = TETRAHEDRON "f 1 2 3 4\n";
   int failures = 0;
   for (int fail_at = 0;; ++fail_at) {
-    mesh_heap heap = {0, 0, 0};
+    failing_heap heap = {0, 0, 0};
     heap.fail_at = fail_at;
-    nsvcd_allocator allocator = {mesh_heap_alloc, mesh_heap_free, NULL};
+    nsvcd_allocator allocator = {failing_heap_alloc, failing_heap_free, NULL};
     allocator.user = &heap;
     nsvcd_mesh mesh;
     size_t line = 99;
@@ -458,9 +444,9 @@ static void mesh_obj_files(void) {
   fprintf(file, "f 1 2 40000\nf 1 2 40001\n");
   fclose(file);
   for (int fail_at = -1; fail_at < 12; ++fail_at) {
-    mesh_heap heap = {0, 0, 0};
+    failing_heap heap = {0, 0, 0};
     heap.fail_at = fail_at;
-    nsvcd_allocator allocator = {mesh_heap_alloc, mesh_heap_free, NULL};
+    nsvcd_allocator allocator = {failing_heap_alloc, failing_heap_free, NULL};
     allocator.user = &heap;
     nsvcd_result result = nsvcd_obj_load(path, &allocator, &mesh, &line);
     CHECK_EQ(result, fail_at >= 0 && fail_at < heap.calls ? NSVCD_ERROR_MEMORY : NSVCD_ERROR_INDEX);
@@ -510,8 +496,8 @@ static void mesh_obj_fuzz(void) {
     }
     char *exact = (char *)malloc(size);
     memcpy(exact, text, size);
-    mesh_heap heap = {0, 0, -1};
-    nsvcd_allocator allocator = {mesh_heap_alloc, mesh_heap_free, NULL};
+    failing_heap heap = {0, 0, -1};
+    nsvcd_allocator allocator = {failing_heap_alloc, failing_heap_free, NULL};
     allocator.user = &heap;
     nsvcd_mesh mesh;
     size_t line = 999;
@@ -951,8 +937,8 @@ static void mesh_patches_edge_cases(void) {
   nsvcd__patches p, before;
   memset(&p, 0x5a, sizeof p);
   before = p;
-  mesh_heap heap = {0, 0, 0};
-  nsvcd_allocator allocator = {mesh_heap_alloc, mesh_heap_free, NULL};
+  failing_heap heap = {0, 0, 0};
+  nsvcd_allocator allocator = {failing_heap_alloc, failing_heap_free, NULL};
   allocator.user = &heap;
   CHECK_EQ(nsvcd__patches_build(&mesh, 8, &allocator, &p), NSVCD_ERROR_MEMORY);  // the only allocation fails
   CHECK_EQ(heap.live, 0);
@@ -1040,8 +1026,8 @@ static void mesh_cut_to_a_box(void) {
   CHECK_EQ(nsvcd_mesh_cut(&mesh, NULL, high, NULL, &untouched), NSVCD_ERROR_ARGUMENT);
   CHECK_EQ(nsvcd_mesh_cut(NULL, low, high, NULL, &untouched), NSVCD_ERROR_ARGUMENT);
   for (int fails = 0; fails < 2; fails++) {
-    mesh_heap heap = {0, 0, fails};
-    nsvcd_allocator allocator = {mesh_heap_alloc, mesh_heap_free, NULL};
+    failing_heap heap = {0, 0, fails};
+    nsvcd_allocator allocator = {failing_heap_alloc, failing_heap_free, NULL};
     allocator.user = &heap;
     CHECK_EQ(nsvcd_mesh_cut(&mesh, low, high, &allocator, &untouched), NSVCD_ERROR_MEMORY);
     CHECK_EQ(heap.live, 0);

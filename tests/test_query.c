@@ -3,6 +3,7 @@
 #define NEURALSVCD_IMPLEMENTATION
 #include "../neuralsvcd.h"
 
+#include "failing_heap.h"
 #include "query_scene.h"
 
 void test_query(void);
@@ -733,20 +734,6 @@ static void query_scale_refuses_bad_input(void) {
 
 // -------------------------------------------------------------------------------------------------------- allocation
 
-typedef struct query_heap {
-  int live, calls, fail_at;  // fails allocation number fail_at, from 0; -1: none
-} query_heap;
-static void *query_heap_alloc(size_t size, void *user) {
-  query_heap *heap = (query_heap *)user;
-  if (heap->calls++ == heap->fail_at) return NULL;
-  heap->live++;
-  return malloc(size);
-}
-static void query_heap_free(void *memory, void *user) {
-  ((query_heap *)user)->live--;
-  free(memory);
-}
-
 static void query_encode_survives_every_failed_allocation(void) {
   nsvcd_mesh mesh = query_solid(5, 0.3);
   nsvcd_encode_options options = {.points = 32, .no_triangles = 1};
@@ -756,8 +743,8 @@ static void query_encode_survives_every_failed_allocation(void) {
   CHECK_EQ(nsvcd_encode(&mesh, &options, NULL, undisturbed.at, size, &expected), NSVCD_OK);
   int failures = 0;
   for (;; failures++) {
-    query_heap heap = {0, 0, failures};
-    nsvcd_allocator allocator = {query_heap_alloc, query_heap_free, NULL};
+    failing_heap heap = {0, 0, failures};
+    nsvcd_allocator allocator = {failing_heap_alloc, failing_heap_free, NULL};
     const nsvcd_body *body = NULL;
     allocator.user = &heap;
     nsvcd_result result = nsvcd_encode(&mesh, &options, &allocator, memory.at, size, &body);

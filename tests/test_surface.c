@@ -7,6 +7,7 @@
 
 #include "../examples/shapes.h"
 #include "check.h"
+#include "failing_heap.h"
 
 #include <stdio.h>
 #include <stdlib.h>
@@ -935,29 +936,14 @@ static void surface_is_deterministic(void) {
   nsvcd_mesh_free(&mesh, NULL);
 }
 
-// Counts what is allocated and fails allocation number `fail_at` (from 0; -1: never).
-typedef struct surface_heap {
-  int live, calls, fail_at;
-} surface_heap;
-static void *surface_heap_alloc(size_t size, void *user) {
-  surface_heap *heap = (surface_heap *)user;
-  if (heap->calls++ == heap->fail_at) return NULL;
-  heap->live++;
-  return malloc(size);
-}
-static void surface_heap_free(void *memory, void *user) {
-  ((surface_heap *)user)->live--;
-  free(memory);
-}
-
 static void surface_allocation_fails(void) {
   nsvcd_mesh mesh = surface_box(1, 0.5, 0.3, 4);
   nsvcd__surface untouched;
   int failures = 0;
   memset(&untouched, 0xab, sizeof untouched);
   for (int fail_at = 0; fail_at < 1000; fail_at++) {
-    surface_heap heap = {0, 0, 0};
-    nsvcd_allocator allocator = {surface_heap_alloc, surface_heap_free, NULL};
+    failing_heap heap = {0, 0, 0};
+    nsvcd_allocator allocator = {failing_heap_alloc, failing_heap_free, NULL};
     nsvcd__surface surface = untouched;
     heap.fail_at = fail_at;
     allocator.user = &heap;
@@ -981,8 +967,8 @@ static void surface_allocation_fails(void) {
 static void surface_too_large(void) {
   nsvcd_mesh mesh = surface_sheet(260, 1, 0);
   nsvcd__surface surface;
-  surface_heap heap = {0, 0, -1};
-  nsvcd_allocator allocator = {surface_heap_alloc, surface_heap_free, NULL};
+  failing_heap heap = {0, 0, -1};
+  nsvcd_allocator allocator = {failing_heap_alloc, failing_heap_free, NULL};
   allocator.user = &heap;
   CHECK_EQ(surface_of(&mesh, 1, &allocator, &surface), NSVCD_ERROR_TOO_LARGE);
   CHECK_EQ(heap.live, 0);
