@@ -202,10 +202,10 @@ typedef struct nsvcd_body nsvcd_body;
 #define NSVCD_ALIGNMENT 8
 #define NSVCD_DEFAULT_POINTS 192
 #define NSVCD_DEFAULT_NETWORK_POINTS 256  // of bodies for the network alone, which needs finer patches than a proof
-#define NSVCD_MAX_POINTS 65536     // representative points (patches) of a body,
-#define NSVCD_MAX_NETWORK_POINTS 512  // and of one with latents
+#define NSVCD_MAX_POINTS 65536     // representative points (patches) of a body
+#define NSVCD_SMALL_POINTS 512     // bodies of more are levels: patches in a tree, and latents only if asked for
 #define NSVCD_FEW_TRIANGLES 32768    // a mesh of up to so many is encoded with NSVCD_DEFAULT_POINTS, if nothing is said,
-#define NSVCD_MANY_TRIANGLES 131072  // of up to so many with NSVCD_MAX_NETWORK_POINTS. More are taken for a level:
+#define NSVCD_MANY_TRIANGLES 131072  // of up to so many with NSVCD_SMALL_POINTS. More are taken for a level:
 #define NSVCD_LEVEL_TRIANGLES 12     // then a patch for so many triangles
 #define NSVCD_MAX_COORDINATE 1e6f  // metres
 #define NSVCD_MIN_RADIUS 1e-12f    // metres, of a body's bounding sphere
@@ -223,7 +223,8 @@ typedef struct nsvcd_encode_options {
                        // about half the size of the bodies that move in it
   int open;            // 1: the mesh is not closed (a sheet, or a part cut out): nothing counts as inside it
   int no_triangles;    // 1: for the network alone, in fewer bytes; then there is no proof
-  int no_latents;      // 1: for the proof alone. A body of more than NSVCD_MAX_NETWORK_POINTS has none in any case
+  int no_latents;      // 1: for the proof alone
+  int latents;         // 1: for the network too, also where there are more than NSVCD_SMALL_POINTS points. Not with no_latents
   nsvcd_progress *progress;  // NULL, or told now and then how much is done; a large mesh takes seconds
   void *user;                // handed to it
 } nsvcd_encode_options;
@@ -232,7 +233,7 @@ typedef struct nsvcd_encode_options {
 // Bytes of a body of `points` points without triangles; 0 if there can be no such body. One with triangles takes up to
 // 12 bytes more for each, and 100 to 200 for each point: let nsvcd_encode allocate it, or ask nsvcd_body_describe.
 NSVCDDEF size_t nsvcd_body_size(size_t points);
-// The same as a constant, for 1 to NSVCD_MAX_NETWORK_POINTS points.
+// The same as a constant, for 1 to NSVCD_SMALL_POINTS points.
 #define NSVCD_BODY_BYTES(points)                                                                              \
   ((64 + 28 * (((points) + 15) / 16 * 16) + 16 * ((((points) + 15) / 16 + 15) / 16 * 16) + 40 * (points) + 7) / 8 * 8)
 #endif
@@ -1619,7 +1620,7 @@ static void nsvcd__sample_surface(const nsvcd_mesh *mesh, size_t count, float *p
 // All arrays in one block: the doubles first, then everything of four bytes.
 static nsvcd_result nsvcd__patches_alloc(nsvcd__patches *p, size_t count, size_t samples,
                                          const nsvcd_allocator *allocator) {
-  size_t words = (16 + 2 * NSVCD__NEIGHBOURS) * count + 1 + 18 * samples;  // no overflow: count <= NSVCD_MAX_NETWORK_POINTS
+  size_t words = (16 + 2 * NSVCD__NEIGHBOURS) * count + 1 + 18 * samples;  // no overflow: count <= NSVCD_SMALL_POINTS
   memset(p, 0, sizeof *p);
   p->memory = nsvcd__alloc(allocator, count * sizeof(nsvcd__patch_sum) + words * sizeof(float));
   if (!p->memory) return NSVCD_ERROR_MEMORY;
@@ -1911,7 +1912,7 @@ static void nsvcd__cover(nsvcd__patches *p, const nsvcd_mesh *mesh) {
 
 // ---- all of it
 
-// Splits the surface of a checked mesh into at most `points` patches, 1..NSVCD_MAX_NETWORK_POINTS: fewer where samples
+// Splits the surface of a checked mesh into at most `points` patches, 1..NSVCD_SMALL_POINTS: fewer where samples
 // coincide or a patch loses all of its samples. On success release *patches with nsvcd__patches_free; on failure, MEMORY,
 // it is untouched.
 static nsvcd_result nsvcd__patches_build(const nsvcd_mesh *mesh, size_t points, const nsvcd_allocator *allocator,
@@ -1941,7 +1942,7 @@ static nsvcd_result nsvcd__patches_build(const nsvcd_mesh *mesh, size_t points, 
 }
 #endif  // NSVCD_NO_ENCODER
 
-#if !defined(NSVCD_NO_ENCODER) && !defined(NSVCD_NO_PROOF)
+#ifndef NSVCD_NO_ENCODER
 // ---------------------------------------------------------------------------------------------------- regions
 // In: a checked mesh. Out: its triangles, welded, in one region, or in as many as it takes to have no more than 512 patches
 // in each: each region is then made into patches by itself. Large triangles are halved first, until none is large beside
@@ -1951,29 +1952,6 @@ static nsvcd_result nsvcd__patches_build(const nsvcd_mesh *mesh, size_t points, 
 #define NSVCD__REGION_EDGE 0.5        // longest edge, in roots of a region's mean area
 #define NSVCD__REGION_BINS 512        // a cut between regions is found to the width of one
 #define NSVCD__HALVES_PER_REGION 256  // bounds the triangles that halving adds
-
-// ---- lists that grow
-
-typedef struct nsvcd__list {
-  void *items;
-  size_t count, capacity;
-} nsvcd__list;
-
-// Room for `more` items of `size` bytes; 0 without memory, and the list is as it was.
-static int nsvcd__list_reserve(nsvcd__list *list, size_t more, size_t size,
-                               const nsvcd_allocator *allocator) {
-  if (list->capacity - list->count >= more) return 1;
-  if (list->count > SIZE_MAX / 2 - more) return 0;
-  const size_t capacity = list->count + more + list->count / 2;
-  void *items = nsvcd__alloc_array(allocator, capacity, size);
-  if (!items) return 0;
-
-  if (list->count > 0) memcpy(items, list->items, list->count * size);
-  nsvcd__free(allocator, list->items);
-  list->items = items;
-  list->capacity = capacity;
-  return 1;
-}
 
 // ---- topology: welded vertices, components, which of them are closed
 
@@ -2379,7 +2357,7 @@ static int nsvcd__regions_build(const nsvcd_mesh *mesh, size_t points, const nsv
   r->component_count = topology.component_count;
   r->seeds = topology.seen;
   topology.seen = NULL;
-  r->count = points <= NSVCD_MAX_NETWORK_POINTS ? 1 : (points + NSVCD__REGION_POINTS - 1) / NSVCD__REGION_POINTS;
+  r->count = points <= NSVCD_SMALL_POINTS ? 1 : (points + NSVCD__REGION_POINTS - 1) / NSVCD__REGION_POINTS;
   for (size_t i = 0; i < 3 * mesh->vertex_count; i++) {
     r->greatest = fmax(r->greatest, fabs((double)mesh->positions[i]));
   }
@@ -2485,6 +2463,9 @@ static void nsvcd__region_end(nsvcd__regions *r, nsvcd__region *region, const ns
   nsvcd__free(allocator, region->memory);
 }
 
+#endif  // NSVCD_NO_ENCODER
+
+#if !defined(NSVCD_NO_ENCODER) && !defined(NSVCD_NO_PROOF)
 // ---------------------------------------------------------------------------------------------------- surface
 // In: a mesh, region by region, and the centres of each region's patches, N in all. Out:
 // nsvcd__surface: of every patch an outer description of the surface that belongs to it, and the
@@ -2513,6 +2494,29 @@ static void nsvcd__region_end(nsvcd__regions *r, nsvcd__region *region, const ns
 #define NSVCD__CUTS_PER_PATCH 64      // a large face some three for each of its patches
 #define NSVCD__MAX_CUTS (1u << 29)    // vertices and new corners together have numbers of 32 bits
 #define NSVCD__PATCH_VERTICES 65536u  // as many as corners of 16 bits can name
+
+// ---- lists that grow
+
+typedef struct nsvcd__list {
+  void *items;
+  size_t count, capacity;
+} nsvcd__list;
+
+// Room for `more` items of `size` bytes; 0 without memory, and the list is as it was.
+static int nsvcd__list_reserve(nsvcd__list *list, size_t more, size_t size,
+                               const nsvcd_allocator *allocator) {
+  if (list->capacity - list->count >= more) return 1;
+  if (list->count > SIZE_MAX / 2 - more) return 0;
+  const size_t capacity = list->count + more + list->count / 2;
+  void *items = nsvcd__alloc_array(allocator, capacity, size);
+  if (!items) return 0;
+
+  if (list->count > 0) memcpy(items, list->items, list->count * size);
+  nsvcd__free(allocator, list->items);
+  list->items = items;
+  list->capacity = capacity;
+  return 1;
+}
 
 typedef struct nsvcd__surface {
   size_t count;             // N, of which
@@ -3826,6 +3830,7 @@ static void nsvcd__turn_latent(const int8_t *z, float (*turn)[NSVCD__SLICE], siz
 //
 // A body of latents, for the network, goes on with
 //   x, y, z        (3, P)  float area vectors, square metres, along the outward normal; padding is zero
+//   x, y, z        (3, G), (3, H), (3, I): their sums over the members of the spheres above, if there are more than 32 groups
 //   latents        (N, NSVCD__LATENT) int8, free of scale
 // and a body of triangles, for the proof, with what section *facets* says. A body that has both is one of latents which
 // holds one of triangles behind them, at `inner`: each part has spheres that suit it, and the same numbers of patches.
@@ -3916,26 +3921,40 @@ static const float *nsvcd__body_group(const nsvcd_body *body, size_t axis) {  //
   return nsvcd__body_floats(body, 4 * (size_t)body->padded + axis * nsvcd__group_slots(body->padded));
 }
 
+// Spheres with their padding: of the patches and all levels.
+static size_t nsvcd__sphere_slots(size_t padded) {
+  const nsvcd__level top = nsvcd__level_of(padded, nsvcd__level_count(padded) - 1);
+  return top.first / 4 + top.slots;
+}
+
 // Bytes of the header and the spheres, with which both kinds of bodies begin.
 static size_t nsvcd__spheres_size(size_t padded) {
-  const nsvcd__level top = nsvcd__level_of(padded, nsvcd__level_count(padded) - 1);
-  return sizeof(struct nsvcd_body) + 4 * (top.first + 4 * top.slots);
+  return sizeof(struct nsvcd_body) + 16 * nsvcd__sphere_slots(padded);
 }
 
 #ifndef NSVCD_NO_NETWORK
+// Area vectors with their padding: one for each sphere, but where there are no levels above the groups, of patches alone.
+static size_t nsvcd__area_slots(size_t padded) {
+  return nsvcd__level_count(padded) > 1 ? nsvcd__sphere_slots(padded) : padded;
+}
 static const float *nsvcd__body_areas(const nsvcd_body *body) {  // (3, P)
   return (const float *)(const void *)((const char *)body + nsvcd__spheres_size(body->padded));
 }
-static const int8_t *nsvcd__body_latents(const nsvcd_body *body) {                                    // (N, LATENT)
-  return (const int8_t *)(nsvcd__body_areas(body) + 3 * (size_t)body->padded);
+// The sums over the spheres of a level of a body that has some above the groups, (3, slots): they lie as the spheres do.
+static const float *nsvcd__level_areas(const nsvcd_body *body, nsvcd__level level) {
+  return nsvcd__body_areas(body) + level.first / 4 * 3;
+}
+static const int8_t *nsvcd__body_latents(const nsvcd_body *body) {  // (N, LATENT)
+  return (const int8_t *)(nsvcd__body_areas(body) + 3 * nsvcd__area_slots(body->padded));
 }
 #endif
 
 #ifndef NSVCD_NO_NETWORK
 NSVCDDEF size_t nsvcd_body_size(size_t points) {
-  if (points < 1 || points > NSVCD_MAX_NETWORK_POINTS) return 0;
+  if (points < 1 || points > NSVCD_MAX_POINTS) return 0;
   const size_t padded = nsvcd__round_up(points, NSVCD__GROUP);
-  return nsvcd__round_up(nsvcd__spheres_size(padded) + 12 * padded + points * NSVCD__LATENT, NSVCD_ALIGNMENT);
+  const size_t areas = 12 * nsvcd__area_slots(padded);
+  return nsvcd__round_up(nsvcd__spheres_size(padded) + areas + points * NSVCD__LATENT, NSVCD_ALIGNMENT);
 }
 #endif
 
@@ -4141,11 +4160,37 @@ static int nsvcd__all_within(const float *values, size_t count, float cap) {
   return 1;
 }
 
+#ifndef NSVCD_NO_NETWORK
+// Numbers in the area vectors.
+static size_t nsvcd__area_numbers(const nsvcd_body *body) { return 3 * nsvcd__area_slots(body->padded); }
+
+// Are the area vectors of a body of latents in range?
+static int nsvcd__areas_are_sound(const nsvcd_body *body) {
+  return nsvcd__all_within(nsvcd__body_areas(body), nsvcd__area_numbers(body), NSVCD__MAX_LENGTH * NSVCD__MAX_LENGTH);
+}
+#endif
+
 #if !defined(NSVCD_NO_ENCODER) && !defined(NSVCD_NO_NETWORK)
-// Builds a body of latents in `memory` from N patches: centres (N, 3), radii (N), areas (N, 3), latents (N, LATENT).
+// Fills the area vectors of the levels from those of the patches.
+static void nsvcd__sum_areas(nsvcd_body *body) {
+  float *areas = (float *)(void *)((char *)body + nsvcd__spheres_size(body->padded));
+  const size_t levels = nsvcd__level_count(body->padded);
+  const float *below = areas;
+  size_t stride = body->padded;
+  for (size_t n = 0; levels > 1 && n < levels; n++) {
+    const nsvcd__level level = nsvcd__level_of(body->padded, n);
+    float *sums = areas + level.first / 4 * 3;
+    for (size_t i = 0; i < 3 * stride; i++) sums[i / stride * level.slots + i % stride / NSVCD__GROUP] += below[i];
+    below = sums;
+    stride = level.slots;
+  }
+}
+
+// Builds a body of latents in `memory` from N patches in the given order (N): centres (N, 3), radii (N), areas (N, 3),
+// latents (N, LATENT).
 static nsvcd_result nsvcd__body_build(size_t points, const float *centres, const float *radii, const float *areas,
-                                      const int8_t *latents, uint32_t weights_id, int open, void *memory,
-                                      size_t capacity, const nsvcd_body **body) {
+                                      const int8_t *latents, const uint16_t *order, uint32_t weights_id, int open,
+                                      void *memory, size_t capacity, const nsvcd_body **body) {
   size_t size = nsvcd_body_size(points);
   if (size == 0) return NSVCD_ERROR_ARGUMENT;
   if (capacity < size || !nsvcd__is_aligned(memory)) return NSVCD_ERROR_WORKSPACE;
@@ -4163,12 +4208,7 @@ static nsvcd_result nsvcd__body_build(size_t points, const float *centres, const
   b->points = (uint32_t)points, b->padded = (uint32_t)nsvcd__round_up(points, NSVCD__GROUP);
   float *x = (float *)(b + 1), *y = x + b->padded, *z = y + b->padded, *r = z + b->padded;
   float *area = (float *)(void *)((char *)memory + nsvcd__spheres_size(b->padded));
-  int8_t *latent = (int8_t *)(area + 3 * b->padded);
-
-  uint16_t order[NSVCD_MAX_NETWORK_POINTS];
-  uint16_t spare[NSVCD_MAX_NETWORK_POINTS];
-  for (size_t i = 0; i < points; i++) order[i] = (uint16_t)i;
-  nsvcd__body_order(points, centres, order, spare);
+  int8_t *latent = (int8_t *)(area + 3 * nsvcd__area_slots(b->padded));
   for (size_t i = 0; i < points; i++) {
     size_t from = order[i];
     x[i] = centres[3 * from], y[i] = centres[3 * from + 1], z[i] = centres[3 * from + 2], r[i] = radii[from];
@@ -4176,6 +4216,8 @@ static nsvcd_result nsvcd__body_build(size_t points, const float *centres, const
     memcpy(latent + NSVCD__LATENT * i, latents + NSVCD__LATENT * from, NSVCD__LATENT);
   }
   for (size_t i = points; i < b->padded; i++) r[i] = NSVCD__NOWHERE;
+  nsvcd__sum_areas(b);
+  if (!nsvcd__areas_are_sound(b)) return NSVCD_ERROR_NUMBER;
   nsvcd__body_finish(b);
   if (b->radius < NSVCD_MIN_RADIUS) return NSVCD_ERROR_NUMBER;
   *body = b;
@@ -4781,18 +4823,10 @@ static void nsvcd__scale_facets(nsvcd_body *body, float scale) {
 
 // ---- whole bodies
 
-#ifndef NSVCD_NO_NETWORK
-// The layout and the numbers of what stands behind the spheres of a body of latents.
-static int nsvcd__latents_are_sound(const nsvcd_body *body) {
-  return nsvcd__all_within(nsvcd__body_areas(body), 3 * (size_t)body->padded, NSVCD__MAX_LENGTH * NSVCD__MAX_LENGTH);
-}
-#endif
-
 // Is this the beginning of a blob of ours, of `size` bytes or fewer?
 static int nsvcd__header_is_sound(const nsvcd_body *b, size_t size) {
   if (size < sizeof *b || b->magic != NSVCD__BODY_MAGIC || b->version != NSVCD__BODY_VERSION) return 0;
   if (b->open > 1 || b->points < 1 || b->points > NSVCD_MAX_POINTS || b->size > size) return 0;
-  if (b->weights_id && b->points > NSVCD_MAX_NETWORK_POINTS) return 0;
   if (b->padded != nsvcd__round_up(b->points, NSVCD__GROUP)) return 0;
   return b->size >= nsvcd__spheres_size(b->padded) && b->size % NSVCD_ALIGNMENT == 0;
 }
@@ -4810,7 +4844,7 @@ static int nsvcd__body_is_sound(const nsvcd_body *b) {
 #ifndef NSVCD_NO_NETWORK
   if (b->weights_id != NSVCD_WEIGHTS_ID) return 0;
   const size_t latents = nsvcd_body_size(b->points);
-  if (b->size < latents || !nsvcd__latents_are_sound(b)) return 0;
+  if (b->size < latents || !nsvcd__areas_are_sound(b)) return 0;
   if (b->inner == 0) return b->size == latents && b->triangles == 0;
   if (b->inner != latents) return 0;
 #else
@@ -4855,7 +4889,7 @@ NSVCDDEF nsvcd_result nsvcd_body_scale(const nsvcd_body *body, float scale, void
   if (!nsvcd__spheres_fit(body, scale)) return NSVCD_ERROR_ARGUMENT;
 #ifndef NSVCD_NO_NETWORK
   const double cap = (double)NSVCD__MAX_LENGTH / (double)scale;
-  for (size_t i = 0; body->weights_id && i < 3 * (size_t)body->padded; i++) {
+  for (size_t i = 0; body->weights_id && i < nsvcd__area_numbers(body); i++) {
     if (fabs((double)nsvcd__body_areas(body)[i]) > cap * cap) return NSVCD_ERROR_ARGUMENT;
   }
 #endif
@@ -4882,7 +4916,7 @@ NSVCDDEF nsvcd_result nsvcd_body_scale(const nsvcd_body *body, float scale, void
 #endif
 #ifndef NSVCD_NO_NETWORK
   float *area = (float *)(void *)((char *)memory + nsvcd__spheres_size(b->padded));
-  for (size_t i = 0; b->weights_id && i < 3 * (size_t)b->padded; i++) {
+  for (size_t i = 0; b->weights_id && i < nsvcd__area_numbers(b); i++) {
     area[i] *= scale;
     area[i] *= scale;
   }
@@ -9302,16 +9336,60 @@ static NSVCD__APART void nsvcd__lift_motion(nsvcd__proof *p, nsvcd__workspace *w
 // in a covering sphere, the broad phase has candidates, and the network is asked. Measured at a million places about
 // spheres of 32 to 512 patches, the worst error of w is 0.55 from 0.75 radii on, 0.52 from 1, 0.06 from 1.5; from 1 on,
 // fewer than 1 in 1,000 exceed 0.3.
-// Cost: at most NSVCD__PROBES * N distances each way, where one body's centres lie in the other's sphere.
+// In bodies of more than a tile's patches the sums of area vectors stand for those of whole groups, and of what is above
+// them, where the place is farther than NSVCD__DIPOLE of their spheres' radii: w is then within 0.05 of the sum over all
+// patches (tests/test_level.c).
+// Cost: at most NSVCD__PROBES * N distances each way, where one body's centres lie in the other's sphere; of large bodies
+// only those of groups nearby.
 
 #define NSVCD__PROBES NSVCD__LANES
 #define NSVCD__CLEARANCE 1.0f
+#define NSVCD__AMPLE 2.0f   // no place needs more clearance than this, and what is farther away is not looked at
+#define NSVCD__DIPOLE 3.0f
 
-// Least |p_i - x| / r_i over the patches, squared, at a slice of places.
-static nsvcd__v nsvcd__clearance2(const nsvcd_body *body, const nsvcd__v *place) {
+// Places that a walk asks about: a ball over them.
+typedef struct nsvcd__places {
+  float centre[3], radius;
+} nsvcd__places;
+
+static nsvcd__places nsvcd__places_of(float (*places)[NSVCD__PROBES]) {
+  nsvcd__places out = {{0, 0, 0}, 0};
+  for (size_t n = 0; n < 3; n++) {
+    float low = places[n][0];
+    float high = low;
+    for (size_t k = 1; k < NSVCD__PROBES; k++) {
+      low = fminf(low, places[n][k]);
+      high = fmaxf(high, places[n][k]);
+    }
+    out.centre[n] = 0.5f * low + 0.5f * high;
+    const float half = high - out.centre[n];
+    out.radius += half * half;
+  }
+  out.radius = sqrtf(out.radius);
+  return out;
+}
+
+// A filter of a walk: spheres whose members may be nearer to one of the places than NSVCD__AMPLE of their radii. A member
+// (p, r) of a sphere (c, R) has |p - c| + r <= R, so that |p - x| / r is at least |c - x| / R.
+static uint32_t nsvcd__may_be_close(const void *what, const float *x, const float *y, const float *z, const float *r) {
+  const nsvcd__places *places = (const nsvcd__places *)what;
+  uint32_t close = 0;
+  NSVCD__EACH_SLICE(l) {
+    const nsvcd__v radius = nsvcd__v_load(r + l);
+    const nsvcd__v d[3] = {nsvcd__v_sub(nsvcd__v_load(x + l), nsvcd__v_set(places->centre[0])),
+                           nsvcd__v_sub(nsvcd__v_load(y + l), nsvcd__v_set(places->centre[1])),
+                           nsvcd__v_sub(nsvcd__v_load(z + l), nsvcd__v_set(places->centre[2]))};
+    const nsvcd__v reach = nsvcd__v_fma(radius, nsvcd__v_set(NSVCD__AMPLE), nsvcd__v_set(places->radius));
+    close |= nsvcd__v_le(nsvcd__v_dot3(d, d), nsvcd__v_signed_square(reach)) << l;
+  }
+  return close;
+}
+
+// Least |p_i - x| / r_i, squared, at a slice of places, over the patches of a group, or what it was.
+static nsvcd__v nsvcd__clearance2(const nsvcd_body *body, size_t group, const nsvcd__v *place, nsvcd__v least) {
   const float *x = nsvcd__body_x(body), *y = nsvcd__body_y(body), *z = nsvcd__body_z(body), *r = nsvcd__body_r(body);
-  nsvcd__v least = nsvcd__v_set(1e30f);
-  for (size_t i = 0; i < body->points; i++) {
+  const size_t end = NSVCD__GROUP * (group + 1) < body->points ? NSVCD__GROUP * (group + 1) : body->points;
+  for (size_t i = NSVCD__GROUP * group; i < end; i++) {
     const nsvcd__v d[3] = {nsvcd__v_sub(nsvcd__v_set(x[i]), place[0]), nsvcd__v_sub(nsvcd__v_set(y[i]), place[1]),
                            nsvcd__v_sub(nsvcd__v_set(z[i]), place[2])};
     const float square = r[i] * r[i], inverse = 1 / (square > 1e-37f ? square : 1e-37f);
@@ -9320,25 +9398,81 @@ static nsvcd__v nsvcd__clearance2(const nsvcd_body *body, const nsvcd__v *place)
   return least;
 }
 
-static float nsvcd__winding_number(const nsvcd_body *body, const float *point) {
-  const float *x = nsvcd__body_x(body), *y = nsvcd__body_y(body), *z = nsvcd__body_z(body);
-  const float *areas = nsvcd__body_areas(body);
-  float lanes[NSVCD__LANES];
-  float total = 0;
+// The same over all patches of a body, but NSVCD__AMPLE, squared, is the most it says. out: (PROBES).
+static void nsvcd__clearances(const nsvcd_body *body, float (*places)[NSVCD__PROBES], float *out) {
+  const nsvcd__places near_to = nsvcd__places_of(places);
+  nsvcd__walk walk;
+  size_t g;
+  for (size_t k = 0; k < NSVCD__PROBES; k++) out[k] = NSVCD__AMPLE * NSVCD__AMPLE;
+  nsvcd__walk_begin(&walk, body, nsvcd__may_be_close, &near_to);
+  while (nsvcd__walk_next(&walk, &g)) {
+    NSVCD__EACH_SLICE(l) {
+      const nsvcd__v place[3] = {nsvcd__v_load(places[0] + l), nsvcd__v_load(places[1] + l),
+                                 nsvcd__v_load(places[2] + l)};
+      nsvcd__v_store(out + l, nsvcd__clearance2(body, g, place, nsvcd__v_load(out + l)));
+    }
+  }
+}
+
+// The terms of the winding number (their lanes added up) of some spheres, a multiple of 16, with their area vectors. Where
+// radii are given, they say which spheres count: those that are far from the point, and the bits of the others are
+// returned, of 64 at most.
+static uint64_t nsvcd__dipoles(const float *x, size_t stride, const float *areas, size_t count, const float *radii,
+                               const float *point, float *lanes) {
+  uint64_t close = 0;
   NSVCD__EACH_SLICE(l) {
     const nsvcd__v at[3] = {nsvcd__v_set(point[0]), nsvcd__v_set(point[1]), nsvcd__v_set(point[2])};
-    nsvcd__v sum = nsvcd__v_set(0);
-    for (size_t i = l; i < body->padded; i += NSVCD__LANES) {
-      const nsvcd__v d[3] = {nsvcd__v_sub(nsvcd__v_load(x + i), at[0]), nsvcd__v_sub(nsvcd__v_load(y + i), at[1]),
-                             nsvcd__v_sub(nsvcd__v_load(z + i), at[2])};
-      const nsvcd__v area[3] = {nsvcd__v_load(areas + i), nsvcd__v_load(areas + body->padded + i),
-                                nsvcd__v_load(areas + 2 * body->padded + i)};
+    const nsvcd__v zero = nsvcd__v_set(0);
+    nsvcd__v sum = nsvcd__v_load(lanes + l);
+    for (size_t i = l; i < count; i += NSVCD__LANES) {
+      const nsvcd__v d[3] = {nsvcd__v_sub(nsvcd__v_load(x + i), at[0]), nsvcd__v_sub(nsvcd__v_load(x + stride + i), at[1]),
+                             nsvcd__v_sub(nsvcd__v_load(x + 2 * stride + i), at[2])};
+      const nsvcd__v area[3] = {nsvcd__v_load(areas + i), nsvcd__v_load(areas + stride + i),
+                                nsvcd__v_load(areas + 2 * stride + i)};
       const nsvcd__v length = nsvcd__v_max(nsvcd__v_length3(d), nsvcd__v_set(1e-30f));
       const nsvcd__v inverse = nsvcd__v_div(nsvcd__v_set(1), length);
       const nsvcd__v cosine = nsvcd__v_mul(nsvcd__v_dot3(area, d), inverse);  // step by step: the cube may overflow
-      sum = nsvcd__v_add(sum, nsvcd__v_mul(nsvcd__v_mul(cosine, inverse), inverse));
+      nsvcd__v term = nsvcd__v_mul(nsvcd__v_mul(cosine, inverse), inverse);
+      if (radii) {
+        const nsvcd__v reach = nsvcd__v_mul(nsvcd__v_set(NSVCD__DIPOLE), nsvcd__v_load(radii + i));
+        close |= (uint64_t)nsvcd__v_le(length, reach) << i;
+        term = nsvcd__v_pick(length, reach, zero, term);
+      }
+      sum = nsvcd__v_add(sum, term);
     }
     nsvcd__v_store(lanes + l, sum);
+  }
+  return close;
+}
+
+// Adds the terms of the spheres of a level from `first` on: of those that are far from the point, and of the members of the
+// others.
+static void nsvcd__dipoles_of_level(const nsvcd_body *body, size_t n, size_t first, size_t count, const float *point,
+                                    float *lanes) {
+  const nsvcd__level level = nsvcd__level_of(body->padded, n);
+  const float *x = nsvcd__body_floats(body, level.first + first);
+  uint64_t close = nsvcd__dipoles(x, level.slots, nsvcd__level_areas(body, level) + first, count, x + 3 * level.slots, point,
+                                  lanes);
+  for (; close; close &= close - 1) {
+    const size_t member = NSVCD__GROUP * (first + nsvcd__lowest_bit(close));
+    if (n > 0) {
+      nsvcd__dipoles_of_level(body, n - 1, member, NSVCD__GROUP, point, lanes);
+    } else {
+      const float *areas = nsvcd__body_areas(body) + member;
+      nsvcd__dipoles(nsvcd__body_x(body) + member, body->padded, areas, NSVCD__GROUP, NULL, point, lanes);
+    }
+  }
+}
+
+static float nsvcd__winding_number(const nsvcd_body *body, const float *point) {
+  float lanes[NSVCD__LANES] = {0};
+  float total = 0;
+  const size_t top = nsvcd__level_count(body->padded) - 1;
+  if (top > 0) {
+    const size_t slots = nsvcd__level_of(body->padded, top).slots;
+    nsvcd__dipoles_of_level(body, top, 0, slots, point, lanes);
+  } else {
+    nsvcd__dipoles(nsvcd__body_x(body), body->padded, nsvcd__body_areas(body), body->padded, NULL, point, lanes);
   }
   for (size_t l = 0; l < NSVCD__LANES; l++) total += lanes[l];  // in this order, whatever the slices
   return total / 12.5663706f;
@@ -9363,11 +9497,7 @@ static int nsvcd__is_inside(const nsvcd_body *inner, const nsvcd_body *outer, fl
     within |= nsvcd__v_le(nsvcd__v_length3(off), nsvcd__v_set(outer->radius)) << l;
   }
   if (within != 0xffff) return 0;
-  NSVCD__EACH_SLICE(l) {
-    const nsvcd__v place[3] = {nsvcd__v_load(places[0] + l), nsvcd__v_load(places[1] + l),
-                               nsvcd__v_load(places[2] + l)};
-    nsvcd__v_store(clearance + l, nsvcd__clearance2(outer, place));
-  }
+  nsvcd__clearances(outer, places, clearance);
   size_t best = 0;
   for (size_t k = 1; k < NSVCD__PROBES; k++) best = clearance[k] > clearance[best] ? k : best;
   if (clearance[best] < NSVCD__CLEARANCE * NSVCD__CLEARANCE) return 0;
@@ -9945,22 +10075,6 @@ static void nsvcd__head_logits(const nsvcd__head *head, const float *x, size_t c
 // algorithm 1).
 
 #ifndef NSVCD_NO_ENCODER
-#ifndef NSVCD_NO_NETWORK
-// The latents of all patches, (N, LATENT). NULL if memory runs out.
-static int8_t *nsvcd__encode_patches(const nsvcd__patches *patches, const nsvcd_allocator *allocator) {
-  int8_t *latents = (int8_t *)nsvcd__alloc_array(allocator, patches->count, NSVCD__LATENT);
-  for (size_t i = 0; latents && i < patches->count; i++) {
-    const size_t first = patches->offsets[i];
-    const size_t count = patches->offsets[i + 1] - first;
-    float latent[NSVCD__LATENT];
-    nsvcd__encode_patch(patches->points + 3 * first, patches->normals + 3 * first, count, patches->centres + 3 * i,
-                        patches->radii[i], latent);
-    for (size_t k = 0; k < NSVCD__LATENT; k++) latents[NSVCD__LATENT * i + k] = (int8_t)lrintf(127 * latent[k]);
-  }
-  return latents;
-}
-#endif
-
 // What a body is built of.
 typedef struct nsvcd__parts {
   const nsvcd_mesh *mesh;
@@ -9969,8 +10083,10 @@ typedef struct nsvcd__parts {
   float *centres;                    // (N, 3)
   size_t latents_size, facets_size;  // bytes; 0: without
 #ifndef NSVCD_NO_NETWORK
-  nsvcd__patches patches;  // where there are latents
-  int8_t *latents;
+  // Of a body with latents, else NULL:
+  float *radii;     // (N)
+  float *areas;     // (N, 3)
+  int8_t *latents;  // (N, LATENT)
 #endif
 #ifndef NSVCD_NO_PROOF
   nsvcd__surface surface;
@@ -9980,8 +10096,9 @@ typedef struct nsvcd__parts {
 
 static void nsvcd__parts_free(nsvcd__parts *parts, const nsvcd_allocator *allocator) {
 #ifndef NSVCD_NO_NETWORK
+  nsvcd__free(allocator, parts->radii);
+  nsvcd__free(allocator, parts->areas);
   nsvcd__free(allocator, parts->latents);
-  nsvcd__patches_free(&parts->patches, allocator);
 #endif
 #ifndef NSVCD_NO_PROOF
   nsvcd__surface_free(&parts->surface, allocator);
@@ -10001,113 +10118,126 @@ static int nsvcd__is_cancelled(const nsvcd__plan *plan, double done) {
   return plan->progress && plan->progress((float)done, plan->user);
 }
 
+// Room for all patches; 0 without memory, and the caller frees.
+static int nsvcd__parts_alloc(const nsvcd__plan *plan, size_t components, const nsvcd_allocator *allocator,
+                              nsvcd__parts *parts) {
+  parts->centres = (float *)nsvcd__alloc_array(allocator, plan->points, 3 * sizeof(float));
+  if (!parts->centres) return 0;
+#ifndef NSVCD_NO_NETWORK
+  if (plan->latents) {
+    parts->radii = (float *)nsvcd__alloc_array(allocator, plan->points, sizeof(float));
+    parts->areas = (float *)nsvcd__alloc_array(allocator, plan->points, 3 * sizeof(float));
+    parts->latents = (int8_t *)nsvcd__alloc_array(allocator, plan->points, NSVCD__LATENT);
+    if (!parts->radii || !parts->areas || !parts->latents) return 0;
+  }
+#endif
 #ifndef NSVCD_NO_PROOF
-// Adds one region's patches. `patches` is kept if it is not NULL.
+  if (plan->triangles && !nsvcd__surface_begin(plan->points, components, allocator, &parts->surface)) return 0;
+#endif
+  (void)components;
+  return 1;
+}
+
+#ifndef NSVCD_NO_NETWORK
+// Adds the latents of one region's patches. margin: metres by which the surface may stick out of their balls.
+static void nsvcd__parts_add_latents(const nsvcd__patches *patches, double margin, nsvcd__parts *parts) {
+  float *radii = parts->radii + parts->count;
+  float *areas = parts->areas + 3 * parts->count;
+  int8_t *latents = parts->latents + NSVCD__LATENT * parts->count;
+  memcpy(areas, patches->area_vectors, 3 * patches->count * sizeof *areas);
+  for (size_t i = 0; i < patches->count; i++) {
+    const size_t first = patches->offsets[i];
+    const size_t count = patches->offsets[i + 1] - first;
+    float latent[NSVCD__LATENT];
+    nsvcd__encode_patch(patches->points + 3 * first, patches->normals + 3 * first, count, patches->centres + 3 * i,
+                        patches->radii[i], latent);
+    for (size_t k = 0; k < NSVCD__LATENT; k++) latents[NSVCD__LATENT * i + k] = (int8_t)lrintf(127 * latent[k]);
+    radii[i] = margin > 0 ? (float)(((double)patches->radii[i] + margin) * (1 + 1e-7)) : patches->radii[i];
+  }
+}
+#endif
+
+// Adds one region's patches.
 static nsvcd_result nsvcd__parts_add(nsvcd__regions *regions, size_t n, size_t points, const nsvcd_allocator *allocator,
-                                     nsvcd__parts *parts, nsvcd__patches *patches) {
+                                     nsvcd__parts *parts) {
   nsvcd__region region;
-  nsvcd__patches own;
+  nsvcd__patches patches;
   nsvcd_result result = nsvcd__region_begin(regions, n, allocator, &region);
   if (result) return result == NSVCD_ERROR_EMPTY ? NSVCD_OK : result;
-  result = nsvcd__patches_build(&region.mesh, points, allocator, &own);
+  result = nsvcd__patches_build(&region.mesh, points, allocator, &patches);
   if (!result) {
-    memcpy(parts->centres + 3 * parts->count, own.centres, 3 * own.count * sizeof(float));
-    result = nsvcd__surface_add(&region, &own, allocator, &parts->surface);
-    parts->count += own.count;
-    if (patches && !result) {
-      *patches = own;
-    } else {
-      nsvcd__patches_free(&own, allocator);
-    }
+    memcpy(parts->centres + 3 * parts->count, patches.centres, 3 * patches.count * sizeof(float));
+#ifndef NSVCD_NO_PROOF
+    if (parts->surface.balls) result = nsvcd__surface_add(&region, &patches, allocator, &parts->surface);
+#endif
+#ifndef NSVCD_NO_NETWORK
+    // The mesh has the cuts rounded: each coordinate by half a unit in the last place, at most.
+    const double margin = region.cut_count > 0 ? 1.1e-7 * region.greatest : 0;
+    if (parts->latents) nsvcd__parts_add_latents(&patches, margin, parts);
+#endif
+    parts->count += patches.count;
+    nsvcd__patches_free(&patches, allocator);
   }
   nsvcd__region_end(regions, &region, allocator);
   return result;
 }
 
-// The surface of all regions; patches: NULL, or those of the only region are kept.
-static nsvcd_result nsvcd__parts_describe(const nsvcd__plan *plan, const nsvcd_allocator *allocator, nsvcd__parts *parts,
-                                          nsvcd__patches *patches) {
-  nsvcd__regions regions;
-  if (!nsvcd__regions_build(parts->mesh, plan->points, allocator, &regions)) return NSVCD_ERROR_MEMORY;
-  nsvcd_result result = NSVCD_ERROR_MEMORY;
-  if (nsvcd__surface_begin(plan->points, regions.component_count, allocator, &parts->surface)) result = NSVCD_OK;
-  for (size_t n = 0; !result && n < regions.count; n++) {
-    if (nsvcd__is_cancelled(plan, (double)(n + 1) / (double)(regions.count + 2))) {
-      result = NSVCD_ERROR_CANCELLED;
-      break;
-    }
-    const size_t left = plan->points * (n + 1) / regions.count - plan->points * n / regions.count;
-    result = nsvcd__parts_add(&regions, n, left, allocator, parts, patches);
+// Everything but the blob, region by region.
+static nsvcd_result nsvcd__parts_describe(const nsvcd__plan *plan, nsvcd__regions *regions,
+                                          const nsvcd_allocator *allocator, nsvcd__parts *parts) {
+  if (!nsvcd__parts_alloc(plan, regions->component_count, allocator, parts)) return NSVCD_ERROR_MEMORY;
+  for (size_t n = 0; n < regions->count; n++) {
+    if (nsvcd__is_cancelled(plan, (double)(n + 1) / (double)(regions->count + 2))) return NSVCD_ERROR_CANCELLED;
+    const size_t points = plan->points * (n + 1) / regions->count - plan->points * n / regions->count;
+    const nsvcd_result result = nsvcd__parts_add(regions, n, points, allocator, parts);
+    if (result) return result;
   }
-  nsvcd__regions_free(&regions, allocator);
-  if (result) return result;
+#ifndef NSVCD_NO_NETWORK
+  if (plan->latents) parts->latents_size = nsvcd_body_size(parts->count);
+#endif
+#ifndef NSVCD_NO_PROOF
+  if (!plan->triangles) return NSVCD_OK;
   nsvcd__facets_count(&parts->surface, parts->counts);
   parts->facets_size = nsvcd__facets_size(parts->count, parts->counts);
-  return parts->facets_size ? NSVCD_OK : NSVCD_ERROR_TOO_LARGE;
-}
+  if (!parts->facets_size) return NSVCD_ERROR_TOO_LARGE;
 #endif
+  return NSVCD_OK;
+}
 
-// Everything but the blob.
+// On success release with nsvcd__parts_free.
 static nsvcd_result nsvcd__parts_build(const nsvcd_mesh *mesh, const nsvcd__plan *plan, const nsvcd_allocator *allocator,
                                        nsvcd__parts *parts) {
-  nsvcd_result result = NSVCD_OK;
+  nsvcd__regions regions;
   memset(parts, 0, sizeof *parts);
   parts->mesh = mesh;
   parts->open = plan->open;
   if (nsvcd__is_cancelled(plan, 0)) return NSVCD_ERROR_CANCELLED;
-  parts->centres = (float *)nsvcd__alloc_array(allocator, plan->points, 3 * sizeof(float));
-  if (!parts->centres) return NSVCD_ERROR_MEMORY;
-#ifndef NSVCD_NO_PROOF
-  nsvcd__patches *patches = NULL;
-#ifndef NSVCD_NO_NETWORK
-  if (plan->latents) patches = &parts->patches;
-#endif
-  if (plan->triangles) result = nsvcd__parts_describe(plan, allocator, parts, patches);
-#endif
-#ifndef NSVCD_NO_NETWORK
-  if (!result && !plan->triangles) {
-    result = nsvcd__patches_build(mesh, plan->points, allocator, &parts->patches);
-    parts->count = parts->patches.count;
-    if (!result) memcpy(parts->centres, parts->patches.centres, 3 * parts->count * sizeof(float));
-  }
-  if (!result && plan->latents) {
-    parts->latents_size = nsvcd_body_size(parts->count);
-    parts->latents = nsvcd__encode_patches(&parts->patches, allocator);
-    if (!parts->latents) result = NSVCD_ERROR_MEMORY;
-  }
-#endif
+  if (!nsvcd__regions_build(mesh, plan->points, allocator, &regions)) return NSVCD_ERROR_MEMORY;
+  const nsvcd_result result = nsvcd__parts_describe(plan, &regions, allocator, parts);
+  nsvcd__regions_free(&regions, allocator);
   if (result) nsvcd__parts_free(parts, allocator);
   return result;
 }
 
-// Writes the blob: (latents_size + facets_size) bytes.
-static nsvcd_result nsvcd__parts_write(const nsvcd__parts *parts, const nsvcd_allocator *allocator, void *memory,
+// Writes the blob, (latents_size + facets_size) bytes, its patches in the given order (N).
+static nsvcd_result nsvcd__parts_write(const nsvcd__parts *parts, const uint16_t *order, void *memory,
                                        const nsvcd_body **body) {
   nsvcd_body *b = (nsvcd_body *)memory;
-#ifndef NSVCD_NO_NETWORK
-  const nsvcd__patches *p = &parts->patches;
-  const nsvcd_body *built;
   nsvcd_result result = NSVCD_OK;
+#ifndef NSVCD_NO_NETWORK
+  const nsvcd_body *built;
   if (parts->latents_size) {
-    result = nsvcd__body_build(p->count, p->centres, p->radii, p->area_vectors, parts->latents, NSVCD_WEIGHTS_ID,
-                               parts->open, memory, parts->latents_size, &built);
+    result = nsvcd__body_build(parts->count, parts->centres, parts->radii, parts->areas, parts->latents, order,
+                               NSVCD_WEIGHTS_ID, parts->open, memory, parts->latents_size, &built);
   }
-  if (result) return result;
 #endif
 #ifndef NSVCD_NO_PROOF
-  if (parts->facets_size) {
-    uint16_t *order = (uint16_t *)nsvcd__alloc_array(allocator, 2 * parts->count, sizeof(uint16_t));
-    if (!order) return NSVCD_ERROR_MEMORY;
-    for (size_t i = 0; i < parts->count; i++) order[i] = (uint16_t)i;
-    nsvcd__body_order(parts->count, parts->centres, order, order + parts->count);
-    const nsvcd_result facets =
-        nsvcd__facets_build(parts->mesh, &parts->surface, parts->counts, parts->centres, order, parts->open,
-                            (char *)memory + parts->latents_size, parts->facets_size);
-    nsvcd__free(allocator, order);
-    if (facets) return facets;
+  if (!result && parts->facets_size) {
+    result = nsvcd__facets_build(parts->mesh, &parts->surface, parts->counts, parts->centres, order, parts->open,
+                                 (char *)memory + parts->latents_size, parts->facets_size);
   }
 #endif
-  (void)allocator;
+  if (result) return result;
   if (parts->latents_size && parts->facets_size) {
     b->triangles = (uint32_t)parts->mesh->triangle_count;
     b->inner = (uint32_t)parts->latents_size;
@@ -10118,9 +10248,21 @@ static nsvcd_result nsvcd__parts_write(const nsvcd__parts *parts, const nsvcd_al
   return NSVCD_OK;
 }
 
+// Puts the patches in order and writes the blob. MEMORY if there is none for that.
+static nsvcd_result nsvcd__parts_order_and_write(const nsvcd__parts *parts, const nsvcd_allocator *allocator,
+                                                 void *memory, const nsvcd_body **body) {
+  uint16_t *order = (uint16_t *)nsvcd__alloc_array(allocator, 2 * parts->count, sizeof(uint16_t));
+  if (!order) return NSVCD_ERROR_MEMORY;
+  for (size_t i = 0; i < parts->count; i++) order[i] = (uint16_t)i;
+  nsvcd__body_order(parts->count, parts->centres, order, order + parts->count);
+  const nsvcd_result result = nsvcd__parts_write(parts, order, memory, body);
+  nsvcd__free(allocator, order);
+  return result;
+}
+
 // How many patches, where the options do not say.
 static size_t nsvcd__points_for(const nsvcd_mesh *mesh, const nsvcd_encode_options *o, double area, int triangles) {
-  const size_t most = triangles ? NSVCD_MAX_POINTS : NSVCD_MAX_NETWORK_POINTS;
+  const size_t most = NSVCD_MAX_POINTS;
   if (o->patch_radius > 0) {
     // N balls of radius r cover about N r^2 / 0.45 of surface: measured, on the real meshes, for N = 32 to 512.
     const double count = ceil(0.45 * area / ((double)o->patch_radius * (double)o->patch_radius));
@@ -10128,7 +10270,7 @@ static size_t nsvcd__points_for(const nsvcd_mesh *mesh, const nsvcd_encode_optio
   }
   if (!triangles) return NSVCD_DEFAULT_NETWORK_POINTS;
   if (mesh->triangle_count <= NSVCD_FEW_TRIANGLES) return NSVCD_DEFAULT_POINTS;
-  if (mesh->triangle_count <= NSVCD_MANY_TRIANGLES) return NSVCD_MAX_NETWORK_POINTS;
+  if (mesh->triangle_count <= NSVCD_MANY_TRIANGLES) return NSVCD_SMALL_POINTS;
   const size_t fine = mesh->triangle_count / NSVCD_LEVEL_TRIANGLES;
   return fine < NSVCD_MAX_POINTS ? fine : NSVCD_MAX_POINTS;
 }
@@ -10150,13 +10292,13 @@ static nsvcd_result nsvcd__plan_of(const nsvcd_mesh *mesh, const nsvcd_encode_op
 #endif
   if (!plan->triangles && !plan->latents) return NSVCD_ERROR_ARGUMENT;  // nothing would be left
   if (!nsvcd__is_finite(o->patch_radius) || o->patch_radius < 0 || o->points > NSVCD_MAX_POINTS) return NSVCD_ERROR_ARGUMENT;
-  if (!plan->triangles && o->points > NSVCD_MAX_NETWORK_POINTS) return NSVCD_ERROR_ARGUMENT;
+  if (o->latents && o->no_latents) return NSVCD_ERROR_ARGUMENT;
   const nsvcd_result checked = nsvcd__mesh_check(mesh);
   if (checked) return checked;
   const double area = nsvcd__mesh_area(mesh);
   if (!(area > 0)) return NSVCD_ERROR_EMPTY;
   plan->points = o->points ? o->points : nsvcd__points_for(mesh, o, area, plan->triangles);
-  if (plan->points > NSVCD_MAX_NETWORK_POINTS) plan->latents = 0;
+  if (plan->triangles && plan->points > NSVCD_SMALL_POINTS) plan->latents = plan->latents && o->latents;
   return NSVCD_OK;
 }
 
@@ -10180,7 +10322,7 @@ NSVCDDEF nsvcd_result nsvcd_encode(const nsvcd_mesh *mesh, const nsvcd_encode_op
   } else if ((memory && capacity < size) || !nsvcd__is_aligned(to)) {
     result = NSVCD_ERROR_WORKSPACE;
   } else {
-    result = nsvcd__parts_write(&parts, allocator, to, body);
+    result = nsvcd__parts_order_and_write(&parts, allocator, to, body);
   }
   if (result && !memory) nsvcd__free(allocator, to);
   nsvcd__parts_free(&parts, allocator);

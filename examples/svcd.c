@@ -244,12 +244,14 @@ static int usage(void) {
           "      --work LIMIT units that a proof may take (%d)\n"
           "      --repeat R   time every query R times, report the least (5)\n"
           "      --int8       the decoder in 8-bit integers\n"
-          "svcd encode IN.obj OUT.body|OUT.h [--points N | --radius METRES] [--no-triangles | --no-latents]\n"
+          "svcd encode IN.obj OUT.body|OUT.h [--points N | --radius METRES] [--no-triangles | --no-latents | --latents]\n"
           "    encodes a mesh, to a file or to a C array; --radius: as many points as make patches of that radius;\n"
-          "    --no-triangles: for the network alone; --no-latents: for the proof alone\n"
+          "    --no-triangles: for the network alone; --no-latents: for the proof alone; --latents: for both, also where there\n"
+          "    are more than %d points\n"
           "svcd info FILE.body\n"
           "exit status: 0 done, 1 a file or line was refused, 2 usage\n",
-          NSVCD_MAX_POINTS, NSVCD_DEFAULT_POINTS, NSVCD_DEFAULT_NETWORK_POINTS, NSVCD_MAX_PAIRS, NSVCD_DEFAULT_WORK);
+          NSVCD_MAX_POINTS, NSVCD_DEFAULT_POINTS, NSVCD_DEFAULT_NETWORK_POINTS, NSVCD_MAX_PAIRS, NSVCD_DEFAULT_WORK,
+          NSVCD_SMALL_POINTS);
   return USAGE;
 }
 static int usage_error(const char *option, const char *reason) {
@@ -451,6 +453,8 @@ static int encode(int argc, char **argv) {
       options.no_triangles = 1;
     } else if (strcmp(argv[i], "--no-latents") == 0) {
       options.no_latents = 1;
+    } else if (strcmp(argv[i], "--latents") == 0) {
+      options.latents = 1;
     } else if (strcmp(argv[i], "--points") == 0) {
       if (!parse_count(value, 1, NSVCD_MAX_POINTS, &options.points)) return usage_error(argv[i], "out of range");
       i++;
@@ -465,6 +469,7 @@ static int encode(int argc, char **argv) {
   if (path_count != 2) return usage();
   if (!ends_with(paths[1], ".body") && !ends_with(paths[1], ".h")) return usage_error(paths[1], "neither .body nor .h");
   if (options.no_triangles && options.no_latents) return usage_error("--no-latents", "nothing would be left");
+  if (options.latents && options.no_latents) return usage_error("--latents", "not together with --no-latents");
   if (options.points && options.patch_radius > 0) return usage_error("--radius", "not together with --points");
 
   double taken;

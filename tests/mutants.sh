@@ -1,6 +1,6 @@
 #!/bin/sh
 # Are the tests of the proof worth anything? Each mutant is the header with one mistake in it; tests/test_proof.c has to
-# fail on it. Prints a line for each, and exits with 1 if one survives. An argument runs only the mutants whose name
+# fail on it, or, where its name begins with `level:`, tests/test_level.c. Prints a line for each, and exits with 1 if one survives. An argument runs only the mutants whose name
 # contains it. About half a minute each; PART=0 OF=16 WORK=folder: every 16th of them, in a folder of its own.
 set -u
 CC=${CC:-cc}
@@ -8,8 +8,8 @@ cd "$(dirname "$0")/.." || exit 1
 work=${WORK:-build/mutants}
 mkdir -p $work/tests $work/examples
 cp weights.h $work/
-cp tests/test_proof.c tests/proof_scene.h tests/poses.h tests/any_query.h tests/ask.h tests/check.h tests/oracle.h $work/tests/
-cp examples/shapes.h $work/examples/
+cp tests/test_proof.c tests/test_level.c tests/*.h $work/tests/
+cp examples/shapes.h examples/level.h $work/examples/
 
 # name | text (occurs once) | what it becomes. Not here: axis_turn left out of bulge_along_axis. The theorem needs it, but no
 # motion was found that uses it: what strays most does so at samples, and there axis_bulge is exact.
@@ -89,6 +89,11 @@ tile: the first only, in order|nsvcd__search_next_tile(work, moving, fixed));\n 
 tile: skins of the first only|nsvcd__search_next_tile(work, p->moving.body, p->fixed.body);\n    for (size_t n|0;\n    for (size_t n
 tile: way without reach|fminf(start, end) - c->reach[l]|fminf(start, end)
 tile: approached in the first segment|wanted \&\& nearby \& ~met; wanted \&= wanted - 1) {|wanted \&\& nearby \& ~met; wanted = 0) {
+level: near groups as dipoles|#define NSVCD__DIPOLE 3.0f|#define NSVCD__DIPOLE 0.8f
+level: sums that do not scale|i < nsvcd__area_numbers(b); i++) {|i < 3 * (size_t)b->padded; i++) {
+level: clearances about the middle only|nsvcd__v_fma(radius, nsvcd__v_set(NSVCD__AMPLE), nsvcd__v_set(places->radius))|nsvcd__v_mul(radius, nsvcd__v_set(NSVCD__AMPLE))
+level: latents of one region|int8_t *latents = parts->latents + NSVCD__LATENT * parts->count;|int8_t *latents = parts->latents;
+level: members of one dipole in two|const size_t member = NSVCD__GROUP * (first + nsvcd__lowest_bit(close));|const size_t member = NSVCD__GROUP * (first + (nsvcd__lowest_bit(close) \& ~(size_t)1));
 margin of small normals|nsvcd__v_pick(square, nsvcd__v_set(1e-30f), nsvcd__v_set(1e30f), limit)|limit
 LIST
 
@@ -108,8 +113,12 @@ if old and text.count(old) != 1:
 sys.stdout.write(text.replace(old, new) if old else text)
 PYTHON
   tile=  # those of tiles are looked for where small bodies make several
-  case "$name" in tile:*) tile=-DNSVCD__TILE=2 ;; esac
-  $CC -O2 -march=native -std=c99 -w $tile -DTEST_ALONE -o $work/test $work/tests/test_proof.c -lm || exit 1
+  file=test_proof.c
+  case "$name" in
+    tile:*) tile=-DNSVCD__TILE=2 ;;
+    level:*) file=test_level.c ;;
+  esac
+  $CC -O2 -march=native -std=c99 -w $tile -DTEST_ALONE -o $work/test $work/tests/$file -lm || exit 1
   timeout "${LIMIT:-400}" $work/test >$work/out.txt 2>&1
   code=$?
   if [ $code = 124 ]; then echo "NO END    $name: raise LIMIT, seconds"; survived=1; continue; fi

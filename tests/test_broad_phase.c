@@ -30,13 +30,16 @@ static blob blob_a_memory, blob_b_memory;
 static char *aligned(blob *b) { return b->bytes + (16 - (uintptr_t)b->bytes % 16) % 16; }
 static const size_t blob_capacity = BLOB - 16;
 
-static float centres[3 * NSVCD_MAX_NETWORK_POINTS], radii[NSVCD_MAX_NETWORK_POINTS], areas[3 * NSVCD_MAX_NETWORK_POINTS];
-static int8_t latents[NSVCD_MAX_NETWORK_POINTS * NSVCD__LATENT];
+static float centres[3 * NSVCD_SMALL_POINTS], radii[NSVCD_SMALL_POINTS], areas[3 * NSVCD_SMALL_POINTS];
+static int8_t latents[NSVCD_SMALL_POINTS * NSVCD__LATENT];
 
 static const nsvcd_body *build(size_t points, blob *memory) {
   const nsvcd_body *body = NULL;
-  nsvcd_result result = nsvcd__body_build(points, centres, radii, areas, latents, NSVCD_WEIGHTS_ID, 0, aligned(memory),
-                                          blob_capacity, &body);
+  uint16_t order[NSVCD_SMALL_POINTS], spare[NSVCD_SMALL_POINTS];
+  for (size_t i = 0; i < points; i++) order[i] = (uint16_t)i;
+  nsvcd__body_order(points, centres, order, spare);
+  nsvcd_result result = nsvcd__body_build(points, centres, radii, areas, latents, order, NSVCD_WEIGHTS_ID, 0,
+                                          aligned(memory), blob_capacity, &body);
   CHECK_EQ(result, NSVCD_OK);
   return body;
 }
@@ -76,7 +79,7 @@ static size_t body_bytes(const nsvcd_body *body) { return nsvcd_body_size(body->
 static void body_round_trip(void) {
   CHECK_EQ(sizeof(struct nsvcd_body), 64);
   CHECK_EQ(nsvcd_body_size(0), 0);
-  CHECK_EQ(nsvcd_body_size(NSVCD_MAX_NETWORK_POINTS + 1), 0);
+  CHECK_EQ(nsvcd_body_size(NSVCD_MAX_POINTS + 1), 0);
   CHECK_LE(nsvcd_body_size(512), 65535);
   for (size_t points = 1; points <= 512; points += points < 20 ? 1 : 41) {
     const nsvcd_body *body = random_body(points, 1, 0.3, &blob_a_memory), *loaded = NULL;
@@ -97,10 +100,10 @@ static void body_round_trip(void) {
 
 // The order visits every patch once, and neighbours end up together: groups are much smaller than the body.
 static void body_order(void) {
-  uint16_t order[NSVCD_MAX_NETWORK_POINTS], spare[NSVCD_MAX_NETWORK_POINTS];
+  uint16_t order[NSVCD_SMALL_POINTS], spare[NSVCD_SMALL_POINTS];
   for (size_t points = 1; points <= 512; points += 37) {
     const nsvcd_body *body = random_body(points, 1, 0, &blob_a_memory);
-    int seen[NSVCD_MAX_NETWORK_POINTS] = {0};
+    int seen[NSVCD_SMALL_POINTS] = {0};
     for (size_t i = 0; i < points; i++) order[i] = (uint16_t)i;
     nsvcd__body_order(points, centres, order, spare);
     for (size_t i = 0; i < points; i++) seen[order[i]]++;
@@ -455,7 +458,7 @@ typedef struct tally {
 // One motion: candidates against spheres sampled densely in time.
 static void try_motion(const nsvcd_body *moving, const nsvcd_body *fixed, size_t count, const nsvcd_pose *fixed_pose,
                        size_t samples, tally *sum) {
-  static unsigned char pair_met[NSVCD_MAX_NETWORK_POINTS][NSVCD_MAX_NETWORK_POINTS];
+  static unsigned char pair_met[NSVCD_SMALL_POINTS][NSVCD_SMALL_POINTS];
   nsvcd__motion motion;
   CHECK_EQ(motion_init(poses, count, fixed_pose, &motion), NSVCD_OK);
   nsvcd__candidates all, best;
@@ -673,10 +676,10 @@ static void containment(void) {
       nsvcd__quat_to_matrix(q, rotation);
       double distance = uniform(0, 2);
       for (int k = 0; k < 3; k++) way[k] = rotation[3 * k], at[k] = (float)distance * way[k];
-      const nsvcd__v place[3] = {nsvcd__v_set(at[0]), nsvcd__v_set(at[1]), nsvcd__v_set(at[2])};
-      float lanes[NSVCD__SLICE];
-      nsvcd__v_store(lanes, nsvcd__clearance2(outer, place));
-      double clearance = sqrt((double)lanes[7 % NSVCD__SLICE]);
+      float places[3][NSVCD__PROBES], lanes[NSVCD__PROBES];
+      for (int k = 0; k < 3 * NSVCD__PROBES; k++) places[k / NSVCD__PROBES][k % NSVCD__PROBES] = at[k / NSVCD__PROBES];
+      nsvcd__clearances(outer, places, lanes);
+      double clearance = sqrt((double)lanes[7]);
       int bin = clearance < 1 ? 0 : clearance < 1.5 ? 1 : clearance < 2 ? 2 : 3;
       double want = distance < 1 ? 1 : 0;
       double off = fabs((double)nsvcd__winding_number(outer, at) - want);

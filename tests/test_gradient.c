@@ -275,12 +275,13 @@ static int without_lean(scene *s, shapes_rng *rng, size_t n) {
   for (int k = 0; k < 2; k++) {
     const nsvcd_body *from = pool[1][shapes_pick(rng, POOL)];
     const float none[3] = {0, 0, 0};
-    float centre[3], radius;
+    const uint16_t first = 0;
+    float centre[3] = {0, 0, 0}, radius = 0;
     int8_t latent[NSVCD__LATENT];
     CHECK(nsvcd_body_patch(from, 0, centre, &radius));
     memcpy(latent, nsvcd__body_latents(from), sizeof latent);
     for (size_t i = 0; i < 3; i++) latent[NSVCD_W_CHANNELS * i] = 0;
-    CHECK_EQ(nsvcd__body_build(1, centre, &radius, none, latent, NSVCD_WEIGHTS_ID, 1, scaled_memory[k].at, size,
+    CHECK_EQ(nsvcd__body_build(1, centre, &radius, none, latent, &first, NSVCD_WEIGHTS_ID, 1, scaled_memory[k].at, size,
                                k ? &s->fixed : &s->moving),
              NSVCD_OK);
   }

@@ -333,6 +333,280 @@ static void level_components_are_found(void) {
   level_free(&box);
 }
 
+// ---- by the network
+
+// The level of level_shared() with latents too.
+static const nsvcd_body *level_with_latents(void) {
+  static const nsvcd_body *body;
+  nsvcd_encode_options options = level_options(5000);
+  options.no_latents = 0;
+  options.latents = 1;
+  if (!body) CHECK_EQ(nsvcd_encode(&level_shared()->level.mesh, &options, NULL, NULL, 0, &body), NSVCD_OK);
+  return body;
+}
+
+// Asked for, they stand before the body for the proof, which is the same to the byte; not asked for, a level has none. The
+// blob is checked, and scales.
+static void level_latents_are_added(void) {
+  const nsvcd_body *plain = level_shared()->level.body;
+  const nsvcd_body *body = level_with_latents();
+  const nsvcd_body_facts facts = nsvcd_body_describe(body);
+  const nsvcd_body *inner = nsvcd__triangles_of(body);
+  const nsvcd_body *loaded = NULL;
+  CHECK_EQ(facts.latents, 1);
+  CHECK_EQ(facts.points, nsvcd_body_describe(plain).points);
+  CHECK_EQ(inner->size, plain->size);
+  CHECK(memcmp(inner, plain, plain->size) == 0);
+
+  nsvcd_encode_options options = level_options(600);
+  const nsvcd_body *other = NULL;
+  options.no_latents = 0;
+  CHECK_EQ(nsvcd_encode(&level_shared()->bodies[1].mesh, &options, NULL, NULL, 0, &other), NSVCD_OK);
+  CHECK_EQ(nsvcd_body_describe(other).latents, 0);
+  nsvcd_body_free(other, NULL);
+  options.no_triangles = 1;  // then they are all there is
+  CHECK_EQ(nsvcd_encode(&level_shared()->bodies[1].mesh, &options, NULL, NULL, 0, &other), NSVCD_OK);
+  CHECK_EQ(nsvcd_body_describe(other).latents, 1);
+  CHECK_EQ(other->size, nsvcd_body_size(other->points));
+  nsvcd_body_free(other, NULL);
+
+  nsvcd_body *copy = (nsvcd_body *)malloc(facts.size);
+  memcpy(copy, body, facts.size);
+  CHECK_EQ(nsvcd_body_load(copy, facts.size, &loaded), NSVCD_OK);
+  for (size_t n = 0; n < nsvcd__level_count(body->padded); n++) {
+    float *sum = (float *)nsvcd__writable(copy, nsvcd__level_areas(copy, nsvcd__level_of(copy->padded, n)));
+    const float before = *sum;
+    *sum = HUGE_VALF;
+    copy->checksum = nsvcd__body_checksum(copy);
+    CHECK_EQ(nsvcd_body_load(copy, facts.size, &loaded), NSVCD_ERROR_BODY);
+    *sum = before;
+  }
+  CHECK_EQ(nsvcd_body_scale(body, 0.5f, copy, facts.size, &loaded), NSVCD_OK);
+  const nsvcd__level top = nsvcd__level_of(body->padded, nsvcd__level_count(body->padded) - 1);
+  for (size_t i = 0; i < 3 * top.slots; i++) {
+    CHECK_NEAR(nsvcd__level_areas(loaded, top)[i], 0.25 * (double)nsvcd__level_areas(body, top)[i], 1e-4);
+  }
+  CHECK_EQ(nsvcd_body_load(copy, facts.size, &loaded), NSVCD_OK);
+  free(copy);
+}
+
+// The balls of patches contain the surface, those of halved triangles too.
+static void level_balls_cover(void) {
+  const nsvcd_body *body = level_with_latents();
+  const oracle_mesh *mesh = &level_shared()->level.oracle;
+  shapes_rng rng = {8};
+  for (int trial = 0; trial < 2000; trial++) {
+    const oracle_triangle *t = &mesh->triangles[shapes_next(&rng) % mesh->triangle_count];
+    double u = shapes_uniform(&rng, 0, 1), v = trial % 2 ? 0 : shapes_uniform(&rng, 0, 1), place[3];
+    if (u + v > 1) u = 1 - u, v = 1 - v;
+    for (int k = 0; k < 3; k++) place[k] = t->v[0][k] + u * (t->v[1][k] - t->v[0][k]) + v * (t->v[2][k] - t->v[0][k]);
+    int covered = 0;
+    for (size_t i = 0; i < body->points && !covered; i++) {
+      const double d[3] = {(double)nsvcd__body_x(body)[i] - place[0], (double)nsvcd__body_y(body)[i] - place[1],
+                           (double)nsvcd__body_z(body)[i] - place[2]};
+      covered = oracle_length(d) <= (double)nsvcd__body_r(body)[i];
+    }
+    CHECK(covered);
+  }
+}
+
+// Clearances and winding numbers, found through the levels, are those over all patches; so are the sums of area vectors.
+static void level_winding_numbers_are_those_of_the_patches(void) {
+  const nsvcd_body *body = level_with_latents();
+  const float *areas = nsvcd__body_areas(body);
+  double worst = 0, sums[3] = {0, 0, 0};
+  size_t inside = 0, clear = 0;
+  shapes_rng rng = {9};
+  for (int trial = 0; trial < 1000; trial++) {
+    float places[3][NSVCD__PROBES], clearances[NSVCD__PROBES];
+    const double spread = pow(10, shapes_uniform(&rng, -2, 0.5));
+    double middle[3];
+    for (int k = 0; k < 3; k++) middle[k] = k == 2 ? shapes_uniform(&rng, -1.2, 2) : shapes_uniform(&rng, -10.5, 10.5);
+    for (size_t n = 0; n < NSVCD__PROBES; n++) {
+      for (int k = 0; k < 3; k++) places[k][n] = (float)(middle[k] + spread * shapes_uniform(&rng, -0.5, 0.5));
+    }
+    nsvcd__clearances(body, places, clearances);
+    for (size_t n = 0; n < NSVCD__PROBES; n++) {
+      const float place[3] = {places[0][n], places[1][n], places[2][n]};
+      double least = (double)(NSVCD__AMPLE * NSVCD__AMPLE), w = 0;
+      for (size_t i = 0; i < body->points; i++) {
+        const double d[3] = {(double)(nsvcd__body_x(body)[i] - place[0]), (double)(nsvcd__body_y(body)[i] - place[1]),
+                             (double)(nsvcd__body_z(body)[i] - place[2])};
+        const double length = oracle_length(d), r = (double)nsvcd__body_r(body)[i];
+        least = fmin(least, length * length / (r * r));
+        for (size_t k = 0; k < 3; k++) w += (double)areas[k * body->padded + i] * d[k] / (length * length * length);
+      }
+      w /= 4 * acos(-1);
+      CHECK_NEAR(clearances[n], least, 1e-4);
+      if (n > 0 || least < 1) continue;
+      const double found = (double)nsvcd__winding_number(body, place);
+      worst = fmax(worst, fabs(found - w));
+      inside += fabs(w) > 0.5;
+      clear++;
+    }
+  }
+  printf("  winding numbers of %zu places, %zu inside: within %.4f of those of all patches\n", clear, inside, worst);
+  CHECK(inside > 50 && clear - inside > 50);
+  CHECK_LE(worst, 0.05);
+
+  const nsvcd__level top = nsvcd__level_of(body->padded, nsvcd__level_count(body->padded) - 1);
+  for (size_t k = 0; k < 3; k++) {
+    for (size_t i = 0; i < body->points; i++) sums[k] += (double)areas[k * body->padded + i];
+    for (size_t i = 0; i < top.slots; i++) sums[k] -= (double)nsvcd__level_areas(body, top)[k * top.slots + i];
+    CHECK_NEAR(sums[k], 0, 1e-3);
+  }
+}
+
+// The network is right where it can be, whichever body is a; and where it certifies, there is no hit.
+static void level_by_the_network(void) {
+  const level_world *w = level_shared();
+  size_t wrong = 0, asked = 0, certified = 0, hits = 0;
+  shapes_rng rng = {10};
+  for (int trial = 0; trial < 120; trial++) {
+    const level_way way = level_draw(&rng, trial % 2 ? LEVEL_NEAR : LEVEL_DASH, w->bodies, &w->level);
+    const oracle_result label = level_label(&way, &w->level);
+    const int collides = label.status == ORACLE_COLLIDES || label.status == ORACLE_INSIDE;
+    nsvcd_question question = level_question(&way, level_with_latents());
+    question.options.method = NSVCD_METHOD_NETWORK;
+    const nsvcd_answer answer = level_ask(&question);
+    if (answer.status == NSVCD_STATUS_CERTIFIED_FREE) CHECK(!collides);
+    certified += answer.status == NSVCD_STATUS_CERTIFIED_FREE;
+    wrong += answer.collides != collides;
+    hits += collides != 0;
+    asked++;
+    nsvcd_question turned = question;
+    turned.a = question.b;
+    turned.b = question.a;
+    CHECK_EQ(level_ask(&turned).collides, answer.collides);
+  }
+  printf("  by the network: %zu of %zu wrong, %zu hits, %zu certified\n", wrong, asked, hits, certified);
+  CHECK(hits > 30 && asked - hits > 30);
+  CHECK_LE(wrong, asked / 10);
+
+  const level_way way = level_draw(&(shapes_rng){11}, LEVEL_NEAR, w->bodies, &w->level);
+  nsvcd_question question = level_question(&way, w->level.body);
+  nsvcd_answer answer;
+  question.options.method = NSVCD_METHOD_NETWORK;  // which this one has nothing for
+  CHECK_EQ(nsvcd_sweep(&question, level_workspace(), nsvcd_sweep_workspace_size(NULL), &answer), NSVCD_ERROR_BODY);
+}
+
+// A ball in one of many crates is inside, and between two of them it is not.
+static void level_containment_by_the_network(void) {
+  shapes_mesh shape, pebble;
+  memset(&shape, 0, sizeof shape);
+  memset(&pebble, 0, sizeof pebble);
+  for (int i = 0; i < 400; i++) {
+    const size_t first = shape.vertices;
+    shapes_box(&shape, 0.15, 0.15, 0.15, 3);
+    shapes_place(&shape, first, NULL, 0.4 * (i % 20), 0.4 * (i / 20), 0.002 * (i % 7));
+  }
+  level_boulder(&pebble, 0.01, 8, 1);
+  level_solid crates, ball;
+  level_solid_init(&crates, &shape, 0);
+  level_solid_init(&ball, &pebble, 0);
+  nsvcd_encode_options options = level_options(20000);
+  options.no_latents = 0;
+  options.no_triangles = 1;
+  CHECK_EQ(nsvcd_encode(&crates.mesh, &options, NULL, NULL, 0, &crates.body), NSVCD_OK);
+  options.points = 32;
+  CHECK_EQ(nsvcd_encode(&ball.mesh, &options, NULL, NULL, 0, &ball.body), NSVCD_OK);
+  for (int i = 0; i < 400; i += 13) {
+    nsvcd_pose at;
+    nsvcd_question question;
+    memset(&at, 0, sizeof at);
+    memset(&question, 0, sizeof question);
+    at.rotation[3] = 1;
+    at.position[0] = 0.4f * (float)(i % 20);
+    at.position[1] = 0.4f * (float)(i / 20);
+    question.a.body = ball.body;
+    question.a.poses = &at;
+    question.a.count = 1;
+    question.b.body = crates.body;
+    CHECK_EQ(level_ask(&question).status, NSVCD_STATUS_INSIDE);
+    at.position[0] += 0.2f;
+    CHECK_EQ(level_ask(&question).status, NSVCD_STATUS_CERTIFIED_FREE);
+  }
+  level_free(&crates);
+  level_free(&ball);
+}
+
+#ifndef NSVCD_NO_OPTIMIZER
+static void level_place(void *user, const float *joints, nsvcd_pose *poses) {
+  (void)user;
+  memset(poses, 0, 2 * sizeof *poses);
+  memcpy(poses[0].position, joints, sizeof poses[0].position);
+  poses[0].rotation[3] = poses[1].rotation[3] = 1;
+}
+
+// A body flies through the level where the straight way is barred, and the oracle sees it touch nothing.
+static void level_planning(void) {
+  const level_world *w = level_shared();
+  const level_solid *flyer = &w->bodies[2];
+  const nsvcd_body *bodies[2] = {flyer->body, level_with_latents()};
+  const nsvcd_body_pair pair = {0, 1};
+  const float low[3] = {-9, -9, 0.2f}, high[3] = {9, 9, 1};
+  float start[3] = {0, 0, 1}, goal[3] = {0, 0, 1};
+  nsvcd_plan_problem problem;
+  nsvcd_plan_options options;
+  memset(&problem, 0, sizeof problem);
+  memset(&options, 0, sizeof options);
+  problem.joints = 3;
+  problem.low = low;
+  problem.high = high;
+  problem.bodies = bodies;
+  problem.body_count = 2;
+  problem.pairs = &pair;
+  problem.pair_count = 1;
+  problem.place = level_place;
+  problem.start = start;
+  problem.goal = goal;
+  const size_t size = nsvcd_plan_workspace_size(&problem, &options);
+  CHECK(size > 0);
+  void *workspace = malloc(size);
+  shapes_rng rng = {12};
+  size_t barred = 0, solved = 0;
+  while (barred < 4) {
+    float control[3 * (NSVCD_MAX_VIA_POINTS + 2)];
+    nsvcd_plan_answer answer;
+    level_way way;
+    memset(&answer, 0, sizeof answer);
+    way.body = flyer;
+    for (int k = 0; k < 3; k++) {
+      start[k] = (float)shapes_uniform(&rng, (double)low[k], (double)high[k]);
+      goal[k] = k == 2 ? start[2] : start[k] + (float)shapes_uniform(&rng, -1.5, 1.5);
+      goal[k] = fminf(fmaxf(goal[k], low[k]), high[k]);
+    }
+    level_place(NULL, start, way.stored);
+    way.stored[1] = way.stored[0];
+    memcpy(way.stored[1].position, goal, sizeof goal);
+    const nsvcd_question straight = level_question(&way, w->level.body);
+    nsvcd_question end = straight;
+    end.a.count = 1;
+    if (level_ask(&end).collides || !level_ask(&straight).collides) continue;
+    end.a.poses = way.stored + 1;
+    if (level_ask(&end).collides) continue;
+    barred++;
+    CHECK_EQ(nsvcd_plan(&problem, &options, workspace, size, control, &answer), NSVCD_OK);
+    if (answer.status != NSVCD_PLAN_CONVERGED) continue;
+    solved++;
+    oracle_pose poses[65];
+    for (size_t n = 0; n <= 64; n++) {
+      nsvcd_pose at[2];
+      float joints[3];
+      nsvcd_spline(control, answer.via_points, 3, (float)n / 64, 0, joints);
+      level_place(NULL, joints, at);
+      poses[n] = pose_widened(&at[0]);
+    }
+    const oracle_pose origin = {{0, 0, 0}, {0, 0, 0, 1}};
+    const oracle_options exact = {2e-5, 1e-3, 0, 0};
+    CHECK_EQ(oracle_sweep(&flyer->oracle, poses, 65, &w->level.oracle, &origin, &exact).status, ORACLE_FREE);
+  }
+  printf("  %zu of %zu barred ways solved\n", solved, barred);
+  CHECK_LE(3, solved);
+  free(workspace);
+}
+#endif
+
 // ---- bad input
 
 // Half of the triangles have no area, or the level is inside out, or one triangle of 20 m lies among crumbs of a
@@ -424,6 +698,8 @@ static void level_encoding_ends_well(void) {
   nsvcd_encode_options options = level_options(700);
   const nsvcd_body *body = NULL;
   int fails = 0;
+  options.no_latents = 0;
+  options.latents = 1;
   for (int fail_at = 0; fail_at < 2000; fail_at++) {
     failing_heap heap = {0, 0, fail_at};
     nsvcd_allocator allocator = {failing_heap_alloc, failing_heap_free, &heap};
@@ -465,11 +741,8 @@ static void level_encoding_ends_well(void) {
   CHECK(body == NULL);
   options.points = NSVCD_MAX_POINTS + 1;
   CHECK_EQ(nsvcd_encode(&solid.mesh, &options, NULL, NULL, 0, &body), NSVCD_ERROR_ARGUMENT);
-  options.points = NSVCD_MAX_NETWORK_POINTS + 1;
-  options.no_latents = 0;
-  options.no_triangles = 1;
-  CHECK_EQ(nsvcd_encode(&solid.mesh, &options, NULL, NULL, 0, &body), NSVCD_ERROR_ARGUMENT);
-  options.no_latents = 1;  // nothing would be left
+  options.latents = 0;
+  options.no_latents = options.no_triangles = 1;  // nothing would be left
   options.points = 10;
   CHECK_EQ(nsvcd_encode(&solid.mesh, &options, NULL, NULL, 0, &body), NSVCD_ERROR_ARGUMENT);
   level_free(&solid);
@@ -494,6 +767,14 @@ void test_level(void) {
   RUN(level_that_moves);
   RUN(level_contacts_are_those_of_the_piece);
   RUN(level_components_are_found);
+  RUN(level_latents_are_added);
+  RUN(level_balls_cover);
+  RUN(level_winding_numbers_are_those_of_the_patches);
+  RUN(level_by_the_network);
+  RUN(level_containment_by_the_network);
+#ifndef NSVCD_NO_OPTIMIZER
+  RUN(level_planning);
+#endif
   RUN(level_of_bad_triangles);
   RUN(level_encoding_ends_well);
   RUN(level_is_deterministic);

@@ -87,13 +87,13 @@ static void query_a_blob_survives_a_file(void) {
 static void query_bodies_are_small(void) {
   nsvcd_mesh mesh = query_solid(3, 0.3);
   query_memory memory;
-  const nsvcd_body *body = query_encode(&mesh, NSVCD_MAX_NETWORK_POINTS, &memory);
+  const nsvcd_body *body = query_encode(&mesh, NSVCD_SMALL_POINTS, &memory);
   nsvcd_body_facts facts = nsvcd_body_describe(body);
-  CHECK_EQ(facts.points, NSVCD_MAX_NETWORK_POINTS);
+  CHECK_EQ(facts.points, NSVCD_SMALL_POINTS);
   CHECK_LE(facts.size, 65535);
-  CHECK_LE(nsvcd_body_size(NSVCD_MAX_NETWORK_POINTS), 65535);
+  CHECK_LE(nsvcd_body_size(NSVCD_SMALL_POINTS), 65535);
   CHECK_EQ(nsvcd_body_size(0), 0);
-  CHECK_EQ(nsvcd_body_size(NSVCD_MAX_NETWORK_POINTS + 1), 0);
+  CHECK_EQ(nsvcd_body_size(NSVCD_MAX_POINTS + 1), 0);
   query_release(&memory);
   nsvcd_mesh_free(&mesh, NULL);
 }
@@ -128,11 +128,11 @@ static void query_facts_contain_the_mesh(void) {
 
 static void query_patch_radius_is_honoured(void) {
   nsvcd_mesh mesh = query_solid(7, 0.3);
-  size_t fewer = NSVCD_MAX_NETWORK_POINTS + 1;
+  size_t fewer = NSVCD_SMALL_POINTS + 1;
   const float wanted[3] = {0.025f, 0.04f, 0.07f};
   for (int i = 0; i < 3; i++) {
     nsvcd_encode_options options = {.patch_radius = wanted[i], .no_triangles = 1};
-    size_t size = nsvcd_body_size(NSVCD_MAX_NETWORK_POINTS);
+    size_t size = nsvcd_body_size(NSVCD_SMALL_POINTS);
     query_memory memory = query_reserve(size);
     const nsvcd_body *body = NULL;
     CHECK_EQ(nsvcd_encode(&mesh, &options, NULL, memory.at, size, &body), NSVCD_OK);
@@ -319,11 +319,11 @@ static void query_sizes_at_the_limits(void) {
   for (int i = 0; i < 4; i++) {
     double a = sizes[i];
     nsvcd_mesh cube = query_box(a, a, a);
-    query_memory memory[2] = {query_reserve(nsvcd_body_size(NSVCD_MAX_NETWORK_POINTS)),
-                              query_reserve(nsvcd_body_size(NSVCD_MAX_NETWORK_POINTS))};
+    query_memory memory[2] = {query_reserve(nsvcd_body_size(NSVCD_SMALL_POINTS)),
+                              query_reserve(nsvcd_body_size(NSVCD_SMALL_POINTS))};
     const nsvcd_body *body = NULL, *same = NULL;
-    CHECK_EQ(nsvcd_encode(&cube, &query_latents, NULL, memory[0].at, nsvcd_body_size(NSVCD_MAX_NETWORK_POINTS), &body), NSVCD_OK);
-    CHECK_EQ(nsvcd_body_scale(body, 1, memory[1].at, nsvcd_body_size(NSVCD_MAX_NETWORK_POINTS), &same), NSVCD_OK);
+    CHECK_EQ(nsvcd_encode(&cube, &query_latents, NULL, memory[0].at, nsvcd_body_size(NSVCD_SMALL_POINTS), &body), NSVCD_OK);
+    CHECK_EQ(nsvcd_body_scale(body, 1, memory[1].at, nsvcd_body_size(NSVCD_SMALL_POINTS), &same), NSVCD_OK);
     nsvcd_pose through[2] = {query_pose(-0.9 * a, 0, 0), query_pose(0.9 * a, 0, 0)}, origin = query_pose(0, 0, 0);
     CHECK_EQ(query_ask(body, through, 2, same, &origin, NULL).collides, 1);
     for (int k = 0; k < 2; k++) through[k].position[1] = (float)(1.1 * a);  // a gap of a tenth
@@ -332,9 +332,9 @@ static void query_sizes_at_the_limits(void) {
     nsvcd_mesh_free(&cube, NULL);
   }
   nsvcd_mesh speck = query_box(1e-13, 1e-13, 1e-13);
-  query_memory memory = query_reserve(nsvcd_body_size(NSVCD_MAX_NETWORK_POINTS));
+  query_memory memory = query_reserve(nsvcd_body_size(NSVCD_SMALL_POINTS));
   const nsvcd_body *body = NULL;
-  CHECK_EQ(nsvcd_encode(&speck, &query_latents, NULL, memory.at, nsvcd_body_size(NSVCD_MAX_NETWORK_POINTS), &body), NSVCD_ERROR_NUMBER);
+  CHECK_EQ(nsvcd_encode(&speck, &query_latents, NULL, memory.at, nsvcd_body_size(NSVCD_SMALL_POINTS), &body), NSVCD_ERROR_NUMBER);
   CHECK(body == NULL);
   query_release(&memory);
   nsvcd_mesh_free(&speck, NULL);
@@ -689,11 +689,12 @@ static void query_encode_allocates(void) {
 static void query_encode_refuses_bad_input(void) {
   nsvcd_mesh mesh = query_box(0.1, 0.1, 0.1), bad = mesh;
   size_t size = nsvcd_body_size(64);
-  query_memory memory = query_reserve(nsvcd_body_size(NSVCD_MAX_NETWORK_POINTS) + QUERY_ALIGN);
-  nsvcd_encode_options options = {.points = 64, .no_triangles = 1}, too_many = {.points = NSVCD_MAX_NETWORK_POINTS + 1, .no_triangles = 1}, negative = {.patch_radius = -1, .no_triangles = 1},
+  query_memory memory = query_reserve(nsvcd_body_size(NSVCD_SMALL_POINTS) + QUERY_ALIGN);
+  nsvcd_encode_options options = {.points = 64, .no_triangles = 1}, too_many = {.points = NSVCD_MAX_POINTS + 1, .no_triangles = 1}, both = {.latents = 1, .no_latents = 1}, negative = {.patch_radius = -1, .no_triangles = 1},
                        nan = {.patch_radius = NAN, .no_triangles = 1};
   query_encode_refuses(NULL, &options, memory.at, size, NSVCD_ERROR_ARGUMENT);
   query_encode_refuses(&mesh, &too_many, memory.at, size, NSVCD_ERROR_ARGUMENT);
+  query_encode_refuses(&mesh, &both, memory.at, size, NSVCD_ERROR_ARGUMENT);
   query_encode_refuses(&mesh, &negative, memory.at, size, NSVCD_ERROR_ARGUMENT);
   query_encode_refuses(&mesh, &nan, memory.at, size, NSVCD_ERROR_ARGUMENT);
   query_encode_refuses(&mesh, &options, memory.at, size - 1, NSVCD_ERROR_WORKSPACE);
