@@ -404,7 +404,7 @@ typedef struct nsvcd_answer {
 // network the tiny decoder on 12 K pairs and the chosen one on K (tiny alone: on 3 K), and 32 distances per patch. Of
 // bodies of more than 512 patches only those groups count that the other body comes near, and some 16 tests more for each
 // level of spheres and each 16 spheres of it that it comes near. Stack: 5 KB on a desktop; on a Cortex-M, -O2, 3.1 KB for a
-// proof, 2.7 KB for the tiny decoder in int8 (`make firmware`). On failure `answer` is left as it was: ARGUMENT (NULL, a
+// proof, 2.0 KB for the tiny decoder in int8, the caller's variables included (`make firmware`). On failure `answer` is left as it was: ARGUMENT (NULL, a
 // count, or an option out of its range), POSE, SCALE,
 // SAME, WORKSPACE, and BODY where a body has not what the method needs. Source: the proof: this library, see *proof*
 // below; the network: NeuralSVCD, algorithm 1.
@@ -3809,11 +3809,14 @@ NSVCD__INLINE void nsvcd__turn_degree(const float *latent, float (*turn)[NSVCD__
 static void nsvcd__turn_latent(const int8_t *z, float (*turn)[NSVCD__SLICE], size_t l, size_t place, float *row) {
   float *vectors = row + NSVCD__VECTORS * place;
   float *scalars = row + 2 * NSVCD__VECTORS + NSVCD_W_SCALARS * place;
-  float latent[NSVCD__LATENT];
-  for (size_t k = 0; k < NSVCD__LATENT; k++) latent[k] = (float)z[k];
-  nsvcd__turn_degree(latent, turn, l, 3, vectors);
-  nsvcd__turn_degree(latent + 3 * NSVCD_W_CHANNELS, turn + 9, l, 5, vectors + 3 * NSVCD_W_CHANNELS);
-  for (size_t k = 0; k < NSVCD_W_SCALARS; k++) scalars[k] = latent[NSVCD__VECTORS + k] * (1.0f / 127);
+  float degree[5 * NSVCD_W_CHANNELS];  // one after the other: it is the deepest place of a query
+  for (size_t k = 0; k < 3 * NSVCD_W_CHANNELS; k++) degree[k] = (float)z[k];
+  nsvcd__turn_degree(degree, turn, l, 3, vectors);
+  z += 3 * NSVCD_W_CHANNELS;
+  for (size_t k = 0; k < 5 * NSVCD_W_CHANNELS; k++) degree[k] = (float)z[k];
+  nsvcd__turn_degree(degree, turn + 9, l, 5, vectors + 3 * NSVCD_W_CHANNELS);
+  z += 5 * NSVCD_W_CHANNELS;
+  for (size_t k = 0; k < NSVCD_W_SCALARS; k++) scalars[k] = (float)z[k] * (1.0f / 127);
 }
 
 #endif  // NSVCD_NO_NETWORK
@@ -5808,7 +5811,7 @@ static void nsvcd__cut_segments(const nsvcd__motion *motion, float lengths, floa
 }
 
 #ifndef NSVCD_NO_NETWORK
-static void nsvcd__cut_motion(nsvcd__motion *motion, float lengths, nsvcd__workspace *work) {
+static NSVCD__APART void nsvcd__cut_motion(nsvcd__motion *motion, float lengths, nsvcd__workspace *work) {
   nsvcd__choose_segments(motion, work);
   nsvcd__cut_segments(motion, lengths, 0, work);
 }
@@ -6434,7 +6437,7 @@ static size_t nsvcd__search_group(nsvcd__workspace *work, const nsvcd_body *movi
 
 #ifndef NSVCD_NO_NETWORK
 // A step of the search: all runs of one pair of groups. Returns 1 if there are more steps to take.
-static int nsvcd__search_step(nsvcd__workspace *work, const nsvcd_body *moving, const nsvcd_body *fixed,
+static NSVCD__APART int nsvcd__search_step(nsvcd__workspace *work, const nsvcd_body *moving, const nsvcd_body *fixed,
                               nsvcd__candidates *kept) {
   const size_t at = work->waiting ? nsvcd__lowest_bit(work->waiting) : nsvcd__search_group(work, moving);
   const size_t turn = work->order[work->step];
@@ -9784,43 +9787,65 @@ static void nsvcd__views_of(const nsvcd__pairs *pairs, size_t count, nsvcd__view
   view->side = nsvcd__v_pair_frame(view->d, view->lean, view->v, view->w, view->frame);
 }
 
-// Appendix F: the inputs of the decoder for the first `count` pairs of a slice, x (count, DECODER_IN): vectors of the
-// larger patch and of the other, their scalars, and twelve facts of the geometry.
-static NSVCD__APART void nsvcd__invariants(const nsvcd__pairs *pairs, size_t count, float *x) {
+// What the decoder sees of a slice of pairs, besides the latents, which it sees turned.
+typedef struct nsvcd__scenes {
+  nsvcd__v turn1[9], turn2[9];  // matrices from the bodies' frames to the pairs'
+  nsvcd__v k1, k2;              // radii, in units of the pairs' lengths
+  uint32_t keep;                // lanes in which the first patch is the larger
+  float facts[NSVCD__FACTS][NSVCD__SLICE];
+} nsvcd__scenes;
+
+static NSVCD__APART void nsvcd__scenes_of(const nsvcd__pairs *pairs, size_t count, nsvcd__scenes *scene) {
   nsvcd__views view;
   nsvcd__views_of(pairs, count, &view);
-  const nsvcd__v step = nsvcd__v_set(1.0f / 127), k1 = view.k1, k2 = view.k2, order = view.order, side = view.side;
-  const nsvcd__v *d = view.d, *v = view.v, *w = view.w, *frame = view.frame;
-  float latent_turn[NSVCD__TURN][NSVCD__SLICE], facts[NSVCD__FACTS][NSVCD__SLICE];
-  nsvcd__v frame1[9], closest[3], turn[3];
+  const nsvcd__v *d = view.d;
+  const nsvcd__v *v = view.v;
+  nsvcd__v closest[3], turn[3];
   for (size_t i = 0; i < 9; i++) {
-    const nsvcd__v *row = frame + i / 3 * 3, *column = pairs->rotation + i % 3;
-    frame1[i] = nsvcd__v_fma(row[0], column[0], nsvcd__v_fma(row[1], column[3], nsvcd__v_mul(row[2], column[6])));
+    const nsvcd__v *row = view.frame + i / 3 * 3;
+    const nsvcd__v *column = pairs->rotation + i % 3;
+    const nsvcd__v rest = nsvcd__v_fma(row[1], column[3], nsvcd__v_mul(row[2], column[6]));
+    scene->turn1[i] = nsvcd__v_fma(row[0], column[0], rest);
+    scene->turn2[i] = view.frame[i];
   }
+  scene->k1 = view.k1;
+  scene->k2 = view.k2;
+  scene->keep = nsvcd__v_le(nsvcd__v_set(0), view.order);
 
   const nsvcd__v speed2 = nsvcd__v_dot3(v, v);
   nsvcd__v tau = nsvcd__v_div(nsvcd__v_dot3(d, v), nsvcd__v_add(speed2, nsvcd__v_set(1e-6f)));
   tau = nsvcd__v_clamp(tau, -1, 1);  // nearest approach of the centres, in half intervals
   for (size_t k = 0; k < 3; k++) closest[k] = nsvcd__v_sub(d[k], nsvcd__v_mul(tau, v[k]));
-  nsvcd__v_store(facts[0], nsvcd__v_length3(d)), nsvcd__v_store(facts[1], nsvcd__v_max(k1, k2));
-  nsvcd__v_store(facts[2], nsvcd__v_length3(closest)), nsvcd__v_store(facts[3], tau);
-  nsvcd__v_mul33_vec(frame, v, closest), nsvcd__v_mul33_vec(frame, w, turn);
+  nsvcd__v_store(scene->facts[0], nsvcd__v_length3(d));
+  nsvcd__v_store(scene->facts[1], nsvcd__v_max(view.k1, view.k2));
+  nsvcd__v_store(scene->facts[2], nsvcd__v_length3(closest));
+  nsvcd__v_store(scene->facts[3], tau);
+  nsvcd__v_mul33_vec(view.frame, v, closest);
+  nsvcd__v_mul33_vec(view.frame, view.w, turn);
   for (size_t k = 0; k < 3; k++) {
-    nsvcd__v_store(facts[4 + k], closest[k]);
-    nsvcd__v_store(facts[7 + k], nsvcd__v_mul(side, turn[k]));  // an axial vector
+    nsvcd__v_store(scene->facts[4 + k], closest[k]);
+    nsvcd__v_store(scene->facts[7 + k], nsvcd__v_mul(view.side, turn[k]));  // an axial vector
   }
-  nsvcd__v_store(facts[10], nsvcd__v_sqrt(speed2)), nsvcd__v_store(facts[11], nsvcd__v_length3(w));
+  nsvcd__v_store(scene->facts[10], nsvcd__v_sqrt(speed2));
+  nsvcd__v_store(scene->facts[11], nsvcd__v_length3(view.w));
+}
 
-  const uint32_t keep = nsvcd__v_le(nsvcd__v_set(0), order);
-  nsvcd__wigner(frame1, nsvcd__v_mul(k1, step), latent_turn);
+// Appendix F: the inputs of the decoder for the first `count` pairs of a slice, x (count, DECODER_IN): vectors of the
+// larger patch and of the other, their scalars, and twelve facts of the geometry.
+static NSVCD__APART void nsvcd__invariants(const nsvcd__pairs *pairs, size_t count, float *x) {
+  nsvcd__scenes scene;
+  float latent_turn[NSVCD__TURN][NSVCD__SLICE];
+  const nsvcd__v step = nsvcd__v_set(1.0f / 127);
+  nsvcd__scenes_of(pairs, count, &scene);
+  nsvcd__wigner(scene.turn1, nsvcd__v_mul(scene.k1, step), latent_turn);
   for (size_t l = 0; l < count; l++) {
-    nsvcd__turn_latent(pairs->z1[l], latent_turn, l, keep >> l & 1 ? 0 : 1, x + NSVCD__DECODER_IN * l);
+    nsvcd__turn_latent(pairs->z1[l], latent_turn, l, scene.keep >> l & 1 ? 0 : 1, x + NSVCD__DECODER_IN * l);
   }
-  nsvcd__wigner(frame, nsvcd__v_mul(k2, step), latent_turn);
+  nsvcd__wigner(scene.turn2, nsvcd__v_mul(scene.k2, step), latent_turn);
   for (size_t l = 0; l < count; l++, x += NSVCD__DECODER_IN) {
     float *scalars = x + 2 * NSVCD__VECTORS;
-    nsvcd__turn_latent(pairs->z2[l], latent_turn, l, keep >> l & 1 ? 1 : 0, x);
-    for (size_t k = 0; k < NSVCD__FACTS; k++) scalars[2 * NSVCD_W_SCALARS + k] = facts[k][l];
+    nsvcd__turn_latent(pairs->z2[l], latent_turn, l, scene.keep >> l & 1 ? 1 : 0, x);
+    for (size_t k = 0; k < NSVCD__FACTS; k++) scalars[2 * NSVCD_W_SCALARS + k] = scene.facts[k][l];
     for (size_t k = NSVCD__INPUTS; k < NSVCD__DECODER_IN; k++) x[k] = 0;
   }
 }

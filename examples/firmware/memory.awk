@@ -1,5 +1,5 @@
 # memory.awk - holds workspace and deepest stack together against what a build may take: of the program's measurements,
-# lines `# METHOD workspace|stack BYTES`. network, proof: bytes.
+# lines `# METHOD workspace|stack BYTES`. network, proof: bytes; network_stack: of the stack alone, for the smallest network.
 /^# [a-z]* workspace / { workspace[FILENAME, $2] = $4 }
 /^# [a-z]* stack / {
   limit = $2 == "proof" ? proof : network
@@ -8,6 +8,10 @@
   checked++
   if (!(all > 0 && all <= limit)) {
     printf "%s: %d bytes of workspace and stack, of %d\n", FILENAME, all, limit
+    bad = 1
+  }
+  if (FILENAME ~ /network/ && !($4 < network_stack)) {
+    printf "%s: %d bytes of stack, of %d\n", FILENAME, $4, network_stack
     bad = 1
   }
 }
