@@ -5383,6 +5383,14 @@ typedef struct nsvcd__workspace {
   float remote;                                           // no part of these members is farther from the body's origin
 } nsvcd__workspace;
 
+// Vectors that cross cache lines take longer: the arrays of 16 lanes begin with one, where there are vectors. Up to so many
+// bytes are passed over for that; where base is NULL, all of them are counted.
+#define NSVCD__PASSED_OVER (NSVCD__SLICE > 1 ? 64 - NSVCD_ALIGNMENT : 0)
+static void nsvcd__take_to_line(char *base, uint64_t *used) {
+  if (NSVCD__PASSED_OVER == 0) return;
+  *used += base ? (0 - (uintptr_t)(base + *used)) & 63 : NSVCD__PASSED_OVER;
+}
+
 // Lays a workspace out in base, or, where that is NULL, only counts.
 static void nsvcd__workspace_layout(const nsvcd__needs *needs, char *base, uint64_t *used, nsvcd__workspace *work) {
   const size_t s = needs->segments;
@@ -5393,6 +5401,7 @@ static void nsvcd__workspace_layout(const nsvcd__needs *needs, char *base, uint6
   work->begin = (uint32_t *)nsvcd__take(base, used, s + 1, sizeof(uint32_t));
   work->time = (float *)nsvcd__take(base, used, s + 1, sizeof(float));
   work->turn = (float *)nsvcd__take(base, used, s + 1, sizeof(float));
+  nsvcd__take_to_line(base, used);
   work->blocks = (nsvcd__segments *)nsvcd__take(base, used, blocks, sizeof(nsvcd__segments));
   work->group = (nsvcd__chords *)nsvcd__take(base, used, blocks, sizeof(nsvcd__chords));
   work->members = (nsvcd__chords *)nsvcd__take(base, used, 1, members > sizeof(nsvcd__cut) ? members : sizeof(nsvcd__cut));
@@ -10506,7 +10515,7 @@ typedef struct nsvcd__query {
 } nsvcd__query;
 
 // What NSVCD_PROOF_WORKSPACE_BYTES and NSVCD_NETWORK_WORKSPACE_BYTES count on; where this does not compile they are wrong.
-typedef char nsvcd__constants_hold[sizeof(nsvcd__query) + 3 * NSVCD_ALIGNMENT <= 1024 && sizeof(nsvcd__segments) <= 148 * 16 &&
+typedef char nsvcd__constants_hold[sizeof(nsvcd__query) + 3 * NSVCD_ALIGNMENT + NSVCD__PASSED_OVER <= 1024 && sizeof(nsvcd__segments) <= 148 * 16 &&
                                            sizeof(nsvcd__chords) <= 512 && sizeof(nsvcd__cut) <= 16 * 512 &&
                                            NSVCD__TILE_SLOTS == 32 && NSVCD_ALIGNMENT == sizeof(uint64_t)
                                        ? 1

@@ -918,12 +918,18 @@ static void query_sizes_are_what_is_asked(void) {
       CHECK_LE(proof, nsvcd_sweep_workspace_size(NULL));
 
       // Just enough, and as good as plenty.
-      query_memory memory = query_reserve(network);
+      query_memory memory = query_reserve(network + 64 + 16);
       nsvcd_answer one, other;
-      CHECK_EQ(nsvcd_sweep(&question, memory.at, network, &one), NSVCD_OK);
       CHECK_EQ(nsvcd_sweep(&question, memory.at, network - 1, &other), NSVCD_ERROR_WORKSPACE);
       CHECK_EQ(nsvcd_sweep(&question, query_workspace(), nsvcd_sweep_workspace_size(NULL), &other), NSVCD_OK);
-      CHECK(query_same_answer(&one, &other));
+      for (size_t from = 0; from < 64; from += NSVCD_ALIGNMENT) {  // wherever it begins, and no byte before or after
+        char *at_place = (char *)memory.at + from;
+        memset(memory.at, 0x5a, network + 64 + 16);
+        CHECK_EQ(nsvcd_sweep(&question, at_place, network, &one), NSVCD_OK);
+        CHECK(query_same_answer(&one, &other));
+        for (size_t n = 0; n < from; n++) CHECK_EQ(((char *)memory.at)[n], 0x5a);
+        for (size_t n = 0; n < 16; n++) CHECK_EQ(at_place[network + n], 0x5a);
+      }
       query_release(&memory);
     }
     for (size_t k = 0; k < 2; k++) nsvcd_body_free(bodies[k], NULL);
