@@ -1546,10 +1546,10 @@ typedef struct nsvcd__patches {
   nsvcd__patch_sum *sums;                 // (N)
   float *centre_x, *centre_y, *centre_z;  // (N)
   float *x, *y, *z;                       // (S) the samples in the order in which they were drawn
-  float *distances;                       // (S) squared, to the nearest centre so far
-  float *drawn_points, *drawn_normals;    // (S, 3)
-  uint32_t *owners;                       // (S) the patch of each sample
-  uint32_t *next_sample;                  // (S) lists of the samples of each centre, while centres are added
+  float *drawn_normals;                   // (S, 3)
+  uint16_t *owners;                       // (S) the patch of each sample
+  float *distances;                       // (S) squared, to the nearest centre so far; where the points will be
+  uint32_t *next_sample;                  // (S) lists of the samples of each centre, while centres are added; also there
   uint32_t *first_sample;                 // (N)
   uint32_t *farthest_sample;              // (N) of those of the centre,
   float *reach;                           // (N) and its squared distance
@@ -1620,7 +1620,8 @@ static void nsvcd__sample_surface(const nsvcd_mesh *mesh, size_t count, float *p
 // All arrays in one block: the doubles first, then everything of four bytes.
 static nsvcd_result nsvcd__patches_alloc(nsvcd__patches *p, size_t count, size_t samples,
                                          const nsvcd_allocator *allocator) {
-  size_t words = (16 + 2 * NSVCD__NEIGHBOURS) * count + 1 + 18 * samples;  // no overflow: count <= NSVCD_SMALL_POINTS
+  // No overflow: count <= NSVCD_SMALL_POINTS.
+  const size_t words = (16 + 2 * NSVCD__NEIGHBOURS) * count + 1 + 12 * samples + (samples + 1) / 2;
   memset(p, 0, sizeof *p);
   p->memory = nsvcd__alloc(allocator, count * sizeof(nsvcd__patch_sum) + words * sizeof(float));
   if (!p->memory) return NSVCD_ERROR_MEMORY;
@@ -1638,19 +1639,18 @@ static nsvcd_result nsvcd__patches_alloc(nsvcd__patches *p, size_t count, size_t
   p->x = next, next += samples;
   p->y = next, next += samples;
   p->z = next, next += samples;
-  p->distances = next, next += samples;
-  p->drawn_points = next, next += 3 * samples;
   p->drawn_normals = next, next += 3 * samples;
   p->points = next, next += 3 * samples;
+  p->distances = p->points;
+  p->next_sample = (uint32_t *)(void *)(p->points + samples);
   p->normals = next, next += 3 * samples;
   p->quarter_gaps = next, next += NSVCD__NEIGHBOURS * count;
   p->reach = next, next += count;
-  p->owners = (uint32_t *)(void *)next;
-  p->next_sample = p->owners + samples;
-  p->first_sample = p->next_sample + samples;
+  p->first_sample = (uint32_t *)(void *)next;
   p->farthest_sample = p->first_sample + count;
   p->neighbours = p->farthest_sample + count;
   p->offsets = p->neighbours + NSVCD__NEIGHBOURS * count;
+  p->owners = (uint16_t *)(void *)(p->offsets + count + 1);
   return NSVCD_OK;
 }
 
@@ -1715,7 +1715,8 @@ static uint32_t nsvcd__nearest_centre(const nsvcd__patches *p, uint32_t guess, f
 }
 
 static void nsvcd__give_sample(nsvcd__patches *p, uint32_t s, uint32_t owner, float distance) {
-  p->owners[s] = owner, p->distances[s] = distance;
+  p->owners[s] = (uint16_t)owner;
+  p->distances[s] = distance;
   p->next_sample[s] = p->first_sample[owner], p->first_sample[owner] = s;
   if (distance > p->reach[owner]) p->reach[owner] = distance, p->farthest_sample[owner] = s;
 }
@@ -1783,7 +1784,7 @@ static void nsvcd__move_centres(nsvcd__patches *p) {
     nsvcd__set_centre(p, kept++, (float)(sum->vector[0] / sum->weight), (float)(sum->vector[1] / sum->weight),
                       (float)(sum->vector[2] / sum->weight));
   }
-  for (size_t s = 0; s < p->sample_count; ++s) p->owners[s] = p->offsets[p->owners[s]];
+  for (size_t s = 0; s < p->sample_count; ++s) p->owners[s] = (uint16_t)p->offsets[p->owners[s]];
   p->count = kept;
   nsvcd__link_centres(p);
 }
@@ -1806,7 +1807,9 @@ static void nsvcd__group_samples(nsvcd__patches *p) {
   for (size_t s = 0; s < p->sample_count; ++s) {
     uint32_t owner = p->owners[s];
     size_t to = p->offsets[owner]++;  // afterwards each offset is the next patch's
-    memcpy(p->points + 3 * to, p->drawn_points + 3 * s, 3 * sizeof(float));
+    p->points[3 * to] = p->x[s];
+    p->points[3 * to + 1] = p->y[s];
+    p->points[3 * to + 2] = p->z[s];
     memcpy(p->normals + 3 * to, p->drawn_normals + 3 * s, 3 * sizeof(float));
     double distance = nsvcd__squared_distance(p, owner, (double)p->x[s], (double)p->y[s], (double)p->z[s]);
     if (distance > p->sums[owner].reach) p->sums[owner].reach = distance;
@@ -1920,15 +1923,17 @@ static nsvcd_result nsvcd__patches_build(const nsvcd_mesh *mesh, size_t points, 
   nsvcd__patches p;
   const nsvcd_result result = nsvcd__patches_alloc(&p, points, NSVCD__SAMPLES_PER_POINT * points, allocator);
   if (result != NSVCD_OK) return result;
-  nsvcd__sample_surface(mesh, p.sample_count, p.drawn_points, p.drawn_normals);
+  nsvcd__sample_surface(mesh, p.sample_count, p.points, p.drawn_normals);
   for (size_t s = 0; s < p.sample_count; ++s) {
-    p.x[s] = p.drawn_points[3 * s], p.y[s] = p.drawn_points[3 * s + 1], p.z[s] = p.drawn_points[3 * s + 2];
+    p.x[s] = p.points[3 * s];
+    p.y[s] = p.points[3 * s + 1];
+    p.z[s] = p.points[3 * s + 2];
   }
   nsvcd__farthest_points(&p);
   nsvcd__move_centres(&p);
   for (int step = 1; step < NSVCD__LLOYD_STEPS; ++step) {
     for (size_t s = 0; s < p.sample_count; ++s) {
-      p.owners[s] = nsvcd__nearest_centre(&p, p.owners[s], p.x[s], p.y[s], p.z[s]);
+      p.owners[s] = (uint16_t)nsvcd__nearest_centre(&p, p.owners[s], p.x[s], p.y[s], p.z[s]);
     }
     nsvcd__move_centres(&p);
   }
@@ -2555,12 +2560,14 @@ typedef struct nsvcd__facet {
 } nsvcd__facet;
 
 typedef struct nsvcd__piece {
-  size_t first;  // of its corners
-  uint32_t count;
+  uint32_t first;  // of its corners; NSVCD__WHOLE: they are the triangle's
   uint32_t triangle;
-  uint32_t patch;
+  uint16_t patch;
+  uint8_t count;   // of its corners
   uint8_t parted;  // 1: its triangle is listed in parts
 } nsvcd__piece;
+
+#define NSVCD__WHOLE 0xffffffffu
 
 typedef struct nsvcd__pieces {
   const nsvcd__region *region;
@@ -2589,6 +2596,7 @@ static const nsvcd__piece *nsvcd__piece_at(const nsvcd__pieces *pieces, size_t i
 
 static const uint32_t *nsvcd__piece_corners(const nsvcd__pieces *pieces,
                                             const nsvcd__piece *piece) {
+  if (piece->first == NSVCD__WHOLE) return pieces->region->mesh.indices + 3 * (size_t)piece->triangle;
   return (const uint32_t *)pieces->corners.items + piece->first;
 }
 
@@ -2701,17 +2709,23 @@ static int nsvcd__trim(nsvcd__pieces *pieces, uint32_t patch, nsvcd__facet *face
   return 1;
 }
 
-// 0 without memory.
+// 0 without memory. piece: all but its corners.
 static int nsvcd__add_piece(nsvcd__pieces *pieces, const nsvcd__facet *facet, nsvcd__piece piece,
                             const nsvcd_allocator *allocator) {
+  const uint32_t *triangle = pieces->region->mesh.indices + 3 * (size_t)piece.triangle;
+  const int whole = facet->count == 3 && memcmp(facet->points, triangle, 3 * sizeof *triangle) == 0;
+  piece.count = (uint8_t)facet->count;
+  piece.first = NSVCD__WHOLE;
+  if (!whole) {
+    nsvcd__list *corners = &pieces->corners;
+    if (corners->count >= NSVCD__WHOLE - NSVCD__FACET_CORNERS) return 0;
+    if (!nsvcd__list_reserve(corners, facet->count, sizeof(uint32_t), allocator)) return 0;
+    memcpy((uint32_t *)corners->items + corners->count, facet->points, facet->count * sizeof(uint32_t));
+    piece.first = (uint32_t)corners->count;
+    corners->count += facet->count;
+  }
   if (!nsvcd__list_reserve(&pieces->list, 1, sizeof(nsvcd__piece), allocator)) return 0;
-  if (!nsvcd__list_reserve(&pieces->corners, facet->count, sizeof(uint32_t), allocator)) return 0;
-  uint32_t *corners = (uint32_t *)pieces->corners.items + pieces->corners.count;
-  memcpy(corners, facet->points, facet->count * sizeof *corners);
-  piece.first = pieces->corners.count;
-  piece.count = (uint32_t)facet->count;
   ((nsvcd__piece *)pieces->list.items)[pieces->list.count++] = piece;
-  pieces->corners.count += facet->count;
   return 1;
 }
 
@@ -2739,7 +2753,7 @@ static double nsvcd__longest_edge(const nsvcd__pieces *pieces, const nsvcd__face
 // 0 without memory. guess: the patch of the piece before.
 static int nsvcd__cut_up(nsvcd__pieces *pieces, uint32_t triangle, uint32_t *guess,
                          const nsvcd_allocator *allocator) {
-  nsvcd__piece piece = {0, 0, triangle, 0, 0};
+  nsvcd__piece piece = {NSVCD__WHOLE, triangle, 0, 0, 0};
   nsvcd__facet *whole = &pieces->waiting[0];
   memcpy(whole->points, pieces->region->mesh.indices + 3 * (size_t)triangle, 3 * sizeof *whole->points);
   whole->count = 3;
@@ -2748,7 +2762,7 @@ static int nsvcd__cut_up(nsvcd__pieces *pieces, uint32_t triangle, uint32_t *gue
   while (pieces->waiting_count > 0) {
     nsvcd__facet facet = pieces->waiting[--pieces->waiting_count];
     *guess = nsvcd__facet_patch(pieces, &facet, *guess);
-    piece.patch = *guess;
+    piece.patch = (uint16_t)*guess;
     if (!nsvcd__trim(pieces, piece.patch, &facet, allocator)) return 0;
     if (!nsvcd__add_piece(pieces, &facet, piece, allocator)) return 0;
   }
@@ -2781,6 +2795,9 @@ static int nsvcd__pieces_build(const nsvcd__region *region, const nsvcd__patches
   const size_t facet = sizeof(nsvcd__facet);
   pieces->waiting = (nsvcd__facet *)nsvcd__alloc_array(allocator, NSVCD__FACET_STACK, facet);
   int ok = pieces->waiting != NULL;
+  // Most triangles are one piece: as many, and an eighth more, then seldom need the list to grow, which takes it twice.
+  const size_t likely = region->mesh.triangle_count + region->mesh.triangle_count / 8;
+  ok = ok && nsvcd__list_reserve(&pieces->list, likely, sizeof(nsvcd__piece), allocator);
   uint32_t guess = 0;
   for (uint32_t t = 0; ok && t < region->mesh.triangle_count; t++) {
     ok = nsvcd__cut_up(pieces, t, &guess, allocator);

@@ -9,6 +9,7 @@
 
 #include "check.h"
 #include "failing_heap.h"
+#include "level_bench.h"
 #include "level_scene.h"
 
 void test_level(void);
@@ -748,6 +749,28 @@ static void level_encoding_ends_well(void) {
   level_free(&solid);
 }
 
+// Encoding takes at most 100 bytes a triangle at a time, from 10,000 triangles on, in one region and in several.
+static void level_encoding_is_frugal(void) {
+  const size_t sizes[3] = {10000, 40000, 60000};
+  for (int i = 0; i < 3; i++) {
+    shapes_mesh shape;
+    level_solid solid;
+    heap h = {0, 0};
+    const nsvcd_allocator allocator = {heap_alloc, heap_free, &h};
+    const nsvcd_encode_options options = level_options(i < 2 ? 0 : 5000);
+    memset(&shape, 0, sizeof shape);
+    level_make(&shape, 20, sizes[i], 1);
+    level_solid_init(&solid, &shape, 0);
+    CHECK_EQ(nsvcd_encode(&solid.mesh, &options, &allocator, NULL, 0, &solid.body), NSVCD_OK);
+    const double most = (double)h.most / (double)solid.mesh.triangle_count;
+    printf("  %zu triangles: %.0f bytes for each\n", solid.mesh.triangle_count, most);
+    CHECK_LE(most, 100);
+    nsvcd_body_free(solid.body, &allocator);
+    solid.body = NULL;
+    level_free(&solid);
+  }
+}
+
 // The same mesh, the same bytes.
 static void level_is_deterministic(void) {
   const level_world *w = level_shared();
@@ -777,6 +800,7 @@ void test_level(void) {
 #endif
   RUN(level_of_bad_triangles);
   RUN(level_encoding_ends_well);
+  RUN(level_encoding_is_frugal);
   RUN(level_is_deterministic);
 }
 
