@@ -1,9 +1,11 @@
-// Tiny test macros. A test is a `static void name(void)`; RUN(name) runs it unless the filter argument excludes it.
+// Tiny test macros. A test is a `static void name(void)`; RUN(name) runs it unless the filter argument excludes it. With
+// CHECK_ENDS_EARLY defined, the first test that fails is the last.
 #ifndef NSVCD_TESTS_CHECK_H
 #define NSVCD_TESTS_CHECK_H
 
 #include <math.h>
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 
 typedef struct check_state {
@@ -14,6 +16,12 @@ typedef struct check_state {
 
 extern check_state check;
 
+#ifdef CHECK_ENDS_EARLY
+#define CHECK_ENDS 1
+#else
+#define CHECK_ENDS 0
+#endif
+
 #define RUN(test)                                                        \
   do {                                                                   \
     if (check.filter && !strstr(#test, check.filter)) break;             \
@@ -22,6 +30,7 @@ extern check_state check;
     check.failures_in_test ? (void)check.failed++ : (void)check.passed++; \
     printf("%-60s %s\n", #test, check.failures_in_test ? "FAILED" : "ok"); \
     fflush(stdout);                                                      \
+    if (CHECK_ENDS && check.failures_in_test) exit(1);                   \
   } while (0)
 
 #define CHECK(condition)                                                         \
