@@ -307,8 +307,9 @@ weights: $(CHECKPOINT) $(CALIBRATION)/standard.txt $(CALIBRATION)/hollow.txt  ##
 	cd train && $(PYTHON) calibrate.py ../$(CHECKPOINT) ../build/svcd $(CALIBRATION:%=../%/standard.txt) $(CALIBRATION:%=../%/hollow.txt)
 	cd train && $(PYTHON) export.py ../$(CHECKPOINT) ../weights.h ../tests/data/golden.h
 
+FORMATTED = neuralsvcd.h $(wildcard examples/*.[ch] examples/firmware/*.[ch] tests/*.[ch])
 format:  ## clang-format on what is written by hand
-	clang-format -i neuralsvcd.h examples/*.[ch] tests/*.[ch]
+	clang-format -i $(FORMATTED)
 
 clean:  ## removes build/
 	rm -rf build

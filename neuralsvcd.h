@@ -1,11 +1,13 @@
 // neuralsvcd.h - v0.2.0 - does this body, moving along this trajectory, hit that body?
 //
-// The answer is proven: a witness (two triangles that meet, and when) or a certificate that the surfaces never do, at
-// any time, rotation included. Where memory is short, or a gradient is needed, a small neural network answers instead
-// (NeuralSVCD: Son, Jung, Kim, CoRL 2025), whose weights, trained by this project, are in weights.h. C99 or C++11, libc
-// and libm, nothing else. MIT licence (LICENSE), which covers the weights too.
+// The answer is proven: a witness (two triangles that meet, and when) or a certificate that the
+// surfaces never do, at any time, rotation included. Where memory is short, or a gradient is
+// needed, a small neural network answers instead (NeuralSVCD: Son, Jung, Kim, CoRL 2025), whose
+// weights, trained by this project, are in weights.h. C99 or C++11, libc and libm, nothing else.
+// MIT licence (LICENSE), which covers the weights too.
 //
-// Do this in ONE C or C++ file, with weights.h beside this header; include the header alone everywhere else:
+// Do this in ONE C or C++ file, with weights.h beside this header; include the header alone
+// everywhere else:
 //
 //   #define NEURALSVCD_IMPLEMENTATION
 //   #include "neuralsvcd.h"
@@ -43,8 +45,8 @@
 //
 // Or plan a motion that hits nothing: nsvcd_plan, below.
 //
-// Every function that can fail returns a nsvcd_result, 0 being success, and then leaves its outputs as they were.
-// examples/quickstart.c is the whole program.
+// Every function that can fail returns a nsvcd_result, 0 being success, and then leaves its outputs
+// as they were. examples/quickstart.c is the whole program.
 //
 // OPTIONS, defined before the implementation is included
 //   NSVCD_STATIC      all functions static
@@ -52,43 +54,52 @@
 //   NSVCD_NO_OBJ      no OBJ reader at all
 //   NSVCD_NO_ENCODER  no nsvcd_encode and no OBJ reader: bodies come from nsvcd_body_load
 //   NSVCD_NO_PROOF    no proof: the network answers, and bodies have no triangles
-//   NSVCD_NO_NETWORK  no network, and weights.h is not needed: the proof alone; no gradient, no optimizer
+//   NSVCD_NO_NETWORK  no network, and weights.h is not needed: the proof alone; no gradient, no
+//                     optimizer
 //   NSVCD_NO_SMALL, NSVCD_NO_BASE   without these decoders; the default is the largest that is left
 //   NSVCD_NO_GRADIENT no nsvcd_sweep_gradient, and no optimizer
 //   NSVCD_NO_OPTIMIZER  no trajectory optimizer
-//   NSVCD_NO_INT8, NSVCD_NO_FLOAT   without this arithmetic of the decoders; without float, int8 is the default
+//   NSVCD_NO_INT8, NSVCD_NO_FLOAT   without this arithmetic of the decoders; without float, int8 is
+//                                   the default
 //   NSVCD_NO_SIMD     plain C where the compiler's flags allow AVX-512, AVX2 with FMA, SSE2 or NEON
 //
 // CONVENTIONS
-//   Metres, radians, right-handed; quaternions x y z w of unit length; time in [0,1]; arrays row-major with their shape
-//   beside the pointer. Meshes are triangles, counter-clockwise seen from outside: the winding gives the normals, and
-//   flipping it costs accuracy. Options are structs whose zero value means the defaults. Functions are re-entrant,
-//   there are no globals, and memory is the caller's, or comes from the caller's allocator in the two functions that
-//   take one.
+//   Metres, radians, right-handed; quaternions x y z w of unit length; time in [0,1]; arrays
+//   row-major with their shape beside the pointer. Meshes are triangles, counter-clockwise seen
+//   from outside: the winding gives the normals, and flipping it costs accuracy. Options are
+//   structs whose zero value means the defaults. Functions are re-entrant, there are no globals,
+//   and memory is the caller's, or comes from the caller's allocator in the two functions that take
+//   one.
 //
 // WHAT AN ANSWER IS WORTH
-//   By proof, the default, WITNESS, CERTIFIED_FREE and INSIDE are facts, not opinions; the theorem stands in section
-//   *proof*. It is about the surfaces of the two meshes and the motion as described at nsvcd_sweep, and it is tested by
-//   replaying certificates in double precision (tests/test_proof.c). UNDECIDED says that surfaces come as close as the
-//   triangles are stored (nsvcd_body_facts.quantum), or that the work allowed was not enough; then `collides` is the
-//   network's opinion, or yes. A component of a mesh is closed if every edge has its reverse; what is open encloses
-//   nothing.
-//   By the network, CERTIFIED_FREE is a proof too: spheres that cover the surfaces never meet. INSIDE is an estimate, a
-//   winding number of patches: reliable for closed meshes of one piece. Everything else is an opinion: README.md has its
-//   measured error rates. It knows nothing finer than a few millimetres on bodies of 0.1 to 0.4 m: where bodies rest on
-//   one another, ask for a proof.
+//   By proof, the default, WITNESS, CERTIFIED_FREE and INSIDE are facts, not opinions; the theorem
+//   stands in section *proof*. It is about the surfaces of the two meshes and the motion as
+//   described at nsvcd_sweep, and it is tested by replaying certificates in double precision
+//   (tests/test_proof.c). UNDECIDED says that surfaces come as close as the triangles are stored
+//   (nsvcd_body_facts.quantum), or that the work allowed was not enough; then `collides` is the
+//   network's opinion, or yes. A component of a mesh is closed if every edge has its reverse; what
+//   is open encloses nothing.
+//   By the network, CERTIFIED_FREE is a proof too: spheres that cover the surfaces never meet.
+//   INSIDE is an estimate, a winding number of patches: reliable for closed meshes of one piece.
+//   Everything else is an opinion: README.md has its measured error rates. It knows nothing finer
+//   than a few millimetres on bodies of 0.1 to 0.4 m: where bodies rest on one another, ask for a
+//   proof.
 //
-// NUMERIC ROBUSTNESS (float32), as measured by `make race`, `make bench`, tests/test_proof.c and tests/extremes.sh
-//   Coordinates up to NSVCD_MAX_COORDINATE; bodies from NSVCD_MIN_RADIUS, below which squares underflow. Proofs hold at
-//   every scale, tested from 3e-11 to 3e5 m. They allow for float32 with NSVCD__ROUNDING, two millionths, of the distances
-//   and extents involved: so much room must be between the surfaces of what is to be certified free, and little more; 2 um
-//   for bodies of 0.3 m, 80 um where one of them measures 20 m. Positions are taken relative to the fixed body first, so a
-//   scene 10 km from the origin loses what its own coordinates lose, about 1 mm. All is reckoned in the frame of one of the
-//   two bodies, the one that rests or is the larger, in units of its scale.
-//   For the network, resolution is the limit: a patch must not be much larger than the clearance in question. With 512
-//   patches each, a body of 5 cm against one of 0.3, 1, 3 and 20 m is judged right in 98.5, 93.5, 74 and 54 % of
-//   problems near contact; with the large mesh cut to what the motion can reach (nsvcd_mesh_cut), in 99 %. For the proof
-//   the size of patches decides only what an answer costs.
+// NUMERIC ROBUSTNESS (float32), as measured by `make race`, `make bench`, tests/test_proof.c and
+// tests/extremes.sh
+//   Coordinates up to NSVCD_MAX_COORDINATE; bodies from NSVCD_MIN_RADIUS, below which squares
+//   underflow. Proofs hold at every scale, tested from 3e-11 to 3e5 m. They allow for float32 with
+//   NSVCD__ROUNDING, two millionths, of the distances and extents involved: so much room must be
+//   between the surfaces of what is to be certified free, and little more; 2 um for bodies of 0.3
+//   m, 80 um where one of them measures 20 m. Positions are taken relative to the fixed body first,
+//   so a scene 10 km from the origin loses what its own coordinates lose, about 1 mm. All is
+//   reckoned in the frame of one of the two bodies, the one that rests or is the larger, in units
+//   of its scale.
+//   For the network, resolution is the limit: a patch must not be much larger than the clearance in
+//   question. With 512 patches each, a body of 5 cm against one of 0.3, 1, 3 and 20 m is judged
+//   right in 98.5, 93.5, 74 and 54 % of problems near contact; with the large mesh cut to what the
+//   motion can reach (nsvcd_mesh_cut), in 99 %. For the proof the size of patches decides only what
+//   an answer costs.
 //   NaN and infinity are refused on the bits, also under -ffast-math.
 #ifndef NEURALSVCD_H
 #define NEURALSVCD_H
@@ -108,8 +119,10 @@
 #if defined(NSVCD_NO_INT8) && defined(NSVCD_NO_FLOAT)
 #error "neuralsvcd.h: NSVCD_NO_INT8 and NSVCD_NO_FLOAT leave no decoder"
 #endif
-#if defined(__FINITE_MATH_ONLY__) && __FINITE_MATH_ONLY__ && defined(NEURALSVCD_IMPLEMENTATION) && defined(__GNUC__)
-#pragma GCC warning "neuralsvcd.h: -ffinite-math-only: bad input is still refused, but results are not tested so"
+#if defined(__FINITE_MATH_ONLY__) && __FINITE_MATH_ONLY__ && defined(NEURALSVCD_IMPLEMENTATION) && \
+    defined(__GNUC__)
+#pragma GCC warning \
+    "neuralsvcd.h: -ffinite-math-only: bad input is still refused, but results are not tested so"
 #endif
 
 #include <stddef.h>
@@ -125,7 +138,7 @@
 extern "C" {
 #endif
 
-// ---------------------------------------------------------------------------------------------------- results
+// ----------------------------------------------------------------------------------------- results
 
 typedef enum nsvcd_result {
   NSVCD_OK = 0,
@@ -138,115 +151,144 @@ typedef enum nsvcd_result {
   NSVCD_ERROR_EMPTY,      // no triangle, or no area
   NSVCD_ERROR_TOO_LARGE,  // more vertices, triangles or bytes than can be counted
   NSVCD_ERROR_POSE,       // a pose is not finite, or its quaternion is not of unit length to 1e-4
-  NSVCD_ERROR_SCALE,      // a scale is not finite, negative, or out of range, or makes a body larger or smaller than may be
-  NSVCD_ERROR_TOLERANCE,  // a tolerance, a clearance or the like is negative, not finite, or beyond the scene
-  NSVCD_ERROR_SAME,       // both sides of a question are the same body in the same motion: something was passed twice
-  NSVCD_ERROR_BODY,       // a body blob is damaged, cut short, misaligned, of another version or model, or has not
-                          // what the method asked for needs
+  // a scale is not finite, negative, or out of range, or makes a body larger or smaller than may be
+  NSVCD_ERROR_SCALE,
+  // a tolerance, a clearance or the like is negative, not finite, or beyond the scene
+  NSVCD_ERROR_TOLERANCE,
+  // both sides of a question are the same body in the same motion: something was passed twice
+  NSVCD_ERROR_SAME,
+  // a body blob is damaged, cut short, misaligned, of another version or model, or has not what the
+  // method asked for needs
+  NSVCD_ERROR_BODY,
   NSVCD_ERROR_WORKSPACE,  // the memory given is too small, or not aligned to NSVCD_ALIGNMENT bytes
   NSVCD_ERROR_CANCELLED   // by the caller's progress function
 } nsvcd_result;
 
 NSVCDDEF const char *nsvcd_result_string(nsvcd_result result);
 
-// ------------------------------------------------------------------------------------------------- allocation
+// -------------------------------------------------------------------------------------- allocation
 
-// NULL in place of an allocator means malloc and free. alloc returns NULL on failure; memory is aligned as malloc's.
+// NULL in place of an allocator means malloc and free. alloc returns NULL on failure; memory is
+// aligned as malloc's.
 typedef struct nsvcd_allocator {
   void *(*alloc)(size_t size, void *user);
   void (*free)(void *memory, void *user);
   void *user;
 } nsvcd_allocator;
 
-// ------------------------------------------------------------------------------------------------------ meshes
+// ------------------------------------------------------------------------------------------ meshes
 
 typedef struct nsvcd_mesh {
-  float *positions;   // (vertex_count, 3) metres
-  uint32_t *indices;  // (triangle_count, 3) counter-clockwise from outside: the winding gives the normals
+  float *positions;  // (vertex_count, 3) metres
+  // (triangle_count, 3) counter-clockwise from outside: the winding gives the normals
+  uint32_t *indices;
   size_t vertex_count;
   size_t triangle_count;
 } nsvcd_mesh;
 
 #ifndef NSVCD_NO_OBJ
-// Reads OBJ text of `size` bytes, which need not end in a NUL or a newline, into a mesh that nsvcd_mesh_free gives
-// back. Faces of any number of corners are cut into triangles, concave ones of up to 4096 corners too; a face may refer
-// to vertices further down; only v and f lines matter. Linear time but for concave faces. On failure *mesh is left as
-// it was, nothing stays allocated, and *error_line (NULL allowed) is the line at fault, from 1, or 0 where no line is;
-// of several faults the one found first, in the order statements and counts, vertices, faces. Errors: ARGUMENT, MEMORY,
-// SYNTAX, INDEX, NUMBER, EMPTY, TOO_LARGE; load: also IO.
-NSVCDDEF nsvcd_result nsvcd_obj_parse(const char *text, size_t size, const nsvcd_allocator *allocator, nsvcd_mesh *mesh,
+// Reads OBJ text of `size` bytes, which need not end in a NUL or a newline, into a mesh that
+// nsvcd_mesh_free gives back. Faces of any number of corners are cut into triangles, concave ones
+// of up to 4096 corners too; a face may refer to vertices further down; only v and f lines matter.
+// Linear time but for concave faces. On failure *mesh is left as it was, nothing stays allocated,
+// and *error_line (NULL allowed) is the line at fault, from 1, or 0 where no line is; of several
+// faults the one found first, in the order statements and counts, vertices, faces. Errors:
+// ARGUMENT, MEMORY, SYNTAX, INDEX, NUMBER, EMPTY, TOO_LARGE; load: also IO.
+NSVCDDEF nsvcd_result nsvcd_obj_parse(const char *text, size_t size,
+                                      const nsvcd_allocator *allocator, nsvcd_mesh *mesh,
                                       size_t *error_line);
 #ifndef NSVCD_NO_STDIO
-NSVCDDEF nsvcd_result nsvcd_obj_load(const char *path, const nsvcd_allocator *allocator, nsvcd_mesh *mesh,
-                                     size_t *error_line);
+NSVCDDEF nsvcd_result nsvcd_obj_load(const char *path, const nsvcd_allocator *allocator,
+                                     nsvcd_mesh *mesh, size_t *error_line);
 #endif
 #endif
 #ifndef NSVCD_NO_ENCODER
-// The part of a mesh within the box low..high (its own frame), for where a large mesh changes all the time, or the network
-// is to answer, which needs patches not much larger than the gap in question: encode only what the moving body can reach -
-// the box over its sweep, grown a little - as an `open` body. A mesh that stays is better encoded whole, once. Triangles are cut at the box; vertices are not shared. part: given back by nsvcd_mesh_free. On failure
-// it is left as it was. Errors: ARGUMENT (also a box that is not finite, or has no volume), EMPTY (nothing of it in the
-// box), and those of a mesh that nsvcd_encode would refuse; MEMORY, TOO_LARGE. Source: Sutherland and Hodgman 1974.
-NSVCDDEF nsvcd_result nsvcd_mesh_cut(const nsvcd_mesh *mesh, const float low[3], const float high[3],
-                                     const nsvcd_allocator *allocator, nsvcd_mesh *part);
-// Gives back what nsvcd_obj_parse, nsvcd_obj_load or nsvcd_mesh_cut allocated; the same allocator. NULL is allowed.
+// The part of a mesh within the box low..high (its own frame), for where a large mesh changes all
+// the time, or the network is to answer, which needs patches not much larger than the gap in
+// question: encode only what the moving body can reach - the box over its sweep, grown a little -
+// as an `open` body. A mesh that stays is better encoded whole, once. Triangles are cut at the box;
+// vertices are not shared. part: given back by nsvcd_mesh_free. On failure it is left as it was.
+// Errors: ARGUMENT (also a box that is not finite, or has no volume), EMPTY (nothing of it in the
+// box), and those of a mesh that nsvcd_encode would refuse; MEMORY, TOO_LARGE. Source: Sutherland
+// and Hodgman 1974.
+NSVCDDEF nsvcd_result nsvcd_mesh_cut(const nsvcd_mesh *mesh, const float low[3],
+                                     const float high[3], const nsvcd_allocator *allocator,
+                                     nsvcd_mesh *part);
+// Gives back what nsvcd_obj_parse, nsvcd_obj_load or nsvcd_mesh_cut allocated; the same allocator.
+// NULL is allowed.
 NSVCDDEF void nsvcd_mesh_free(nsvcd_mesh *mesh, const nsvcd_allocator *allocator);
 #endif
 
-// ------------------------------------------------------------------------------------------------------ bodies
+// ------------------------------------------------------------------------------------------ bodies
 
-// An encoded body: one relocatable blob without pointers, `size` bytes, aligned to NSVCD_ALIGNMENT. Copy it with
-// memcpy, write it with fwrite, map it, or bake it into flash as a const array. Little-endian, IEEE 754.
+// An encoded body: one relocatable blob without pointers, `size` bytes, aligned to NSVCD_ALIGNMENT.
+// Copy it with memcpy, write it with fwrite, map it, or bake it into flash as a const array.
+// Little-endian, IEEE 754.
 typedef struct nsvcd_body nsvcd_body;
 
 #define NSVCD_ALIGNMENT 8
 #define NSVCD_DEFAULT_POINTS 192
-#define NSVCD_DEFAULT_NETWORK_POINTS 256  // of bodies for the network alone, which needs finer patches than a proof
-#define NSVCD_MAX_POINTS 65536     // representative points (patches) of a body
-#define NSVCD_SMALL_POINTS 512     // bodies of more are levels: patches in a tree, and latents only if asked for
-#define NSVCD_FEW_TRIANGLES 32768    // a mesh of up to so many is encoded with NSVCD_DEFAULT_POINTS, if nothing is said,
-#define NSVCD_MANY_TRIANGLES 131072  // of up to so many with NSVCD_SMALL_POINTS. More are taken for a level:
-#define NSVCD_LEVEL_TRIANGLES 12     // then a patch for so many triangles
+// Of bodies for the network alone, which needs finer patches than a proof.
+#define NSVCD_DEFAULT_NETWORK_POINTS 256
+#define NSVCD_MAX_POINTS 65536  // representative points (patches) of a body
+// Bodies of more are levels: patches in a tree, and latents only if asked for.
+#define NSVCD_SMALL_POINTS 512
+// A mesh of up to so many triangles is encoded with NSVCD_DEFAULT_POINTS, if nothing is said, of
+// up to MANY with NSVCD_SMALL_POINTS. More are taken for a level, with a patch for each 12.
+#define NSVCD_FEW_TRIANGLES 32768
+#define NSVCD_MANY_TRIANGLES 131072
+#define NSVCD_LEVEL_TRIANGLES 12
 #define NSVCD_MAX_COORDINATE 1e6f  // metres
 #define NSVCD_MIN_RADIUS 1e-12f    // metres, of a body's bounding sphere
 #define NSVCD_MAX_POSES 65536      // per motion
 #define NSVCD_MIN_SCALE 1e-6f      // of a body in a question
 #define NSVCD_MAX_SCALE 1e6f
 
-// done: in [0,1]. Returns 0 to go on, else the work is given up, and the result is NSVCD_ERROR_CANCELLED.
+// done: in [0,1]. Returns 0 to go on, else the work is given up, and the result is
+// NSVCD_ERROR_CANCELLED.
 typedef int nsvcd_progress(float done, void *user);
 
 typedef struct nsvcd_encode_options {
-  size_t points;       // N, representative points (patches), 1..NSVCD_MAX_POINTS; 0: by the number of triangles, see above;
-                       // NSVCD_DEFAULT_NETWORK_POINTS without triangles
-  float patch_radius;  // metres; if > 0 and points is 0: as many points as make patches of about this radius. For a level
-                       // about half the size of the bodies that move in it
-  int open;            // 1: the mesh is not closed (a sheet, or a part cut out): nothing counts as inside it
-  int no_triangles;    // 1: for the network alone, in fewer bytes; then there is no proof
-  int no_latents;      // 1: for the proof alone
-  int latents;         // 1: for the network too, also where there are more than NSVCD_SMALL_POINTS points. Not with no_latents
-  nsvcd_progress *progress;  // NULL, or told now and then how much is done; a large mesh takes seconds
-  void *user;                // handed to it
+  // N, representative points (patches), 1..NSVCD_MAX_POINTS; 0: by the number of triangles, see
+  // above; NSVCD_DEFAULT_NETWORK_POINTS without triangles
+  size_t points;
+  // metres; if > 0 and points is 0: as many points as make patches of about this radius. For a
+  // level about half the size of the bodies that move in it
+  float patch_radius;
+  // 1: the mesh is not closed (a sheet, or a part cut out): nothing counts as inside it
+  int open;
+  int no_triangles;  // 1: for the network alone, in fewer bytes; then there is no proof
+  int no_latents;    // 1: for the proof alone
+  // 1: for the network too, also where there are more than NSVCD_SMALL_POINTS points. Not with
+  // no_latents
+  int latents;
+  // NULL, or told now and then how much is done; a large mesh takes seconds
+  nsvcd_progress *progress;
+  void *user;  // handed to it
 } nsvcd_encode_options;
 
 #ifndef NSVCD_NO_NETWORK
-// Bytes of a body of `points` points without triangles; 0 if there can be no such body. One with triangles takes up to
-// 12 bytes more for each, and 100 to 200 for each point: let nsvcd_encode allocate it, or ask nsvcd_body_describe.
+// Bytes of a body of `points` points without triangles; 0 if there can be no such body. One with
+// triangles takes up to 12 bytes more for each, and 100 to 200 for each point: let nsvcd_encode
+// allocate it, or ask nsvcd_body_describe.
 NSVCDDEF size_t nsvcd_body_size(size_t points);
 // The same as a constant, for 1 to NSVCD_SMALL_POINTS points.
-#define NSVCD_BODY_BYTES(points)                                                                              \
-  ((64 + 28 * (((points) + 15) / 16 * 16) + 16 * ((((points) + 15) / 16 + 15) / 16 * 16) + 40 * (points) + 7) / 8 * 8)
+#define NSVCD_BODY_BYTES(points)                                                           \
+  ((64 + 28 * (((points) + 15) / 16 * 16) + 16 * ((((points) + 15) / 16 + 15) / 16 * 16) + \
+    40 * (points) + 7) /                                                                   \
+   8 * 8)
 #endif
 
 #ifndef NSVCD_NO_ENCODER
 // Encodes a mesh and points *body to the result.
 //   options    NULL for the defaults: triangles for the proof, latents for the network.
 //   allocator  NULL for malloc and free. Working memory comes from it and is given back.
-//   memory     `capacity` bytes, aligned to NSVCD_ALIGNMENT, for the body. NULL: the body comes from the allocator, is as
-//              large as it has to be, and nsvcd_body_free gives it back.
-// The body may have fewer points than asked where the surface has too few to tell apart. Deterministic: same mesh, same
-// bytes, in one build. On failure *body is left as it was. Errors: ARGUMENT, NUMBER, INDEX, EMPTY, TOO_LARGE, MEMORY,
-// WORKSPACE. Source: NeuralSVCD, appendix F; the triangles: this library.
+//   memory     `capacity` bytes, aligned to NSVCD_ALIGNMENT, for the body. NULL: the body comes
+//              from the allocator, is as large as it has to be, and nsvcd_body_free gives it back.
+// The body may have fewer points than asked where the surface has too few to tell apart.
+// Deterministic: same mesh, same bytes, in one build. On failure *body is left as it was. Errors:
+// ARGUMENT, NUMBER, INDEX, EMPTY, TOO_LARGE, MEMORY, WORKSPACE. Source: NeuralSVCD, appendix F; the
+// triangles: this library.
 NSVCDDEF nsvcd_result nsvcd_encode(const nsvcd_mesh *mesh, const nsvcd_encode_options *options,
                                    const nsvcd_allocator *allocator, void *memory, size_t capacity,
                                    const nsvcd_body **body);
@@ -254,21 +296,23 @@ NSVCDDEF nsvcd_result nsvcd_encode(const nsvcd_mesh *mesh, const nsvcd_encode_op
 NSVCDDEF void nsvcd_body_free(const nsvcd_body *body, const nsvcd_allocator *allocator);
 #endif
 
-// Checks an untrusted blob in `memory` and points *body at it, without a copy: every byte of it is read. BODY if anything is
-// wrong with it.
+// Checks an untrusted blob in `memory` and points *body at it, without a copy: every byte of it is
+// read. BODY if anything is wrong with it.
 NSVCDDEF nsvcd_result nsvcd_body_load(const void *memory, size_t size, const nsvcd_body **body);
 
-// The same for bytes that are known to be what nsvcd_encode made, and only looks at the header: is it a body of this
-// version and these weights, and as long as it says? For an array baked into the program (`svcd encode`), which is as
-// trustworthy as its code, and for a large file that is mapped and has been loaded once before: pages are then read as
-// queries need them. Bytes that were changed since do harm: wrong answers, or reads anywhere.
+// The same for bytes that are known to be what nsvcd_encode made, and only looks at the header: is
+// it a body of this version and these weights, and as long as it says? For an array baked into the
+// program (`svcd encode`), which is as trustworthy as its code, and for a large file that is mapped
+// and has been loaded once before: pages are then read as queries need them. Bytes that were
+// changed since do harm: wrong answers, or reads anywhere.
 NSVCDDEF nsvcd_result nsvcd_body_trust(const void *memory, size_t size, const nsvcd_body **body);
 
-// Writes a copy of `body` scaled by `scale` > 0 about its origin (in place is allowed): for a planner's bodies, or to bake
-// one; a question has scales of its own. Latents are scale-free, so this takes microseconds and the answers scale along, to
-// rounding. Errors: ARGUMENT, also where the result would be smaller or larger than a body may be; WORKSPACE.
-NSVCDDEF nsvcd_result nsvcd_body_scale(const nsvcd_body *body, float scale, void *memory, size_t capacity,
-                                       const nsvcd_body **scaled);
+// Writes a copy of `body` scaled by `scale` > 0 about its origin (in place is allowed): for a
+// planner's bodies, or to bake one; a question has scales of its own. Latents are scale-free, so
+// this takes microseconds and the answers scale along, to rounding. Errors: ARGUMENT, also where
+// the result would be smaller or larger than a body may be; WORKSPACE.
+NSVCDDEF nsvcd_result nsvcd_body_scale(const nsvcd_body *body, float scale, void *memory,
+                                       size_t capacity, const nsvcd_body **scaled);
 
 typedef struct nsvcd_body_facts {
   size_t size;      // bytes: what to save
@@ -285,11 +329,12 @@ typedef struct nsvcd_body_facts {
 // `body` must not be NULL.
 NSVCDDEF nsvcd_body_facts nsvcd_body_describe(const nsvcd_body *body);
 
-// Centre and radius of one patch (as in nsvcd_answer), metres, body frame; neither may be NULL. Returns 0, and
-// writes nothing, if there is no such patch.
-NSVCDDEF int nsvcd_body_patch(const nsvcd_body *body, uint32_t patch, float centre[3], float *radius);
+// Centre and radius of one patch (as in nsvcd_answer), metres, body frame; neither may be NULL.
+// Returns 0, and writes nothing, if there is no such patch.
+NSVCDDEF int nsvcd_body_patch(const nsvcd_body *body, uint32_t patch, float centre[3],
+                              float *radius);
 
-// ----------------------------------------------------------------------------------------------------- queries
+// ----------------------------------------------------------------------------------------- queries
 
 typedef struct nsvcd_pose {
   float position[3];  // metres
@@ -297,21 +342,31 @@ typedef struct nsvcd_pose {
 } nsvcd_pose;
 
 typedef enum nsvcd_status {
-  NSVCD_STATUS_OK = 0,          // the network has answered
-  NSVCD_STATUS_CERTIFIED_FREE,  // proven: the surfaces never meet, and by the proof, nothing is inside of anything
-  NSVCD_STATUS_INSIDE,          // one body, or a part of it, lies inside the other at the start. By the network's method
-                                // an estimate, by the proof exact
-  NSVCD_STATUS_LIMIT,           // the network has answered, but more pairs overlapped than options.pairs let through
-  NSVCD_STATUS_WITNESS,         // proven: two triangles meet
-  NSVCD_STATUS_UNDECIDED        // the proof came to no end: see nsvcd_answer
+  NSVCD_STATUS_OK = 0,  // the network has answered
+  // proven: the surfaces never meet, and by the proof, nothing is inside of anything
+  NSVCD_STATUS_CERTIFIED_FREE,
+  // one body, or a part of it, lies inside the other at the start. By the network's method an
+  // estimate, by the proof exact
+  NSVCD_STATUS_INSIDE,
+  // the network has answered, but more pairs overlapped than options.pairs let through
+  NSVCD_STATUS_LIMIT,
+  NSVCD_STATUS_WITNESS,   // proven: two triangles meet
+  NSVCD_STATUS_UNDECIDED  // the proof came to no end: see nsvcd_answer
 } nsvcd_status;
 
 NSVCDDEF const char *nsvcd_status_string(nsvcd_status status);  // as `svcd check` prints it
 
-// The decoders, all on the same latents: about 4, 13 and 40 thousand multiplications per pair of patches.
-typedef enum nsvcd_model { NSVCD_MODEL_DEFAULT = 0, NSVCD_MODEL_TINY, NSVCD_MODEL_SMALL, NSVCD_MODEL_BASE } nsvcd_model;
+// The decoders, all on the same latents: about 4, 13 and 40 thousand multiplications per pair of
+// patches.
+typedef enum nsvcd_model {
+  NSVCD_MODEL_DEFAULT = 0,
+  NSVCD_MODEL_TINY,
+  NSVCD_MODEL_SMALL,
+  NSVCD_MODEL_BASE
+} nsvcd_model;
 
-typedef enum nsvcd_precision { NSVCD_PRECISION_FLOAT = 0, NSVCD_PRECISION_INT8 } nsvcd_precision;  // of the decoder
+// of the decoder
+typedef enum nsvcd_precision { NSVCD_PRECISION_FLOAT = 0, NSVCD_PRECISION_INT8 } nsvcd_precision;
 
 // How a question is answered.
 typedef enum nsvcd_method {
@@ -327,33 +382,43 @@ typedef enum nsvcd_method {
 #define NSVCD_LOGIT_CERTAIN 100.0f  // the logit of INSIDE; its negative is that of CERTIFIED_FREE
 
 typedef struct nsvcd_sweep_options {
-  size_t pairs;               // K, pairs of patches that the network looks at, 1..NSVCD_MAX_PAIRS; 0: the default
+  // K, pairs of patches that the network looks at, 1..NSVCD_MAX_PAIRS; 0: the default
+  size_t pairs;
   nsvcd_model model;          // 0: base
   nsvcd_precision precision;  // of the decoder's arithmetic; latents are int8 in any case
-  float recall;  // share of collisions to be found: 0 (balanced errors), 0.99f, 0.999f or 0.9999f, as calibrated
+  // share of collisions to be found: 0 (balanced errors), 0.99f, 0.999f or 0.9999f, as calibrated
+  float recall;
   nsvcd_method method;
-  size_t work;      // units that a proof may take, about; 0: NSVCD_DEFAULT_WORK. A unit is a plane sought for two
-                    // patches, 16 triangles against the box of 16, one of them against these, a pair of triangles at
-                    // one time, or a ray against 16: up to 0.5 microseconds
-  size_t segments;  // a motion is cut into at most so many, in multiples of 16 up to 64; 0: 64. Fewer take less memory; what
-                    // turns by more than 20 degrees in one of them takes longer to prove
-  float tolerance;  // metres, at least 0: surfaces that come closer than this, and do not meet, may be left undecided
+  // units that a proof may take, about; 0: NSVCD_DEFAULT_WORK. A unit is a plane sought for two
+  // patches, 16 triangles against the box of 16, one of them against these, a pair of triangles at
+  // one time, or a ray against 16: up to 0.5 microseconds
+  size_t work;
+  // a motion is cut into at most so many, in multiples of 16 up to 64; 0: 64. Fewer take less
+  // memory; what turns by more than 20 degrees in one of them takes longer to prove
+  size_t segments;
+  // metres, at least 0: surfaces that come closer than this, and do not meet, may be left undecided
+  float tolerance;
   // By proof only:
   float clearance;  // metres: to come as close as this counts as a collision; 0: to meet does
-  float first;      // share of the motion, up to 1: contact_time is that of the first contact, to this, and all before is
-                    // proven free. 0: of any contact
-  float measure;    // metres: clearance_low and clearance_high are the least distance over the motion, to this, but for
-                    // what the stored triangles are off by (nsvcd_body_facts.quantum). 0: unasked. Not with `first`
-  float skin;       // metres: what touches at the start, or is nearer than the clearance, by no more than this, does not
-                    // stop a body that rests on it, slides along it or leaves it: the question is asked as if a were lifted
-                    // off it, by this much along the normals of all that it touches. See answer.lift
+  // share of the motion, up to 1: contact_time is that of the first contact, to this, and all
+  // before is proven free. 0: of any contact
+  float first;
+  // metres: clearance_low and clearance_high are the least distance over the motion, to this, but
+  // for what the stored triangles are off by (nsvcd_body_facts.quantum). 0: unasked. Not with
+  // `first`
+  float measure;
+  // metres: what touches at the start, or is nearer than the clearance, by no more than this, does
+  // not stop a body that rests on it, slides along it or leaves it: the question is asked as if a
+  // were lifted off it, by this much along the normals of all that it touches. See answer.lift
+  float skin;
 } nsvcd_sweep_options;
 
 // A body in a scene: how it moves, and how large it is. Many may share one body.
 typedef struct nsvcd_mover {
-  const nsvcd_body *body;   // from nsvcd_encode, nsvcd_body_load or nsvcd_body_scale
-  const nsvcd_pose *poses;  // (count), uniform in t in [0,1]; position linear and rotation slerp in between. One pose: it
-                            // rests there. NULL, and count 0: it rests at the origin
+  const nsvcd_body *body;  // from nsvcd_encode, nsvcd_body_load or nsvcd_body_scale
+  // (count), uniform in t in [0,1]; position linear and rotation slerp in between. One pose: it
+  // rests there. NULL, and count 0: it rests at the origin
+  const nsvcd_pose *poses;
   size_t count;
   float scale;  // of the body, about its origin, NSVCD_MIN_SCALE..NSVCD_MAX_SCALE; 0: 1
 } nsvcd_mover;
@@ -365,64 +430,80 @@ typedef struct nsvcd_question {
 } nsvcd_question;
 
 typedef struct nsvcd_answer {
-  float logit;         // of collision; positive is yes. The threshold that options.recall asks for is already in it.
-                       // The greatest of the pairs looked at; the search ends at the first above 3. Where the tiny
-                       // decoder, which ranks the pairs, is clear (beyond +-3), it is the one that answers. Of a
-                       // proof: +-NSVCD_LOGIT_CERTAIN; where it is undecided, the network's
-  int collides;        // logit > 0. UNDECIDED: the network's opinion on whether they meet, or yes where there is none or
-                       // something else is asked
-  float contact_time;  // in [0,1]. WITNESS: when the triangles meet; with options.first that is the first contact, and 0
-                       // if they meet at the start; INSIDE: 0; by the network: where the most suspicious pair comes closest
-  float free_until;    // in [0,1]. By proof: no contact is before that. CERTIFIED_FREE: 1; WITNESS: 0, or with
-                       // options.first no less than contact_time - first; UNDECIDED with it: when doubt begins
-  float clearance_low;   // metres. By proof: they stay farther apart than this until free_until;
-  float clearance_high;  // and come this near, at contact_time; what stored triangles are off by is allowed for, and so it
-                         // is not 0 where they meet. HUGE_VALF where it is not known
-  uint32_t patch_a;    // the pair; 0, 0 where there is none
+  // of collision; positive is yes. The threshold that options.recall asks for is already in it. The
+  // greatest of the pairs looked at; the search ends at the first above 3. Where the tiny decoder,
+  // which ranks the pairs, is clear (beyond +-3), it is the one that answers. Of a proof:
+  // +-NSVCD_LOGIT_CERTAIN; where it is undecided, the network's
+  float logit;
+  // logit > 0. UNDECIDED: the network's opinion on whether they meet, or yes where there is none or
+  // something else is asked
+  int collides;
+  // in [0,1]. WITNESS: when the triangles meet; with options.first that is the first contact, and 0
+  // if they meet at the start; INSIDE: 0; by the network: where the most suspicious pair comes
+  // closest
+  float contact_time;
+  // in [0,1]. By proof: no contact is before that. CERTIFIED_FREE: 1; WITNESS: 0, or with
+  // options.first no less than contact_time - first; UNDECIDED with it: when doubt begins
+  float free_until;
+  // metres. By proof: they stay farther apart than `low` until free_until, and come as near as
+  // `high`, at contact_time; what stored triangles are off by is allowed for, and so it is not 0
+  // where they meet. HUGE_VALF where it is not known
+  float clearance_low;
+  float clearance_high;
+  uint32_t patch_a;  // the pair; 0, 0 where there is none
   uint32_t patch_b;
   nsvcd_status status;
-  size_t overlapping;   // network: pairs of patches whose spheres meet, each counted once per stretch of time, until the
-                        // search ends
-  float point[3];       // WITNESS: where the triangles meet at that time; INSIDE: what is inside; in the world
-  float normal[3];      // WITNESS: unit normal of one of the triangles, from b to a, in the world; else, and where that
-                        // triangle has no area, 0
+  // network: pairs of patches whose spheres meet, each counted once per stretch of time, until the
+  // search ends
+  size_t overlapping;
+  // WITNESS: where the triangles meet at that time; INSIDE: what is inside; in the world
+  float point[3];
+  // WITNESS: unit normal of one of the triangles, from b to a, in the world; else, and where that
+  // triangle has no area, 0
+  float normal[3];
   uint32_t triangle_a;  // WITNESS: as numbered in the caller's meshes; else NSVCD_NO_TRIANGLE
   uint32_t triangle_b;
-  float lift[3];  // metres, world, at the start: by what a was lifted off b for options.skin; it turns with b. The answer is
-                  // about the motion so displaced. 0: nothing was touched, or a is pressed in deeper than the skin, or
-                  // held from all sides
+  // metres, world, at the start: by what a was lifted off b for options.skin; it turns with b. The
+  // answer is about the motion so displaced. 0: nothing was touched, or a is pressed in deeper than
+  // the skin, or held from all sides
+  float lift[3];
   size_t work;  // units that the proof took
 } nsvcd_answer;
 
-// Answers a question. workspace: nsvcd_sweep_workspace_size(question) bytes, aligned to NSVCD_ALIGNMENT: it depends on the
-// sizes of the bodies, the method, and options.segments, pairs and model; 0 if the question is refused. Of NULL it is enough
-// for any question. For arrays of a fixed size see NSVCD_PROOF_WORKSPACE_BYTES.
-// Allocates nothing; threads may share bodies, each with its own workspace; deterministic, and the same verdict whichever
-// body is a and which b. Bodies of Ga and Gb groups of 16 patches and a motion of S segments, 16 or so up to 320 degrees
-// of turn and 64 at most, take at most 18 S Ga Gb + 3 S tests of 16 spheres against one (the network, of motions that turn
-// by more than 45 degrees, on machines of less than 16 lanes: 34 S Ga Gb); then a proof takes options.work units, and the
-// network the tiny decoder on 12 K pairs and the chosen one on K (tiny alone: on 3 K), and 32 distances per patch. Of
-// bodies of more than 512 patches only those groups count that the other body comes near, and some 16 tests more for each
-// level of spheres and each 16 spheres of it that it comes near. Stack: 5 KB on a desktop; on a Cortex-M, -O2, 3.1 KB for a
-// proof, 2.0 KB for the tiny decoder in int8, the caller's variables included (`make firmware`). On failure `answer` is left as it was: ARGUMENT (NULL, a
-// count, or an option out of its range), POSE, SCALE,
-// SAME, WORKSPACE, and BODY where a body has not what the method needs. Source: the proof: this library, see *proof*
-// below; the network: NeuralSVCD, algorithm 1.
-// What a proof says is about the surfaces of the two meshes, scaled and posed exactly as described: CERTIFIED_FREE and
-// INSIDE hold for the meshes themselves; the triangles of a WITNESS meet to within the two bodies' quantum
-// (nsvcd_body_facts, times the scale), a few micrometres at most on bodies of 0.3 m; UNDECIDED are surfaces that come as
-// close as that without meeting, or more work than was allowed.
+// Answers a question. workspace: nsvcd_sweep_workspace_size(question) bytes, aligned to
+// NSVCD_ALIGNMENT: it depends on the sizes of the bodies, the method, and options.segments, pairs
+// and model; 0 if the question is refused. Of NULL it is enough for any question. For arrays of a
+// fixed size see NSVCD_PROOF_WORKSPACE_BYTES.
+// Allocates nothing; threads may share bodies, each with its own workspace; deterministic, and the
+// same verdict whichever body is a and which b. Bodies of Ga and Gb groups of 16 patches and a
+// motion of S segments, 16 or so up to 320 degrees of turn and 64 at most, take at most 18 S Ga Gb
+// + 3 S tests of 16 spheres against one (the network, of motions that turn by more than 45 degrees,
+// on machines of less than 16 lanes: 34 S Ga Gb); then a proof takes options.work units, and the
+// network the tiny decoder on 12 K pairs and the chosen one on K (tiny alone: on 3 K), and 32
+// distances per patch. Of bodies of more than 512 patches only those groups count that the other
+// body comes near, and some 16 tests more for each level of spheres and each 16 spheres of it that
+// it comes near. Stack: 5 KB on a desktop; on a Cortex-M, -O2, 3.1 KB for a proof, 2.0 KB for the
+// tiny decoder in int8, the caller's variables included (`make firmware`). On failure `answer` is
+// left as it was: ARGUMENT (NULL, a count, or an option out of its range), POSE, SCALE, SAME,
+// WORKSPACE, and BODY where a body has not what the method needs. Source: the proof: this library,
+// see *proof* below; the network: NeuralSVCD, algorithm 1.
+// What a proof says is about the surfaces of the two meshes, scaled and posed exactly as described:
+// CERTIFIED_FREE and INSIDE hold for the meshes themselves; the triangles of a WITNESS meet to
+// within the two bodies' quantum (nsvcd_body_facts, times the scale), a few micrometres at most on
+// bodies of 0.3 m; UNDECIDED are surfaces that come as close as that without meeting, or more work
+// than was allowed.
 NSVCDDEF size_t nsvcd_sweep_workspace_size(const nsvcd_question *question);
-NSVCDDEF nsvcd_result nsvcd_sweep(const nsvcd_question *question, void *workspace, size_t workspace_size,
-                                  nsvcd_answer *answer);
+NSVCDDEF nsvcd_result nsvcd_sweep(const nsvcd_question *question, void *workspace,
+                                  size_t workspace_size, nsvcd_answer *answer);
 
-// The same as constants, for arrays of a fixed size, a little larger than need be. points_a, points_b: N of the bodies, or
-// more; segments: options.segments, 16 to 64; pairs: options.pairs, K. Where one workspace is for both methods, take the
-// larger. NSVCD_MEMORY declares an array that is aligned:
+// The same as constants, for arrays of a fixed size, a little larger than need be. points_a,
+// points_b: N of the bodies, or more; segments: options.segments, 16 to 64; pairs: options.pairs,
+// K. Where one workspace is for both methods, take the larger. NSVCD_MEMORY declares an array that
+// is aligned:
 //   static NSVCD_MEMORY(workspace, NSVCD_PROOF_WORKSPACE_BYTES(64, 192, 16));
 #define NSVCD_MEMORY(name, bytes) uint64_t name[((bytes) + 7) / 8]
 #define NSVCD__GROUPS_OF(points) ((points) > 512 ? 32 : ((points) + 15) / 16)
-#define NSVCD__SEARCH_BYTES(points_a, points_b, segments)                                \
+#define NSVCD__SEARCH_BYTES(points_a, points_b, segments)                                  \
   (1024 + 704 * (segments) + 8 * NSVCD__GROUPS_OF(points_a) * NSVCD__GROUPS_OF(points_b) + \
    ((points_a) > 512 || (points_b) > 512 ? 1024 : 0))
 #define NSVCD_PROOF_WORKSPACE_BYTES(points_a, points_b, segments) \
@@ -430,75 +511,89 @@ NSVCDDEF nsvcd_result nsvcd_sweep(const nsvcd_question *question, void *workspac
 #define NSVCD_NETWORK_WORKSPACE_BYTES(points_a, points_b, segments, pairs) \
   (NSVCD__SEARCH_BYTES(points_a, points_b, segments) + 96 * (pairs))
 
-// The same for `count` questions, as a frame of a game or a sampling planner has them; answers: (count). Errors as above,
-// of the first question that has one, and then no answer is written; no questions are no error.
-// Where neighbours ask the network about the same two bodies, this is faster than as many nsvcd_sweep calls: each is first
-// asked where the one before it collided, and if that is a clear collision again (logit above 3), it is the answer, and the
-// rest is not searched. Other answers are nsvcd_sweep's, to the bit. Source: this library; physics engines call it
-// temporal coherence.
-NSVCDDEF nsvcd_result nsvcd_sweep_batch(const nsvcd_question *questions, size_t count, void *workspace,
-                                        size_t workspace_size, nsvcd_answer *answers);
+// The same for `count` questions, as a frame of a game or a sampling planner has them; answers:
+// (count). Errors as above, of the first question that has one, and then no answer is written; no
+// questions are no error.
+// Where neighbours ask the network about the same two bodies, this is faster than as many
+// nsvcd_sweep calls: each is first asked where the one before it collided, and if that is a clear
+// collision again (logit above 3), it is the answer, and the rest is not searched. Other answers
+// are nsvcd_sweep's, to the bit. Source: this library; physics engines call it temporal coherence.
+NSVCDDEF nsvcd_result nsvcd_sweep_batch(const nsvcd_question *questions, size_t count,
+                                        void *workspace, size_t workspace_size,
+                                        nsvcd_answer *answers);
 
 #ifndef NSVCD_NO_GRADIENT
-// nsvcd_sweep by the network, and the derivatives of answer->logit by the poses of a and of b: what drives them (joints, a
-// spline) takes it from there by the chain rule. gradient_a, gradient_b: (count, 6), or NULL where it is not wanted, but
-// not both: per pose, by a displacement of the body's origin (metres, world axes), then by a small rotation about that
-// origin (rotation vector, radians, world axes, applied on the left); of one row for a body without poses.
-// Zero where no network answered (CERTIFIED_FREE, INSIDE) and for poses that the decisive pair does not
-// pass. It is that of the pair and the stretch of time that decided: the logit is the greatest of several, and so has
-// kinks, also where the network (ReLU) and the frame of a pair have theirs; where the pair is at rest, or does not
-// turn, it is the mean of both sides. The ends of the stretch move with the poses, but for those at t = 0 or 1 and
-// where a segment of the search begins or ends; the unit of length and the spheres' allowance for what the motion does
-// between its samples are taken as constant. In int8 arithmetic it is the derivative of the float decoder, or, without
-// that, of the function that the int8 one rounds. Errors as nsvcd_sweep's, and then the gradients are left as they were.
-// Takes 2 to 3 microseconds more. Source: reverse mode; this library.
-NSVCDDEF nsvcd_result nsvcd_sweep_gradient(const nsvcd_question *question, void *workspace, size_t workspace_size,
-                                           nsvcd_answer *answer, float *gradient_a, float *gradient_b);
+// nsvcd_sweep by the network, and the derivatives of answer->logit by the poses of a and of b: what
+// drives them (joints, a spline) takes it from there by the chain rule. gradient_a, gradient_b:
+// (count, 6), or NULL where it is not wanted, but not both: per pose, by a displacement of the
+// body's origin (metres, world axes), then by a small rotation about that origin (rotation vector,
+// radians, world axes, applied on the left); of one row for a body without poses.
+// Zero where no network answered (CERTIFIED_FREE, INSIDE) and for poses that the decisive pair does
+// not pass. It is that of the pair and the stretch of time that decided: the logit is the greatest
+// of several, and so has kinks, also where the network (ReLU) and the frame of a pair have theirs;
+// where the pair is at rest, or does not turn, it is the mean of both sides. The ends of the
+// stretch move with the poses, but for those at t = 0 or 1 and where a segment of the search begins
+// or ends; the unit of length and the spheres' allowance for what the motion does between its
+// samples are taken as constant. In int8 arithmetic it is the derivative of the float decoder, or,
+// without that, of the function that the int8 one rounds. Errors as nsvcd_sweep's, and then the
+// gradients are left as they were. Takes 2 to 3 microseconds more. Source: reverse mode; this
+// library.
+NSVCDDEF nsvcd_result nsvcd_sweep_gradient(const nsvcd_question *question, void *workspace,
+                                           size_t workspace_size, nsvcd_answer *answer,
+                                           float *gradient_a, float *gradient_b);
 #endif
 
 #ifndef NSVCD_NO_OPTIMIZER
-// ---------------------------------------------------------------------------------------------- trajectories
-// A trajectory of F joints is a spline through control points: the start, M via points, the goal, control (M + 2, F),
-// uniform in t in [0,1]. Between two points it is of degree five, with the velocity and the acceleration of central
-// differences at via points, and at rest at both ends; so both are continuous everywhere.
+// ------------------------------------------------------------------------------------ trajectories
+// A trajectory of F joints is a spline through control points: the start, M via points, the goal,
+// control (M + 2, F), uniform in t in [0,1]. Between two points it is of degree five, with the
+// velocity and the acceleration of central differences at via points, and at rest at both ends; so
+// both are continuous everywhere.
 
 #define NSVCD_MAX_JOINTS 32
 #define NSVCD_MAX_VIA_POINTS 32
 #define NSVCD_MAX_SEGMENTS 4096
 
-// The joints at t (F), or with derivative = 1, 2, 3 their velocity, acceleration, jerk by t. control: (via_points + 2,
-// F); t is taken into [0,1]. No errors. Source: quintic Hermite interpolation, as the paper's authors use it.
-NSVCDDEF void nsvcd_spline(const float *control, size_t via_points, size_t joints, float t, size_t derivative,
-                           float *out);
+// The joints at t (F), or with derivative = 1, 2, 3 their velocity, acceleration, jerk by t.
+// control: (via_points + 2, F); t is taken into [0,1]. No errors. Source: quintic Hermite
+// interpolation, as the paper's authors use it.
+NSVCDDEF void nsvcd_spline(const float *control, size_t via_points, size_t joints, float t,
+                           size_t derivative, float *out);
 
-// Two bodies that can meet, by their indices. Queries are asked in b's frame, with a moving: take the body that rests,
-// or else the larger one, as b. The other way round costs a little accuracy, as nsvcd_sweep does.
+// Two bodies that can meet, by their indices. Queries are asked in b's frame, with a moving: take
+// the body that rests, or else the larger one, as b. The other way round costs a little accuracy,
+// as nsvcd_sweep does.
 typedef struct nsvcd_body_pair {
   uint32_t a, b;
 } nsvcd_body_pair;
 
 typedef enum nsvcd_plan_status {
-  NSVCD_PLAN_CONVERGED = 0,  // the trajectory is within the limits and free of collision: certified where bodies have
-                             // triangles, else as far as the network knows
-  NSVCD_PLAN_LIMIT,          // the iterations ended before one was found; this is the best
-  NSVCD_PLAN_CANCELLED,      // by the progress callback; this is the best so far
-  NSVCD_PLAN_START,          // the start is out of the limits or in collision: control is the smoothest way to the goal
-  NSVCD_PLAN_GOAL            // the goal is
+  // the trajectory is within the limits and free of collision: certified where bodies have
+  // triangles, else as far as the network knows
+  NSVCD_PLAN_CONVERGED = 0,
+  NSVCD_PLAN_LIMIT,      // the iterations ended before one was found; this is the best
+  NSVCD_PLAN_CANCELLED,  // by the progress callback; this is the best so far
+  // the start is out of the limits or in collision: control is the smoothest way to the goal
+  NSVCD_PLAN_START,
+  NSVCD_PLAN_GOAL  // the goal is
 } nsvcd_plan_status;
 NSVCDDEF const char *nsvcd_plan_status_string(nsvcd_plan_status status);
 
 typedef struct nsvcd_plan_progress {
-  size_t seed, iteration;  // of `iterations` in this stage; L-BFGS begins anew where the proof found a hit
+  // of `iterations` in this stage; L-BFGS begins anew where the proof found a hit
+  size_t seed, iteration;
   size_t iterations;
-  int refining;     // 0: MPPI, 1: L-BFGS
-  float cost;       // of the best trajectory of this stage; stages sample differently, and do not compare
-  float collision;  // the part of it that is due to collision: at 0 it is free, as far as the stage's segments show
+  int refining;  // 0: MPPI, 1: L-BFGS
+  // of the best trajectory of this stage; stages sample differently, and do not compare
+  float cost;
+  // the part of it that is due to collision: at 0 it is free, as far as the stage's segments show
+  float collision;
   const float *control;  // (via_points + 2, F), valid during the call
   size_t via_points;
 } nsvcd_plan_progress;
 
-// A scene: who moves how, and who can meet whom. Nothing else is looked at. One `user` serves all callbacks; these must
-// depend on nothing but their arguments and it.
+// A scene: who moves how, and who can meet whom. Nothing else is looked at. One `user` serves all
+// callbacks; these must depend on nothing but their arguments and it.
 typedef struct nsvcd_plan_problem {
   size_t joints;                    // F, 1..NSVCD_MAX_JOINTS
   const float *low, *high;          // (F), limits
@@ -507,76 +602,91 @@ typedef struct nsvcd_plan_problem {
   size_t body_count;
   const nsvcd_body_pair *pairs;  // (P)
   size_t pair_count;
-  // (F) -> (B), in the world. What is grasped moves with the hand because this says so: nothing is encoded anew.
+  // (F) -> (B), in the world. What is grasped moves with the hand because this says so: nothing is
+  // encoded anew.
   void (*place)(void *user, const float *joints, nsvcd_pose *poses);
-  // (F) -> (B, 6, F): per body, by a joint, the displacement of its origin and its rotation vector, in the world's
-  // axes. NULL: by differences of `place`.
+  // (F) -> (B, 6, F): per body, by a joint, the displacement of its origin and its rotation vector,
+  // in the world's axes. NULL: by differences of `place`.
   void (*jacobian)(void *user, const float *joints, float *jacobian);
-  // Instead of the network: the cost of collision of poses (samples, B) along the trajectory, which may end at the
-  // first sum above `limit`; sets *collides if there is a collision, and, unless `gradient` is NULL, adds the cost's
-  // derivative to it, (samples, B, 6), as nsvcd_sweep_gradient has it. NULL: the network.
-  float (*collision)(void *user, const nsvcd_pose *poses, size_t samples, float limit, int *collides, float *gradient);
-  int (*progress)(void *user, const nsvcd_plan_progress *progress);  // once per iteration; not 0 cancels. May be NULL
+  // Instead of the network: the cost of collision of poses (samples, B) along the trajectory, which
+  // may end at the first sum above `limit`; sets *collides if there is a collision, and, unless
+  // `gradient` is NULL, adds the cost's derivative to it, (samples, B, 6), as nsvcd_sweep_gradient
+  // has it. NULL: the network.
+  float (*collision)(void *user, const nsvcd_pose *poses, size_t samples, float limit,
+                     int *collides, float *gradient);
+  // once per iteration; not 0 cancels. May be NULL
+  int (*progress)(void *user, const nsvcd_plan_progress *progress);
   void *user;
 } nsvcd_plan_problem;
 
 #define NSVCD_NONE ((size_t)-1)
 typedef struct nsvcd_plan_stage {
   size_t via_points;  // M
-  size_t segments;    // of the trajectory, each swept as one motion; with `discrete`, the ends of these are looked at
+  // of the trajectory, each swept as one motion; with `discrete`, the ends of these are looked at
+  size_t segments;
   size_t iterations;  // at most; NSVCD_NONE: leave the stage out
   size_t samples;     // trajectories per iteration of MPPI; gradients in a bundle of L-BFGS
 } nsvcd_plan_stage;
 
-// Zero is the default everywhere, as tests/plan_bench.c found it good; weights that are negative count as zero. If an
-// exact check finds contacts, raise sweep.recall, `collision` or the bodies' number of patches; if the status is LIMIT,
-// `seeds` or explore.samples. The smoothness counts radians and metres alike: for ways of hundreds of metres, raise
-// `duration` or `collision`.
+// Zero is the default everywhere, as tests/plan_bench.c found it good; weights that are negative
+// count as zero. If an exact check finds contacts, raise sweep.recall, `collision` or the bodies'
+// number of patches; if the status is LIMIT, `seeds` or explore.samples. The smoothness counts
+// radians and metres alike: for ways of hundreds of metres, raise `duration` or `collision`.
 typedef struct nsvcd_plan_options {
   uint64_t seed;                       // of all random numbers
   size_t seeds;                        // starts, tried until one ends free; 6
   nsvcd_plan_stage explore;            // MPPI: 5, 24, 40, 100
   nsvcd_plan_stage refine;             // L-BFGS: 10, 22, 10, 10
   float velocity, acceleration, jerk;  // weights of the means of squares over the motion: 10, 2, 10
-  float collision;                     // weight of the logits' sum over pairs and segments: 20 (the paper's: 1)
-  float duration;                      // seconds from start to goal, which only weights the terms above: 20
-  float margin;                        // logits above minus this cost: 2
-  float spread;                        // of MPPI's first samples, radians or metres, at mid-motion: 0.3
-  float bundle;                        // of L-BFGS's gradients: 0.01
-  int discrete;                        // poses instead of sweeps
-  size_t check;                        // segments of the last check; 4 times the finest stage
-  nsvcd_sweep_options sweep;           // of all queries; recall = 0.999f keeps more distance. The search asks the
-                                       // network; `method` is that of start, goal and the last check, and so are
-                                       // `clearance`, `skin` and the like
+  // weight of the logits' sum over pairs and segments: 20 (the paper's: 1)
+  float collision;
+  // seconds from start to goal, which only weights the terms above: 20
+  float duration;
+  float margin;  // logits above minus this cost: 2
+  // of MPPI's first samples, radians or metres, at mid-motion: 0.3
+  float spread;
+  float bundle;  // of L-BFGS's gradients: 0.01
+  int discrete;  // poses instead of sweeps
+  size_t check;  // segments of the last check; 4 times the finest stage
+  // of all queries; recall = 0.999f keeps more distance. The search asks the network; `method` is
+  // that of start, goal and the last check, and so are `clearance`, `skin` and the like
+  nsvcd_sweep_options sweep;
 } nsvcd_plan_options;
 
 typedef struct nsvcd_plan_answer {
   nsvcd_plan_status status;
-  int collides;              // by the last check, of the start or the goal where the status says so
-  size_t joint;              // that leaves its limits, or NSVCD_NONE
-  size_t pair;               // of the greatest logit, or NSVCD_NONE
-  float logit;               // greatest of the last check; with a custom cost of collision that cost
-  float time;                // of it, in [0,1]
-  float cost, smoothness;    // of the trajectory, the latter without collision and limits; 0 where none was sought
+  int collides;  // by the last check, of the start or the goal where the status says so
+  size_t joint;  // that leaves its limits, or NSVCD_NONE
+  size_t pair;   // of the greatest logit, or NSVCD_NONE
+  // greatest of the last check; with a custom cost of collision that cost
+  float logit;
+  float time;  // of it, in [0,1]
+  // of the trajectory, the latter without collision and limits; 0 where none was sought
+  float cost, smoothness;
   size_t via_points;         // M of `control`
   size_t seeds, iterations;  // used; the latter of both stages
   size_t trajectories;       // that were costed
   size_t sweeps;             // queries asked of the network
 } nsvcd_plan_answer;
 
-// Finds a smooth trajectory from start to goal on which no pair meets. control: (M + 2, F) with the M of options.refine
-// (of explore, if that is left out), always written; NSVCD_MAX_VIA_POINTS + 2 rows are always enough. options: NULL for
-// the defaults. workspace: nsvcd_plan_workspace_size(problem, options) bytes, aligned to NSVCD_ALIGNMENT; 0 if problem
-// or options are refused, or more than SIZE_MAX would be needed. Start, goal and the trajectory at the end are proven free, where bodies have triangles: for the
-// motion of each pair as seen from b between the poses of the check's segments, position linear and rotation slerp. Where
-// the proof finds a hit, the refinement goes on from there with twice the margin, three times at most. Allocates nothing;
-// deterministic; ends within seeds * (iterations of MPPI + 4 times those of L-BFGS) iterations, of `samples` trajectories
-// each, and for L-BFGS 5 more. Errors: ARGUMENT (sizes, options, NULL), NUMBER (limits, start
-// or goal not finite or beyond NSVCD_MAX_COORDINATE; a cost beyond the range of float), POSE (from `place`), WORKSPACE,
-// TOO_LARGE (more bytes than can be counted); then control and answer are not written. Source: MPPI (Williams et al. 2017), then L-BFGS with bundled gradients (Suh
-// et al. 2022); NeuralSVCD, appendix D.
-NSVCDDEF size_t nsvcd_plan_workspace_size(const nsvcd_plan_problem *problem, const nsvcd_plan_options *options);
-NSVCDDEF nsvcd_result nsvcd_plan(const nsvcd_plan_problem *problem, const nsvcd_plan_options *options, void *workspace,
+// Finds a smooth trajectory from start to goal on which no pair meets. control: (M + 2, F) with the
+// M of options.refine (of explore, if that is left out), always written; NSVCD_MAX_VIA_POINTS + 2
+// rows are always enough. options: NULL for the defaults. workspace:
+// nsvcd_plan_workspace_size(problem, options) bytes, aligned to NSVCD_ALIGNMENT; 0 if problem or
+// options are refused, or more than SIZE_MAX would be needed. Start, goal and the trajectory at the
+// end are proven free, where bodies have triangles: for the motion of each pair as seen from b
+// between the poses of the check's segments, position linear and rotation slerp. Where the proof
+// finds a hit, the refinement goes on from there with twice the margin, three times at most.
+// Allocates nothing; deterministic; ends within seeds * (iterations of MPPI + 4 times those of
+// L-BFGS) iterations, of `samples` trajectories each, and for L-BFGS 5 more. Errors: ARGUMENT
+// (sizes, options, NULL), NUMBER (limits, start or goal not finite or beyond NSVCD_MAX_COORDINATE;
+// a cost beyond the range of float), POSE (from `place`), WORKSPACE, TOO_LARGE (more bytes than can
+// be counted); then control and answer are not written. Source: MPPI (Williams et al. 2017), then
+// L-BFGS with bundled gradients (Suh et al. 2022); NeuralSVCD, appendix D.
+NSVCDDEF size_t nsvcd_plan_workspace_size(const nsvcd_plan_problem *problem,
+                                          const nsvcd_plan_options *options);
+NSVCDDEF nsvcd_result nsvcd_plan(const nsvcd_plan_problem *problem,
+                                 const nsvcd_plan_options *options, void *workspace,
                                  size_t workspace_size, float *control, nsvcd_plan_answer *answer);
 #endif
 
@@ -585,7 +695,7 @@ NSVCDDEF nsvcd_result nsvcd_plan(const nsvcd_plan_problem *problem, const nsvcd_
 #endif
 #endif  // NEURALSVCD_H
 
-// ============================================================================================ IMPLEMENTATION
+// ================================================================================== IMPLEMENTATION
 #if defined(NEURALSVCD_IMPLEMENTATION) && !defined(NEURALSVCD_IMPLEMENTED)
 #define NEURALSVCD_IMPLEMENTED
 
@@ -596,12 +706,16 @@ NSVCDDEF nsvcd_result nsvcd_plan(const nsvcd_plan_problem *problem, const nsvcd_
 #include <stdio.h>
 #endif
 
-// ------------------------------------------------------------------------------------------------------- math
+// -------------------------------------------------------------------------------------------- math
 // Vectors are float[3], quaternions float[4] x y z w, rotation matrices float[9] row-major.
 
-static float nsvcd__dot3(const float *a, const float *b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
+static float nsvcd__dot3(const float *a, const float *b) {
+  return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+}
 static inline void nsvcd__sub3(const float *a, const float *b, float *out) {
-  out[0] = a[0] - b[0], out[1] = a[1] - b[1], out[2] = a[2] - b[2];
+  out[0] = a[0] - b[0];
+  out[1] = a[1] - b[1];
+  out[2] = a[2] - b[2];
 }
 static float nsvcd__length3(const float *a) { return sqrtf(nsvcd__dot3(a, a)); }
 
@@ -613,17 +727,29 @@ static int nsvcd__is_finite(float x) {
 }
 // Rotation matrix of a unit quaternion.
 static void nsvcd__quat_to_matrix(const float *q, float *m) {
-  float x = q[0], y = q[1], z = q[2], w = q[3];
-  m[0] = 1 - 2 * (y * y + z * z), m[1] = 2 * (x * y - z * w), m[2] = 2 * (x * z + y * w);
-  m[3] = 2 * (x * y + z * w), m[4] = 1 - 2 * (x * x + z * z), m[5] = 2 * (y * z - x * w);
-  m[6] = 2 * (x * z - y * w), m[7] = 2 * (y * z + x * w), m[8] = 1 - 2 * (x * x + y * y);
+  float x = q[0];
+  float y = q[1];
+  float z = q[2];
+  float w = q[3];
+  m[0] = 1 - 2 * (y * y + z * z);
+  m[1] = 2 * (x * y - z * w);
+  m[2] = 2 * (x * z + y * w);
+  m[3] = 2 * (x * y + z * w);
+  m[4] = 1 - 2 * (x * x + z * z);
+  m[5] = 2 * (y * z - x * w);
+  m[6] = 2 * (x * z - y * w);
+  m[7] = 2 * (y * z + x * w);
+  m[8] = 1 - 2 * (x * x + y * y);
 }
-static inline void nsvcd__mul33_vec(const float *m, const float *v, float *out) {  // out = m v, may not alias
-  out[0] = nsvcd__dot3(m, v), out[1] = nsvcd__dot3(m + 3, v), out[2] = nsvcd__dot3(m + 6, v);
+// out = m v, may not alias
+static inline void nsvcd__mul33_vec(const float *m, const float *v, float *out) {
+  out[0] = nsvcd__dot3(m, v);
+  out[1] = nsvcd__dot3(m + 3, v);
+  out[2] = nsvcd__dot3(m + 6, v);
 }
 
-// Vectors as values: f3 of floats, d3 of doubles. A difference of floats, and all that is built of a few of them, is as
-// good as exact in double.
+// Vectors as values: f3 of floats, d3 of doubles. A difference of floats, and all that is built of
+// a few of them, is as good as exact in double.
 typedef struct nsvcd__f3 {
   float x, y, z;
 } nsvcd__f3;
@@ -635,10 +761,18 @@ static inline nsvcd__f3 nsvcd__f3_of(float x, float y, float z) {
   const nsvcd__f3 out = {x, y, z};
   return out;
 }
-static inline nsvcd__f3 nsvcd__f3_add(nsvcd__f3 a, nsvcd__f3 b) { return nsvcd__f3_of(a.x + b.x, a.y + b.y, a.z + b.z); }
-static inline nsvcd__f3 nsvcd__f3_sub(nsvcd__f3 a, nsvcd__f3 b) { return nsvcd__f3_of(a.x - b.x, a.y - b.y, a.z - b.z); }
-static inline nsvcd__f3 nsvcd__f3_scale(nsvcd__f3 a, float s) { return nsvcd__f3_of(s * a.x, s * a.y, s * a.z); }
-static inline float nsvcd__f3_dot(nsvcd__f3 a, nsvcd__f3 b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
+static inline nsvcd__f3 nsvcd__f3_add(nsvcd__f3 a, nsvcd__f3 b) {
+  return nsvcd__f3_of(a.x + b.x, a.y + b.y, a.z + b.z);
+}
+static inline nsvcd__f3 nsvcd__f3_sub(nsvcd__f3 a, nsvcd__f3 b) {
+  return nsvcd__f3_of(a.x - b.x, a.y - b.y, a.z - b.z);
+}
+static inline nsvcd__f3 nsvcd__f3_scale(nsvcd__f3 a, float s) {
+  return nsvcd__f3_of(s * a.x, s * a.y, s * a.z);
+}
+static inline float nsvcd__f3_dot(nsvcd__f3 a, nsvcd__f3 b) {
+  return a.x * b.x + a.y * b.y + a.z * b.z;
+}
 static inline nsvcd__f3 nsvcd__f3_cross(nsvcd__f3 a, nsvcd__f3 b) {
   return nsvcd__f3_of(a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x);
 }
@@ -648,15 +782,25 @@ static inline nsvcd__d3 nsvcd__d3_of(double x, double y, double z) {
   const nsvcd__d3 out = {x, y, z};
   return out;
 }
-static inline nsvcd__d3 nsvcd__d3_load(const float *p) { return nsvcd__d3_of((double)p[0], (double)p[1], (double)p[2]); }
-static inline nsvcd__d3 nsvcd__d3_add(nsvcd__d3 a, nsvcd__d3 b) { return nsvcd__d3_of(a.x + b.x, a.y + b.y, a.z + b.z); }
-static inline nsvcd__d3 nsvcd__d3_sub(nsvcd__d3 a, nsvcd__d3 b) { return nsvcd__d3_of(a.x - b.x, a.y - b.y, a.z - b.z); }
-static inline nsvcd__d3 nsvcd__d3_scale(nsvcd__d3 a, double s) { return nsvcd__d3_of(s * a.x, s * a.y, s * a.z); }
+static inline nsvcd__d3 nsvcd__d3_load(const float *p) {
+  return nsvcd__d3_of((double)p[0], (double)p[1], (double)p[2]);
+}
+static inline nsvcd__d3 nsvcd__d3_add(nsvcd__d3 a, nsvcd__d3 b) {
+  return nsvcd__d3_of(a.x + b.x, a.y + b.y, a.z + b.z);
+}
+static inline nsvcd__d3 nsvcd__d3_sub(nsvcd__d3 a, nsvcd__d3 b) {
+  return nsvcd__d3_of(a.x - b.x, a.y - b.y, a.z - b.z);
+}
+static inline nsvcd__d3 nsvcd__d3_scale(nsvcd__d3 a, double s) {
+  return nsvcd__d3_of(s * a.x, s * a.y, s * a.z);
+}
 // a + t (b - a).
 static inline nsvcd__d3 nsvcd__d3_mix(nsvcd__d3 a, nsvcd__d3 b, double t) {
   return nsvcd__d3_add(a, nsvcd__d3_scale(nsvcd__d3_sub(b, a), t));
 }
-static inline double nsvcd__d3_dot(nsvcd__d3 a, nsvcd__d3 b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
+static inline double nsvcd__d3_dot(nsvcd__d3 a, nsvcd__d3 b) {
+  return a.x * b.x + a.y * b.y + a.z * b.z;
+}
 static inline nsvcd__d3 nsvcd__d3_cross(nsvcd__d3 a, nsvcd__d3 b) {
   return nsvcd__d3_of(a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x);
 }
@@ -684,23 +828,23 @@ static inline nsvcd__d3 nsvcd__d3_widen(nsvcd__f3 a) {
   return nsvcd__d3_of((double)a.x, (double)a.y, (double)a.z);
 }
 
-// ----------------------------------------------------------------------------------------------------- vectors
-// 16 floats side by side, lane by lane, for the sweep and the decoder. One set of operations over what the compiler was
-// told the processor has; the plain path says what they mean. They differ in rounding only: fma rounds once or twice.
-// NSVCD_NO_SIMD takes the plain path.
+// ----------------------------------------------------------------------------------------- vectors
+// 16 floats side by side, lane by lane, for the sweep and the decoder. One set of operations over
+// what the compiler was told the processor has; the plain path says what they mean. They differ in
+// rounding only: fma rounds once or twice. NSVCD_NO_SIMD takes the plain path.
 
 #define NSVCD__LANES 16
 #define NSVCD__NOWHERE (-1e15f)  // radius of padding: meets nothing, and its square is still finite
-#define NSVCD__HULL NSVCD__LANES       // vertices of a patch's hull, at most
-#define NSVCD__ENCLOSES 0x80000000u    // of a listing: its triangle belongs to a closed component
+#define NSVCD__HULL NSVCD__LANES     // vertices of a patch's hull, at most
+#define NSVCD__ENCLOSES 0x80000000u  // of a listing: its triangle belongs to a closed component
 
 // The tests hold what a query does against the bound that nsvcd_sweep states.
 #ifndef NSVCD__TALLY
 #define NSVCD__TALLY(what, amount) ((void)0)
 #endif
 
-// Functions whose loops over constant arguments must be unrolled: left to its own measure, gcc may not inline them, and
-// the decoder takes four times as long (tests/PERFORMANCE.md).
+// Functions whose loops over constant arguments must be unrolled: left to its own measure, gcc may
+// not inline them, and the decoder takes four times as long (tests/PERFORMANCE.md).
 #if defined(__OPTIMIZE_SIZE__)
 #define NSVCD__INLINE static inline
 #elif defined(__GNUC__) || defined(__clang__)
@@ -724,9 +868,9 @@ static inline nsvcd__d3 nsvcd__d3_widen(nsvcd__f3 a) {
 #define NSVCD__UNROLL
 #endif
 
-// What is done 16 lanes wide is done a *slice* at a time: as many lanes as a register holds. A function over 16 lanes goes
-// through its slices in a loop, and keeps no more than one of them in its variables; on a machine without vectors a slice is
-// one lane.
+// What is done 16 lanes wide is done a *slice* at a time: as many lanes as a register holds. A
+// function over 16 lanes goes through its slices in a loop, and keeps no more than one of them in
+// its variables; on a machine without vectors a slice is one lane.
 
 #if !defined(NSVCD_NO_SIMD) && defined(__AVX512F__)
 #include <immintrin.h>
@@ -739,12 +883,18 @@ static inline nsvcd__v nsvcd__v_add(nsvcd__v a, nsvcd__v b) { return _mm512_add_
 static inline nsvcd__v nsvcd__v_sub(nsvcd__v a, nsvcd__v b) { return _mm512_sub_ps(a, b); }
 static inline nsvcd__v nsvcd__v_mul(nsvcd__v a, nsvcd__v b) { return _mm512_mul_ps(a, b); }
 static inline nsvcd__v nsvcd__v_div(nsvcd__v a, nsvcd__v b) { return _mm512_div_ps(a, b); }
-static inline nsvcd__v nsvcd__v_fma(nsvcd__v a, nsvcd__v b, nsvcd__v c) { return _mm512_fmadd_ps(a, b, c); }
+static inline nsvcd__v nsvcd__v_fma(nsvcd__v a, nsvcd__v b, nsvcd__v c) {
+  return _mm512_fmadd_ps(a, b, c);
+}
 static inline nsvcd__v nsvcd__v_min(nsvcd__v a, nsvcd__v b) { return _mm512_min_ps(a, b); }
 static inline nsvcd__v nsvcd__v_max(nsvcd__v a, nsvcd__v b) { return _mm512_max_ps(a, b); }
 static inline nsvcd__v nsvcd__v_sqrt(nsvcd__v a) { return _mm512_sqrt_ps(a); }
-static inline uint32_t nsvcd__v_le(nsvcd__v a, nsvcd__v b) { return _mm512_cmp_ps_mask(a, b, _CMP_LE_OQ); }
-static inline uint32_t nsvcd__v_lt(nsvcd__v a, nsvcd__v b) { return _mm512_cmp_ps_mask(a, b, _CMP_LT_OQ); }
+static inline uint32_t nsvcd__v_le(nsvcd__v a, nsvcd__v b) {
+  return _mm512_cmp_ps_mask(a, b, _CMP_LE_OQ);
+}
+static inline uint32_t nsvcd__v_lt(nsvcd__v a, nsvcd__v b) {
+  return _mm512_cmp_ps_mask(a, b, _CMP_LT_OQ);
+}
 static inline nsvcd__v nsvcd__v_pick(nsvcd__v a, nsvcd__v b, nsvcd__v x, nsvcd__v y) {
   return _mm512_mask_blend_ps(_mm512_cmp_ps_mask(a, b, _CMP_LE_OQ), y, x);
 }
@@ -765,7 +915,9 @@ static inline nsvcd__v nsvcd__v_add(nsvcd__v a, nsvcd__v b) { return _mm256_add_
 static inline nsvcd__v nsvcd__v_sub(nsvcd__v a, nsvcd__v b) { return _mm256_sub_ps(a, b); }
 static inline nsvcd__v nsvcd__v_mul(nsvcd__v a, nsvcd__v b) { return _mm256_mul_ps(a, b); }
 static inline nsvcd__v nsvcd__v_div(nsvcd__v a, nsvcd__v b) { return _mm256_div_ps(a, b); }
-static inline nsvcd__v nsvcd__v_fma(nsvcd__v a, nsvcd__v b, nsvcd__v c) { return _mm256_fmadd_ps(a, b, c); }
+static inline nsvcd__v nsvcd__v_fma(nsvcd__v a, nsvcd__v b, nsvcd__v c) {
+  return _mm256_fmadd_ps(a, b, c);
+}
 static inline nsvcd__v nsvcd__v_min(nsvcd__v a, nsvcd__v b) { return _mm256_min_ps(a, b); }
 static inline nsvcd__v nsvcd__v_max(nsvcd__v a, nsvcd__v b) { return _mm256_max_ps(a, b); }
 static inline nsvcd__v nsvcd__v_sqrt(nsvcd__v a) { return _mm256_sqrt_ps(a); }
@@ -835,7 +987,9 @@ static inline nsvcd__v nsvcd__v_add(nsvcd__v a, nsvcd__v b) { return vaddq_f32(a
 static inline nsvcd__v nsvcd__v_sub(nsvcd__v a, nsvcd__v b) { return vsubq_f32(a, b); }
 static inline nsvcd__v nsvcd__v_mul(nsvcd__v a, nsvcd__v b) { return vmulq_f32(a, b); }
 static inline nsvcd__v nsvcd__v_div(nsvcd__v a, nsvcd__v b) { return vdivq_f32(a, b); }
-static inline nsvcd__v nsvcd__v_fma(nsvcd__v a, nsvcd__v b, nsvcd__v c) { return vfmaq_f32(c, a, b); }
+static inline nsvcd__v nsvcd__v_fma(nsvcd__v a, nsvcd__v b, nsvcd__v c) {
+  return vfmaq_f32(c, a, b);
+}
 static inline nsvcd__v nsvcd__v_min(nsvcd__v a, nsvcd__v b) { return vminq_f32(a, b); }
 static inline nsvcd__v nsvcd__v_max(nsvcd__v a, nsvcd__v b) { return vmaxq_f32(a, b); }
 static inline nsvcd__v nsvcd__v_sqrt(nsvcd__v a) { return vsqrtq_f32(a); }
@@ -843,13 +997,19 @@ static inline uint32_t nsvcd__v_bits(uint32x4_t lanes) {
   static const uint32_t bit[4] = {1, 2, 4, 8};
   return vaddvq_u32(vandq_u32(lanes, vld1q_u32(bit)));
 }
-static inline uint32_t nsvcd__v_le(nsvcd__v a, nsvcd__v b) { return nsvcd__v_bits(vcleq_f32(a, b)); }
-static inline uint32_t nsvcd__v_lt(nsvcd__v a, nsvcd__v b) { return nsvcd__v_bits(vcltq_f32(a, b)); }
+static inline uint32_t nsvcd__v_le(nsvcd__v a, nsvcd__v b) {
+  return nsvcd__v_bits(vcleq_f32(a, b));
+}
+static inline uint32_t nsvcd__v_lt(nsvcd__v a, nsvcd__v b) {
+  return nsvcd__v_bits(vcltq_f32(a, b));
+}
 static inline nsvcd__v nsvcd__v_pick(nsvcd__v a, nsvcd__v b, nsvcd__v x, nsvcd__v y) {
   return vbslq_f32(vcleq_f32(a, b), x, y);
 }
 static inline float nsvcd__v_least(nsvcd__v a) { return vminvq_f32(a); }
-static inline nsvcd__v nsvcd__v_load_int16(const int16_t *p) { return vcvtq_f32_s32(vmovl_s16(vld1_s16(p))); }
+static inline nsvcd__v nsvcd__v_load_int16(const int16_t *p) {
+  return vcvtq_f32_s32(vmovl_s16(vld1_s16(p)));
+}
 
 #else
 #define NSVCD__SLICE 1
@@ -869,7 +1029,9 @@ static inline nsvcd__v nsvcd__v_sqrt(nsvcd__v a) { return sqrtf(a); }
 static inline uint32_t nsvcd__v_le(nsvcd__v a, nsvcd__v b) { return a <= b; }
 static inline uint32_t nsvcd__v_lt(nsvcd__v a, nsvcd__v b) { return a < b; }
 // a <= b ? x : y.
-static inline nsvcd__v nsvcd__v_pick(nsvcd__v a, nsvcd__v b, nsvcd__v x, nsvcd__v y) { return a <= b ? x : y; }
+static inline nsvcd__v nsvcd__v_pick(nsvcd__v a, nsvcd__v b, nsvcd__v x, nsvcd__v y) {
+  return a <= b ? x : y;
+}
 // The least of all lanes.
 static inline float nsvcd__v_least(nsvcd__v a) { return a; }
 static inline nsvcd__v nsvcd__v_load_int16(const int16_t *p) { return (float)*p; }
@@ -882,10 +1044,14 @@ static inline nsvcd__v nsvcd__v_load_int16(const int16_t *p) { return (float)*p;
 static inline nsvcd__v nsvcd__v_dot3(const nsvcd__v *a, const nsvcd__v *b) {
   return nsvcd__v_fma(a[0], b[0], nsvcd__v_fma(a[1], b[1], nsvcd__v_mul(a[2], b[2])));
 }
-static inline nsvcd__v nsvcd__v_length3(const nsvcd__v *a) { return nsvcd__v_sqrt(nsvcd__v_dot3(a, a)); }
-static inline void nsvcd__v_cross(const nsvcd__v *a, const nsvcd__v *b, nsvcd__v *out) {  // may not alias
+static inline nsvcd__v nsvcd__v_length3(const nsvcd__v *a) {
+  return nsvcd__v_sqrt(nsvcd__v_dot3(a, a));
+}
+// may not alias
+static inline void nsvcd__v_cross(const nsvcd__v *a, const nsvcd__v *b, nsvcd__v *out) {
   for (size_t k = 0; k < 3; k++) {
-    const size_t i = (k + 1) % 3, j = (k + 2) % 3;
+    const size_t i = (k + 1) % 3;
+    const size_t j = (k + 2) % 3;
     out[k] = nsvcd__v_sub(nsvcd__v_mul(a[i], b[j]), nsvcd__v_mul(a[j], b[i]));
   }
 }
@@ -923,7 +1089,8 @@ NSVCD__INLINE nsvcd__v3 nsvcd__v3_scale(nsvcd__v3 a, nsvcd__v s) {
 }
 // a + s b.
 NSVCD__INLINE nsvcd__v3 nsvcd__v3_fma(nsvcd__v s, nsvcd__v3 b, nsvcd__v3 a) {
-  return nsvcd__v3_of(nsvcd__v_fma(s, b.x, a.x), nsvcd__v_fma(s, b.y, a.y), nsvcd__v_fma(s, b.z, a.z));
+  return nsvcd__v3_of(nsvcd__v_fma(s, b.x, a.x), nsvcd__v_fma(s, b.y, a.y),
+                      nsvcd__v_fma(s, b.z, a.z));
 }
 NSVCD__INLINE nsvcd__v nsvcd__v3_dot(nsvcd__v3 a, nsvcd__v3 b) {
   return nsvcd__v_fma(a.x, b.x, nsvcd__v_fma(a.y, b.y, nsvcd__v_mul(a.z, b.z)));
@@ -942,8 +1109,9 @@ typedef struct nsvcd__transform {
 
 static inline nsvcd__f3 nsvcd__f3_transform(const nsvcd__transform *t, nsvcd__f3 a) {
   const float *m = t->rotation;
-  const nsvcd__f3 turned = nsvcd__f3_of(m[0] * a.x + m[1] * a.y + m[2] * a.z, m[3] * a.x + m[4] * a.y + m[5] * a.z,
-                                        m[6] * a.x + m[7] * a.y + m[8] * a.z);
+  const nsvcd__f3 turned =
+      nsvcd__f3_of(m[0] * a.x + m[1] * a.y + m[2] * a.z, m[3] * a.x + m[4] * a.y + m[5] * a.z,
+                   m[6] * a.x + m[7] * a.y + m[8] * a.z);
   return nsvcd__f3_add(turned, t->position);
 }
 // Lanes l .. l + SLICE - 1 of p (3, LANES).
@@ -958,14 +1126,17 @@ NSVCD__INLINE nsvcd__v3 nsvcd__v3_load(float (*p)[NSVCD__LANES], size_t l) {
 
 NSVCD__INLINE nsvcd__v3 nsvcd__v3_transform(const nsvcd__transform *t, nsvcd__v3 a) {
   const float *m = t->rotation;
-  const nsvcd__v3 column0 = nsvcd__v3_of(nsvcd__v_set(m[0]), nsvcd__v_set(m[3]), nsvcd__v_set(m[6]));
-  const nsvcd__v3 column1 = nsvcd__v3_of(nsvcd__v_set(m[1]), nsvcd__v_set(m[4]), nsvcd__v_set(m[7]));
-  const nsvcd__v3 column2 = nsvcd__v3_of(nsvcd__v_set(m[2]), nsvcd__v_set(m[5]), nsvcd__v_set(m[8]));
+  const nsvcd__v3 column0 =
+      nsvcd__v3_of(nsvcd__v_set(m[0]), nsvcd__v_set(m[3]), nsvcd__v_set(m[6]));
+  const nsvcd__v3 column1 =
+      nsvcd__v3_of(nsvcd__v_set(m[1]), nsvcd__v_set(m[4]), nsvcd__v_set(m[7]));
+  const nsvcd__v3 column2 =
+      nsvcd__v3_of(nsvcd__v_set(m[2]), nsvcd__v_set(m[5]), nsvcd__v_set(m[8]));
   const nsvcd__v3 sum = nsvcd__v3_fma(a.z, column2, nsvcd__v3_set(t->position));
   return nsvcd__v3_fma(a.x, column0, nsvcd__v3_fma(a.y, column1, sum));
 }
 
-// ------------------------------------------------------------------------------------------- results, allocation
+// ----------------------------------------------------------------------------- results, allocation
 
 // A sentence without a full stop, for a person; never NULL.
 NSVCDDEF const char *nsvcd_result_string(nsvcd_result result) {
@@ -991,13 +1162,15 @@ NSVCDDEF const char *nsvcd_result_string(nsvcd_result result) {
     case NSVCD_ERROR_POSE:
       return "a pose is not finite, or its quaternion is not of unit length";
     case NSVCD_ERROR_SCALE:
-      return "a scale is not finite, negative or out of range, or makes a body too small or too large";
+      return "a scale is not finite, negative or out of range, or makes a body too small or too "
+             "large";
     case NSVCD_ERROR_TOLERANCE:
       return "a tolerance or a clearance is negative, not finite or beyond the scene";
     case NSVCD_ERROR_SAME:
       return "both sides are the same body in the same motion";
     case NSVCD_ERROR_BODY:
-      return "the body is damaged, cut short, misaligned, of another version or model, or lacks what the method needs";
+      return "the body is damaged, cut short, misaligned, of another version or model, or lacks "
+             "what the method needs";
     case NSVCD_ERROR_WORKSPACE:
       return "the memory given is too small or misaligned";
     case NSVCD_ERROR_CANCELLED:
@@ -1020,8 +1193,8 @@ static void *nsvcd__alloc_array(const nsvcd_allocator *allocator, size_t count, 
 }
 #endif
 
-// The next rows of a workspace, or, where base is NULL, only counts their bytes: in 64 bits, for they may be more than a
-// machine of 32 bits can count.
+// The next rows of a workspace, or, where base is NULL, only counts their bytes: in 64 bits, for
+// they may be more than a machine of 32 bits can count.
 static void *nsvcd__take(char *base, uint64_t *used, size_t rows, size_t row_size) {
   void *at = base ? base + *used : NULL;
   const uint64_t bytes = (uint64_t)rows * row_size;
@@ -1029,8 +1202,9 @@ static void *nsvcd__take(char *base, uint64_t *used, size_t rows, size_t row_siz
   return at;
 }
 
-// ------------------------------------------------------------------------------------------------------- mesh
-// In: Wavefront OBJ text, or triangles from the caller. Out: nsvcd_mesh, every index in range, every coordinate finite.
+// -------------------------------------------------------------------------------------------- mesh
+// In: Wavefront OBJ text, or triangles from the caller. Out: nsvcd_mesh, every index in range,
+// every coordinate finite.
 
 #define NSVCD__MAX_COUNT 0x7fffffffu  // vertices and triangles: 2^31 - 1
 
@@ -1047,7 +1221,8 @@ static nsvcd_result nsvcd__mesh_check(const nsvcd_mesh *mesh) {
   if (!mesh) return NSVCD_ERROR_ARGUMENT;
   if (mesh->triangle_count == 0) return NSVCD_ERROR_EMPTY;
   if (!mesh->positions || !mesh->indices) return NSVCD_ERROR_ARGUMENT;
-  if (mesh->vertex_count > NSVCD__MAX_COUNT || mesh->triangle_count > NSVCD__MAX_COUNT) return NSVCD_ERROR_TOO_LARGE;
+  if (mesh->vertex_count > NSVCD__MAX_COUNT || mesh->triangle_count > NSVCD__MAX_COUNT)
+    return NSVCD_ERROR_TOO_LARGE;
   for (size_t i = 0; i < 3 * mesh->triangle_count; ++i) {
     if (mesh->indices[i] >= mesh->vertex_count) return NSVCD_ERROR_INDEX;
   }
@@ -1058,14 +1233,16 @@ static nsvcd_result nsvcd__mesh_check(const nsvcd_mesh *mesh) {
   return NSVCD_OK;
 }
 
-// Cuts a polygon at one side of a box: keeps what has sign * x[axis] <= sign * bound. corners: at most 8, one more
-// comes out. Returns the corners of `out`.
-static size_t nsvcd__clip(double (*corners)[3], size_t count, size_t axis, double sign, double bound,
-                          double (*out)[3]) {
+// Cuts a polygon at one side of a box: keeps what has sign * x[axis] <= sign * bound. corners: at
+// most 8, one more comes out. Returns the corners of `out`.
+static size_t nsvcd__clip(double (*corners)[3], size_t count, size_t axis, double sign,
+                          double bound, double (*out)[3]) {
   size_t kept = 0;
   for (size_t i = 0; i < count; i++) {
-    const double *a = corners[i], *b = corners[(i + 1) % count];
-    const double past_a = sign * (a[axis] - bound), past_b = sign * (b[axis] - bound);
+    const double *a = corners[i];
+    const double *b = corners[(i + 1) % count];
+    const double past_a = sign * (a[axis] - bound);
+    const double past_b = sign * (b[axis] - bound);
     if (past_a <= 0) memcpy(out[kept++], a, 3 * sizeof *a);
     if ((past_a <= 0) == (past_b <= 0)) continue;
     for (size_t k = 0; k < 3; k++) out[kept][k] = a[k] + past_a / (past_a - past_b) * (b[k] - a[k]);
@@ -1075,8 +1252,8 @@ static size_t nsvcd__clip(double (*corners)[3], size_t count, size_t axis, doubl
 }
 
 // The corners of triangle t within the box: 0, or 3 to 9.
-static size_t nsvcd__cut_triangle(const nsvcd_mesh *mesh, size_t t, const float *low, const float *high,
-                                  double (*polygon)[3]) {
+static size_t nsvcd__cut_triangle(const nsvcd_mesh *mesh, size_t t, const float *low,
+                                  const float *high, double (*polygon)[3]) {
   double other[10][3];
   size_t count = 3;
   for (size_t i = 0; i < 3; i++) {
@@ -1090,11 +1267,13 @@ static size_t nsvcd__cut_triangle(const nsvcd_mesh *mesh, size_t t, const float 
   return count >= 3 ? count : 0;
 }
 
-NSVCDDEF nsvcd_result nsvcd_mesh_cut(const nsvcd_mesh *mesh, const float low[3], const float high[3],
-                                     const nsvcd_allocator *allocator, nsvcd_mesh *part) {
+NSVCDDEF nsvcd_result nsvcd_mesh_cut(const nsvcd_mesh *mesh, const float low[3],
+                                     const float high[3], const nsvcd_allocator *allocator,
+                                     nsvcd_mesh *part) {
   if (!low || !high || !part) return NSVCD_ERROR_ARGUMENT;
   for (size_t k = 0; k < 3; k++) {
-    if (!nsvcd__is_finite(low[k]) || !nsvcd__is_finite(high[k]) || !(low[k] < high[k])) return NSVCD_ERROR_ARGUMENT;
+    if (!nsvcd__is_finite(low[k]) || !nsvcd__is_finite(high[k]) || !(low[k] < high[k]))
+      return NSVCD_ERROR_ARGUMENT;
   }
   const nsvcd_result result = nsvcd__mesh_check(mesh);
   if (result) return result;
@@ -1102,7 +1281,8 @@ NSVCDDEF nsvcd_result nsvcd_mesh_cut(const nsvcd_mesh *mesh, const float low[3],
   nsvcd_mesh out = {NULL, NULL, 0, 0};
   for (size_t t = 0; t < mesh->triangle_count; t++) {
     const size_t corners = nsvcd__cut_triangle(mesh, t, low, high, polygon);
-    out.vertex_count += corners, out.triangle_count += corners ? corners - 2 : 0;
+    out.vertex_count += corners;
+    out.triangle_count += corners ? corners - 2 : 0;
   }
   if (out.vertex_count == 0) return NSVCD_ERROR_EMPTY;
   if (out.vertex_count > NSVCD__MAX_COUNT) return NSVCD_ERROR_TOO_LARGE;
@@ -1112,13 +1292,18 @@ NSVCDDEF nsvcd_result nsvcd_mesh_cut(const nsvcd_mesh *mesh, const float low[3],
     nsvcd_mesh_free(&out, allocator);
     return NSVCD_ERROR_MEMORY;
   }
-  uint32_t *index = out.indices, first = 0;
+  uint32_t *index = out.indices;
+  uint32_t first = 0;
   for (size_t t = 0; t < mesh->triangle_count; t++) {
     const size_t corners = nsvcd__cut_triangle(mesh, t, low, high, polygon);
     for (size_t i = 0; i < corners; i++) {
       for (size_t k = 0; k < 3; k++) out.positions[3 * (first + i) + k] = (float)polygon[i][k];
     }
-    for (uint32_t i = 2; i < corners; i++) *index++ = first, *index++ = first + i - 1, *index++ = first + i;
+    for (uint32_t i = 2; i < corners; i++) {
+      *index++ = first;
+      *index++ = first + i - 1;
+      *index++ = first + i;
+    }
     first += (uint32_t)corners;
   }
   *part = out;
@@ -1128,10 +1313,12 @@ NSVCDDEF nsvcd_result nsvcd_mesh_cut(const nsvcd_mesh *mesh, const float low[3],
 
 #ifndef NSVCD_NO_OBJ
 // ---- polygons: ear clipping (Meisters 1975; after Eberly, "Triangulation by Ear Clipping")
-// A face becomes corners - 2 triangles whose vector areas always sum to the polygon's. A simple polygon, concave or
-// with holes cut open by a bridge, is covered without overlap; any other (crossing itself, no area) is cut somehow.
+// A face becomes corners - 2 triangles whose vector areas always sum to the polygon's. A simple
+// polygon, concave or with holes cut open by a bridge, is covered without overlap; any other
+// (crossing itself, no area) is cut somehow.
 
-#define NSVCD__MAX_CONCAVE_CORNERS 4096  // ear clipping takes corners * reflex corners steps: bounds the time per byte
+// ear clipping takes corners * reflex corners steps: bounds the time per byte
+#define NSVCD__MAX_CONCAVE_CORNERS 4096
 
 typedef struct nsvcd__corner {
   double x, y;  // in the polygon's plane, counter-clockwise
@@ -1148,7 +1335,8 @@ typedef struct nsvcd__polygon {
   uint32_t queue_first, queue_last, queue_length;
 } nsvcd__polygon;
 
-// Twice the area of abc, positive if counter-clockwise. In double a difference of floats is as good as exact.
+// Twice the area of abc, positive if counter-clockwise. In double a difference of floats is as good
+// as exact.
 static double nsvcd__turn(const nsvcd__corner *a, const nsvcd__corner *b, const nsvcd__corner *c) {
   return (b->x - a->x) * (c->y - b->y) - (b->y - a->y) * (c->x - b->x);
 }
@@ -1156,7 +1344,8 @@ static int nsvcd__same_place(const nsvcd__corner *a, const nsvcd__corner *b) {
   return !(a->x < b->x || a->x > b->x || a->y < b->y || a->y > b->y);
 }
 
-// Drops the axis along which the polygon's area vector (Newell's) is longest: keeps the coordinates exact.
+// Drops the axis along which the polygon's area vector (Newell's) is longest: keeps the coordinates
+// exact.
 static void nsvcd__polygon_project(nsvcd__corner *corners, uint32_t count, const float *positions) {
   double normal[3] = {0, 0, 0};
   const float *origin = positions + 3 * (size_t)corners[0].vertex;
@@ -1164,53 +1353,69 @@ static void nsvcd__polygon_project(nsvcd__corner *corners, uint32_t count, const
     const float *p = positions + 3 * (size_t)corners[i].vertex;
     const float *q = positions + 3 * (size_t)corners[(i + 1) % count].vertex;
     for (int k = 0; k < 3; ++k) {
-      int u = (k + 1) % 3, v = (k + 2) % 3;
-      double pu = (double)p[u] - (double)origin[u], pv = (double)p[v] - (double)origin[v];
-      double qu = (double)q[u] - (double)origin[u], qv = (double)q[v] - (double)origin[v];
+      int u = (k + 1) % 3;
+      int v = (k + 2) % 3;
+      double pu = (double)p[u] - (double)origin[u];
+      double pv = (double)p[v] - (double)origin[v];
+      double qu = (double)q[u] - (double)origin[u];
+      double qv = (double)q[v] - (double)origin[v];
       normal[k] += pu * qv - pv * qu;
     }
   }
   int axis = fabs(normal[1]) > fabs(normal[0]) ? 1 : 0;
   if (fabs(normal[2]) > fabs(normal[axis])) axis = 2;
-  int u = (axis + 1) % 3, v = (axis + 2) % 3;
-  if (normal[axis] < 0) u = (axis + 2) % 3, v = (axis + 1) % 3;
+  int u = (axis + 1) % 3;
+  int v = (axis + 2) % 3;
+  if (normal[axis] < 0) {
+    u = (axis + 2) % 3;
+    v = (axis + 1) % 3;
+  }
   for (uint32_t i = 0; i < count; ++i) {
     const float *p = positions + 3 * (size_t)corners[i].vertex;
-    corners[i].x = (double)p[u], corners[i].y = (double)p[v];
+    corners[i].x = (double)p[u];
+    corners[i].y = (double)p[v];
   }
 }
 
-static void nsvcd__polygon_update(nsvcd__polygon *polygon, uint32_t i) {  // after a neighbour of corner i has changed
-  nsvcd__corner *corners = polygon->corners, *c = &corners[i];
+// after a neighbour of corner i has changed
+static void nsvcd__polygon_update(nsvcd__polygon *polygon, uint32_t i) {
+  nsvcd__corner *corners = polygon->corners;
+  nsvcd__corner *c = &corners[i];
   uint32_t reflex = nsvcd__turn(&corners[c->previous], c, &corners[c->next]) < 0;
   polygon->reflex_count += reflex - c->reflex;
   c->reflex = reflex;
   if (c->queued) return;
   c->queued = 1;
-  *(polygon->queue_length++ == 0 ? &polygon->queue_first : &corners[polygon->queue_last].queue_next) = i;
+  *(polygon->queue_length++ == 0 ? &polygon->queue_first
+                                 : &corners[polygon->queue_last].queue_next) = i;
   polygon->queue_last = i;
 }
 
 // An ear is a convex corner whose triangle holds no other corner; only reflex ones need a look.
 static int nsvcd__polygon_is_ear(const nsvcd__polygon *polygon, uint32_t i) {
-  const nsvcd__corner *corners = polygon->corners, *b = &corners[i];
-  const nsvcd__corner *a = &corners[b->previous], *c = &corners[b->next];
+  const nsvcd__corner *corners = polygon->corners;
+  const nsvcd__corner *b = &corners[i];
+  const nsvcd__corner *a = &corners[b->previous];
+  const nsvcd__corner *c = &corners[b->next];
   if (nsvcd__turn(a, b, c) <= 0) return 0;
   if (polygon->reflex_count == 0 || polygon->count > NSVCD__MAX_CONCAVE_CORNERS) return 1;
   for (const nsvcd__corner *p = &corners[c->next]; p != a; p = &corners[p->next]) {
-    if (!p->reflex || nsvcd__turn(a, b, p) < 0 || nsvcd__turn(b, c, p) < 0 || nsvcd__turn(c, a, p) < 0) continue;
+    if (!p->reflex || nsvcd__turn(a, b, p) < 0 || nsvcd__turn(b, c, p) < 0 ||
+        nsvcd__turn(c, a, p) < 0)
+      continue;
     if (!nsvcd__same_place(p, a) && !nsvcd__same_place(p, b) && !nsvcd__same_place(p, c)) return 0;
   }
   return 1;
 }
 
 // corners: (count) with their vertices set, count >= 3. triangles: (count - 2, 3).
-static nsvcd_result nsvcd__polygon_triangulate(nsvcd__corner *corners, uint32_t count, const float *positions,
-                                               uint32_t *triangles) {
+static nsvcd_result nsvcd__polygon_triangulate(nsvcd__corner *corners, uint32_t count,
+                                               const float *positions, uint32_t *triangles) {
   nsvcd__polygon polygon = {corners, count, 0, 0, 0, 0};
   if (count > 3) nsvcd__polygon_project(corners, count, positions);
   for (uint32_t i = 0; i < count; ++i) {
-    corners[i].previous = (i + count - 1) % count, corners[i].next = (i + 1) % count;
+    corners[i].previous = (i + count - 1) % count;
+    corners[i].next = (i + 1) % count;
     corners[i].queued = corners[i].reflex = 0;
   }
   for (uint32_t i = 0; count > 3 && i < count; ++i) nsvcd__polygon_update(&polygon, i);
@@ -1218,28 +1423,39 @@ static nsvcd_result nsvcd__polygon_triangulate(nsvcd__corner *corners, uint32_t 
 
   uint32_t at = 0;  // some corner of what is left
   for (uint32_t left = count; left > 3;) {
-    // An empty queue means that no corner is an ear: not a simple polygon. Cut any corner off and go on.
+    // An empty queue means that no corner is an ear: not a simple polygon. Cut any corner off and
+    // go on.
     int stuck = polygon.queue_length == 0;
     uint32_t i = stuck ? at : polygon.queue_first;
     nsvcd__corner *c = &corners[i];
-    if (!stuck) polygon.queue_first = c->queue_next, polygon.queue_length--, c->queued = 0;
+    if (!stuck) {
+      polygon.queue_first = c->queue_next;
+      polygon.queue_length--;
+      c->queued = 0;
+    }
     if (!stuck && !nsvcd__polygon_is_ear(&polygon, i)) continue;
-    triangles[0] = corners[c->previous].vertex, triangles[1] = c->vertex, triangles[2] = corners[c->next].vertex;
-    triangles += 3, left--;
-    corners[c->previous].next = c->next, corners[c->next].previous = c->previous;
+    triangles[0] = corners[c->previous].vertex;
+    triangles[1] = c->vertex;
+    triangles[2] = corners[c->next].vertex;
+    triangles += 3;
+    left--;
+    corners[c->previous].next = c->next;
+    corners[c->next].previous = c->previous;
     polygon.reflex_count -= c->reflex;
     nsvcd__polygon_update(&polygon, c->previous);
     nsvcd__polygon_update(&polygon, c->next);
     at = c->next;
   }
-  triangles[0] = corners[at].vertex, triangles[1] = corners[corners[at].next].vertex;
+  triangles[0] = corners[at].vertex;
+  triangles[1] = corners[corners[at].next].vertex;
   triangles[2] = corners[corners[at].previous].vertex;
   return NSVCD_OK;
 }
 
 // ---- OBJ (Wavefront, "Object Files", version 3.0): v and f count, all else is skipped
-// Three passes over the text: count, vertices, faces. A face may refer to any vertex of the file by its number, also to
-// a later one; negative numbers count back from the last vertex so far. Locale plays no part.
+// Three passes over the text: count, vertices, faces. A face may refer to any vertex of the file by
+// its number, also to a later one; negative numbers count back from the last vertex so far. Locale
+// plays no part.
 
 typedef struct nsvcd__obj {
   const char *at, *end;
@@ -1251,7 +1467,8 @@ typedef struct nsvcd__obj {
 
 enum { NSVCD__OBJ_END, NSVCD__OBJ_VERTEX, NSVCD__OBJ_FACE, NSVCD__OBJ_OTHER, NSVCD__OBJ_BAD };
 
-// Length of the blank at p: a backslash before the line's end continues the statement on the next line.
+// Length of the blank at p: a backslash before the line's end continues the statement on the next
+// line.
 static size_t nsvcd__obj_blank(const char *p, const char *end) {
   if (p == end) return 0;
   if (*p == ' ' || *p == '\t' || *p == '\r' || *p == '\v' || *p == '\f') return 1;
@@ -1262,7 +1479,9 @@ static size_t nsvcd__obj_blank(const char *p, const char *end) {
 static int nsvcd__obj_is_digit(const nsvcd__obj *obj) {
   return obj->at < obj->end && *obj->at >= '0' && *obj->at <= '9';
 }
-static int nsvcd__obj_accept(nsvcd__obj *obj, char c) { return obj->at < obj->end && *obj->at == c ? obj->at++, 1 : 0; }
+static int nsvcd__obj_accept(nsvcd__obj *obj, char c) {
+  return obj->at < obj->end && *obj->at == c ? obj->at++, 1 : 0;
+}
 static int nsvcd__obj_token_ends(const nsvcd__obj *obj) {
   return obj->at == obj->end || *obj->at == '\n' || nsvcd__obj_blank(obj->at, obj->end) > 0;
 }
@@ -1272,7 +1491,8 @@ static void nsvcd__obj_skip_token(nsvcd__obj *obj) {
 
 // Skips blanks; 0 where the statement ends instead.
 static int nsvcd__obj_has_token(nsvcd__obj *obj) {
-  for (size_t blank; (blank = nsvcd__obj_blank(obj->at, obj->end)) > 0; obj->at += blank) obj->line += blank > 1;
+  for (size_t blank; (blank = nsvcd__obj_blank(obj->at, obj->end)) > 0; obj->at += blank)
+    obj->line += blank > 1;
   return obj->at < obj->end && *obj->at != '\n' && *obj->at != '#';
 }
 
@@ -1300,29 +1520,35 @@ static int nsvcd__obj_keyword(nsvcd__obj *obj) {
   return NSVCD__OBJ_OTHER;
 }
 
-// value = mantissa * 10^exponent, exponent in -400..400. Powers up to 10^22 are exact: one rounding in the usual case.
+// value = mantissa * 10^exponent, exponent in -400..400. Powers up to 10^22 are exact: one rounding
+// in the usual case.
 static double nsvcd__obj_scale(uint64_t mantissa, int exponent) {
-  static const double power[23] = {1e0,  1e1,  1e2,  1e3,  1e4,  1e5,  1e6,  1e7,  1e8,  1e9,  1e10, 1e11,
-                                   1e12, 1e13, 1e14, 1e15, 1e16, 1e17, 1e18, 1e19, 1e20, 1e21, 1e22};
+  static const double power[23] = {1e0,  1e1,  1e2,  1e3,  1e4,  1e5,  1e6,  1e7,
+                                   1e8,  1e9,  1e10, 1e11, 1e12, 1e13, 1e14, 1e15,
+                                   1e16, 1e17, 1e18, 1e19, 1e20, 1e21, 1e22};
   double value = (double)mantissa;
   for (; exponent > 22; exponent -= 22) value *= power[22];
   for (; exponent < -22; exponent += 22) value /= power[22];
   return exponent < 0 ? value / power[-exponent] : value * power[exponent];
 }
 
-// A decimal number, to double within 2^-52: rounded to float it is the nearest, unless two are equally near to that.
+// A decimal number, to double within 2^-52: rounded to float it is the nearest, unless two are
+// equally near to that.
 static nsvcd_result nsvcd__obj_number(nsvcd__obj *obj, double *value) {
   int negative = nsvcd__obj_accept(obj, '-');
   if (!negative) nsvcd__obj_accept(obj, '+');
-  if (obj->at < obj->end && strchr("nNiI", *obj->at) && *obj->at) return NSVCD_ERROR_NUMBER;  // nan, inf
+  // nan, inf
+  if (obj->at < obj->end && strchr("nNiI", *obj->at) && *obj->at) return NSVCD_ERROR_NUMBER;
   uint64_t mantissa = 0;
   int64_t exponent = 0;
-  int digits = 0, point = 0;
+  int digits = 0;
+  int point = 0;
   for (;;) {
     if (!point && nsvcd__obj_accept(obj, '.')) point = 1;
     if (!nsvcd__obj_is_digit(obj)) break;
     digits = 1;
-    int fits = mantissa < 1000000000000000000u;  // 19 digits are kept, the rest only moves the point
+    // 19 digits are kept, the rest only moves the point
+    int fits = mantissa < 1000000000000000000u;
     if (fits) mantissa = 10 * mantissa + (uint64_t)(*obj->at - '0');
     exponent += !fits - point;
     obj->at++;
@@ -1362,7 +1588,8 @@ static nsvcd_result nsvcd__obj_vertex(nsvcd__obj *obj, float *position) {
   return count < 3 ? NSVCD_ERROR_SYNTAX : NSVCD_OK;
 }
 
-// One corner: v, v/vt, v//vn or v/vt/vn. The numbers after a slash are not used, nor checked against a range.
+// One corner: v, v/vt, v//vn or v/vt/vn. The numbers after a slash are not used, nor checked
+// against a range.
 static nsvcd_result nsvcd__obj_corner(nsvcd__obj *obj, uint32_t vertex_count, uint32_t *vertex) {
   int negative = nsvcd__obj_accept(obj, '-');
   if (!nsvcd__obj_is_digit(obj)) return NSVCD_ERROR_SYNTAX;
@@ -1382,14 +1609,18 @@ static nsvcd_result nsvcd__obj_corner(nsvcd__obj *obj, uint32_t vertex_count, ui
 
 static void nsvcd__obj_begin(nsvcd__obj *obj, const char *text, size_t size) {
   memset(obj, 0, sizeof *obj);
-  obj->at = text, obj->end = text + size, obj->line = 1;
+  obj->at = text;
+  obj->end = text + size;
+  obj->line = 1;
   if (size >= 3 && memcmp(text, "\xef\xbb\xbf", 3) == 0) obj->at += 3;  // UTF-8 byte order mark
 }
 
 static nsvcd_result nsvcd__obj_count(nsvcd__obj *obj) {
-  for (int keyword; (keyword = nsvcd__obj_keyword(obj)) != NSVCD__OBJ_END; nsvcd__obj_skip_statement(obj)) {
+  for (int keyword; (keyword = nsvcd__obj_keyword(obj)) != NSVCD__OBJ_END;
+       nsvcd__obj_skip_statement(obj)) {
     if (keyword == NSVCD__OBJ_BAD) return NSVCD_ERROR_SYNTAX;
-    if (keyword == NSVCD__OBJ_VERTEX && obj->vertices++ == NSVCD__MAX_COUNT) return NSVCD_ERROR_TOO_LARGE;
+    if (keyword == NSVCD__OBJ_VERTEX && obj->vertices++ == NSVCD__MAX_COUNT)
+      return NSVCD_ERROR_TOO_LARGE;
     if (keyword != NSVCD__OBJ_FACE) continue;
     size_t corners = 0;
     for (; nsvcd__obj_has_token(obj); nsvcd__obj_skip_token(obj)) corners++;
@@ -1402,7 +1633,8 @@ static nsvcd_result nsvcd__obj_count(nsvcd__obj *obj) {
 }
 
 static nsvcd_result nsvcd__obj_vertices(nsvcd__obj *obj, float *positions) {
-  for (int keyword; (keyword = nsvcd__obj_keyword(obj)) != NSVCD__OBJ_END; nsvcd__obj_skip_statement(obj)) {
+  for (int keyword; (keyword = nsvcd__obj_keyword(obj)) != NSVCD__OBJ_END;
+       nsvcd__obj_skip_statement(obj)) {
     if (keyword != NSVCD__OBJ_VERTEX) continue;
     nsvcd_result result = nsvcd__obj_vertex(obj, positions + 3 * (size_t)obj->vertices++);
     if (result != NSVCD_OK) return result;
@@ -1410,13 +1642,16 @@ static nsvcd_result nsvcd__obj_vertices(nsvcd__obj *obj, float *positions) {
   return NSVCD_OK;
 }
 
-static nsvcd_result nsvcd__obj_faces(nsvcd__obj *obj, const nsvcd_mesh *mesh, nsvcd__corner *corners) {
-  for (int keyword; (keyword = nsvcd__obj_keyword(obj)) != NSVCD__OBJ_END; nsvcd__obj_skip_statement(obj)) {
+static nsvcd_result nsvcd__obj_faces(nsvcd__obj *obj, const nsvcd_mesh *mesh,
+                                     nsvcd__corner *corners) {
+  for (int keyword; (keyword = nsvcd__obj_keyword(obj)) != NSVCD__OBJ_END;
+       nsvcd__obj_skip_statement(obj)) {
     obj->vertices += keyword == NSVCD__OBJ_VERTEX;
     if (keyword != NSVCD__OBJ_FACE) continue;
     uint32_t count = 0;
     for (; nsvcd__obj_has_token(obj); ++count) {
-      nsvcd_result result = nsvcd__obj_corner(obj, (uint32_t)mesh->vertex_count, &corners[count].vertex);
+      nsvcd_result result =
+          nsvcd__obj_corner(obj, (uint32_t)mesh->vertex_count, &corners[count].vertex);
       if (result != NSVCD_OK) return result;
     }
     uint32_t *triangles = mesh->indices + 3 * (size_t)obj->triangles;
@@ -1427,18 +1662,22 @@ static nsvcd_result nsvcd__obj_faces(nsvcd__obj *obj, const nsvcd_mesh *mesh, ns
   return NSVCD_OK;
 }
 
-static nsvcd_result nsvcd__obj_read(nsvcd__obj *obj, const char *text, size_t size, const nsvcd_allocator *allocator,
-                                    nsvcd_mesh *mesh) {
+static nsvcd_result nsvcd__obj_read(nsvcd__obj *obj, const char *text, size_t size,
+                                    const nsvcd_allocator *allocator, nsvcd_mesh *mesh) {
   nsvcd__obj_begin(obj, text, size);
   nsvcd_result result = nsvcd__obj_count(obj);
   if (result != NSVCD_OK) return result;
   obj->line = 0;  // what follows is not tied to a line
   if (obj->triangles == 0) return NSVCD_ERROR_EMPTY;
-  mesh->vertex_count = obj->vertices, mesh->triangle_count = obj->triangles;
+  mesh->vertex_count = obj->vertices;
+  mesh->triangle_count = obj->triangles;
   // + 1: a file may hold faces and no vertex, and malloc(0) may return NULL.
-  mesh->positions = (float *)nsvcd__alloc_array(allocator, mesh->vertex_count + 1, 3 * sizeof(float));
-  mesh->indices = (uint32_t *)nsvcd__alloc_array(allocator, mesh->triangle_count, 3 * sizeof(uint32_t));
-  nsvcd__corner *corners = (nsvcd__corner *)nsvcd__alloc_array(allocator, obj->max_corners, sizeof(nsvcd__corner));
+  mesh->positions =
+      (float *)nsvcd__alloc_array(allocator, mesh->vertex_count + 1, 3 * sizeof(float));
+  mesh->indices =
+      (uint32_t *)nsvcd__alloc_array(allocator, mesh->triangle_count, 3 * sizeof(uint32_t));
+  nsvcd__corner *corners =
+      (nsvcd__corner *)nsvcd__alloc_array(allocator, obj->max_corners, sizeof(nsvcd__corner));
   if (!mesh->positions || !mesh->indices || !corners) {
     result = NSVCD_ERROR_MEMORY;
   } else {
@@ -1453,7 +1692,8 @@ static nsvcd_result nsvcd__obj_read(nsvcd__obj *obj, const char *text, size_t si
   return result;
 }
 
-NSVCDDEF nsvcd_result nsvcd_obj_parse(const char *text, size_t size, const nsvcd_allocator *allocator, nsvcd_mesh *mesh,
+NSVCDDEF nsvcd_result nsvcd_obj_parse(const char *text, size_t size,
+                                      const nsvcd_allocator *allocator, nsvcd_mesh *mesh,
                                       size_t *error_line) {
   nsvcd_mesh parsed;
   nsvcd__obj obj;
@@ -1472,7 +1712,8 @@ NSVCDDEF nsvcd_result nsvcd_obj_parse(const char *text, size_t size, const nsvcd
 
 #ifndef NSVCD_NO_STDIO
 // The whole file into *text; no fseek, so that pipes work and a directory is an error.
-static nsvcd_result nsvcd__read_file(FILE *file, const nsvcd_allocator *allocator, char **text, size_t *size) {
+static nsvcd_result nsvcd__read_file(FILE *file, const nsvcd_allocator *allocator, char **text,
+                                     size_t *size) {
   size_t used = 0;
   char *buffer = NULL;
   for (size_t capacity = 65536;; capacity *= 2) {
@@ -1488,13 +1729,14 @@ static nsvcd_result nsvcd__read_file(FILE *file, const nsvcd_allocator *allocato
     nsvcd__free(allocator, buffer);
     return NSVCD_ERROR_IO;
   }
-  *text = buffer, *size = used;
+  *text = buffer;
+  *size = used;
   return NSVCD_OK;
 }
 
 // nsvcd_obj_parse on the contents of a file.
-NSVCDDEF nsvcd_result nsvcd_obj_load(const char *path, const nsvcd_allocator *allocator, nsvcd_mesh *mesh,
-                                     size_t *error_line) {
+NSVCDDEF nsvcd_result nsvcd_obj_load(const char *path, const nsvcd_allocator *allocator,
+                                     nsvcd_mesh *mesh, size_t *error_line) {
   if (error_line) *error_line = 0;
   if (!path || !mesh) return NSVCD_ERROR_ARGUMENT;
   FILE *file = fopen(path, "rb");
@@ -1511,10 +1753,10 @@ NSVCDDEF nsvcd_result nsvcd_obj_load(const char *path, const nsvcd_allocator *al
 #endif  // NSVCD_NO_OBJ
 
 #ifndef NSVCD_NO_ENCODER
-// ---------------------------------------------------------------------------------------------------- patches
-// In: a checked mesh. Out: its surface as N patches: S oriented points grouped by patch, and one ball per patch such
-// that the balls together contain every triangle. Everything here is deterministic and, up to rounding, scales and
-// moves with the mesh.
+// ----------------------------------------------------------------------------------------- patches
+// In: a checked mesh. Out: its surface as N patches: S oriented points grouped by patch, and one
+// ball per patch such that the balls together contain every triangle. Everything here is
+// deterministic and, up to rounding, scales and moves with the mesh.
 
 #define NSVCD__SAMPLES_PER_POINT 32  // surface points per patch, on average
 #define NSVCD__NO_SAMPLE 0xffffffffu
@@ -1534,13 +1776,15 @@ typedef struct nsvcd__patches {
   size_t sample_count;  // S
   size_t piece_count;   // pieces of surface that the balls were fitted to
   float *centres;       // (N, 3) metres: p_i, the mean of the patch's samples
-  float *radii;         // (N) r_i: the ball at p_i with this radius contains every piece of surface of the patch
+  // (N) r_i: the ball at p_i with this radius contains every piece of surface of the patch
+  float *radii;
   float *sample_radii;  // (N) the same for the patch's samples
   float *areas;         // (N) square metres
-  float *area_vectors;  // (N, 3) area times normal, summed over the patch; over all patches it is that of the mesh
-  uint32_t *offsets;    // (N + 1) patch i has the samples offsets[i] .. offsets[i + 1] - 1
-  float *points;        // (S, 3) metres
-  float *normals;       // (S, 3) unit
+  // (N, 3) area times normal, summed over the patch; over all patches it is that of the mesh
+  float *area_vectors;
+  uint32_t *offsets;  // (N + 1) patch i has the samples offsets[i] .. offsets[i + 1] - 1
+  float *points;      // (S, 3) metres
+  float *normals;     // (S, 3) unit
 
   // Working memory: all of this lies in one block.
   nsvcd__patch_sum *sums;                 // (N)
@@ -1548,13 +1792,16 @@ typedef struct nsvcd__patches {
   float *x, *y, *z;                       // (S) the samples in the order in which they were drawn
   float *drawn_normals;                   // (S, 3)
   uint16_t *owners;                       // (S) the patch of each sample
-  float *distances;                       // (S) squared, to the nearest centre so far; where the points will be
-  uint32_t *next_sample;                  // (S) lists of the samples of each centre, while centres are added; also there
-  uint32_t *first_sample;                 // (N)
-  uint32_t *farthest_sample;              // (N) of those of the centre,
-  float *reach;                           // (N) and its squared distance
-  uint32_t *neighbours;  // (N, NSVCD__NEIGHBOURS) the other centres nearest to each, in order of distance
-  float *quarter_gaps;   // (N, NSVCD__NEIGHBOURS) a quarter of their squared distance
+  // (S) squared, to the nearest centre so far; where the points will be
+  float *distances;
+  // (S) lists of the samples of each centre, while centres are added; also there
+  uint32_t *next_sample;
+  uint32_t *first_sample;     // (N)
+  uint32_t *farthest_sample;  // (N) of those of the centre,
+  float *reach;               // (N) and its squared distance
+  // (N, NSVCD__NEIGHBOURS) the other centres nearest to each, in order of distance
+  uint32_t *neighbours;
+  float *quarter_gaps;  // (N, NSVCD__NEIGHBOURS) a quarter of their squared distance
   void *memory;
 } nsvcd__patches;
 
@@ -1571,9 +1818,13 @@ static void nsvcd__triangle(const nsvcd_mesh *mesh, size_t t, double corners[3][
 // Area times unit normal; returns the area.
 static double nsvcd__area_vector(double corners[3][3], double *vector) {
   double u[3], v[3];
-  for (int k = 0; k < 3; ++k) u[k] = corners[1][k] - corners[0][k], v[k] = corners[2][k] - corners[0][k];
   for (int k = 0; k < 3; ++k) {
-    int i = (k + 1) % 3, j = (k + 2) % 3;
+    u[k] = corners[1][k] - corners[0][k];
+    v[k] = corners[2][k] - corners[0][k];
+  }
+  for (int k = 0; k < 3; ++k) {
+    int i = (k + 1) % 3;
+    int j = (k + 2) % 3;
     vector[k] = 0.5 * (u[i] * v[j] - u[j] * v[i]);
   }
   return sqrt(vector[0] * vector[0] + vector[1] * vector[1] + vector[2] * vector[2]);
@@ -1589,24 +1840,33 @@ static double nsvcd__mesh_area(const nsvcd_mesh *mesh) {
   return area;
 }
 
-// Stratified by area: sample k lies where the area summed in triangle order passes (k + 1/2) / count of the total.
-// Within its triangle the R2 sequence places it (Roberts 2018: multiples of 1/g and 1/g^2, g^3 = g + 1).
-// points, normals: (count, 3). Where there is no area, triangles count alike, and have no normals.
-static void nsvcd__sample_surface(const nsvcd_mesh *mesh, size_t count, float *points, float *normals) {
+// Stratified by area: sample k lies where the area summed in triangle order passes (k + 1/2) /
+// count of the total. Within its triangle the R2 sequence places it (Roberts 2018: multiples of 1/g
+// and 1/g^2, g^3 = g + 1). points, normals: (count, 3). Where there is no area, triangles count
+// alike, and have no normals.
+static void nsvcd__sample_surface(const nsvcd_mesh *mesh, size_t count, float *points,
+                                  float *normals) {
   const double all = nsvcd__mesh_area(mesh);
   const double total = all > 0 ? all : (double)mesh->triangle_count;
-  double corners[3][3], vector[3], area = 0, passed = 0;  // passed: the area up to and including triangle t
+  double corners[3][3];
+  double vector[3];
+  double area = 0;
+  double passed = 0;  // passed: the area up to and including triangle t
   size_t t = 0;
   for (size_t k = 0; k < count; ++k) {
     double target = total * (((double)k + 0.5) / (double)count);
-    while (passed <= target && t < mesh->triangle_count) {  // never stops at a triangle without area
+    // never stops at a triangle without area
+    while (passed <= target && t < mesh->triangle_count) {
       nsvcd__triangle(mesh, t++, corners);
       area = nsvcd__area_vector(corners, vector);
       passed += all > 0 ? area : 1;
     }
     double u = (double)((uint32_t)k * 3242174889u + 0x80000000u) / 4294967296.0;
     double v = (double)((uint32_t)k * 2447445414u + 0x80000000u) / 4294967296.0;
-    if (u + v > 1) u = 1 - u, v = 1 - v;
+    if (u + v > 1) {
+      u = 1 - u;
+      v = 1 - v;
+    }
     for (int i = 0; i < 3; ++i) {
       double a = corners[0][i];
       points[3 * k + (size_t)i] = (float)(a + u * (corners[1][i] - a) + v * (corners[2][i] - a));
@@ -1625,27 +1885,44 @@ static nsvcd_result nsvcd__patches_alloc(nsvcd__patches *p, size_t count, size_t
   memset(p, 0, sizeof *p);
   p->memory = nsvcd__alloc(allocator, count * sizeof(nsvcd__patch_sum) + words * sizeof(float));
   if (!p->memory) return NSVCD_ERROR_MEMORY;
-  p->count = count, p->sample_count = samples;
+  p->count = count;
+  p->sample_count = samples;
   p->sums = (nsvcd__patch_sum *)p->memory;
   float *next = (float *)(void *)(p->sums + count);
-  p->centre_x = next, next += count;
-  p->centre_y = next, next += count;
-  p->centre_z = next, next += count;
-  p->centres = next, next += 3 * count;
-  p->radii = next, next += count;
-  p->sample_radii = next, next += count;
-  p->areas = next, next += count;
-  p->area_vectors = next, next += 3 * count;
-  p->x = next, next += samples;
-  p->y = next, next += samples;
-  p->z = next, next += samples;
-  p->drawn_normals = next, next += 3 * samples;
-  p->points = next, next += 3 * samples;
+  p->centre_x = next;
+  next += count;
+  p->centre_y = next;
+  next += count;
+  p->centre_z = next;
+  next += count;
+  p->centres = next;
+  next += 3 * count;
+  p->radii = next;
+  next += count;
+  p->sample_radii = next;
+  next += count;
+  p->areas = next;
+  next += count;
+  p->area_vectors = next;
+  next += 3 * count;
+  p->x = next;
+  next += samples;
+  p->y = next;
+  next += samples;
+  p->z = next;
+  next += samples;
+  p->drawn_normals = next;
+  next += 3 * samples;
+  p->points = next;
+  next += 3 * samples;
   p->distances = p->points;
   p->next_sample = (uint32_t *)(void *)(p->points + samples);
-  p->normals = next, next += 3 * samples;
-  p->quarter_gaps = next, next += NSVCD__NEIGHBOURS * count;
-  p->reach = next, next += count;
+  p->normals = next;
+  next += 3 * samples;
+  p->quarter_gaps = next;
+  next += NSVCD__NEIGHBOURS * count;
+  p->reach = next;
+  next += count;
   p->first_sample = (uint32_t *)(void *)next;
   p->farthest_sample = p->first_sample + count;
   p->neighbours = p->farthest_sample + count;
@@ -1662,11 +1939,17 @@ static void nsvcd__patches_free(nsvcd__patches *p, const nsvcd_allocator *alloca
 // ---- clusters: farthest point sampling, then Lloyd's algorithm
 
 static void nsvcd__set_centre(nsvcd__patches *p, size_t i, float x, float y, float z) {
-  p->centre_x[i] = x, p->centre_y[i] = y, p->centre_z[i] = z;
+  p->centre_x[i] = x;
+  p->centre_y[i] = y;
+  p->centre_z[i] = z;
 }
 
-static float nsvcd__centre_distance(const nsvcd__patches *p, uint32_t centre, float x, float y, float z) {  // squared
-  float dx = p->centre_x[centre] - x, dy = p->centre_y[centre] - y, dz = p->centre_z[centre] - z;
+// squared
+static float nsvcd__centre_distance(const nsvcd__patches *p, uint32_t centre, float x, float y,
+                                    float z) {
+  float dx = p->centre_x[centre] - x;
+  float dy = p->centre_y[centre] - y;
+  float dz = p->centre_z[centre] - z;
   return dx * dx + dy * dy + dz * dz;
 }
 
@@ -1675,33 +1958,48 @@ static void nsvcd__link_centres(nsvcd__patches *p) {
   for (uint32_t i = 0; i < p->count; ++i) {
     uint32_t *neighbours = p->neighbours + (size_t)i * NSVCD__NEIGHBOURS;
     float *gaps = p->quarter_gaps + (size_t)i * NSVCD__NEIGHBOURS;
-    for (int k = 0; k < NSVCD__NEIGHBOURS; ++k) neighbours[k] = i, gaps[k] = HUGE_VALF;
+    for (int k = 0; k < NSVCD__NEIGHBOURS; ++k) {
+      neighbours[k] = i;
+      gaps[k] = HUGE_VALF;
+    }
     for (uint32_t j = 0; j < p->count; ++j) {
-      float gap = 0.25f * nsvcd__centre_distance(p, j, p->centre_x[i], p->centre_y[i], p->centre_z[i]);
+      float gap =
+          0.25f * nsvcd__centre_distance(p, j, p->centre_x[i], p->centre_y[i], p->centre_z[i]);
       if (j == i || gap >= gaps[NSVCD__NEIGHBOURS - 1]) continue;
       int k = NSVCD__NEIGHBOURS - 1;
-      for (; k > 0 && gaps[k - 1] > gap; --k) gaps[k] = gaps[k - 1], neighbours[k] = neighbours[k - 1];
-      gaps[k] = gap, neighbours[k] = j;
+      for (; k > 0 && gaps[k - 1] > gap; --k) {
+        gaps[k] = gaps[k - 1];
+        neighbours[k] = neighbours[k - 1];
+      }
+      gaps[k] = gap;
+      neighbours[k] = j;
     }
   }
 }
 
-static int nsvcd__is_nearer(float a, uint32_t a_index, float b, uint32_t b_index) {  // of equals the first
+// of equals the first
+static int nsvcd__is_nearer(float a, uint32_t a_index, float b, uint32_t b_index) {
   return a < b || (!(a > b) && a_index < b_index);
 }
 
-// The centre nearest to a point, found from a guess. A centre twice as far from the guess as the point is cannot be
-// nearer to the point (triangle inequality), so the guess's neighbours usually decide; else they give a better guess.
-static uint32_t nsvcd__nearest_centre(const nsvcd__patches *p, uint32_t guess, float x, float y, float z) {
+// The centre nearest to a point, found from a guess. A centre twice as far from the guess as the
+// point is cannot be nearer to the point (triangle inequality), so the guess's neighbours usually
+// decide; else they give a better guess.
+static uint32_t nsvcd__nearest_centre(const nsvcd__patches *p, uint32_t guess, float x, float y,
+                                      float z) {
   uint32_t nearest = guess;
   float best = nsvcd__centre_distance(p, guess, x, y, z);
   for (;;) {
-    const float *gaps = p->quarter_gaps + (size_t)guess * NSVCD__NEIGHBOURS, own = best;
+    const float *gaps = p->quarter_gaps + (size_t)guess * NSVCD__NEIGHBOURS;
+    const float own = best;
     int k = 0;
     for (; k < NSVCD__NEIGHBOURS && gaps[k] <= own; ++k) {
       uint32_t i = p->neighbours[(size_t)guess * NSVCD__NEIGHBOURS + (size_t)k];
       float distance = nsvcd__centre_distance(p, i, x, y, z);
-      if (nsvcd__is_nearer(distance, i, best, nearest)) best = distance, nearest = i;
+      if (nsvcd__is_nearer(distance, i, best, nearest)) {
+        best = distance;
+        nearest = i;
+      }
     }
     if (k < NSVCD__NEIGHBOURS) return nearest;
     if (nearest == guess) break;
@@ -1709,7 +2007,10 @@ static uint32_t nsvcd__nearest_centre(const nsvcd__patches *p, uint32_t guess, f
   }
   for (uint32_t i = 0; i < p->count; ++i) {
     float distance = nsvcd__centre_distance(p, i, x, y, z);
-    if (nsvcd__is_nearer(distance, i, best, nearest)) best = distance, nearest = i;
+    if (nsvcd__is_nearer(distance, i, best, nearest)) {
+      best = distance;
+      nearest = i;
+    }
   }
   return nearest;
 }
@@ -1717,20 +2018,29 @@ static uint32_t nsvcd__nearest_centre(const nsvcd__patches *p, uint32_t guess, f
 static void nsvcd__give_sample(nsvcd__patches *p, uint32_t s, uint32_t owner, float distance) {
   p->owners[s] = (uint16_t)owner;
   p->distances[s] = distance;
-  p->next_sample[s] = p->first_sample[owner], p->first_sample[owner] = s;
-  if (distance > p->reach[owner]) p->reach[owner] = distance, p->farthest_sample[owner] = s;
+  p->next_sample[s] = p->first_sample[owner];
+  p->first_sample[owner] = s;
+  if (distance > p->reach[owner]) {
+    p->reach[owner] = distance;
+    p->farthest_sample[owner] = s;
+  }
 }
 
-// Makes sample `from` a new centre and hands it the samples that are nearer to it than to their owner. An owner more
-// than twice as far away as its farthest sample loses none (triangle inequality): most are passed over.
+// Makes sample `from` a new centre and hands it the samples that are nearer to it than to their
+// owner. An owner more than twice as far away as its farthest sample loses none (triangle
+// inequality): most are passed over.
 static void nsvcd__add_centre(nsvcd__patches *p, uint32_t centre, uint32_t from) {
-  float x = p->x[from], y = p->y[from], z = p->z[from];
+  float x = p->x[from];
+  float y = p->y[from];
+  float z = p->z[from];
   nsvcd__set_centre(p, centre, x, y, z);
-  p->first_sample[centre] = NSVCD__NO_SAMPLE, p->reach[centre] = -1;
+  p->first_sample[centre] = NSVCD__NO_SAMPLE;
+  p->reach[centre] = -1;
   for (uint32_t owner = 0; owner < centre; ++owner) {
     if (0.25f * nsvcd__centre_distance(p, owner, x, y, z) > p->reach[owner]) continue;
     uint32_t s = p->first_sample[owner];
-    p->first_sample[owner] = NSVCD__NO_SAMPLE, p->reach[owner] = -1;
+    p->first_sample[owner] = NSVCD__NO_SAMPLE;
+    p->reach[owner] = -1;
     while (s != NSVCD__NO_SAMPLE) {
       uint32_t next = p->next_sample[s];
       float distance = nsvcd__centre_distance(p, centre, p->x[s], p->y[s], p->z[s]);
@@ -1742,17 +2052,25 @@ static void nsvcd__add_centre(nsvcd__patches *p, uint32_t centre, uint32_t from)
 }
 
 static void nsvcd__give_all_samples(nsvcd__patches *p) {  // to centre 0
-  p->first_sample[0] = NSVCD__NO_SAMPLE, p->reach[0] = -1;
+  p->first_sample[0] = NSVCD__NO_SAMPLE;
+  p->reach[0] = -1;
   for (uint32_t s = 0; s < p->sample_count; ++s) {
     nsvcd__give_sample(p, s, 0, nsvcd__centre_distance(p, 0, p->x[s], p->y[s], p->z[s]));
   }
 }
 
-// Farthest point sampling (Gonzalez 1985). The first centre is the sample farthest from the mean of all; stops early
-// once every sample is a centre or coincides with one.
+// Farthest point sampling (Gonzalez 1985). The first centre is the sample farthest from the mean of
+// all; stops early once every sample is a centre or coincides with one.
 static void nsvcd__farthest_points(nsvcd__patches *p) {
-  double x = 0, y = 0, z = 0, samples = (double)p->sample_count;
-  for (size_t s = 0; s < p->sample_count; ++s) x += (double)p->x[s], y += (double)p->y[s], z += (double)p->z[s];
+  double x = 0;
+  double y = 0;
+  double z = 0;
+  double samples = (double)p->sample_count;
+  for (size_t s = 0; s < p->sample_count; ++s) {
+    x += (double)p->x[s];
+    y += (double)p->y[s];
+    z += (double)p->z[s];
+  }
   nsvcd__set_centre(p, 0, (float)(x / samples), (float)(y / samples), (float)(z / samples));
   nsvcd__give_all_samples(p);
   uint32_t from = p->farthest_sample[0];
@@ -1768,12 +2086,15 @@ static void nsvcd__farthest_points(nsvcd__patches *p) {
   p->count = count;
 }
 
-// Moves every centre to the mean of its samples; a centre without samples is dropped and the others close the gap.
+// Moves every centre to the mean of its samples; a centre without samples is dropped and the others
+// close the gap.
 static void nsvcd__move_centres(nsvcd__patches *p) {
   memset(p->sums, 0, p->count * sizeof *p->sums);
   for (size_t s = 0; s < p->sample_count; ++s) {
     nsvcd__patch_sum *sum = &p->sums[p->owners[s]];
-    sum->vector[0] += (double)p->x[s], sum->vector[1] += (double)p->y[s], sum->vector[2] += (double)p->z[s];
+    sum->vector[0] += (double)p->x[s];
+    sum->vector[1] += (double)p->y[s];
+    sum->vector[2] += (double)p->z[s];
     sum->weight += 1;
   }
   uint32_t kept = 0;
@@ -1781,16 +2102,18 @@ static void nsvcd__move_centres(nsvcd__patches *p) {
     const nsvcd__patch_sum *sum = &p->sums[i];
     p->offsets[i] = kept;  // for now: the new number of patch i
     if (!(sum->weight > 0)) continue;
-    nsvcd__set_centre(p, kept++, (float)(sum->vector[0] / sum->weight), (float)(sum->vector[1] / sum->weight),
-                      (float)(sum->vector[2] / sum->weight));
+    nsvcd__set_centre(p, kept++, (float)(sum->vector[0] / sum->weight),
+                      (float)(sum->vector[1] / sum->weight), (float)(sum->vector[2] / sum->weight));
   }
   for (size_t s = 0; s < p->sample_count; ++s) p->owners[s] = (uint16_t)p->offsets[p->owners[s]];
   p->count = kept;
   nsvcd__link_centres(p);
 }
 
-static double nsvcd__squared_distance(const nsvcd__patches *p, size_t centre, double x, double y, double z) {
-  double dx = x - (double)p->centre_x[centre], dy = y - (double)p->centre_y[centre];
+static double nsvcd__squared_distance(const nsvcd__patches *p, size_t centre, double x, double y,
+                                      double z) {
+  double dx = x - (double)p->centre_x[centre];
+  double dy = y - (double)p->centre_y[centre];
   double dz = z - (double)p->centre_z[centre];
   return dx * dx + dy * dy + dz * dz;
 }
@@ -1798,7 +2121,8 @@ static double nsvcd__squared_distance(const nsvcd__patches *p, size_t centre, do
 // Root, rounded up: a radius may be too large by a rounding, never too small.
 static float nsvcd__radius_above(double squared) { return (float)(sqrt(squared) * (1 + 4e-7)); }
 
-// Writes the samples patch by patch (counting sort, so the order within a patch stays), and the sample radii.
+// Writes the samples patch by patch (counting sort, so the order within a patch stays), and the
+// sample radii.
 static void nsvcd__group_samples(nsvcd__patches *p) {
   memset(p->offsets, 0, (p->count + 1) * sizeof *p->offsets);
   memset(p->sums, 0, p->count * sizeof *p->sums);
@@ -1811,7 +2135,8 @@ static void nsvcd__group_samples(nsvcd__patches *p) {
     p->points[3 * to + 1] = p->y[s];
     p->points[3 * to + 2] = p->z[s];
     memcpy(p->normals + 3 * to, p->drawn_normals + 3 * s, 3 * sizeof(float));
-    double distance = nsvcd__squared_distance(p, owner, (double)p->x[s], (double)p->y[s], (double)p->z[s]);
+    double distance =
+        nsvcd__squared_distance(p, owner, (double)p->x[s], (double)p->y[s], (double)p->z[s]);
     if (distance > p->sums[owner].reach) p->sums[owner].reach = distance;
   }
   memmove(p->offsets + 1, p->offsets, p->count * sizeof *p->offsets);
@@ -1820,28 +2145,35 @@ static void nsvcd__group_samples(nsvcd__patches *p) {
 }
 
 // ---- covering balls
-// Every triangle is bisected across its longest edge until no edge exceeds `limit`. Each piece goes to the patch whose
-// centre is nearest to the piece's centroid, and that patch's ball grows to hold its three corners, so all of it.
+// Every triangle is bisected across its longest edge until no edge exceeds `limit`. Each piece goes
+// to the patch whose centre is nearest to the piece's centroid, and that patch's ball grows to hold
+// its three corners, so all of it.
 
 static double nsvcd__squared_edge(const double *a, const double *b) {
-  double x = a[0] - b[0], y = a[1] - b[1], z = a[2] - b[2];
+  double x = a[0] - b[0];
+  double y = a[1] - b[1];
+  double z = a[2] - b[2];
   return x * x + y * y + z * z;
 }
 
-// How many pieces that makes of a triangle, given its squared edges; stops counting beyond `most`. The new edge is the
-// median of the longest one (Apollonius's theorem), so lengths are enough.
+// How many pieces that makes of a triangle, given its squared edges; stops counting beyond `most`.
+// The new edge is the median of the longest one (Apollonius's theorem), so lengths are enough.
 static double nsvcd__count_pieces(double ab, double bc, double ca, double limit, double most) {
   if (bc > ab && bc >= ca) return nsvcd__count_pieces(bc, ca, ab, limit, most);
   if (ca > ab) return nsvcd__count_pieces(ca, ab, bc, limit, most);
   if (ab <= limit * limit) return 1;
   double median = 0.5 * (bc + ca) - 0.25 * ab;
   double pieces = nsvcd__count_pieces(0.25 * ab, median, ca, limit, most);
-  return pieces > most ? pieces : pieces + nsvcd__count_pieces(0.25 * ab, bc, median, limit, most - pieces);
+  return pieces > most ? pieces
+                       : pieces + nsvcd__count_pieces(0.25 * ab, bc, median, limit, most - pieces);
 }
 
-// The limit on the edges of pieces, raised from `limit` until a mesh makes at most so many: *pieces.
-static double nsvcd__raise_limit(const nsvcd_mesh *mesh, double limit, double most, double *pieces) {
-  // A triangle makes at least as many pieces as its longest edge has limits: no need to start below that.
+// The limit on the edges of pieces, raised from `limit` until a mesh makes at most so many:
+// *pieces.
+static double nsvcd__raise_limit(const nsvcd_mesh *mesh, double limit, double most,
+                                 double *pieces) {
+  // A triangle makes at least as many pieces as its longest edge has limits: no need to start below
+  // that.
   double longest = 0;
   for (size_t t = 0; t < mesh->triangle_count; ++t) {
     double c[3][3];
@@ -1853,8 +2185,9 @@ static double nsvcd__raise_limit(const nsvcd_mesh *mesh, double limit, double mo
     for (size_t t = 0; t < mesh->triangle_count && *pieces <= most; ++t) {
       double c[3][3];
       nsvcd__triangle(mesh, t, c);
-      *pieces += nsvcd__count_pieces(nsvcd__squared_edge(c[0], c[1]), nsvcd__squared_edge(c[1], c[2]),
-                                     nsvcd__squared_edge(c[2], c[0]), limit, most - *pieces);
+      *pieces +=
+          nsvcd__count_pieces(nsvcd__squared_edge(c[0], c[1]), nsvcd__squared_edge(c[1], c[2]),
+                              nsvcd__squared_edge(c[2], c[0]), limit, most - *pieces);
     }
     if (*pieces <= most) return limit;
   }
@@ -1862,7 +2195,8 @@ static double nsvcd__raise_limit(const nsvcd_mesh *mesh, double limit, double mo
 
 // The limit for the pieces of patches: larger ones only make larger balls.
 static double nsvcd__piece_limit(const nsvcd__patches *p, const nsvcd_mesh *mesh) {
-  double limit = 0, most = (double)mesh->triangle_count + NSVCD__PIECES_PER_SAMPLE * (double)p->sample_count;
+  double limit = 0;
+  double most = (double)mesh->triangle_count + NSVCD__PIECES_PER_SAMPLE * (double)p->sample_count;
   double pieces;
   for (size_t i = 0; i < p->count; ++i) limit += (double)p->sample_radii[i] / (double)p->count;
   limit *= NSVCD__PIECE_SIZE;
@@ -1871,19 +2205,26 @@ static double nsvcd__piece_limit(const nsvcd__patches *p, const nsvcd_mesh *mesh
 }
 
 // Returns the patch of the last piece: the guess for the next.
-static uint32_t nsvcd__cover_piece(nsvcd__patches *p, double limit, uint32_t guess, const double *a, const double *b,
-                                   const double *c, const double *area_vector, double area) {
-  double ab = nsvcd__squared_edge(a, b), bc = nsvcd__squared_edge(b, c), ca = nsvcd__squared_edge(c, a);
+static uint32_t nsvcd__cover_piece(nsvcd__patches *p, double limit, uint32_t guess, const double *a,
+                                   const double *b, const double *c, const double *area_vector,
+                                   double area) {
+  double ab = nsvcd__squared_edge(a, b);
+  double bc = nsvcd__squared_edge(b, c);
+  double ca = nsvcd__squared_edge(c, a);
   if (bc > ab && bc >= ca) return nsvcd__cover_piece(p, limit, guess, b, c, a, area_vector, area);
   if (ca > ab) return nsvcd__cover_piece(p, limit, guess, c, a, b, area_vector, area);
   if (ab > limit * limit) {
     double middle[3], half[3];
-    for (int k = 0; k < 3; ++k) middle[k] = 0.5 * (a[k] + b[k]), half[k] = 0.5 * area_vector[k];
+    for (int k = 0; k < 3; ++k) {
+      middle[k] = 0.5 * (a[k] + b[k]);
+      half[k] = 0.5 * area_vector[k];
+    }
     guess = nsvcd__cover_piece(p, limit, guess, a, middle, c, half, 0.5 * area);
     return nsvcd__cover_piece(p, limit, guess, middle, b, c, half, 0.5 * area);
   }
-  uint32_t patch = nsvcd__nearest_centre(p, guess, (float)((a[0] + b[0] + c[0]) / 3), (float)((a[1] + b[1] + c[1]) / 3),
-                                         (float)((a[2] + b[2] + c[2]) / 3));
+  uint32_t patch =
+      nsvcd__nearest_centre(p, guess, (float)((a[0] + b[0] + c[0]) / 3),
+                            (float)((a[1] + b[1] + c[1]) / 3), (float)((a[2] + b[2] + c[2]) / 3));
   nsvcd__patch_sum *sum = &p->sums[patch];
   for (int k = 0; k < 3; ++k) sum->vector[k] += area_vector[k];
   sum->weight += area;
@@ -1906,7 +2247,8 @@ static void nsvcd__cover(nsvcd__patches *p, const nsvcd_mesh *mesh) {
   }
   for (size_t i = 0; i < p->count; ++i) {
     const nsvcd__patch_sum *sum = &p->sums[i];
-    // A patch may own samples but, its border being finer, only some small piece: its ball holds both.
+    // A patch may own samples but, its border being finer, only some small piece: its ball holds
+    // both.
     p->radii[i] = fmaxf(nsvcd__radius_above(sum->reach), p->sample_radii[i]);
     p->areas[i] = (float)sum->weight;
     for (size_t k = 0; k < 3; ++k) p->area_vectors[3 * i + k] = (float)sum->vector[k];
@@ -1915,13 +2257,15 @@ static void nsvcd__cover(nsvcd__patches *p, const nsvcd_mesh *mesh) {
 
 // ---- all of it
 
-// Splits the surface of a checked mesh into at most `points` patches, 1..NSVCD_SMALL_POINTS: fewer where samples
-// coincide or a patch loses all of its samples. On success release *patches with nsvcd__patches_free; on failure, MEMORY,
-// it is untouched.
-static nsvcd_result nsvcd__patches_build(const nsvcd_mesh *mesh, size_t points, const nsvcd_allocator *allocator,
+// Splits the surface of a checked mesh into at most `points` patches, 1..NSVCD_SMALL_POINTS: fewer
+// where samples coincide or a patch loses all of its samples. On success release *patches with
+// nsvcd__patches_free; on failure, MEMORY, it is untouched.
+static nsvcd_result nsvcd__patches_build(const nsvcd_mesh *mesh, size_t points,
+                                         const nsvcd_allocator *allocator,
                                          nsvcd__patches *patches) {
   nsvcd__patches p;
-  const nsvcd_result result = nsvcd__patches_alloc(&p, points, NSVCD__SAMPLES_PER_POINT * points, allocator);
+  const nsvcd_result result =
+      nsvcd__patches_alloc(&p, points, NSVCD__SAMPLES_PER_POINT * points, allocator);
   if (result != NSVCD_OK) return result;
   nsvcd__sample_surface(mesh, p.sample_count, p.points, p.drawn_normals);
   for (size_t s = 0; s < p.sample_count; ++s) {
@@ -1938,7 +2282,9 @@ static nsvcd_result nsvcd__patches_build(const nsvcd_mesh *mesh, size_t points, 
     nsvcd__move_centres(&p);
   }
   for (size_t i = 0; i < p.count; ++i) {
-    p.centres[3 * i] = p.centre_x[i], p.centres[3 * i + 1] = p.centre_y[i], p.centres[3 * i + 2] = p.centre_z[i];
+    p.centres[3 * i] = p.centre_x[i];
+    p.centres[3 * i + 1] = p.centre_y[i];
+    p.centres[3 * i + 2] = p.centre_z[i];
   }
   nsvcd__group_samples(&p);
   nsvcd__cover(&p, mesh);
@@ -1948,10 +2294,11 @@ static nsvcd_result nsvcd__patches_build(const nsvcd_mesh *mesh, size_t points, 
 #endif  // NSVCD_NO_ENCODER
 
 #ifndef NSVCD_NO_ENCODER
-// ---------------------------------------------------------------------------------------------------- regions
-// In: a checked mesh. Out: its triangles, welded, in one region, or in as many as it takes to have no more than 512 patches
-// in each: each region is then made into patches by itself. Large triangles are halved first, until none is large beside
-// the regions. So that nothing is lost, halves share the corner between them and both are kept.
+// ----------------------------------------------------------------------------------------- regions
+// In: a checked mesh. Out: its triangles, welded, in one region, or in as many as it takes to have
+// no more than 512 patches in each: each region is then made into patches by itself. Large
+// triangles are halved first, until none is large beside the regions. So that nothing is lost,
+// halves share the corner between them and both are kept.
 
 #define NSVCD__REGION_POINTS 256      // patches of a region, where there are several
 #define NSVCD__REGION_EDGE 0.5        // longest edge, in roots of a region's mean area
@@ -2163,18 +2510,20 @@ typedef struct nsvcd__regions {
   const nsvcd_mesh *mesh;
   double greatest;         // coordinate, of all
   size_t component_count;  // C
-  uint8_t *seeds;          // (vertices) 1: of its component the least vertex, which no patch has been given yet
-  size_t count;            // R
-  size_t triangle_count;   // T, halves and all
-  uint32_t *corners;       // (T, 3) numbers of welded vertices, then of cuts
-  uint32_t *ids;           // (T) in the caller's mesh, with NSVCD__ENCLOSES where it belongs to a closed component
+  // (vertices) 1: of its component the least vertex, which no patch has been given yet
+  uint8_t *seeds;
+  size_t count;           // R
+  size_t triangle_count;  // T, halves and all
+  uint32_t *corners;      // (T, 3) numbers of welded vertices, then of cuts
+  // (T) in the caller's mesh, with NSVCD__ENCLOSES where it belongs to a closed component
+  uint32_t *ids;
   size_t cut_count;
-  nsvcd__d3 *cuts;         // the corners that halving has made
+  nsvcd__d3 *cuts;  // the corners that halving has made
   // Of several regions:
-  uint32_t *order;         // (T) triangles, region by region
-  uint32_t *spare;         // (T) working memory
-  uint32_t *numbers;       // (vertices and cuts) those in the region at hand
-  size_t *first;           // (R + 1) places in `order`
+  uint32_t *order;    // (T) triangles, region by region
+  uint32_t *spare;    // (T) working memory
+  uint32_t *numbers;  // (vertices and cuts) those in the region at hand
+  size_t *first;      // (R + 1) places in `order`
 } nsvcd__regions;
 
 // A part of a mesh. Its last vertices are cuts.
@@ -2184,9 +2533,9 @@ typedef struct nsvcd__region {
   const uint32_t *ids;    // (triangles)
   const nsvcd__d3 *cuts;  // (cut_count) where they are; the mesh has them rounded
   size_t cut_count;
-  uint8_t *seeds;         // (vertices)
-  uint32_t *vertices;     // (vertices) their numbers among those of all regions; NULL: the same
-  void *memory;           // of the rest, but for a single region
+  uint8_t *seeds;      // (vertices)
+  uint32_t *vertices;  // (vertices) their numbers among those of all regions; NULL: the same
+  void *memory;        // of the rest, but for a single region
 } nsvcd__region;
 
 static void nsvcd__regions_free(nsvcd__regions *r, const nsvcd_allocator *allocator) {
@@ -2203,25 +2552,29 @@ static void nsvcd__regions_free(nsvcd__regions *r, const nsvcd_allocator *alloca
 
 static nsvcd__d3 nsvcd__regions_point(const nsvcd__regions *r, uint32_t number) {
   const size_t vertices = r->mesh->vertex_count;
-  return number < vertices ? nsvcd__d3_load(r->mesh->positions + 3 * (size_t)number) : r->cuts[number - vertices];
+  return number < vertices ? nsvcd__d3_load(r->mesh->positions + 3 * (size_t)number)
+                           : r->cuts[number - vertices];
 }
 
-// The longest edge that triangles may keep, and how many triangles, and corners made by halving, there are then.
+// The longest edge that triangles may keep, and how many triangles, and corners made by halving,
+// there are then.
 static double nsvcd__regions_limit(const nsvcd__regions *r, size_t *triangles, size_t *cuts) {
   const nsvcd_mesh *mesh = r->mesh;
   const double most = (double)mesh->triangle_count + NSVCD__HALVES_PER_REGION * (double)r->count;
   const double least = NSVCD__REGION_EDGE * sqrt(nsvcd__mesh_area(mesh) / (double)r->count);
   double pieces;
   const double limit = nsvcd__raise_limit(mesh, least, most, &pieces);
-  // Lengths of halves are found here by formulas and there from their corners: roundings may part one more or less.
+  // Lengths of halves are found here by formulas and there from their corners: roundings may part
+  // one more or less.
   *cuts = (size_t)(pieces - (double)mesh->triangle_count) + NSVCD__HALVES_PER_REGION;
   *triangles = mesh->triangle_count + *cuts;
   return limit;
 }
 
-// Adds a triangle, or its halves where an edge is longer than the limit, as long as there is room for these.
-static void nsvcd__regions_add(nsvcd__regions *r, double limit, size_t most_cuts, uint32_t a, uint32_t b, uint32_t c,
-                               uint32_t id) {
+// Adds a triangle, or its halves where an edge is longer than the limit, as long as there is room
+// for these.
+static void nsvcd__regions_add(nsvcd__regions *r, double limit, size_t most_cuts, uint32_t a,
+                               uint32_t b, uint32_t c, uint32_t id) {
   const nsvcd__d3 pa = nsvcd__regions_point(r, a);
   const nsvcd__d3 pb = nsvcd__regions_point(r, b);
   const nsvcd__d3 pc = nsvcd__regions_point(r, c);
@@ -2250,8 +2603,10 @@ static void nsvcd__regions_add(nsvcd__regions *r, double limit, size_t most_cuts
   nsvcd__regions_add(r, limit, most_cuts, middle, b, c, id);
 }
 
-// Room for so many triangles and cuts, and for the rest of several regions. 0 without memory; the caller frees.
-static int nsvcd__regions_alloc(nsvcd__regions *r, size_t triangles, size_t cuts, const nsvcd_allocator *allocator) {
+// Room for so many triangles and cuts, and for the rest of several regions. 0 without memory; the
+// caller frees.
+static int nsvcd__regions_alloc(nsvcd__regions *r, size_t triangles, size_t cuts,
+                                const nsvcd_allocator *allocator) {
   const size_t word = sizeof(uint32_t);
   r->corners = (uint32_t *)nsvcd__alloc_array(allocator, triangles, 3 * word);
   r->ids = (uint32_t *)nsvcd__alloc_array(allocator, triangles, word);
@@ -2267,12 +2622,14 @@ static int nsvcd__regions_alloc(nsvcd__regions *r, size_t triangles, size_t cuts
 
 static nsvcd__d3 nsvcd__regions_centroid(const nsvcd__regions *r, uint32_t t) {
   const uint32_t *corners = r->corners + 3 * (size_t)t;
-  const nsvcd__d3 sum = nsvcd__d3_add(nsvcd__regions_point(r, corners[0]), nsvcd__regions_point(r, corners[1]));
+  const nsvcd__d3 sum =
+      nsvcd__d3_add(nsvcd__regions_point(r, corners[0]), nsvcd__regions_point(r, corners[1]));
   return nsvcd__d3_scale(nsvcd__d3_add(sum, nsvcd__regions_point(r, corners[2])), 1.0 / 3);
 }
 
 // What a triangle counts when regions are made alike: half of it is its area, half that it is one.
-static double nsvcd__regions_weight(const nsvcd__regions *r, uint32_t t, double per_area, double per_triangle) {
+static double nsvcd__regions_weight(const nsvcd__regions *r, uint32_t t, double per_area,
+                                    double per_triangle) {
   const uint32_t *corners = r->corners + 3 * (size_t)t;
   const nsvcd__d3 a = nsvcd__regions_point(r, corners[0]);
   const nsvcd__d3 u = nsvcd__d3_sub(nsvcd__regions_point(r, corners[1]), a);
@@ -2282,29 +2639,33 @@ static double nsvcd__regions_weight(const nsvcd__regions *r, uint32_t t, double 
 
 // Where a run of triangles is cut in two.
 typedef struct nsvcd__split {
-  nsvcd__d3 low;     // of the box of their centroids
-  size_t axis;       // its longest
-  double per_bin;    // bins per metre
-  size_t last_bin;   // of the first part
+  nsvcd__d3 low;    // of the box of their centroids
+  size_t axis;      // its longest
+  double per_bin;   // bins per metre
+  size_t last_bin;  // of the first part
 } nsvcd__split;
 
-static double nsvcd__d3_axis(nsvcd__d3 a, size_t axis) { return axis == 0 ? a.x : axis == 1 ? a.y : a.z; }
+static double nsvcd__d3_axis(nsvcd__d3 a, size_t axis) {
+  return axis == 0 ? a.x : axis == 1 ? a.y : a.z;
+}
 
 static size_t nsvcd__split_bin(const nsvcd__split *split, nsvcd__d3 at) {
-  const double bin = (nsvcd__d3_axis(at, split->axis) - nsvcd__d3_axis(split->low, split->axis)) * split->per_bin;
+  const double bin =
+      (nsvcd__d3_axis(at, split->axis) - nsvcd__d3_axis(split->low, split->axis)) * split->per_bin;
   return bin < NSVCD__REGION_BINS - 1 ? (size_t)bin : NSVCD__REGION_BINS - 1;
 }
 
 // Chooses it such that the first part has about this share of the weight.
-static nsvcd__split nsvcd__regions_split(const nsvcd__regions *r, size_t first, size_t end, double share,
-                                         double per_area, double per_triangle) {
+static nsvcd__split nsvcd__regions_split(const nsvcd__regions *r, size_t first, size_t end,
+                                         double share, double per_area, double per_triangle) {
   double weights[NSVCD__REGION_BINS] = {0};
   double all = 0;
   nsvcd__split split = {{HUGE_VAL, HUGE_VAL, HUGE_VAL}, 0, 0, 0};
   nsvcd__d3 high = {-HUGE_VAL, -HUGE_VAL, -HUGE_VAL};
   for (size_t i = first; i < end; i++) {
     const nsvcd__d3 at = nsvcd__regions_centroid(r, r->order[i]);
-    split.low = nsvcd__d3_of(fmin(split.low.x, at.x), fmin(split.low.y, at.y), fmin(split.low.z, at.z));
+    split.low =
+        nsvcd__d3_of(fmin(split.low.x, at.x), fmin(split.low.y, at.y), fmin(split.low.z, at.z));
     high = nsvcd__d3_of(fmax(high.x, at.x), fmax(high.y, at.y), fmax(high.z, at.z));
   }
   const nsvcd__d3 size = nsvcd__d3_sub(high, split.low);
@@ -2318,15 +2679,16 @@ static nsvcd__split nsvcd__regions_split(const nsvcd__regions *r, size_t first, 
     all += weight;
   }
   double sum = weights[0];
-  while (split.last_bin + 2 < NSVCD__REGION_BINS && sum + 0.5 * weights[split.last_bin + 1] < share * all) {
+  while (split.last_bin + 2 < NSVCD__REGION_BINS &&
+         sum + 0.5 * weights[split.last_bin + 1] < share * all) {
     sum += weights[++split.last_bin];
   }
   return split;
 }
 
 // Makes `parts` regions, the next ones, of a run of triangles. In a region they keep their order.
-static void nsvcd__regions_part(nsvcd__regions *r, size_t first, size_t end, size_t parts, size_t *made,
-                                double per_area, double per_triangle) {
+static void nsvcd__regions_part(nsvcd__regions *r, size_t first, size_t end, size_t parts,
+                                size_t *made, double per_area, double per_triangle) {
   if (parts == 1) {
     r->first[(*made)++] = first;
     return;
@@ -2349,10 +2711,10 @@ static void nsvcd__regions_part(nsvcd__regions *r, size_t first, size_t end, siz
   nsvcd__regions_part(r, middle, end, parts - left_parts, made, per_area, per_triangle);
 }
 
-// Welds the mesh, and parts it where it is to have more than a region's patches. points: N. On success release with
-// nsvcd__regions_free; 0 without memory, and nothing stays allocated.
-static int nsvcd__regions_build(const nsvcd_mesh *mesh, size_t points, const nsvcd_allocator *allocator,
-                                nsvcd__regions *r) {
+// Welds the mesh, and parts it where it is to have more than a region's patches. points: N. On
+// success release with nsvcd__regions_free; 0 without memory, and nothing stays allocated.
+static int nsvcd__regions_build(const nsvcd_mesh *mesh, size_t points,
+                                const nsvcd_allocator *allocator, nsvcd__regions *r) {
   nsvcd__topology topology;
   size_t triangles = mesh->triangle_count;
   size_t cuts = 0;
@@ -2362,7 +2724,8 @@ static int nsvcd__regions_build(const nsvcd_mesh *mesh, size_t points, const nsv
   r->component_count = topology.component_count;
   r->seeds = topology.seen;
   topology.seen = NULL;
-  r->count = points <= NSVCD_SMALL_POINTS ? 1 : (points + NSVCD__REGION_POINTS - 1) / NSVCD__REGION_POINTS;
+  r->count =
+      points <= NSVCD_SMALL_POINTS ? 1 : (points + NSVCD__REGION_POINTS - 1) / NSVCD__REGION_POINTS;
   for (size_t i = 0; i < 3 * mesh->vertex_count; i++) {
     r->greatest = fmax(r->greatest, fabs((double)mesh->positions[i]));
   }
@@ -2391,10 +2754,10 @@ static int nsvcd__regions_build(const nsvcd_mesh *mesh, size_t points, const nsv
   return 1;
 }
 
-// Gives the vertices of a run of triangles that are cuts, or those that are not, their numbers within a region. Returns
-// how many vertices there are now.
-static size_t nsvcd__region_number(nsvcd__regions *r, size_t first, size_t end, int cuts, size_t count,
-                                   uint32_t *vertices) {
+// Gives the vertices of a run of triangles that are cuts, or those that are not, their numbers
+// within a region. Returns how many vertices there are now.
+static size_t nsvcd__region_number(nsvcd__regions *r, size_t first, size_t end, int cuts,
+                                   size_t count, uint32_t *vertices) {
   for (size_t i = first; i < end; i++) {
     for (size_t k = 0; k < 3; k++) {
       const uint32_t v = r->corners[3 * (size_t)r->order[i] + k];
@@ -2406,9 +2769,10 @@ static size_t nsvcd__region_number(nsvcd__regions *r, size_t first, size_t end, 
   return count;
 }
 
-// One of the regions; NSVCD_ERROR_EMPTY where it has no triangle. On success release with nsvcd__region_end.
-static nsvcd_result nsvcd__region_begin(nsvcd__regions *r, size_t n, const nsvcd_allocator *allocator,
-                                        nsvcd__region *out) {
+// One of the regions; NSVCD_ERROR_EMPTY where it has no triangle. On success release with
+// nsvcd__region_end.
+static nsvcd_result nsvcd__region_begin(nsvcd__regions *r, size_t n,
+                                        const nsvcd_allocator *allocator, nsvcd__region *out) {
   memset(out, 0, sizeof *out);
   out->greatest = r->greatest;
   if (r->count == 1) {
@@ -2423,8 +2787,10 @@ static nsvcd_result nsvcd__region_begin(nsvcd__regions *r, size_t n, const nsvcd
   const size_t count = end - first;
   const size_t word = sizeof(uint32_t);
   if (count == 0) return NSVCD_ERROR_EMPTY;
-  // Exact places, then what takes four bytes: corners, ids and up to three vertices for each triangle; then the seeds.
-  char *memory = (char *)nsvcd__alloc_array(allocator, count, 3 * sizeof(nsvcd__d3) + 16 * word + 3);
+  // Exact places, then what takes four bytes: corners, ids and up to three vertices for each
+  // triangle; then the seeds.
+  char *memory =
+      (char *)nsvcd__alloc_array(allocator, count, 3 * sizeof(nsvcd__d3) + 16 * word + 3);
   if (!memory) return NSVCD_ERROR_MEMORY;
   nsvcd__d3 *cuts = (nsvcd__d3 *)(void *)memory;
   uint32_t *corners = (uint32_t *)(void *)(cuts + 3 * count);
@@ -2462,16 +2828,18 @@ static nsvcd_result nsvcd__region_begin(nsvcd__regions *r, size_t n, const nsvcd
 }
 
 // Keeps in mind which seeds patches have been given.
-static void nsvcd__region_end(nsvcd__regions *r, nsvcd__region *region, const nsvcd_allocator *allocator) {
+static void nsvcd__region_end(nsvcd__regions *r, nsvcd__region *region,
+                              const nsvcd_allocator *allocator) {
   const size_t firm = region->mesh.vertex_count - region->cut_count;
-  for (size_t v = 0; region->memory && v < firm; v++) r->seeds[region->vertices[v]] = region->seeds[v];
+  for (size_t v = 0; region->memory && v < firm; v++)
+    r->seeds[region->vertices[v]] = region->seeds[v];
   nsvcd__free(allocator, region->memory);
 }
 
 #endif  // NSVCD_NO_ENCODER
 
 #if !defined(NSVCD_NO_ENCODER) && !defined(NSVCD_NO_PROOF)
-// ---------------------------------------------------------------------------------------------------- surface
+// ----------------------------------------------------------------------------------------- surface
 // In: a mesh, region by region, and the centres of each region's patches, N in all. Out:
 // nsvcd__surface: of every patch an outer description of the surface that belongs to it, and the
 // triangles of that surface. A proof of freedom of collision is built on it.
@@ -2488,11 +2856,13 @@ static void nsvcd__region_end(nsvcd__regions *r, nsvcd__region *region, const ns
 // ball, disc and swollen hull convex: what contains the corners contains the piece. The corners
 // themselves are off by roundings of double: all bounds are wider by NSVCD__SURFACE_MARGIN.
 
-#define NSVCD__SURFACE_OVERLAP 0.5    // mean sample radii: so far a piece may reach into another cell
-#define NSVCD__SURFACE_WHOLE 16.0     // the same: with a longer edge a triangle is listed in parts
-#define NSVCD__SURFACE_MARGIN 1e-13   // of the mesh's greatest coordinate
-#define NSVCD__SURFACE_TINY 1e-30     // metres, added to that: keeps off what float cannot hold
-#define NSVCD__HULL_SHARE 1e-4        // of the radius: a hull as near as this to all corners is good
+// mean sample radii: so far a piece may reach into another cell
+#define NSVCD__SURFACE_OVERLAP 0.5
+#define NSVCD__SURFACE_WHOLE 16.0    // the same: with a longer edge a triangle is listed in parts
+#define NSVCD__SURFACE_MARGIN 1e-13  // of the mesh's greatest coordinate
+#define NSVCD__SURFACE_TINY 1e-30    // metres, added to that: keeps off what float cannot hold
+// of the radius: a hull as near as this to all corners is good
+#define NSVCD__HULL_SHARE 1e-4
 #define NSVCD__FACET_CORNERS 16       // corners of a piece, at most
 #define NSVCD__FACET_STACK 64         // parts that wait for their turn (12 at most were seen)
 #define NSVCD__CUTS_PER_TRIANGLE 8    // these two bound the cuts: a fine mesh needs less than one,
@@ -2524,29 +2894,29 @@ static int nsvcd__list_reserve(nsvcd__list *list, size_t more, size_t size,
 }
 
 typedef struct nsvcd__surface {
-  size_t count;             // N, of which
-  size_t done;              // so many are described by now
-  size_t listed;            // L, triangles listed, over all patches
-  size_t vertex_count;      // V, vertices stored, over all patches
-  size_t component_count;   // C, connected components (vertices at the same place are one vertex)
-  float *balls;             // (N, 4) centre c and radius. An empty patch has radius NSVCD__NOWHERE
-  float *discs;             // (N, 6) normal n (|n| <= 1), low, high, across: points x of pieces
-                            // have low <= n.(x - c) <= high and are within `across` of the line
-                            // through c along n
-  float *steps;             // (N) metres per integer: a stored vertex is c + step * (x, y, z)
-  float *slacks;            // (N) metres: every point of a piece is within this of the convex hull
-                            // of the first hull_counts[i] stored vertices
-  float *quanta;            // (N) metres: every corner listed is within this of its stored vertex
-  uint8_t *hull_counts;     // (N) 1..NSVCD__HULL; 0 where empty
-  uint32_t *first_vertex;   // (N + 1)
-  uint32_t *first_triangle; // (N + 1)
-  int16_t *vertices;        // patch i: x of its vertices, then y, then z, at 3 * first_vertex[i]
-  uint16_t *corners;        // (L, 3) numbers of vertices within the patch
-  uint32_t *ids;            // (L) triangle of the mesh. With NSVCD__ENCLOSES where it belongs to a
-                            // closed component
-  size_t seed_count;        // so many of the C components are known by now
-  float *seeds;             // (C, 3) a vertex of each component
-  uint32_t *seed_patches;   // (C) a patch with a piece that has it for a corner
+  size_t count;              // N, of which
+  size_t done;               // so many are described by now
+  size_t listed;             // L, triangles listed, over all patches
+  size_t vertex_count;       // V, vertices stored, over all patches
+  size_t component_count;    // C, connected components (vertices at the same place are one vertex)
+  float *balls;              // (N, 4) centre c and radius. An empty patch has radius NSVCD__NOWHERE
+  float *discs;              // (N, 6) normal n (|n| <= 1), low, high, across: points x of pieces
+                             // have low <= n.(x - c) <= high and are within `across` of the line
+                             // through c along n
+  float *steps;              // (N) metres per integer: a stored vertex is c + step * (x, y, z)
+  float *slacks;             // (N) metres: every point of a piece is within this of the convex hull
+                             // of the first hull_counts[i] stored vertices
+  float *quanta;             // (N) metres: every corner listed is within this of its stored vertex
+  uint8_t *hull_counts;      // (N) 1..NSVCD__HULL; 0 where empty
+  uint32_t *first_vertex;    // (N + 1)
+  uint32_t *first_triangle;  // (N + 1)
+  int16_t *vertices;         // patch i: x of its vertices, then y, then z, at 3 * first_vertex[i]
+  uint16_t *corners;         // (L, 3) numbers of vertices within the patch
+  uint32_t *ids;             // (L) triangle of the mesh. With NSVCD__ENCLOSES where it belongs to a
+                             // closed component
+  size_t seed_count;         // so many of the C components are known by now
+  float *seeds;              // (C, 3) a vertex of each component
+  uint32_t *seed_patches;    // (C) a patch with a piece that has it for a corner
   nsvcd__list vertex_list, corner_list, id_list;  // where vertices, corners and ids are
 } nsvcd__surface;
 
@@ -2596,7 +2966,8 @@ static const nsvcd__piece *nsvcd__piece_at(const nsvcd__pieces *pieces, size_t i
 
 static const uint32_t *nsvcd__piece_corners(const nsvcd__pieces *pieces,
                                             const nsvcd__piece *piece) {
-  if (piece->first == NSVCD__WHOLE) return pieces->region->mesh.indices + 3 * (size_t)piece->triangle;
+  if (piece->first == NSVCD__WHOLE)
+    return pieces->region->mesh.indices + 3 * (size_t)piece->triangle;
   return (const uint32_t *)pieces->corners.items + piece->first;
 }
 
@@ -2720,7 +3091,8 @@ static int nsvcd__add_piece(nsvcd__pieces *pieces, const nsvcd__facet *facet, ns
     nsvcd__list *corners = &pieces->corners;
     if (corners->count >= NSVCD__WHOLE - NSVCD__FACET_CORNERS) return 0;
     if (!nsvcd__list_reserve(corners, facet->count, sizeof(uint32_t), allocator)) return 0;
-    memcpy((uint32_t *)corners->items + corners->count, facet->points, facet->count * sizeof(uint32_t));
+    memcpy((uint32_t *)corners->items + corners->count, facet->points,
+           facet->count * sizeof(uint32_t));
     piece.first = (uint32_t)corners->count;
     corners->count += facet->count;
   }
@@ -2755,7 +3127,8 @@ static int nsvcd__cut_up(nsvcd__pieces *pieces, uint32_t triangle, uint32_t *gue
                          const nsvcd_allocator *allocator) {
   nsvcd__piece piece = {NSVCD__WHOLE, triangle, 0, 0, 0};
   nsvcd__facet *whole = &pieces->waiting[0];
-  memcpy(whole->points, pieces->region->mesh.indices + 3 * (size_t)triangle, 3 * sizeof *whole->points);
+  memcpy(whole->points, pieces->region->mesh.indices + 3 * (size_t)triangle,
+         3 * sizeof *whole->points);
   whole->count = 3;
   piece.parted = nsvcd__longest_edge(pieces, whole) > pieces->whole;
   pieces->waiting_count = 1;
@@ -2795,7 +3168,8 @@ static int nsvcd__pieces_build(const nsvcd__region *region, const nsvcd__patches
   const size_t facet = sizeof(nsvcd__facet);
   pieces->waiting = (nsvcd__facet *)nsvcd__alloc_array(allocator, NSVCD__FACET_STACK, facet);
   int ok = pieces->waiting != NULL;
-  // Most triangles are one piece: as many, and an eighth more, then seldom need the list to grow, which takes it twice.
+  // Most triangles are one piece: as many, and an eighth more, then seldom need the list to grow,
+  // which takes it twice.
   const size_t likely = region->mesh.triangle_count + region->mesh.triangle_count / 8;
   ok = ok && nsvcd__list_reserve(&pieces->list, likely, sizeof(nsvcd__piece), allocator);
   uint32_t guess = 0;
@@ -2945,7 +3319,7 @@ static double nsvcd__thickness(const nsvcd__d3 *points, size_t count, nsvcd__d3 
 // Some direction across a unit vector.
 static nsvcd__d3 nsvcd__any_across(nsvcd__d3 n) {
   const int x_least = fabs(n.x) <= fabs(n.y) && fabs(n.x) <= fabs(n.z);
-  const nsvcd__d3 axis = x_least                      ? nsvcd__d3_of(1, 0, 0)
+  const nsvcd__d3 axis = x_least                  ? nsvcd__d3_of(1, 0, 0)
                          : fabs(n.y) <= fabs(n.z) ? nsvcd__d3_of(0, 1, 0)
                                                   : nsvcd__d3_of(0, 0, 1);
   return nsvcd__d3_unit(nsvcd__d3_cross(n, axis), n);
@@ -3327,8 +3701,8 @@ static void nsvcd__take_seed(const nsvcd__region *region, uint32_t point, size_t
   surface->seed_patches[surface->seed_count++] = (uint32_t)to;
 }
 
-// Ball, disc and hull of patch i of the region, which is `to` of all. The slack does not know of the
-// integers yet.
+// Ball, disc and hull of patch i of the region, which is `to` of all. The slack does not know of
+// the integers yet.
 static void nsvcd__describe_patch(const nsvcd__pieces *pieces, nsvcd__sorted *sorted, size_t i,
                                   nsvcd__surface *surface) {
   const size_t to = surface->done + i;
@@ -3356,8 +3730,8 @@ static void nsvcd__describe_patch(const nsvcd__pieces *pieces, nsvcd__sorted *so
   nsvcd__fit_ball(pieces, sorted, met, ball);
   nsvcd__fit_disc(sorted->places, met, normal, pieces->margin, surface->discs + 6 * to);
   const double enough = NSVCD__HULL_SHARE * (double)ball[3];
-  const double slack = nsvcd__choose_hull(sorted->places, met, enough, sorted->bounds, chosen,
-                                          &chosen_count);
+  const double slack =
+      nsvcd__choose_hull(sorted->places, met, enough, sorted->bounds, chosen, &chosen_count);
   surface->slacks[to] = nsvcd__float_above(slack + pieces->margin);
   surface->hull_counts[to] = (uint8_t)chosen_count;
   for (size_t k = 0; k < chosen_count; k++) {
@@ -3555,8 +3929,7 @@ static nsvcd_result nsvcd__surface_count(const nsvcd__pieces *pieces, nsvcd__sor
 }
 
 static nsvcd_result nsvcd__surface_fill(const nsvcd__pieces *pieces, nsvcd__sorted *sorted,
-                                        const nsvcd_allocator *allocator,
-                                        nsvcd__surface *surface) {
+                                        const nsvcd_allocator *allocator, nsvcd__surface *surface) {
   const size_t count = pieces->patches->count;
   surface->count = surface->done + count;
   for (size_t i = 0; i < count; i++) nsvcd__describe_patch(pieces, sorted, i, surface);
@@ -3574,8 +3947,8 @@ static nsvcd_result nsvcd__surface_fill(const nsvcd__pieces *pieces, nsvcd__sort
   return NSVCD_OK;
 }
 
-// Adds a region's patches, of which the surface has room for all. MEMORY; TOO_LARGE if a patch has more
-// than NSVCD__PATCH_VERTICES vertices: then the surface is only fit to be freed.
+// Adds a region's patches, of which the surface has room for all. MEMORY; TOO_LARGE if a patch has
+// more than NSVCD__PATCH_VERTICES vertices: then the surface is only fit to be freed.
 static nsvcd_result nsvcd__surface_add(const nsvcd__region *region, const nsvcd__patches *patches,
                                        const nsvcd_allocator *allocator, nsvcd__surface *surface) {
   nsvcd__pieces pieces;
@@ -3593,17 +3966,20 @@ static nsvcd_result nsvcd__surface_add(const nsvcd__region *region, const nsvcd_
 #endif  // NSVCD_NO_ENCODER, NSVCD_NO_PROOF
 
 #ifndef NSVCD_NO_NETWORK
-// ---------------------------------------------------------------------------------------------------- weights
+// ----------------------------------------------------------------------------------------- weights
 // Generated by train/: matrices are (inputs, outputs).
 
-// A decoder: `layers` linear layers with ReLU between them, sizes multiples of 4 and, but for the inputs, of 16.
-// Offsets instead of pointers: nothing needs relocation, so that all of it stays in read-only memory.
+// A decoder: `layers` linear layers with ReLU between them, sizes multiples of 4 and, but for the
+// inputs, of 16. Offsets instead of pointers: nothing needs relocation, so that all of it stays in
+// read-only memory.
 typedef struct nsvcd__head {
   size_t layers;    // 0: compiled out
   size_t sizes[6];  // (layers + 1)
-  size_t weights;   // of its matrices: per layer (sizes[l], sizes[l + 1]) floats in nsvcd_w_decoder, and the same
-                    // numbers in nsvcd_w_decoder_int8 as (sizes[l] / 4, sizes[l + 1], 4), over the output's scale
-  size_t outputs;   // of its outputs: per layer (sizes[l + 1]) in nsvcd_w_decoder_bias, _scale and _sum (of the int8)
+  // of its matrices: per layer (sizes[l], sizes[l + 1]) floats in nsvcd_w_decoder, and the same
+  // numbers in nsvcd_w_decoder_int8 as (sizes[l] / 4, sizes[l + 1], 4), over the output's scale
+  size_t weights;
+  // of its outputs: per layer (sizes[l + 1]) in nsvcd_w_decoder_bias, _scale and _sum (of the int8)
+  size_t outputs;
 } nsvcd__head;
 
 #include "weights.h"
@@ -3611,14 +3987,16 @@ typedef struct nsvcd__head {
 #define NSVCD__LATENT (8 * NSVCD_W_CHANNELS + NSVCD_W_SCALARS)
 
 #ifndef NSVCD_NO_ENCODER
-// ---------------------------------------------------------------------------------------------------- encoder
-// In: the oriented surface points of one patch, its centre and covering radius. Out: its latent (NSVCD__LATENT floats
-// in (-1,1)): NSVCD_W_CHANNELS vectors of degree 1, as many of degree 2, NSVCD_W_SCALARS invariants.
+// ----------------------------------------------------------------------------------------- encoder
+// In: the oriented surface points of one patch, its centre and covering radius. Out: its latent
+// (NSVCD__LATENT floats in (-1,1)): NSVCD_W_CHANNELS vectors of degree 1, as many of degree 2,
+// NSVCD_W_SCALARS invariants.
 //
-// A Vector-Neuron encoder (Deng et al. 2021) on features of degrees 1 and 2 (FER-VN, Son et al. 2024): channels are
-// mixed by matrices shared by all components, and the only nonlinearities are gates computed from invariants, so
-// turning the points by R turns the latent by D(R). Dividing by the radius makes it independent of scale.
-// Weights are stored (input, output): a layer is then a sum of rows, which compilers vectorise.
+// A Vector-Neuron encoder (Deng et al. 2021) on features of degrees 1 and 2 (FER-VN, Son et al.
+// 2024): channels are mixed by matrices shared by all components, and the only nonlinearities are
+// gates computed from invariants, so turning the points by R turns the latent by D(R). Dividing by
+// the radius makes it independent of scale. Weights are stored (input, output): a layer is then a
+// sum of rows, which compilers vectorise.
 
 #define NSVCD__WIDE (NSVCD_W_POOLED + NSVCD_W_CONTEXT)  // channels after pooling
 #define NSVCD__INVARIANTS (2 + 5 * NSVCD_W_CONTEXT)     // per point
@@ -3626,13 +4004,22 @@ typedef struct nsvcd__head {
 #define NSVCD__PATCH_IN (2 * NSVCD__WIDE + NSVCD_W_POOLED_SCALARS)
 #define NSVCD__PATCH_OUT (2 * NSVCD_W_HIDDEN + NSVCD_W_SCALARS)
 
-// y = w^T x + bias; w (inputs, outputs), x (inputs), y (outputs), bias may be NULL. y aliases neither.
-static void nsvcd__linear(const float *w, const float *bias, size_t inputs, size_t outputs, const float *x, float *y) {
+// y = w^T x + bias; w (inputs, outputs), x (inputs), y (outputs), bias may be NULL. y aliases
+// neither.
+static void nsvcd__linear(const float *w, const float *bias, size_t inputs, size_t outputs,
+                          const float *x, float *y) {
   for (size_t o = 0; o < outputs; o++) y[o] = bias ? bias[o] : 0;
-  for (; inputs >= 4; inputs -= 4, w += 4 * outputs, x += 4) {  // four rows at a time: y is the traffic
-    const float *r1 = w + outputs, *r2 = r1 + outputs, *r3 = r2 + outputs;
-    const float x0 = x[0], x1 = x[1], x2 = x[2], x3 = x[3];
-    for (size_t o = 0; o < outputs; o++) y[o] += (w[o] * x0 + r1[o] * x1) + (r2[o] * x2 + r3[o] * x3);
+  // four rows at a time: y is the traffic
+  for (; inputs >= 4; inputs -= 4, w += 4 * outputs, x += 4) {
+    const float *r1 = w + outputs;
+    const float *r2 = r1 + outputs;
+    const float *r3 = r2 + outputs;
+    const float x0 = x[0];
+    const float x1 = x[1];
+    const float x2 = x[2];
+    const float x3 = x[3];
+    for (size_t o = 0; o < outputs; o++)
+      y[o] += (w[o] * x0 + r1[o] * x1) + (r2[o] * x2 + r3[o] * x3);
   }
   for (; inputs > 0; inputs--, w += outputs, x++) {
     for (size_t o = 0; o < outputs; o++) y[o] += w[o] * x[0];
@@ -3643,8 +4030,8 @@ static void nsvcd__relu(size_t count, float *x) {
   for (size_t i = 0; i < count; i++) x[i] = x[i] > 0 ? x[i] : 0;
 }
 
-// Symmetric traceless part of a b^T in the basis of the real spherical harmonics xy, yz, zz, xz, xx-yy, scaled so that
-// the square of a vector has its squared length.
+// Symmetric traceless part of a b^T in the basis of the real spherical harmonics xy, yz, zz, xz,
+// xx-yy, scaled so that the square of a vector has its squared length.
 static void nsvcd__degree2(const float *a, const float *b, float *q) {
   const float half_root3 = 0.8660254037844386f;
   q[0] = half_root3 * (a[0] * b[1] + a[1] * b[0]);
@@ -3665,38 +4052,52 @@ typedef struct nsvcd__feature {
   float quu[5], qun[5], qnn[5];  // degree2 of each pair
 } nsvcd__feature;
 
-static void nsvcd__feature_of(const float *point, const float *normal, const float *centre, float inverse_radius,
-                              nsvcd__feature *f) {
-  for (size_t k = 0; k < 3; k++) f->u[k] = (point[k] - centre[k]) * inverse_radius, f->n[k] = normal[k];
-  f->uu = nsvcd__dot3(f->u, f->u), f->un = nsvcd__dot3(f->u, f->n);
+static void nsvcd__feature_of(const float *point, const float *normal, const float *centre,
+                              float inverse_radius, nsvcd__feature *f) {
+  for (size_t k = 0; k < 3; k++) {
+    f->u[k] = (point[k] - centre[k]) * inverse_radius;
+    f->n[k] = normal[k];
+  }
+  f->uu = nsvcd__dot3(f->u, f->u);
+  f->un = nsvcd__dot3(f->u, f->n);
   nsvcd__degree2(f->u, f->u, f->quu);
   nsvcd__degree2(f->u, f->n, f->qun);
   nsvcd__degree2(f->n, f->n, f->qnn);
 }
 
-// First pass: four moments of each degree, mixed into context vectors. c1 (CONTEXT, 3), c2 (CONTEXT, 5).
-static void nsvcd__context(const float *points, const float *normals, size_t count, const float *centre,
-                           float inverse_radius, float *c1, float *c2) {
-  float m1[4][3] = {{0, 0, 0}}, m2[4][5] = {{0, 0, 0, 0, 0}};
+// First pass: four moments of each degree, mixed into context vectors. c1 (CONTEXT, 3), c2
+// (CONTEXT, 5).
+static void nsvcd__context(const float *points, const float *normals, size_t count,
+                           const float *centre, float inverse_radius, float *c1, float *c2) {
+  float m1[4][3] = {{0, 0, 0}};
+  float m2[4][5] = {{0, 0, 0, 0, 0}};
   for (size_t i = 0; i < count; i++) {
     nsvcd__feature f;
     nsvcd__feature_of(points + 3 * i, normals + 3 * i, centre, inverse_radius, &f);
     for (size_t k = 0; k < 3; k++) {
-      m1[0][k] += f.n[k], m1[1][k] += f.uu * f.n[k], m1[2][k] += f.un * f.u[k], m1[3][k] += f.uu * f.u[k];
+      m1[0][k] += f.n[k];
+      m1[1][k] += f.uu * f.n[k];
+      m1[2][k] += f.un * f.u[k];
+      m1[3][k] += f.uu * f.u[k];
     }
     for (size_t k = 0; k < 5; k++) {
-      m2[0][k] += f.quu[k], m2[1][k] += f.qun[k], m2[2][k] += f.qnn[k], m2[3][k] += f.un * f.qun[k];
+      m2[0][k] += f.quu[k];
+      m2[1][k] += f.qun[k];
+      m2[2][k] += f.qnn[k];
+      m2[3][k] += f.un * f.qun[k];
     }
   }
   const float share = 1 / (float)count;
   for (size_t c = 0; c < NSVCD_W_CONTEXT; c++) {
     for (size_t k = 0; k < 3; k++) {
       c1[3 * c + k] = 0;
-      for (size_t m = 0; m < 4; m++) c1[3 * c + k] += nsvcd_w_context1[m * NSVCD_W_CONTEXT + c] * m1[m][k] * share;
+      for (size_t m = 0; m < 4; m++)
+        c1[3 * c + k] += nsvcd_w_context1[m * NSVCD_W_CONTEXT + c] * m1[m][k] * share;
     }
     for (size_t k = 0; k < 5; k++) {
       c2[5 * c + k] = 0;
-      for (size_t m = 0; m < 4; m++) c2[5 * c + k] += nsvcd_w_context2[m * NSVCD_W_CONTEXT + c] * m2[m][k] * share;
+      for (size_t m = 0; m < 4; m++)
+        c2[5 * c + k] += nsvcd_w_context2[m * NSVCD_W_CONTEXT + c] * m2[m][k] * share;
     }
   }
 }
@@ -3704,23 +4105,31 @@ static void nsvcd__context(const float *points, const float *normals, size_t cou
 // The point network: invariants of one point -> its gates, (5 POOLED + POOLED_SCALARS).
 static void nsvcd__gates(const nsvcd__feature *f, const float *c1, const float *c2, float *gates) {
   float x[NSVCD__INVARIANTS], h1[NSVCD_W_POINT_HIDDEN], h2[NSVCD_W_POINT_HIDDEN];
-  x[0] = f->uu, x[1] = f->un;
-  float *xu = x + 2, *xn = xu + NSVCD_W_CONTEXT, *xq = xn + NSVCD_W_CONTEXT;
+  x[0] = f->uu;
+  x[1] = f->un;
+  float *xu = x + 2;
+  float *xn = xu + NSVCD_W_CONTEXT;
+  float *xq = xn + NSVCD_W_CONTEXT;
   for (size_t c = 0; c < NSVCD_W_CONTEXT; c++) {
-    xu[c] = nsvcd__dot3(f->u, c1 + 3 * c), xn[c] = nsvcd__dot3(f->n, c1 + 3 * c);
+    xu[c] = nsvcd__dot3(f->u, c1 + 3 * c);
+    xn[c] = nsvcd__dot3(f->n, c1 + 3 * c);
     xq[c] = nsvcd__dot5(f->quu, c2 + 5 * c);
     xq[NSVCD_W_CONTEXT + c] = nsvcd__dot5(f->qun, c2 + 5 * c);
     xq[2 * NSVCD_W_CONTEXT + c] = nsvcd__dot5(f->qnn, c2 + 5 * c);
   }
-  nsvcd__linear(nsvcd_w_point0, nsvcd_w_point0_bias, NSVCD__INVARIANTS, NSVCD_W_POINT_HIDDEN, x, h1);
+  nsvcd__linear(nsvcd_w_point0, nsvcd_w_point0_bias, NSVCD__INVARIANTS, NSVCD_W_POINT_HIDDEN, x,
+                h1);
   nsvcd__relu(NSVCD_W_POINT_HIDDEN, h1);
-  nsvcd__linear(nsvcd_w_point1, nsvcd_w_point1_bias, NSVCD_W_POINT_HIDDEN, NSVCD_W_POINT_HIDDEN, h1, h2);
+  nsvcd__linear(nsvcd_w_point1, nsvcd_w_point1_bias, NSVCD_W_POINT_HIDDEN, NSVCD_W_POINT_HIDDEN, h1,
+                h2);
   nsvcd__relu(NSVCD_W_POINT_HIDDEN, h2);
   nsvcd__linear(nsvcd_w_point2, nsvcd_w_point2_bias, NSVCD_W_POINT_HIDDEN, NSVCD__GATES, h2, gates);
 }
 
-// One degree of the last layer: a (WIDE, size) is mixed into HIDDEN channels, gated, and mixed into z (size, CHANNELS).
-static void nsvcd__mix(const float *mix, const float *gate, const float *out, size_t size, const float *a, float *z) {
+// One degree of the last layer: a (WIDE, size) is mixed into HIDDEN channels, gated, and mixed into
+// z (size, CHANNELS).
+static void nsvcd__mix(const float *mix, const float *gate, const float *out, size_t size,
+                       const float *a, float *z) {
   for (size_t k = 0; k < size; k++) {
     float x[NSVCD__WIDE], h[NSVCD_W_HIDDEN];
     for (size_t c = 0; c < NSVCD__WIDE; c++) x[c] = a[c * size + k];
@@ -3728,28 +4137,39 @@ static void nsvcd__mix(const float *mix, const float *gate, const float *out, si
     for (size_t c = 0; c < NSVCD_W_HIDDEN; c++) h[c] *= gate[c];
     nsvcd__linear(out, NULL, NSVCD_W_HIDDEN, NSVCD_W_CHANNELS, h, z + NSVCD_W_CHANNELS * k);
   }
-  for (size_t c = 0; c < NSVCD_W_CHANNELS; c++) {  // shortened to less than 1, so that int8 holds it
+  // shortened to less than 1, so that int8 holds it
+  for (size_t c = 0; c < NSVCD_W_CHANNELS; c++) {
     float square = 0;
-    for (size_t k = 0; k < size; k++) square += z[NSVCD_W_CHANNELS * k + c] * z[NSVCD_W_CHANNELS * k + c];
+    for (size_t k = 0; k < size; k++)
+      square += z[NSVCD_W_CHANNELS * k + c] * z[NSVCD_W_CHANNELS * k + c];
     const float scale = 1 / sqrtf(1 + square);
     for (size_t k = 0; k < size; k++) z[NSVCD_W_CHANNELS * k + c] *= scale;
   }
 }
 
-// points, normals (count, 3), count >= 1 -> latent (LATENT): degree 1 (3, CHANNELS), degree 2 (5, CHANNELS), scalars.
-static void nsvcd__encode_patch(const float *points, const float *normals, size_t count, const float *centre,
-                                float radius, float *latent) {
-  const float inverse = radius > 0 ? 1 / radius : 0, share = 1 / (float)count;
-  float a1[3 * NSVCD__WIDE] = {0}, a2[5 * NSVCD__WIDE] = {0}, scalars[NSVCD_W_POOLED_SCALARS] = {0};
-  float *c1 = a1 + 3 * NSVCD_W_POOLED, *c2 = a2 + 5 * NSVCD_W_POOLED;  // the context stands behind what is pooled
+// points, normals (count, 3), count >= 1 -> latent (LATENT): degree 1 (3, CHANNELS), degree 2 (5,
+// CHANNELS), scalars.
+static void nsvcd__encode_patch(const float *points, const float *normals, size_t count,
+                                const float *centre, float radius, float *latent) {
+  const float inverse = radius > 0 ? 1 / radius : 0;
+  const float share = 1 / (float)count;
+  float a1[3 * NSVCD__WIDE] = {0};
+  float a2[5 * NSVCD__WIDE] = {0};
+  float scalars[NSVCD_W_POOLED_SCALARS] = {0};
+  float *c1 = a1 + 3 * NSVCD_W_POOLED;
+  float *c2 = a2 + 5 * NSVCD_W_POOLED;  // the context stands behind what is pooled
   nsvcd__context(points, normals, count, centre, inverse, c1, c2);
   for (size_t i = 0; i < count; i++) {
     nsvcd__feature f;
     float gates[NSVCD__GATES];
     nsvcd__feature_of(points + 3 * i, normals + 3 * i, centre, inverse, &f);
     nsvcd__gates(&f, c1, c2, gates);
-    const float *gu = gates, *gn = gu + NSVCD_W_POOLED, *guu = gn + NSVCD_W_POOLED, *gun = guu + NSVCD_W_POOLED;
-    const float *gnn = gun + NSVCD_W_POOLED, *gs = gnn + NSVCD_W_POOLED;
+    const float *gu = gates;
+    const float *gn = gu + NSVCD_W_POOLED;
+    const float *guu = gn + NSVCD_W_POOLED;
+    const float *gun = guu + NSVCD_W_POOLED;
+    const float *gnn = gun + NSVCD_W_POOLED;
+    const float *gs = gnn + NSVCD_W_POOLED;
     for (size_t c = 0; c < NSVCD_W_POOLED; c++) {
       for (size_t k = 0; k < 3; k++) a1[3 * c + k] += (gu[c] * f.u[k] + gn[c] * f.n[k]) * share;
       for (size_t k = 0; k < 5; k++)
@@ -3760,7 +4180,8 @@ static void nsvcd__encode_patch(const float *points, const float *normals, size_
 
   float x[NSVCD__PATCH_IN], h[NSVCD_W_PATCH_HIDDEN], y[NSVCD__PATCH_OUT];
   for (size_t c = 0; c < NSVCD__WIDE; c++) {
-    x[c] = nsvcd__dot3(a1 + 3 * c, a1 + 3 * c), x[NSVCD__WIDE + c] = nsvcd__dot5(a2 + 5 * c, a2 + 5 * c);
+    x[c] = nsvcd__dot3(a1 + 3 * c, a1 + 3 * c);
+    x[NSVCD__WIDE + c] = nsvcd__dot5(a2 + 5 * c, a2 + 5 * c);
   }
   memcpy(x + 2 * NSVCD__WIDE, scalars, sizeof scalars);
   nsvcd__linear(nsvcd_w_patch0, nsvcd_w_patch0_bias, NSVCD__PATCH_IN, NSVCD_W_PATCH_HIDDEN, x, h);
@@ -3768,49 +4189,58 @@ static void nsvcd__encode_patch(const float *points, const float *normals, size_
   nsvcd__linear(nsvcd_w_patch1, nsvcd_w_patch1_bias, NSVCD_W_PATCH_HIDDEN, NSVCD__PATCH_OUT, h, y);
   nsvcd__mix(nsvcd_w_mix1, y, nsvcd_w_out1, 3, a1, latent);
   nsvcd__mix(nsvcd_w_mix2, y + NSVCD_W_HIDDEN, nsvcd_w_out2, 5, a2, latent + 3 * NSVCD_W_CHANNELS);
-  for (size_t c = 0; c < NSVCD_W_SCALARS; c++) latent[8 * NSVCD_W_CHANNELS + c] = tanhf(y[2 * NSVCD_W_HIDDEN + c]);
+  for (size_t c = 0; c < NSVCD_W_SCALARS; c++)
+    latent[8 * NSVCD_W_CHANNELS + c] = tanhf(y[2 * NSVCD_W_HIDDEN + c]);
 }
 #endif  // NSVCD_NO_ENCODER
 
-// -------------------------------------------------------------------------------------------- latent rotation
-// D(R), block-diagonal: R itself on degree 1, the real Wigner matrix of degree 2 on degree 2 (appendix E). Computed
-// from R directly, so D(R1 R2) = D(R1) D(R2) to rounding; R may be improper (a mirror): both degrees are polynomial.
+// --------------------------------------------------------------------------------- latent rotation
+// D(R), block-diagonal: R itself on degree 1, the real Wigner matrix of degree 2 on degree 2
+// (appendix E). Computed from R directly, so D(R1 R2) = D(R1) D(R2) to rounding; R may be improper
+// (a mirror): both degrees are polynomial.
 
-#define NSVCD__VECTORS (8 * NSVCD_W_CHANNELS)  // numbers of a latent's vectors: (3, CHANNELS), then (5, CHANNELS)
-#define NSVCD__TURN 34                         // numbers of D: (3, 3), then (5, 5)
+// numbers of a latent's vectors: (3, CHANNELS), then (5, CHANNELS)
+#define NSVCD__VECTORS (8 * NSVCD_W_CHANNELS)
+#define NSVCD__TURN 34  // numbers of D: (3, 3), then (5, 5)
 
-// D of a slice of matrices m, lane by lane, times `scale`: (TURN, SLICE). Column k of degree 2 is the image of basis
-// vector k, a degree2 of m's columns.
+// D of a slice of matrices m, lane by lane, times `scale`: (TURN, SLICE). Column k of degree 2 is
+// the image of basis vector k, a degree2 of m's columns.
 static void nsvcd__wigner(const nsvcd__v *m, nsvcd__v scale, float (*out)[NSVCD__SLICE]) {
-  const nsvcd__v half_root3 = nsvcd__v_set(0.8660254037844386f), half = nsvcd__v_set(0.5f);
-  const nsvcd__v third = nsvcd__v_mul(scale, nsvcd__v_set(1.0f / 3)),
-                 root = nsvcd__v_mul(scale, nsvcd__v_set(0.5773502691896258f));
-  static const unsigned char of[6][2] = {{0, 1}, {1, 2}, {0, 2}, {0, 0}, {1, 1}, {2, 2}};  // columns: xy yz xz xx yy zz
+  const nsvcd__v half_root3 = nsvcd__v_set(0.8660254037844386f);
+  const nsvcd__v half = nsvcd__v_set(0.5f);
+  const nsvcd__v third = nsvcd__v_mul(scale, nsvcd__v_set(1.0f / 3));
+  const nsvcd__v root = nsvcd__v_mul(scale, nsvcd__v_set(0.5773502691896258f));
+  // columns: xy yz xz xx yy zz
+  static const unsigned char of[6][2] = {{0, 1}, {1, 2}, {0, 2}, {0, 0}, {1, 1}, {2, 2}};
   nsvcd__v q[6][5];
   for (size_t k = 0; k < 9; k++) nsvcd__v_store(out[k], nsvcd__v_mul(scale, m[k]));
   for (size_t n = 0; n < 6; n++) {  // as nsvcd__degree2
-    const nsvcd__v *a = m + of[n][0], *b = m + of[n][1];
+    const nsvcd__v *a = m + of[n][0];
+    const nsvcd__v *b = m + of[n][1];
     q[n][0] = nsvcd__v_mul(half_root3, nsvcd__v_fma(a[0], b[3], nsvcd__v_mul(a[3], b[0])));
     q[n][1] = nsvcd__v_mul(half_root3, nsvcd__v_fma(a[3], b[6], nsvcd__v_mul(a[6], b[3])));
-    q[n][2] =
-        nsvcd__v_sub(nsvcd__v_mul(a[6], b[6]), nsvcd__v_mul(half, nsvcd__v_fma(a[0], b[0], nsvcd__v_mul(a[3], b[3]))));
+    q[n][2] = nsvcd__v_sub(nsvcd__v_mul(a[6], b[6]),
+                           nsvcd__v_mul(half, nsvcd__v_fma(a[0], b[0], nsvcd__v_mul(a[3], b[3]))));
     q[n][3] = nsvcd__v_mul(half_root3, nsvcd__v_fma(a[0], b[6], nsvcd__v_mul(a[6], b[0])));
-    q[n][4] = nsvcd__v_mul(half_root3, nsvcd__v_sub(nsvcd__v_mul(a[0], b[0]), nsvcd__v_mul(a[3], b[3])));
+    q[n][4] =
+        nsvcd__v_mul(half_root3, nsvcd__v_sub(nsvcd__v_mul(a[0], b[0]), nsvcd__v_mul(a[3], b[3])));
   }
   const nsvcd__v twice = nsvcd__v_add(root, root);
   for (size_t k = 0; k < 5; k++) {
     float(*row)[NSVCD__SLICE] = out + 9 + 5 * k;
     const nsvcd__v rest = nsvcd__v_add(q[3][k], q[4][k]);
-    nsvcd__v_store(row[0], nsvcd__v_mul(twice, q[0][k])), nsvcd__v_store(row[1], nsvcd__v_mul(twice, q[1][k]));
+    nsvcd__v_store(row[0], nsvcd__v_mul(twice, q[0][k]));
+    nsvcd__v_store(row[1], nsvcd__v_mul(twice, q[1][k]));
     nsvcd__v_store(row[2], nsvcd__v_mul(third, nsvcd__v_sub(nsvcd__v_add(q[5][k], q[5][k]), rest)));
     nsvcd__v_store(row[3], nsvcd__v_mul(twice, q[2][k]));
     nsvcd__v_store(row[4], nsvcd__v_mul(root, nsvcd__v_sub(q[3][k], q[4][k])));
   }
 }
 
-// One degree: out (size, CHANNELS) = D (size * size, SLICE) of lane l times latent (size, CHANNELS).
-NSVCD__INLINE void nsvcd__turn_degree(const float *latent, float (*turn)[NSVCD__SLICE], size_t l, size_t size,
-                                      float *out) {
+// One degree: out (size, CHANNELS) = D (size * size, SLICE) of lane l times latent (size,
+// CHANNELS).
+NSVCD__INLINE void nsvcd__turn_degree(const float *latent, float (*turn)[NSVCD__SLICE], size_t l,
+                                      size_t size, float *out) {
   for (size_t i = 0; i < size; i++) {
     float sum[NSVCD_W_CHANNELS] = {0};
     for (size_t k = 0; k < size; k++) {
@@ -3821,9 +4251,10 @@ NSVCD__INLINE void nsvcd__turn_degree(const float *latent, float (*turn)[NSVCD__
   }
 }
 
-// A stored latent, turned by D (TURN, SLICE) of lane l, to its place of two (0, 1) in a row of the decoder's inputs:
-// vectors (2, 8, CHANNELS), then scalars (2, SCALARS).
-static void nsvcd__turn_latent(const int8_t *z, float (*turn)[NSVCD__SLICE], size_t l, size_t place, float *row) {
+// A stored latent, turned by D (TURN, SLICE) of lane l, to its place of two (0, 1) in a row of the
+// decoder's inputs: vectors (2, 8, CHANNELS), then scalars (2, SCALARS).
+static void nsvcd__turn_latent(const int8_t *z, float (*turn)[NSVCD__SLICE], size_t l, size_t place,
+                               float *row) {
   float *vectors = row + NSVCD__VECTORS * place;
   float *scalars = row + 2 * NSVCD__VECTORS + NSVCD_W_SCALARS * place;
   float degree[5 * NSVCD_W_CHANNELS];  // one after the other: it is the deepest place of a query
@@ -3838,31 +4269,40 @@ static void nsvcd__turn_latent(const int8_t *z, float (*turn)[NSVCD__SLICE], siz
 
 #endif  // NSVCD_NO_NETWORK
 
-// ------------------------------------------------------------------------------------------------------- body
-// In: N patches. Out: one relocatable, checksummed blob. Patches are stored in groups of 16 neighbours, each group with
-// a sphere over its members: the broad phase's tree. There are two kinds of bodies, which begin alike:
+// -------------------------------------------------------------------------------------------- body
+// In: N patches. Out: one relocatable, checksummed blob. Patches are stored in groups of 16
+// neighbours, each group with a sphere over its members: the broad phase's tree. There are two
+// kinds of bodies, which begin alike:
 //
 //   struct nsvcd_body            64 bytes
-//   x, y, z, r     (4, P)  float body frame, metres; P = N rounded up to 16, padding has r = NSVCD__NOWHERE
+//   x, y, z, r     (4, P)  float body frame, metres; P = N rounded up to 16, padding has r =
+//                  NSVCD__NOWHERE
 //   x, y, z, r     (4, G)  float group spheres; G = P / 16 rounded up to 16, padding as above
-//   x, y, z, r     (4, H)  float spheres over 16 groups each, if there are more than 32 groups; H as above,
+//   x, y, z, r     (4, H)  float spheres over 16 groups each, if there are more than 32 groups; H
+//                  as above,
 //   x, y, z, r     (4, I)  float spheres over 16 of these each, if they are more than 16
 //
 // A body of latents, for the network, goes on with
-//   x, y, z        (3, P)  float area vectors, square metres, along the outward normal; padding is zero
-//   x, y, z        (3, G), (3, H), (3, I): their sums over the members of the spheres above, if there are more than 32 groups
+//   x, y, z        (3, P)  float area vectors, square metres, along the outward normal; padding is
+//                  zero
+//   x, y, z        (3, G), (3, H), (3, I): their sums over the members of the spheres above, if
+//                  there are more than 32 groups
 //   latents        (N, NSVCD__LATENT) int8, free of scale
-// and a body of triangles, for the proof, with what section *facets* says. A body that has both is one of latents which
-// holds one of triangles behind them, at `inner`: each part has spheres that suit it, and the same numbers of patches.
-// Each part ends in zeros up to a multiple of NSVCD_ALIGNMENT.
+// and a body of triangles, for the proof, with what section *facets* says. A body that has both is
+// one of latents which holds one of triangles behind them, at `inner`: each part has spheres that
+// suit it, and the same numbers of patches. Each part ends in zeros up to a multiple of
+// NSVCD_ALIGNMENT.
 
-#define NSVCD__GROUP NSVCD__LANES      // patches per group, and groups or the like per sphere above
-#ifndef NSVCD__TILE                    // groups of a body that are searched at once; with more there are levels above
-#define NSVCD__TILE 32                 // (fewer for a test, in which small bodies then make several tiles)
+#define NSVCD__GROUP NSVCD__LANES  // patches per group, and groups or the like per sphere above
+// groups of a body that are searched at once; with more there are levels above
+#ifndef NSVCD__TILE
+// (fewer for a test, in which small bodies then make several tiles)
+#define NSVCD__TILE 32
 #endif
 #define NSVCD__TILE_SLOTS 32
-#define NSVCD__LEVELS 3                // of spheres above the patches, at most
-#define NSVCD__MAX_LENGTH 1.6e7f       // metres, over every radius and distance that coordinates within bounds can give
+#define NSVCD__LEVELS 3  // of spheres above the patches, at most
+// metres, over every radius and distance that coordinates within bounds can give
+#define NSVCD__MAX_LENGTH 1.6e7f
 #define NSVCD__BODY_MAGIC 0x4256534eu  // "NSVB"
 #define NSVCD__BODY_VERSION 5u
 
@@ -3900,8 +4340,12 @@ static size_t nsvcd__bit_count(uint64_t bits) {
 #endif
 }
 
-static size_t nsvcd__round_up(size_t n, size_t multiple) { return (n + multiple - 1) / multiple * multiple; }
-static size_t nsvcd__group_slots(size_t padded) { return nsvcd__round_up(padded / NSVCD__GROUP, NSVCD__GROUP); }
+static size_t nsvcd__round_up(size_t n, size_t multiple) {
+  return (n + multiple - 1) / multiple * multiple;
+}
+static size_t nsvcd__group_slots(size_t padded) {
+  return nsvcd__round_up(padded / NSVCD__GROUP, NSVCD__GROUP);
+}
 
 // A level of spheres: level 0 are the groups, each of the next is over 16 of the one before.
 typedef struct nsvcd__level {
@@ -3934,11 +4378,18 @@ static const float *nsvcd__body_floats(const nsvcd_body *body, size_t first) {
   return (const float *)(body + 1) + first;
 }
 static const float *nsvcd__body_x(const nsvcd_body *body) { return nsvcd__body_floats(body, 0); }
-static const float *nsvcd__body_y(const nsvcd_body *body) { return nsvcd__body_floats(body, body->padded); }
-static const float *nsvcd__body_z(const nsvcd_body *body) { return nsvcd__body_floats(body, 2 * body->padded); }
-static const float *nsvcd__body_r(const nsvcd_body *body) { return nsvcd__body_floats(body, 3 * body->padded); }
+static const float *nsvcd__body_y(const nsvcd_body *body) {
+  return nsvcd__body_floats(body, body->padded);
+}
+static const float *nsvcd__body_z(const nsvcd_body *body) {
+  return nsvcd__body_floats(body, 2 * body->padded);
+}
+static const float *nsvcd__body_r(const nsvcd_body *body) {
+  return nsvcd__body_floats(body, 3 * body->padded);
+}
 static const float *nsvcd__body_group(const nsvcd_body *body, size_t axis) {  // axis 0..3: x y z r
-  return nsvcd__body_floats(body, 4 * (size_t)body->padded + axis * nsvcd__group_slots(body->padded));
+  return nsvcd__body_floats(body,
+                            4 * (size_t)body->padded + axis * nsvcd__group_slots(body->padded));
 }
 
 // Spheres with their padding: of the patches and all levels.
@@ -3953,14 +4404,16 @@ static size_t nsvcd__spheres_size(size_t padded) {
 }
 
 #ifndef NSVCD_NO_NETWORK
-// Area vectors with their padding: one for each sphere, but where there are no levels above the groups, of patches alone.
+// Area vectors with their padding: one for each sphere, but where there are no levels above the
+// groups, of patches alone.
 static size_t nsvcd__area_slots(size_t padded) {
   return nsvcd__level_count(padded) > 1 ? nsvcd__sphere_slots(padded) : padded;
 }
 static const float *nsvcd__body_areas(const nsvcd_body *body) {  // (3, P)
   return (const float *)(const void *)((const char *)body + nsvcd__spheres_size(body->padded));
 }
-// The sums over the spheres of a level of a body that has some above the groups, (3, slots): they lie as the spheres do.
+// The sums over the spheres of a level of a body that has some above the groups, (3, slots): they
+// lie as the spheres do.
 static const float *nsvcd__level_areas(const nsvcd_body *body, nsvcd__level level) {
   return nsvcd__body_areas(body) + level.first / 4 * 3;
 }
@@ -3974,11 +4427,13 @@ NSVCDDEF size_t nsvcd_body_size(size_t points) {
   if (points < 1 || points > NSVCD_MAX_POINTS) return 0;
   const size_t padded = nsvcd__round_up(points, NSVCD__GROUP);
   const size_t areas = 12 * nsvcd__area_slots(padded);
-  return nsvcd__round_up(nsvcd__spheres_size(padded) + areas + points * NSVCD__LATENT, NSVCD_ALIGNMENT);
+  return nsvcd__round_up(nsvcd__spheres_size(padded) + areas + points * NSVCD__LATENT,
+                         NSVCD_ALIGNMENT);
 }
 #endif
 
-// FNV-1a, 64 bits, over 32-bit words: every step is a bijection of the state, so no single changed word is missed.
+// FNV-1a, 64 bits, over 32-bit words: every step is a bijection of the state, so no single changed
+// word is missed.
 static uint64_t nsvcd__body_checksum(const nsvcd_body *body) {
   const char *bytes = (const char *)body;
   uint64_t hash = 14695981039346656037u;
@@ -3991,9 +4446,10 @@ static uint64_t nsvcd__body_checksum(const nsvcd_body *body) {
 }
 
 #ifndef NSVCD_NO_ENCODER
-// Sorts patches by a coordinate of their centres; equal ones keep their order, so that the result is the same everywhere.
-// spare: room for as many. Merges ever longer runs.
-static void nsvcd__sort_along(size_t count, const float *centres, size_t axis, uint16_t *order, uint16_t *spare) {
+// Sorts patches by a coordinate of their centres; equal ones keep their order, so that the result
+// is the same everywhere. spare: room for as many. Merges ever longer runs.
+static void nsvcd__sort_along(size_t count, const float *centres, size_t axis, uint16_t *order,
+                              uint16_t *spare) {
   for (size_t run = 1; run < count; run *= 2) {
     for (size_t first = 0; first < count; first += 2 * run) {
       const size_t middle = first + run < count ? first + run : count;
@@ -4003,7 +4459,8 @@ static void nsvcd__sort_along(size_t count, const float *centres, size_t axis, u
       for (size_t to = first; to < end; to++) {
         int from_right = left == middle;
         if (left < middle && right < end) {
-          from_right = centres[3 * (size_t)order[right] + axis] < centres[3 * (size_t)order[left] + axis];
+          from_right =
+              centres[3 * (size_t)order[right] + axis] < centres[3 * (size_t)order[left] + axis];
         }
         spare[to] = from_right ? order[right++] : order[left++];
       }
@@ -4012,10 +4469,11 @@ static void nsvcd__sort_along(size_t count, const float *centres, size_t axis, u
   }
 }
 
-// Orders N patches so that each run of 16 is compact, and each run of 16 of those: median splits across the longest axis,
-// the left part a multiple of 16, or of 256 and so on where there are more than a tile's. centres (N, 3), order and spare
-// (count).
-static void nsvcd__body_order(size_t count, const float *centres, uint16_t *order, uint16_t *spare) {
+// Orders N patches so that each run of 16 is compact, and each run of 16 of those: median splits
+// across the longest axis, the left part a multiple of 16, or of 256 and so on where there are more
+// than a tile's. centres (N, 3), order and spare (count).
+static void nsvcd__body_order(size_t count, const float *centres, uint16_t *order,
+                              uint16_t *spare) {
   if (count <= NSVCD__GROUP) return;
   size_t axis = 0;
   float longest = -1;
@@ -4042,28 +4500,35 @@ static void nsvcd__body_order(size_t count, const float *centres, uint16_t *orde
 #endif
 
 // The largest |p_i - centre| + r_i of `count` spheres; *farthest is the i.
-static float nsvcd__reach_of_spheres(size_t count, const float *x, const float *y, const float *z, const float *r,
-                                     const float *centre, size_t *farthest) {
+static float nsvcd__reach_of_spheres(size_t count, const float *x, const float *y, const float *z,
+                                     const float *r, const float *centre, size_t *farthest) {
   float reach = 0;
   for (size_t i = 0; i < count; i++) {
     float d[3] = {x[i] - centre[0], y[i] - centre[1], z[i] - centre[2]};
     float end = nsvcd__length3(d) + r[i];
-    if (end > reach) reach = end, *farthest = i;
+    if (end > reach) {
+      reach = end;
+      *farthest = i;
+    }
   }
   return reach;
 }
 
-// A sphere over `count` spheres: from the middle of their box, ever shorter steps towards the farthest (Badoiu and
-// Clarkson 2003), the best one kept. out: x y z r. The radius is rounded up by more than any compiler's rounding.
-static void nsvcd__cover_spheres(size_t count, const float *x, const float *y, const float *z, const float *r,
-                                 float *out) {
+// A sphere over `count` spheres: from the middle of their box, ever shorter steps towards the
+// farthest (Badoiu and Clarkson 2003), the best one kept. out: x y z r. The radius is rounded up by
+// more than any compiler's rounding.
+static void nsvcd__cover_spheres(size_t count, const float *x, const float *y, const float *z,
+                                 const float *r, float *out) {
   const float *axes[3] = {x, y, z};
   float centre[3];
   for (size_t k = 0; k < 3; k++) {
-    float low = axes[k][0] - r[0], high = axes[k][0] + r[0];
+    float low = axes[k][0] - r[0];
+    float high = axes[k][0] + r[0];
     for (size_t i = 1; i < count; i++) {
-      float a = axes[k][i] - r[i], b = axes[k][i] + r[i];
-      low = a < low ? a : low, high = b > high ? b : high;
+      float a = axes[k][i] - r[i];
+      float b = axes[k][i] + r[i];
+      low = a < low ? a : low;
+      high = b > high ? b : high;
     }
     centre[k] = 0.5f * low + 0.5f * high;
   }
@@ -4071,14 +4536,19 @@ static void nsvcd__cover_spheres(size_t count, const float *x, const float *y, c
   for (int step = 0; step < 32; step++) {
     size_t farthest = 0;
     float reach = nsvcd__reach_of_spheres(count, x, y, z, r, centre, &farthest);
-    if (step == 0 || reach < best) best = reach, memcpy(out, centre, sizeof centre);
+    if (step == 0 || reach < best) {
+      best = reach;
+      memcpy(out, centre, sizeof centre);
+    }
     for (size_t k = 0; k < 3; k++) centre[k] += (axes[k][farthest] - centre[k]) / (float)(step + 3);
   }
   out[3] = best * 1.000002f;
 }
 
-// Fills the spheres of a level from those, of so many slots, that they are over: 16 each, of which `members` exist.
-static void nsvcd__level_finish(const float *below, size_t stride, size_t members, nsvcd__level level, float *out) {
+// Fills the spheres of a level from those, of so many slots, that they are over: 16 each, of which
+// `members` exist.
+static void nsvcd__level_finish(const float *below, size_t stride, size_t members,
+                                nsvcd__level level, float *out) {
   for (size_t g = 0; g < level.slots; g++) {
     float sphere[4] = {0, 0, 0, NSVCD__NOWHERE};
     const size_t i = g * NSVCD__GROUP;
@@ -4090,8 +4560,8 @@ static void nsvcd__level_finish(const float *below, size_t stride, size_t member
   }
 }
 
-// Fills the spheres above the patches, the bounding sphere, the extent and the checksum of a blob whose patches are in
-// place.
+// Fills the spheres above the patches, the bounding sphere, the extent and the checksum of a blob
+// whose patches are in place.
 static void nsvcd__body_finish(nsvcd_body *body) {
   float *x = (float *)(body + 1);
   float *y = x + body->padded;
@@ -4108,7 +4578,8 @@ static void nsvcd__body_finish(nsvcd_body *body) {
     stride = level.slots;
     members = level.count;
   }
-  float sphere[4], origin[3] = {0, 0, 0};
+  float sphere[4];
+  float origin[3] = {0, 0, 0};
   size_t farthest = 0;
   nsvcd__cover_spheres(points, x, y, z, r, sphere);
   memcpy(body->centre, sphere, sizeof body->centre);
@@ -4120,7 +4591,8 @@ static void nsvcd__body_finish(nsvcd_body *body) {
 // ---- a walk through the groups of a body
 
 // Which of 16 spheres are of interest? Bits of lanes.
-typedef uint32_t nsvcd__filter(const void *what, const float *x, const float *y, const float *z, const float *r);
+typedef uint32_t nsvcd__filter(const void *what, const float *x, const float *y, const float *z,
+                               const float *r);
 
 // Finds the groups whose spheres, and all spheres over them, pass a filter, in their order.
 typedef struct nsvcd__walk {
@@ -4138,7 +4610,8 @@ static uint32_t nsvcd__walk_look(const nsvcd__walk *walk, size_t level, size_t f
   return walk->filter(walk->what, x, x + at.slots, x + 2 * at.slots, x + 3 * at.slots);
 }
 
-static void nsvcd__walk_begin(nsvcd__walk *walk, const nsvcd_body *body, nsvcd__filter *filter, const void *what) {
+static void nsvcd__walk_begin(nsvcd__walk *walk, const nsvcd_body *body, nsvcd__filter *filter,
+                              const void *what) {
   walk->body = body;
   walk->filter = filter;
   walk->what = what;
@@ -4147,7 +4620,8 @@ static void nsvcd__walk_begin(nsvcd__walk *walk, const nsvcd_body *body, nsvcd__
   walk->first[walk->level] = 0;
   uint32_t left = 0;
   const size_t slots = nsvcd__level_of(body->padded, walk->level).slots;
-  for (size_t first = 0; first < slots; first += NSVCD__GROUP) left |= nsvcd__walk_look(walk, walk->level, first) << first;
+  for (size_t first = 0; first < slots; first += NSVCD__GROUP)
+    left |= nsvcd__walk_look(walk, walk->level, first) << first;
   walk->left[walk->level] = left;
 }
 
@@ -4170,7 +4644,9 @@ static int nsvcd__walk_next(nsvcd__walk *walk, size_t *group) {
   }
 }
 
-static int nsvcd__is_aligned(const void *memory) { return ((uintptr_t)memory & (NSVCD_ALIGNMENT - 1)) == 0; }
+static int nsvcd__is_aligned(const void *memory) {
+  return ((uintptr_t)memory & (NSVCD_ALIGNMENT - 1)) == 0;
+}
 
 // Bit tests, so that they hold under -ffast-math too.
 static int nsvcd__all_within(const float *values, size_t count, float cap) {
@@ -4182,11 +4658,14 @@ static int nsvcd__all_within(const float *values, size_t count, float cap) {
 
 #ifndef NSVCD_NO_NETWORK
 // Numbers in the area vectors.
-static size_t nsvcd__area_numbers(const nsvcd_body *body) { return 3 * nsvcd__area_slots(body->padded); }
+static size_t nsvcd__area_numbers(const nsvcd_body *body) {
+  return 3 * nsvcd__area_slots(body->padded);
+}
 
 // Are the area vectors of a body of latents in range?
 static int nsvcd__areas_are_sound(const nsvcd_body *body) {
-  return nsvcd__all_within(nsvcd__body_areas(body), nsvcd__area_numbers(body), NSVCD__MAX_LENGTH * NSVCD__MAX_LENGTH);
+  return nsvcd__all_within(nsvcd__body_areas(body), nsvcd__area_numbers(body),
+                           NSVCD__MAX_LENGTH * NSVCD__MAX_LENGTH);
 }
 #endif
 
@@ -4200,38 +4679,51 @@ static void nsvcd__sum_areas(nsvcd_body *body) {
   for (size_t n = 0; levels > 1 && n < levels; n++) {
     const nsvcd__level level = nsvcd__level_of(body->padded, n);
     float *sums = areas + level.first / 4 * 3;
-    for (size_t i = 0; i < 3 * stride; i++) sums[i / stride * level.slots + i % stride / NSVCD__GROUP] += below[i];
+    for (size_t i = 0; i < 3 * stride; i++)
+      sums[i / stride * level.slots + i % stride / NSVCD__GROUP] += below[i];
     below = sums;
     stride = level.slots;
   }
 }
 
-// Builds a body of latents in `memory` from N patches in the given order (N): centres (N, 3), radii (N), areas (N, 3),
-// latents (N, LATENT).
-static nsvcd_result nsvcd__body_build(size_t points, const float *centres, const float *radii, const float *areas,
-                                      const int8_t *latents, const uint16_t *order, uint32_t weights_id, int open,
+// Builds a body of latents in `memory` from N patches in the given order (N): centres (N, 3), radii
+// (N), areas (N, 3), latents (N, LATENT).
+static nsvcd_result nsvcd__body_build(size_t points, const float *centres, const float *radii,
+                                      const float *areas, const int8_t *latents,
+                                      const uint16_t *order, uint32_t weights_id, int open,
                                       void *memory, size_t capacity, const nsvcd_body **body) {
   size_t size = nsvcd_body_size(points);
   if (size == 0) return NSVCD_ERROR_ARGUMENT;
   if (capacity < size || !nsvcd__is_aligned(memory)) return NSVCD_ERROR_WORKSPACE;
   if (!nsvcd__all_within(centres, 3 * points, NSVCD_MAX_COORDINATE)) return NSVCD_ERROR_NUMBER;
   if (!nsvcd__all_within(radii, points, 4 * NSVCD_MAX_COORDINATE)) return NSVCD_ERROR_NUMBER;
-  if (!nsvcd__all_within(areas, 3 * points, NSVCD__MAX_LENGTH * NSVCD__MAX_LENGTH)) return NSVCD_ERROR_NUMBER;
+  if (!nsvcd__all_within(areas, 3 * points, NSVCD__MAX_LENGTH * NSVCD__MAX_LENGTH))
+    return NSVCD_ERROR_NUMBER;
   for (size_t i = 0; i < points; i++) {
     if (radii[i] < 0) return NSVCD_ERROR_NUMBER;
   }
 
   memset(memory, 0, size);
   nsvcd_body *b = (nsvcd_body *)memory;
-  b->magic = NSVCD__BODY_MAGIC, b->version = NSVCD__BODY_VERSION;
-  b->size = (uint32_t)size, b->weights_id = weights_id, b->open = open != 0;
-  b->points = (uint32_t)points, b->padded = (uint32_t)nsvcd__round_up(points, NSVCD__GROUP);
-  float *x = (float *)(b + 1), *y = x + b->padded, *z = y + b->padded, *r = z + b->padded;
+  b->magic = NSVCD__BODY_MAGIC;
+  b->version = NSVCD__BODY_VERSION;
+  b->size = (uint32_t)size;
+  b->weights_id = weights_id;
+  b->open = open != 0;
+  b->points = (uint32_t)points;
+  b->padded = (uint32_t)nsvcd__round_up(points, NSVCD__GROUP);
+  float *x = (float *)(b + 1);
+  float *y = x + b->padded;
+  float *z = y + b->padded;
+  float *r = z + b->padded;
   float *area = (float *)(void *)((char *)memory + nsvcd__spheres_size(b->padded));
   int8_t *latent = (int8_t *)(area + 3 * nsvcd__area_slots(b->padded));
   for (size_t i = 0; i < points; i++) {
     size_t from = order[i];
-    x[i] = centres[3 * from], y[i] = centres[3 * from + 1], z[i] = centres[3 * from + 2], r[i] = radii[from];
+    x[i] = centres[3 * from];
+    y[i] = centres[3 * from + 1];
+    z[i] = centres[3 * from + 2];
+    r[i] = radii[from];
     for (size_t k = 0; k < 3; k++) area[k * b->padded + i] = areas[3 * from + k];
     memcpy(latent + NSVCD__LATENT * i, latents + NSVCD__LATENT * from, NSVCD__LATENT);
   }
@@ -4246,25 +4738,27 @@ static nsvcd_result nsvcd__body_build(size_t points, const float *centres, const
 #endif
 
 // 1 if the sphere contains the spheres [0, count).
-static int nsvcd__covers(const float *centre, float radius, size_t count, const float *x, const float *y,
-                         const float *z, const float *r) {
+static int nsvcd__covers(const float *centre, float radius, size_t count, const float *x,
+                         const float *y, const float *z, const float *r) {
   size_t farthest = 0;
   return nsvcd__reach_of_spheres(count, x, y, z, r, centre, &farthest) <= radius;
 }
 
 // 1 if padding entries [from, to) are exactly what nsvcd__body_finish writes.
-static int nsvcd__is_padding(const float *x, const float *y, const float *z, const float *r, size_t from, size_t to) {
+static int nsvcd__is_padding(const float *x, const float *y, const float *z, const float *r,
+                             size_t from, size_t to) {
   for (size_t i = from; i < to; i++) {
     if (x[i] != 0 || y[i] != 0 || z[i] != 0 || r[i] != NSVCD__NOWHERE) return 0;
   }
   return 1;
 }
 
-// Are `count` spheres of so many slots, 1 to `stride`, finite and within bounds, their radii not negative, the others
-// padding?
+// Are `count` spheres of so many slots, 1 to `stride`, finite and within bounds, their radii not
+// negative, the others padding?
 static int nsvcd__are_spheres(const float *x, size_t count, size_t stride, float cap) {
   const float *r = x + 3 * stride;
-  if (!nsvcd__all_within(x, 3 * stride, cap) || !nsvcd__all_within(r, count, NSVCD__MAX_LENGTH)) return 0;
+  if (!nsvcd__all_within(x, 3 * stride, cap) || !nsvcd__all_within(r, count, NSVCD__MAX_LENGTH))
+    return 0;
   if (!nsvcd__all_within(r, stride, -NSVCD__NOWHERE)) return 0;
   for (size_t i = 0; i < count; i++) {
     if (r[i] < 0) return 0;
@@ -4272,15 +4766,17 @@ static int nsvcd__are_spheres(const float *x, size_t count, size_t stride, float
   return nsvcd__is_padding(x, x + stride, x + 2 * stride, r, count, stride);
 }
 
-// The spheres of a blob whose layout is right: finite, bounded, radii not negative, each one above covering its 16. A
-// checksum stops accidents; this stops a blob made to harm: a lying sphere would hide collisions.
+// The spheres of a blob whose layout is right: finite, bounded, radii not negative, each one above
+// covering its 16. A checksum stops accidents; this stops a blob made to harm: a lying sphere would
+// hide collisions.
 static int nsvcd__spheres_are_sound(const nsvcd_body *body) {
   const float *x = nsvcd__body_x(body);
   const size_t padded = body->padded;
   if (!nsvcd__are_spheres(x, body->points, padded, NSVCD_MAX_COORDINATE)) return 0;
   if (!nsvcd__all_within(body->centre, 3, NSVCD__MAX_LENGTH)) return 0;
   if (!nsvcd__all_within(&body->radius, 1, NSVCD__MAX_LENGTH)) return 0;
-  if (!nsvcd__all_within(&body->extent, 1, NSVCD__MAX_LENGTH) || body->radius < NSVCD_MIN_RADIUS) return 0;
+  if (!nsvcd__all_within(&body->extent, 1, NSVCD__MAX_LENGTH) || body->radius < NSVCD_MIN_RADIUS)
+    return 0;
   const float *below = x;
   size_t stride = padded;
   size_t members = body->points;
@@ -4293,8 +4789,8 @@ static int nsvcd__spheres_are_sound(const nsvcd_body *body) {
       const size_t count = members - i < NSVCD__GROUP ? members - i : NSVCD__GROUP;
       const float centre[3] = {above[g], above[level.slots + g], above[2 * level.slots + g]};
       const float *first = below + i;
-      if (!nsvcd__covers(centre, above[3 * level.slots + g], count, first, first + stride, first + 2 * stride,
-                         first + 3 * stride)) {
+      if (!nsvcd__covers(centre, above[3 * level.slots + g], count, first, first + stride,
+                         first + 2 * stride, first + 3 * stride)) {
         return 0;
       }
     }
@@ -4303,8 +4799,10 @@ static int nsvcd__spheres_are_sound(const nsvcd_body *body) {
     members = level.count;
   }
   const float origin[3] = {0, 0, 0};
-  return nsvcd__covers(body->centre, body->radius, body->points, x, x + padded, x + 2 * padded, x + 3 * padded) &&
-         nsvcd__covers(origin, body->extent, body->points, x, x + padded, x + 2 * padded, x + 3 * padded);
+  return nsvcd__covers(body->centre, body->radius, body->points, x, x + padded, x + 2 * padded,
+                       x + 3 * padded) &&
+         nsvcd__covers(origin, body->extent, body->points, x, x + padded, x + 2 * padded,
+                       x + 3 * padded);
 }
 
 // Multiplies the spheres that both kinds of bodies begin with.
@@ -4314,8 +4812,8 @@ static void nsvcd__scale_spheres(nsvcd_body *body, float scale) {
   for (size_t i = 0; i < body->points; i++) floats[3 * body->padded + i] *= scale;
 }
 
-// Would the spheres, multiplied, still be within the limits of nsvcd_body_load? In double, for the products may overflow
-// a float.
+// Would the spheres, multiplied, still be within the limits of nsvcd_body_load? In double, for the
+// products may overflow a float.
 static int nsvcd__spheres_fit(const nsvcd_body *body, float scale) {
   const double least = (double)NSVCD_MIN_RADIUS / (double)scale;
   const double most = (double)NSVCD_MAX_COORDINATE / (double)scale;
@@ -4328,24 +4826,32 @@ static int nsvcd__spheres_fit(const nsvcd_body *body, float scale) {
 }
 
 #ifndef NSVCD_NO_PROOF
-// ----------------------------------------------------------------------------------------------------- facets
-// The body of triangles: behind the spheres, which are the least about each patch's pieces of the surface, stand
+// ------------------------------------------------------------------------------------------ facets
+// The body of triangles: behind the spheres, which are the least about each patch's pieces of the
+// surface, stand
 //
-//   counts          (8)      uint32 listed triangles, vertices V, components C, bytes of listings B, zeros
+//   counts          (8)      uint32 listed triangles, vertices V, components C, bytes of listings
+//                   B, zeros
 //   box             (2, 3)   float least and greatest coordinates of the surface
 //   widest          (2)      float the greatest of the quanta, and zero
-//   discs           (6, P)   float unit normal n, low, high, across: a piece's points x have low <= n.(x - c) <= high,
-//                            and are no farther than `across` from the line along n; c: centre of the patch's sphere
-//   group discs     (6, G)   float the same over the members of each group; c: centre of the group's sphere
+//   discs           (6, P)   float unit normal n, low, high, across: a piece's points x have low <=
+//                   n.(x - c) <= high,
+//                            and are no farther than `across` from the line along n; c: centre of
+//                            the patch's sphere
+//   group discs     (6, G)   float the same over the members of each group; c: centre of the
+//                   group's sphere
 //   steps           (P)      float metres per integer: a stored vertex is c + step (x, y, z)
 //   slacks          (P)      float pieces are within this of the hull of the patch's first vertices
 //   quanta          (P)      float corners of triangles are within this of their stored vertices
-//   first_vertex, first_triangle, first_byte (3, N + 1) uint32: where a patch's vertices, triangles and listings begin
-//   first_seed      (G' + 1) uint32: where the seeds of a group begin; G': groups, without the padding
+//   first_vertex, first_triangle, first_byte (3, N + 1) uint32: where a patch's vertices, triangles
+//   and listings begin
+//   first_seed      (G' + 1) uint32: where the seeds of a group begin; G': groups, without the
+//                   padding
 //   seeds           (C, 3)   float a point of each component, group by group, within its sphere
 //   vertices        (3 V)    int16 patch by patch x, y, z; the hull's first
 //   listings        (B)      bytes patch by patch, of its T triangles
-//     corners       (T, 3)   uint8, or uint16 in patches of more than 256 vertices: vertices within the patch
+//     corners       (T, 3)   uint8, or uint16 in patches of more than 256 vertices: vertices within
+//                   the patch
 //     numbers       (T)      each in 1 to 5 bytes: see nsvcd__read_code
 //   hull_counts     (N)      uint8 vertices of the hull, 16 at most; 0: the patch has no surface
 //
@@ -4379,7 +4885,8 @@ static const nsvcd_body *nsvcd__triangles_of(const nsvcd_body *body) {
 // Bytes of a body of triangles; 0 if they cannot be counted in 32 bits.
 static size_t nsvcd__facets_size(size_t points, const uint32_t *counts) {
   const size_t padded = nsvcd__round_up(points, NSVCD__GROUP);
-  uint64_t size = nsvcd__spheres_size(padded) + 4 * (NSVCD__FACET_COUNTS + NSVCD__FACET_BOX) + 12 * (points + 1);
+  uint64_t size = nsvcd__spheres_size(padded) + 4 * (NSVCD__FACET_COUNTS + NSVCD__FACET_BOX) +
+                  12 * (points + 1);
   size += 36 * padded + 24 * nsvcd__group_slots(padded);
   size += 4 * (padded / NSVCD__GROUP + 1) + (uint64_t)12 * counts[2];
   size += 2 * ((uint64_t)3 * counts[1] + NSVCD__LANES);
@@ -4391,7 +4898,8 @@ static size_t nsvcd__facets_size(size_t points, const uint32_t *counts) {
 
 static nsvcd__facets nsvcd__facets_of(const nsvcd_body *body) {
   const size_t padded = body->padded;
-  const uint32_t *counts = (const uint32_t *)(const void *)((const char *)body + nsvcd__spheres_size(padded));
+  const uint32_t *counts =
+      (const uint32_t *)(const void *)((const char *)body + nsvcd__spheres_size(padded));
   nsvcd__facets f;
   f.body = body;
   f.listed = counts[0];
@@ -4424,15 +4932,17 @@ static size_t nsvcd__corner_bytes(size_t vertices) { return vertices <= 256 ? 1 
 static size_t nsvcd__facet_corner(const nsvcd__facets *f, size_t patch, size_t n, size_t k) {
   const unsigned char *corners = f->listings + f->first_byte[patch];
   const size_t at = 3 * (n - f->first_triangle[patch]) + k;
-  if (nsvcd__corner_bytes(f->first_vertex[patch + 1] - f->first_vertex[patch]) == 1) return corners[at];
+  if (nsvcd__corner_bytes(f->first_vertex[patch + 1] - f->first_vertex[patch]) == 1)
+    return corners[at];
   uint16_t corner;
   memcpy(&corner, corners + 2 * at, sizeof corner);
   return corner;
 }
 
-// The numbers of a patch's triangles in the caller's mesh follow each other as codes: twice what the number is more than
-// the one before, modulo 2^31, the lowest bit set if the triangle belongs to a closed component. A code is stored 7 bits
-// a byte, the lowest first; the top bit says that there are more. Most take one byte, for neighbours have near numbers.
+// The numbers of a patch's triangles in the caller's mesh follow each other as codes: twice what
+// the number is more than the one before, modulo 2^31, the lowest bit set if the triangle belongs
+// to a closed component. A code is stored 7 bits a byte, the lowest first; the top bit says that
+// there are more. Most take one byte, for neighbours have near numbers.
 static uint32_t nsvcd__read_code(const unsigned char **at) {
   uint32_t code = 0;
   for (unsigned shift = 0; shift < 35; shift += 7) {
@@ -4483,9 +4993,10 @@ static nsvcd__f3 nsvcd__facet_centre(const nsvcd__facets *f, size_t patch) {
   return nsvcd__f3_of(nsvcd__body_x(b)[patch], nsvcd__body_y(b)[patch], nsvcd__body_z(b)[patch]);
 }
 
-// Vertices first .. first + 15 of a patch, the last one repeated: the slice of them that begins with lane l.
-NSVCD__INLINE nsvcd__v3 nsvcd__facet_vertices(const nsvcd__facets *f, size_t patch, size_t first, size_t count,
-                                              size_t l) {
+// Vertices first .. first + 15 of a patch, the last one repeated: the slice of them that begins
+// with lane l.
+NSVCD__INLINE nsvcd__v3 nsvcd__facet_vertices(const nsvcd__facets *f, size_t patch, size_t first,
+                                              size_t count, size_t l) {
   static const float lane[NSVCD__LANES] = {0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15};
   const size_t all = f->first_vertex[patch + 1] - f->first_vertex[patch];
   const int16_t *x = f->vertices + 3 * (size_t)f->first_vertex[patch] + first;
@@ -4503,7 +5014,8 @@ NSVCD__INLINE nsvcd__v3 nsvcd__facet_vertices(const nsvcd__facets *f, size_t pat
 }
 
 // The corners of a listed triangle of a patch, exactly.
-static void nsvcd__facet_triangle(const nsvcd__facets *f, size_t patch, size_t n, nsvcd__d3 *corners) {
+static void nsvcd__facet_triangle(const nsvcd__facets *f, size_t patch, size_t n,
+                                  nsvcd__d3 *corners) {
   const size_t all = f->first_vertex[patch + 1] - f->first_vertex[patch];
   const int16_t *x = f->vertices + 3 * (size_t)f->first_vertex[patch];
   const nsvcd__f3 centre = nsvcd__facet_centre(f, patch);
@@ -4519,22 +5031,24 @@ static void nsvcd__facet_triangle(const nsvcd__facets *f, size_t patch, size_t n
 // A float not less than x, which is not negative.
 static float nsvcd__round_outward(double x) { return (float)(x * (1 + 2e-7)) + 1e-37f; }
 
-// What the members of a group reach along a direction and across it, from the centre of the group's sphere.
+// What the members of a group reach along a direction and across it, from the centre of the group's
+// sphere.
 typedef struct nsvcd__slab {
   double low, high, across;
 } nsvcd__slab;
 
 static nsvcd__slab nsvcd__slab_of_group(const nsvcd__facets *f, size_t g, nsvcd__d3 normal) {
   const size_t first = NSVCD__GROUP * g;
-  const nsvcd__d3 centre =
-      nsvcd__d3_of((double)nsvcd__body_group(f->body, 0)[g], (double)nsvcd__body_group(f->body, 1)[g],
-                   (double)nsvcd__body_group(f->body, 2)[g]);
+  const nsvcd__d3 centre = nsvcd__d3_of((double)nsvcd__body_group(f->body, 0)[g],
+                                        (double)nsvcd__body_group(f->body, 1)[g],
+                                        (double)nsvcd__body_group(f->body, 2)[g]);
   nsvcd__slab slab = {HUGE_VAL, -HUGE_VAL, 0};
   for (size_t i = first; i < first + NSVCD__GROUP && i < f->body->points; i++) {
     const size_t all = f->first_vertex[i + 1] - f->first_vertex[i];
     const int16_t *x = f->vertices + 3 * (size_t)f->first_vertex[i];
     const nsvcd__d3 own = nsvcd__d3_sub(nsvcd__d3_widen(nsvcd__facet_centre(f, i)), centre);
-    const double step = (double)f->steps[i], slack = (double)f->slacks[i];
+    const double step = (double)f->steps[i];
+    const double slack = (double)f->slacks[i];
     for (size_t k = 0; k < f->hull_counts[i]; k++) {
       const nsvcd__d3 offset = nsvcd__d3_of(step * x[k], step * x[all + k], step * x[2 * all + k]);
       const nsvcd__d3 v = nsvcd__d3_add(own, offset);
@@ -4548,31 +5062,38 @@ static nsvcd__slab nsvcd__slab_of_group(const nsvcd__facets *f, size_t g, nsvcd_
   return slab;
 }
 
-// Writes a group's disc: its normal is the mean of the members', or that of the member in which the group is thinnest.
+// Writes a group's disc: its normal is the mean of the members', or that of the member in which the
+// group is thinnest.
 static void nsvcd__finish_group(nsvcd_body *body, size_t g) {
   const nsvcd__facets f = nsvcd__facets_of(body);
-  const size_t padded = body->padded, slots = nsvcd__group_slots(padded), first = NSVCD__GROUP * g;
+  const size_t padded = body->padded;
+  const size_t slots = nsvcd__group_slots(padded);
+  const size_t first = NSVCD__GROUP * g;
   float *disc = (float *)nsvcd__writable(body, f.group_discs) + g;
-  nsvcd__d3 normals[1 + NSVCD__GROUP], best = {0, 0, 1};
+  nsvcd__d3 normals[1 + NSVCD__GROUP];
+  nsvcd__d3 best = {0, 0, 1};
   nsvcd__slab thinnest = {0, HUGE_VAL, 0};
   normals[0] = nsvcd__d3_of(0, 0, 0);
   for (size_t k = 0; k < NSVCD__GROUP; k++) {
     const float *n = f.discs + first + k;
     const nsvcd__d3 normal = nsvcd__d3_of((double)n[0], (double)n[padded], (double)n[2 * padded]);
     normals[1 + k] = normal;
-    normals[0] = nsvcd__d3_add(normals[0], nsvcd__d3_scale(normal, nsvcd__d3_dot(normal, normals[1]) < 0 ? -1 : 1));
+    normals[0] = nsvcd__d3_add(
+        normals[0], nsvcd__d3_scale(normal, nsvcd__d3_dot(normal, normals[1]) < 0 ? -1 : 1));
   }
   for (size_t k = 0; k < 1 + NSVCD__GROUP; k += k == 0 ? 1 : 4) {
     const double length = nsvcd__d3_length(normals[k]);
     if (!(length > 1e-3)) continue;
     // As it is stored, and no longer than 1.
-    const nsvcd__d3 unit = nsvcd__d3_widen(nsvcd__f3_round(nsvcd__d3_scale(normals[k], 0.9999998 / length)));
+    const nsvcd__d3 unit =
+        nsvcd__d3_widen(nsvcd__f3_round(nsvcd__d3_scale(normals[k], 0.9999998 / length)));
     const nsvcd__slab slab = nsvcd__slab_of_group(&f, g, unit);
     if (!(slab.high - slab.low < thinnest.high - thinnest.low)) continue;
     thinnest = slab;
     best = unit;
   }
-  const double margin = 1e-6 * (double)body->extent;  // float rounding, and that `across` takes |n| to be 1
+  // float rounding, and that `across` takes |n| to be 1
+  const double margin = 1e-6 * (double)body->extent;
   const nsvcd__f3 normal = nsvcd__f3_round(best);
   disc[0] = normal.x;
   disc[slots] = normal.y;
@@ -4649,14 +5170,16 @@ static void nsvcd__facets_count(const nsvcd__surface *surface, uint32_t *counts)
   for (size_t i = 0; i < surface->count; i++) {
     const uint32_t vertices = surface->first_vertex[i + 1] - surface->first_vertex[i];
     const uint32_t triangles = surface->first_triangle[i + 1] - surface->first_triangle[i];
-    bytes += (uint64_t)3 * triangles * nsvcd__corner_bytes(vertices) + nsvcd__numbers_size(surface, i);
+    bytes +=
+        (uint64_t)3 * triangles * nsvcd__corner_bytes(vertices) + nsvcd__numbers_size(surface, i);
   }
-  counts[3] = bytes < 0xffffffffu ? (uint32_t)bytes : 0xffffffffu;  // then the body is refused as too large
+  // then the body is refused as too large
+  counts[3] = bytes < 0xffffffffu ? (uint32_t)bytes : 0xffffffffu;
 }
 
 // Writes patch `to` of a body of triangles from patch `from` of a surface.
-static void nsvcd__facets_write(const nsvcd__surface *surface, size_t from, nsvcd_body *body, size_t to,
-                                const float *centre) {
+static void nsvcd__facets_write(const nsvcd__surface *surface, size_t from, nsvcd_body *body,
+                                size_t to, const float *centre) {
   const nsvcd__facets f = nsvcd__facets_of(body);
   float *spheres = (float *)(body + 1);
   float *discs = (float *)nsvcd__writable(body, f.discs);
@@ -4664,7 +5187,8 @@ static void nsvcd__facets_write(const nsvcd__surface *surface, size_t from, nsvc
   uint8_t *hull_counts = (uint8_t *)nsvcd__writable(body, f.hull_counts);
   const size_t padded = body->padded;
   const int empty = surface->hull_counts[from] == 0;
-  for (size_t k = 0; k < 3; k++) spheres[k * padded + to] = empty ? centre[k] : surface->balls[4 * from + k];
+  for (size_t k = 0; k < 3; k++)
+    spheres[k * padded + to] = empty ? centre[k] : surface->balls[4 * from + k];
   spheres[3 * padded + to] = empty ? 0 : surface->balls[4 * from + 3];
   for (size_t k = 0; k < 6; k++) discs[k * padded + to] = empty ? 0 : surface->discs[6 * from + k];
   shares[to] = empty ? 0 : surface->steps[from];
@@ -4700,7 +5224,8 @@ static void nsvcd__facets_write(const nsvcd__surface *surface, size_t from, nsvc
 }
 
 // Writes the seeds of a body of triangles, group by group. order: of the patches.
-static void nsvcd__seeds_write(const nsvcd__surface *surface, const uint16_t *order, nsvcd_body *body) {
+static void nsvcd__seeds_write(const nsvcd__surface *surface, const uint16_t *order,
+                               nsvcd_body *body) {
   const nsvcd__facets f = nsvcd__facets_of(body);
   uint32_t *first_seed = (uint32_t *)nsvcd__writable(body, f.first_seed);
   float *seeds = (float *)nsvcd__writable(body, f.seeds);
@@ -4722,10 +5247,11 @@ static void nsvcd__seeds_write(const nsvcd__surface *surface, const uint16_t *or
   memset(places, 0, body->points * sizeof *places);
 }
 
-// Builds a body of triangles of `size` bytes in `memory`, its patches in the given order. centres (N, 3): for patches
-// without surface.
-static nsvcd_result nsvcd__facets_build(const nsvcd_mesh *mesh, const nsvcd__surface *surface, const uint32_t *counts,
-                                        const float *centres, const uint16_t *order, int open, void *memory,
+// Builds a body of triangles of `size` bytes in `memory`, its patches in the given order. centres
+// (N, 3): for patches without surface.
+static nsvcd_result nsvcd__facets_build(const nsvcd_mesh *mesh, const nsvcd__surface *surface,
+                                        const uint32_t *counts, const float *centres,
+                                        const uint16_t *order, int open, void *memory,
                                         size_t size) {
   nsvcd_body *b = (nsvcd_body *)memory;
   memset(memory, 0, size);
@@ -4736,7 +5262,8 @@ static nsvcd_result nsvcd__facets_build(const nsvcd_mesh *mesh, const nsvcd__sur
   b->padded = (uint32_t)nsvcd__round_up(surface->count, NSVCD__GROUP);
   b->open = open != 0;
   b->triangles = (uint32_t)mesh->triangle_count;
-  memcpy((char *)memory + nsvcd__spheres_size(b->padded), counts, NSVCD__FACET_COUNTS * sizeof *counts);
+  memcpy((char *)memory + nsvcd__spheres_size(b->padded), counts,
+         NSVCD__FACET_COUNTS * sizeof *counts);
 
   nsvcd__seeds_write(surface, order, b);
   for (size_t i = 0; i < surface->count; i++) {
@@ -4750,7 +5277,8 @@ static nsvcd_result nsvcd__facets_build(const nsvcd_mesh *mesh, const nsvcd__sur
 }
 #endif
 
-// Are there just as many codes from one byte of the listings to another, and all of triangles that there are?
+// Are there just as many codes from one byte of the listings to another, and all of triangles that
+// there are?
 static int nsvcd__numbers_are_sound(const nsvcd__facets *f, size_t from, size_t to, size_t count) {
   const unsigned char *at = f->listings + from;
   const unsigned char *end = f->listings + to;
@@ -4765,7 +5293,8 @@ static int nsvcd__numbers_are_sound(const nsvcd__facets *f, size_t from, size_t 
   return at == end;
 }
 
-// Is the layout right: sizes, counts, indices? A body of triangles of at most `size` bytes, at least a header.
+// Is the layout right: sizes, counts, indices? A body of triangles of at most `size` bytes, at
+// least a header.
 static int nsvcd__facets_are_laid_out(const nsvcd_body *body, size_t size) {
   if (nsvcd__spheres_size(body->padded) + 4 * NSVCD__FACET_COUNTS > size) return 0;
   const void *at = (const char *)body + nsvcd__spheres_size(body->padded);
@@ -4776,15 +5305,18 @@ static int nsvcd__facets_are_laid_out(const nsvcd_body *body, size_t size) {
   const nsvcd__facets f = nsvcd__facets_of(body);
   if (f.first_vertex[0] != 0 || f.first_triangle[0] != 0 || f.first_byte[0] != 0) return 0;
   for (size_t i = 0; i < body->points; i++) {
-    if (f.first_vertex[i + 1] < f.first_vertex[i] || f.first_triangle[i + 1] < f.first_triangle[i]) return 0;
+    if (f.first_vertex[i + 1] < f.first_vertex[i] || f.first_triangle[i + 1] < f.first_triangle[i])
+      return 0;
     if (f.first_vertex[i + 1] > f.vertex_count || f.first_triangle[i + 1] > f.listed) return 0;
     const size_t vertices = f.first_vertex[i + 1] - f.first_vertex[i];
     const size_t triangles = f.first_triangle[i + 1] - f.first_triangle[i];
     if (f.hull_counts[i] > NSVCD__HULL || f.hull_counts[i] > vertices) return 0;
     if ((f.hull_counts[i] == 0) != (vertices == 0) || (vertices == 0) != (triangles == 0)) return 0;
-    const uint64_t corners_end = f.first_byte[i] + (uint64_t)3 * triangles * nsvcd__corner_bytes(vertices);
+    const uint64_t corners_end =
+        f.first_byte[i] + (uint64_t)3 * triangles * nsvcd__corner_bytes(vertices);
     if (corners_end > f.first_byte[i + 1] || f.first_byte[i + 1] > f.listings_size) return 0;
-    if (!nsvcd__numbers_are_sound(&f, (size_t)corners_end, f.first_byte[i + 1], triangles)) return 0;
+    if (!nsvcd__numbers_are_sound(&f, (size_t)corners_end, f.first_byte[i + 1], triangles))
+      return 0;
     for (size_t n = 0; n < 3 * triangles; n++) {
       if (nsvcd__facet_corner(&f, i, f.first_triangle[i] + n / 3, n % 3) >= vertices) return 0;
     }
@@ -4794,13 +5326,16 @@ static int nsvcd__facets_are_laid_out(const nsvcd_body *body, size_t size) {
     if (f.first_seed[g + 1] < f.first_seed[g]) return 0;
   }
   if (f.first_seed[nsvcd__body_groups(body)] != f.components) return 0;
-  return f.first_vertex[body->points] == f.vertex_count && f.first_triangle[body->points] == f.listed;
+  return f.first_vertex[body->points] == f.vertex_count &&
+         f.first_triangle[body->points] == f.listed;
 }
 
-// Are the numbers in range? They may lie about the surface, but nothing that is computed from them overflows.
+// Are the numbers in range? They may lie about the surface, but nothing that is computed from them
+// overflows.
 static int nsvcd__facets_are_sound(const nsvcd_body *body) {
   const nsvcd__facets f = nsvcd__facets_of(body);
-  const size_t padded = body->padded, slots = nsvcd__group_slots(padded);
+  const size_t padded = body->padded;
+  const size_t slots = nsvcd__group_slots(padded);
   if (!nsvcd__all_within(f.box, NSVCD__FACET_BOX, NSVCD__MAX_LENGTH)) return 0;
   if (!nsvcd__all_within(f.discs, 3 * padded, 1.000001f)) return 0;
   if (!nsvcd__all_within(f.discs + 3 * padded, 3 * padded, NSVCD__MAX_LENGTH)) return 0;
@@ -4810,13 +5345,15 @@ static int nsvcd__facets_are_sound(const nsvcd_body *body) {
   if (!nsvcd__all_within(f.slacks, 2 * padded, NSVCD__MAX_LENGTH)) return 0;
   if (!nsvcd__all_within(f.seeds, 3 * f.components, NSVCD_MAX_COORDINATE)) return 0;
   for (size_t i = 0; i < padded; i++) {
-    if (f.discs[5 * padded + i] < 0 || f.steps[i] < 0 || f.slacks[i] < 0 || f.quanta[i] < 0) return 0;
+    if (f.discs[5 * padded + i] < 0 || f.steps[i] < 0 || f.slacks[i] < 0 || f.quanta[i] < 0)
+      return 0;
     if (f.quanta[i] > nsvcd__widest_quantum(&f)) return 0;
   }
   return 1;
 }
 
-// Multiplies what stands behind the spheres. What rounding does to a vertex goes to the slacks and quanta.
+// Multiplies what stands behind the spheres. What rounding does to a vertex goes to the slacks and
+// quanta.
 static void nsvcd__scale_facets(nsvcd_body *body, float scale) {
   const nsvcd__facets f = nsvcd__facets_of(body);
   const size_t padded = body->padded;
@@ -4845,7 +5382,8 @@ static void nsvcd__scale_facets(nsvcd_body *body, float scale) {
 
 // Is this the beginning of a blob of ours, of `size` bytes or fewer?
 static int nsvcd__header_is_sound(const nsvcd_body *b, size_t size) {
-  if (size < sizeof *b || b->magic != NSVCD__BODY_MAGIC || b->version != NSVCD__BODY_VERSION) return 0;
+  if (size < sizeof *b || b->magic != NSVCD__BODY_MAGIC || b->version != NSVCD__BODY_VERSION)
+    return 0;
   if (b->open > 1 || b->points < 1 || b->points > NSVCD_MAX_POINTS || b->size > size) return 0;
   if (b->padded != nsvcd__round_up(b->points, NSVCD__GROUP)) return 0;
   return b->size >= nsvcd__spheres_size(b->padded) && b->size % NSVCD_ALIGNMENT == 0;
@@ -4868,15 +5406,19 @@ static int nsvcd__body_is_sound(const nsvcd_body *b) {
   if (b->inner == 0) return b->size == latents && b->triangles == 0;
   if (b->inner != latents) return 0;
 #else
-  if (b->inner % NSVCD_ALIGNMENT || b->inner < nsvcd__spheres_size(b->padded) || b->inner >= b->size) return 0;
+  if (b->inner % NSVCD_ALIGNMENT || b->inner < nsvcd__spheres_size(b->padded) ||
+      b->inner >= b->size)
+    return 0;
 #endif
   const nsvcd_body *within = (const nsvcd_body *)(const void *)((const char *)b + b->inner);
   const size_t left = b->size - b->inner;
-  if (!nsvcd__header_is_sound(within, left) || within->size != left || within->weights_id != 0) return 0;
-  if (within->points != b->points || within->triangles != b->triangles || within->open != b->open) return 0;
+  if (!nsvcd__header_is_sound(within, left) || within->size != left || within->weights_id != 0)
+    return 0;
+  if (within->points != b->points || within->triangles != b->triangles || within->open != b->open)
+    return 0;
 #ifndef NSVCD_NO_PROOF
-  return within->inner == 0 && nsvcd__spheres_are_sound(within) && nsvcd__facets_are_laid_out(within, left) &&
-         nsvcd__facets_are_sound(within);
+  return within->inner == 0 && nsvcd__spheres_are_sound(within) &&
+         nsvcd__facets_are_laid_out(within, left) && nsvcd__facets_are_sound(within);
 #else
   return 1;  // never looked at
 #endif
@@ -4902,9 +5444,10 @@ NSVCDDEF nsvcd_result nsvcd_body_trust(const void *memory, size_t size, const ns
   return NSVCD_OK;
 }
 
-NSVCDDEF nsvcd_result nsvcd_body_scale(const nsvcd_body *body, float scale, void *memory, size_t capacity,
-                                       const nsvcd_body **scaled) {
-  if (!body || !memory || !scaled || !nsvcd__is_finite(scale) || scale <= 0) return NSVCD_ERROR_ARGUMENT;
+NSVCDDEF nsvcd_result nsvcd_body_scale(const nsvcd_body *body, float scale, void *memory,
+                                       size_t capacity, const nsvcd_body **scaled) {
+  if (!body || !memory || !scaled || !nsvcd__is_finite(scale) || scale <= 0)
+    return NSVCD_ERROR_ARGUMENT;
   if (capacity < body->size || !nsvcd__is_aligned(memory)) return NSVCD_ERROR_WORKSPACE;
   if (!nsvcd__spheres_fit(body, scale)) return NSVCD_ERROR_ARGUMENT;
 #ifndef NSVCD_NO_NETWORK
@@ -4946,15 +5489,18 @@ NSVCDDEF nsvcd_result nsvcd_body_scale(const nsvcd_body *body, float scale, void
   return NSVCD_OK;
 }
 
-// ----------------------------------------------------------------------------------------------------- motion
-// In: two movers: bodies, their scales, and their poses, uniform in t in [0,1]; between poses the position is linear and
-// the rotation a slerp on the shorter arc. Out: the pose of one of them, *moving*, in the frame of the other, *fixed*, at
-// any t. Both may move; "fixed" says whose frame it is, in units of its scale, so that its stored numbers need no change.
-// A point x of the moving body is at scale R x + p there. Positions are subtracted in the world first, so a scene far
-// from the origin loses nothing. Two poses exactly 180 degrees apart have two shortest arcs: rounding picks one.
+// ------------------------------------------------------------------------------------------ motion
+// In: two movers: bodies, their scales, and their poses, uniform in t in [0,1]; between poses the
+// position is linear and the rotation a slerp on the shorter arc. Out: the pose of one of them,
+// *moving*, in the frame of the other, *fixed*, at any t. Both may move; "fixed" says whose frame
+// it is, in units of its scale, so that its stored numbers need no change. A point x of the moving
+// body is at scale R x + p there. Positions are subtracted in the world first, so a scene far from
+// the origin loses nothing. Two poses exactly 180 degrees apart have two shortest arcs: rounding
+// picks one.
 //
-// Time is counted in *ticks*, of which a motion has a whole number, and so has each body between two of its poses: the
-// least common multiple. A *knot* is a tick at which a pose of either is. Between two knots both motions are smooth.
+// Time is counted in *ticks*, of which a motion has a whole number, and so has each body between
+// two of its poses: the least common multiple. A *knot* is a tick at which a pose of either is.
+// Between two knots both motions are smooth.
 
 // The poses of one body.
 typedef struct nsvcd__track {
@@ -4965,17 +5511,19 @@ typedef struct nsvcd__track {
 
 typedef struct nsvcd__motion {
   nsvcd__track moving, fixed;
-  uint32_t ticks;   // in all
-  int fixed_moves;  // else it has one pose
-  float scale;      // of the moving body, over that of the fixed one,
-  float per_scale;  // and the other way round
-  float unit;       // of the fixed body's frame: its scale, metres
+  uint32_t ticks;           // in all
+  int fixed_moves;          // else it has one pose
+  float scale;              // of the moving body, over that of the fixed one,
+  float per_scale;          // and the other way round
+  float unit;               // of the fixed body's frame: its scale, metres
   float fixed_position[3];  // of the fixed body at t = 0, metres
   float to_fixed[9];        // world axes to the fixed body's axes at t = 0
   float to_fixed_q[4];      // the same as a quaternion
-  float low[3];             // of the moving body's origin less the fixed one's, in world axes, metres
+  // of the moving body's origin less the fixed one's, in world axes, metres
+  float low[3];
   float high[3];
-  float lift[3];  // by which the moving body is held off its poses, as the fixed one sees it, in its units
+  // by which the moving body is held off its poses, as the fixed one sees it, in its units
+  float lift[3];
 } nsvcd__motion;
 
 // |x| as bits, in the order of |x|; infinity and NaN are above all numbers.
@@ -4989,7 +5537,8 @@ static uint32_t nsvcd__magnitude(float x) {
 static int nsvcd__poses_are_valid(const nsvcd_pose *poses, size_t count) {
   const float *numbers = poses->position;  // 7 to a pose
   uint32_t most = 0;
-  float shortest = 1, longest = 1;
+  float shortest = 1;
+  float longest = 1;
   for (size_t k = 0; k < 7 * count; k++) {
     const uint32_t bits = nsvcd__magnitude(numbers[k]);
     most = bits > most ? bits : most;
@@ -5015,22 +5564,26 @@ static void nsvcd__transpose33(const float *m, float *out) {  // may not alias
   }
 }
 
-static inline void nsvcd__mul33(const float *a, const float *b, float *out) {  // out = a b, may not alias
+// out = a b, may not alias
+static inline void nsvcd__mul33(const float *a, const float *b, float *out) {
   for (size_t i = 0; i < 3; i++) {
-    for (size_t j = 0; j < 3; j++) out[3 * i + j] = a[3 * i] * b[j] + a[3 * i + 1] * b[3 + j] + a[3 * i + 2] * b[6 + j];
+    for (size_t j = 0; j < 3; j++)
+      out[3 * i + j] = a[3 * i] * b[j] + a[3 * i + 1] * b[3 + j] + a[3 * i + 2] * b[6 + j];
   }
 }
 
-// Is the shorter arc from a to b the one to -b? Products of floats are exact in double, so that every machine and the
-// exact poses of the proof say the same, also where the arcs are equally long to rounding.
+// Is the shorter arc from a to b the one to -b? Products of floats are exact in double, so that
+// every machine and the exact poses of the proof say the same, also where the arcs are equally long
+// to rounding.
 static int nsvcd__is_opposed(const float *a, const float *b) {
   double dot = 0;
   for (size_t k = 0; k < 4; k++) dot += (double)a[k] * (double)b[k];
   return dot < 0;
 }
 
-// Puts b on the side of a from which the arc is the shorter one; returns its length in quaternion space, [0, pi/2]:
-// half the angle of rotation. From the chord, because acos of a dot product near 1 has no digits left.
+// Puts b on the side of a from which the arc is the shorter one; returns its length in quaternion
+// space, [0, pi/2]: half the angle of rotation. From the chord, because acos of a dot product near
+// 1 has no digits left.
 static float nsvcd__quat_half_angle(const float *a, float *b, int opposed) {
   float chord = 0;
   for (size_t k = 0; k < 4; k++) {
@@ -5042,7 +5595,10 @@ static float nsvcd__quat_half_angle(const float *a, float *b, int opposed) {
 
 // a, b: unit to 1e-4.
 static void nsvcd__slerp(const float *a, const float *b, float u, float *out) {
-  float start[4], end[4], wa = 1 - u, wb = u;
+  float start[4];
+  float end[4];
+  float wa = 1 - u;
+  float wb = u;
   nsvcd__quat_normalize(a, start);
   nsvcd__quat_normalize(b, end);
   const float angle = nsvcd__quat_half_angle(start, end, nsvcd__is_opposed(a, b));
@@ -5057,7 +5613,9 @@ static void nsvcd__slerp(const float *a, const float *b, float u, float *out) {
 // What a mover that is at rest at the origin is given.
 static const nsvcd_pose nsvcd__at_origin = {{0, 0, 0}, {0, 0, 0, 1}};
 
-static size_t nsvcd__pose_count(const nsvcd_mover *mover) { return mover->poses ? mover->count : 1; }
+static size_t nsvcd__pose_count(const nsvcd_mover *mover) {
+  return mover->poses ? mover->count : 1;
+}
 
 static nsvcd_result nsvcd__mover_check(const nsvcd_mover *mover) {
   if (!mover->body) return NSVCD_ERROR_ARGUMENT;
@@ -5083,12 +5641,13 @@ static uint32_t nsvcd__common_divisor(uint32_t a, uint32_t b) {
 }
 
 static nsvcd__track nsvcd__track_of(const nsvcd_mover *mover) {
-  nsvcd__track track = {mover->poses ? mover->poses : &nsvcd__at_origin, nsvcd__pose_count(mover), 0};
+  nsvcd__track track = {mover->poses ? mover->poses : &nsvcd__at_origin, nsvcd__pose_count(mover),
+                        0};
   return track;
 }
 
-// The motion's ticks, `parts` times as many as its knots need. No more than 65,535 * 65,534, which 32 bits hold, for
-// parts is 1 but where knots are few.
+// The motion's ticks, `parts` times as many as its knots need. No more than 65,535 * 65,534, which
+// 32 bits hold, for parts is 1 but where knots are few.
 static void nsvcd__motion_set_ticks(nsvcd__motion *motion, uint32_t parts) {
   const uint32_t a = motion->moving.count > 1 ? (uint32_t)(motion->moving.count - 1) : 1;
   const uint32_t b = motion->fixed.count > 1 ? (uint32_t)(motion->fixed.count - 1) : 1;
@@ -5109,7 +5668,8 @@ static void nsvcd__track_box(const nsvcd__track *track, float *low, float *high)
 }
 
 // Prepares the motion of valid movers. Keeps the pointers to their poses.
-static void nsvcd__motion_init(const nsvcd_mover *moving, const nsvcd_mover *fixed, nsvcd__motion *motion) {
+static void nsvcd__motion_init(const nsvcd_mover *moving, const nsvcd_mover *fixed,
+                               nsvcd__motion *motion) {
   float q[4], from_fixed[9], low[3], high[3], fixed_low[3], fixed_high[3];
   motion->moving = nsvcd__track_of(moving);
   motion->fixed = nsvcd__track_of(fixed);
@@ -5135,7 +5695,8 @@ static void nsvcd__motion_init(const nsvcd_mover *moving, const nsvcd_mover *fix
   }
 }
 
-// Does the moving body's origin always stay more than `distance`, in the fixed body's units, from the fixed one's?
+// Does the moving body's origin always stay more than `distance`, in the fixed body's units, from
+// the fixed one's?
 static int nsvcd__motion_is_far(const nsvcd__motion *motion, float distance) {
   const float metres = motion->unit * distance;
   float square = 0;
@@ -5148,9 +5709,10 @@ static int nsvcd__motion_is_far(const nsvcd__motion *motion, float distance) {
   return square > 1.00001f * metres * metres;
 }
 
-// A track's pose at a tick: its rotation, unit to 1e-4, and its position, metres. In double: on a long way past the other
-// body, roundings of its ends would be large beside what is near.
-static void nsvcd__track_pose(const nsvcd__track *track, uint32_t tick, float *q, double *position) {
+// A track's pose at a tick: its rotation, unit to 1e-4, and its position, metres. In double: on a
+// long way past the other body, roundings of its ends would be large beside what is near.
+static void nsvcd__track_pose(const nsvcd__track *track, uint32_t tick, float *q,
+                              double *position) {
   const uint32_t k = track->ticks == 1 ? tick : tick / track->ticks;
   const uint32_t past = tick - k * track->ticks;
   const nsvcd_pose *a = &track->poses[k < track->count ? k : track->count - 1];
@@ -5163,7 +5725,8 @@ static void nsvcd__track_pose(const nsvcd__track *track, uint32_t tick, float *q
   const double share = (double)past / (double)track->ticks;
   nsvcd__slerp(a->rotation, b->rotation, (float)share, q);
   for (size_t n = 0; n < 3; n++) {
-    position[n] = (double)a->position[n] + share * ((double)b->position[n] - (double)a->position[n]);
+    position[n] =
+        (double)a->position[n] + share * ((double)b->position[n] - (double)a->position[n]);
   }
 }
 
@@ -5180,29 +5743,45 @@ static uint32_t nsvcd__next_knot(const nsvcd__motion *motion, uint32_t tick) {
 // Rotation matrices of quaternions of any length but 0, lane by lane.
 static void nsvcd__v_matrix(const nsvcd__v *q, nsvcd__v *m) {
   const nsvcd__v one = nsvcd__v_set(1);
-  nsvcd__v square = nsvcd__v_mul(q[3], q[3]), s[4];
+  nsvcd__v square = nsvcd__v_mul(q[3], q[3]);
+  nsvcd__v s[4];
   square = nsvcd__v_add(square, nsvcd__v_dot3(q, q));
   const nsvcd__v scale = nsvcd__v_div(nsvcd__v_set(2), square);
   for (size_t k = 0; k < 4; k++) s[k] = nsvcd__v_mul(scale, q[k]);
-  const nsvcd__v xx = nsvcd__v_mul(s[0], q[0]), yy = nsvcd__v_mul(s[1], q[1]), zz = nsvcd__v_mul(s[2], q[2]);
-  const nsvcd__v xy = nsvcd__v_mul(s[0], q[1]), yz = nsvcd__v_mul(s[1], q[2]), xz = nsvcd__v_mul(s[0], q[2]);
-  const nsvcd__v xw = nsvcd__v_mul(s[0], q[3]), yw = nsvcd__v_mul(s[1], q[3]), zw = nsvcd__v_mul(s[2], q[3]);
-  m[0] = nsvcd__v_sub(one, nsvcd__v_add(yy, zz)), m[1] = nsvcd__v_sub(xy, zw), m[2] = nsvcd__v_add(xz, yw);
-  m[3] = nsvcd__v_add(xy, zw), m[4] = nsvcd__v_sub(one, nsvcd__v_add(xx, zz)), m[5] = nsvcd__v_sub(yz, xw);
-  m[6] = nsvcd__v_sub(xz, yw), m[7] = nsvcd__v_add(yz, xw), m[8] = nsvcd__v_sub(one, nsvcd__v_add(xx, yy));
+  const nsvcd__v xx = nsvcd__v_mul(s[0], q[0]);
+  const nsvcd__v yy = nsvcd__v_mul(s[1], q[1]);
+  const nsvcd__v zz = nsvcd__v_mul(s[2], q[2]);
+  const nsvcd__v xy = nsvcd__v_mul(s[0], q[1]);
+  const nsvcd__v yz = nsvcd__v_mul(s[1], q[2]);
+  const nsvcd__v xz = nsvcd__v_mul(s[0], q[2]);
+  const nsvcd__v xw = nsvcd__v_mul(s[0], q[3]);
+  const nsvcd__v yw = nsvcd__v_mul(s[1], q[3]);
+  const nsvcd__v zw = nsvcd__v_mul(s[2], q[3]);
+  m[0] = nsvcd__v_sub(one, nsvcd__v_add(yy, zz));
+  m[1] = nsvcd__v_sub(xy, zw);
+  m[2] = nsvcd__v_add(xz, yw);
+  m[3] = nsvcd__v_add(xy, zw);
+  m[4] = nsvcd__v_sub(one, nsvcd__v_add(xx, zz));
+  m[5] = nsvcd__v_sub(yz, xw);
+  m[6] = nsvcd__v_sub(xz, yw);
+  m[7] = nsvcd__v_add(yz, xw);
+  m[8] = nsvcd__v_sub(one, nsvcd__v_add(xx, yy));
 }
 
 // The product of quaternions a b, lane by lane.
-static void nsvcd__v_quat_mul(const nsvcd__v *a, const nsvcd__v *b, nsvcd__v *out) {  // may not alias
+// may not alias
+static void nsvcd__v_quat_mul(const nsvcd__v *a, const nsvcd__v *b, nsvcd__v *out) {
   for (size_t k = 0; k < 3; k++) {
-    const size_t i = (k + 1) % 3, j = (k + 2) % 3;
+    const size_t i = (k + 1) % 3;
+    const size_t j = (k + 2) % 3;
     const nsvcd__v cross = nsvcd__v_sub(nsvcd__v_mul(a[i], b[j]), nsvcd__v_mul(a[j], b[i]));
     out[k] = nsvcd__v_add(cross, nsvcd__v_fma(a[3], b[k], nsvcd__v_mul(a[k], b[3])));
   }
   out[3] = nsvcd__v_sub(nsvcd__v_mul(a[3], b[3]), nsvcd__v_dot3(a, b));
 }
 
-static void nsvcd__v_mul33_vec(const nsvcd__v *m, const nsvcd__v *x, nsvcd__v *out) {  // may not alias
+// may not alias
+static void nsvcd__v_mul33_vec(const nsvcd__v *m, const nsvcd__v *x, nsvcd__v *out) {
   for (size_t i = 0; i < 3; i++) out[i] = nsvcd__v_dot3(m + 3 * i, x);
 }
 
@@ -5220,20 +5799,24 @@ typedef struct nsvcd__v_poses {
   nsvcd__v p[3];        // of the moving one's origin, from the fixed one's, metres
 } nsvcd__v_poses;
 
-// The moving body's poses as the fixed one sees them: quaternions of any length, and positions in its units.
-static void nsvcd__v_seen(const nsvcd__motion *motion, const nsvcd__v_poses *at, nsvcd__v *q, nsvcd__v *p) {
+// The moving body's poses as the fixed one sees them: quaternions of any length, and positions in
+// its units.
+static void nsvcd__v_seen(const nsvcd__motion *motion, const nsvcd__v_poses *at, nsvcd__v *q,
+                          nsvcd__v *p) {
   nsvcd__v turn[4], m[9];
   const nsvcd__v per_metre = nsvcd__v_set(1 / motion->unit);
   if (!motion->fixed_moves) {
     for (size_t k = 0; k < 4; k++) turn[k] = nsvcd__v_set(motion->to_fixed_q[k]);
     for (size_t k = 0; k < 9; k++) m[k] = nsvcd__v_set(motion->to_fixed[k]);
   } else {
-    for (size_t k = 0; k < 4; k++) turn[k] = k < 3 ? nsvcd__v_negate(at->fixed_q[k]) : at->fixed_q[k];
+    for (size_t k = 0; k < 4; k++)
+      turn[k] = k < 3 ? nsvcd__v_negate(at->fixed_q[k]) : at->fixed_q[k];
     nsvcd__v_matrix(turn, m);
   }
   nsvcd__v_quat_mul(turn, at->q, q);
   nsvcd__v_mul33_vec(m, at->p, p);
-  for (size_t k = 0; k < 3; k++) p[k] = nsvcd__v_fma(per_metre, p[k], nsvcd__v_set(motion->lift[k]));
+  for (size_t k = 0; k < 3; k++)
+    p[k] = nsvcd__v_fma(per_metre, p[k], nsvcd__v_set(motion->lift[k]));
 }
 
 #ifndef NSVCD_NO_NETWORK
@@ -5251,8 +5834,10 @@ static void nsvcd__track_pose_at(const nsvcd__track *track, float t, float *q, d
   }
 }
 
-// Pose of the moving body in the fixed body's frame at time t, clamped to [0,1]: x_fixed = scale rotation x + position.
-static void nsvcd__motion_pose(const nsvcd__motion *motion, float t, float *rotation, float *position) {
+// Pose of the moving body in the fixed body's frame at time t, clamped to [0,1]: x_fixed = scale
+// rotation x + position.
+static void nsvcd__motion_pose(const nsvcd__motion *motion, float t, float *rotation,
+                               float *position) {
   float q[4], fixed_q[4], r[9], fixed[9], to_fixed[9], d[3];
   double p[3], fixed_p[3];
   const float when = t < 0 ? 0 : t > 1 ? 1 : t;
@@ -5268,43 +5853,56 @@ static void nsvcd__motion_pose(const nsvcd__motion *motion, float t, float *rota
 }
 #endif
 
-// ------------------------------------------------------------------------------------------------ broad phase
-// In: two bodies and a motion. Out: the pairs of patches whose spheres meet at some t, as candidates, deepest first.
-// Conservative: a pair whose spheres meet at time t is always in a candidate with t in [t_enter, t_exit]; if there
-// is no candidate, the bodies' covering spheres never meet, and that is a proof.
+// ------------------------------------------------------------------------------------- broad phase
+// In: two bodies and a motion. Out: the pairs of patches whose spheres meet at some t, as
+// candidates, deepest first. Conservative: a pair whose spheres meet at time t is always in a
+// candidate with t in [t_enter, t_exit]; if there is no candidate, the bodies' covering spheres
+// never meet, and that is a proof.
 //
-// Time is cut into S segments. Within one, every sphere centre c of the moving body (its frame) is taken along the chord
-// between its places at the two ends, x0 + tau v, tau in [0,1], and the radius grows by
+// Time is cut into S segments. Within one, every sphere centre c of the moving body (its frame) is
+// taken along the chord between its places at the two ends, x0 + tau v, tau in [0,1], and the
+// radius grows by
 //   dev(c) = spread + bulge |c|
-// so that it covers the true place (M(t) c + p(t)) at every t, M being the rotation times the scale. Why: let L(t) be the
-// linear interpolation of M between the segment's ends, K(t) the piecewise linear one through the knots inside. Between
-// two knots a chord misses a curve by at most max|second derivative| / 8, with time from 0 to 1 there. Where only one body
-// moves, that is h^2 |c| / 8 on an arc of angle h, and its origin goes straight. Where both do, what the fixed body sees
-// bends more: nsvcd__cut_double_arc. K - L is piecewise linear, its norm convex, so it is largest at a knot. Hence
-//   bulge  = max over arcs of what they bend by per metre  +  max over knots ||M_k - L(t_k)||  (Frobenius >= 2-norm)
-//   spread = max over arcs of what the origin bends by  +  max over knots |p_k - its linear interpolation|  +  rounding
-// A group or a whole body is a sphere like any other: its sphere, truly posed, contains its members', truly posed.
+// so that it covers the true place (M(t) c + p(t)) at every t, M being the rotation times the
+// scale. Why: let L(t) be the linear interpolation of M between the segment's ends, K(t) the
+// piecewise linear one through the knots inside. Between two knots a chord misses a curve by at
+// most max|second derivative| / 8, with time from 0 to 1 there. Where only one body moves, that is
+// h^2 |c| / 8 on an arc of angle h, and its origin goes straight. Where both do, what the fixed
+// body sees bends more: nsvcd__cut_double_arc. K - L is piecewise linear, its norm convex, so it is
+// largest at a knot. Hence
+//   bulge  = max over arcs of what they bend by per metre  +  max over knots ||M_k - L(t_k)||
+//          (Frobenius >= 2-norm)
+//   spread = max over arcs of what the origin bends by  +  max over knots |p_k - its linear
+//                                                       interpolation|  +  rounding
+// A group or a whole body is a sphere like any other: its sphere, truly posed, contains its
+// members', truly posed.
 //
-// Hierarchy: body x body; groups near the body, in boxes, x groups; group x group; group x 16 spheres; 16 spheres x
-// sphere. But for the boxes every step is the same test, moving spheres on chords against resting spheres; the lanes
-// are segments, or members of a group. A step of the search is a pair of groups. Moving groups that meet most come
-// first, and of each the group that it meets longest, because a deep collision is then found before the rest is
-// searched.
+// Hierarchy: body x body; groups near the body, in boxes, x groups; group x group; group x 16
+// spheres; 16 spheres x sphere. But for the boxes every step is the same test, moving spheres on
+// chords against resting spheres; the lanes are segments, or members of a group. A step of the
+// search is a pair of groups. Moving groups that meet most come first, and of each the group that
+// it meets longest, because a deep collision is then found before the rest is searched.
 //
-// A *tile* is up to 32 groups of one body and up to 32 of the other, which are searched together. Bodies of up to 512
-// patches make one tile. Of larger ones, a walk through the levels of spheres above the groups finds those that the other
-// body comes near, and they are searched tile after tile: each moving tile against all tiles of the fixed body.
+// A *tile* is up to 32 groups of one body and up to 32 of the other, which are searched together.
+// Bodies of up to 512 patches make one tile. Of larger ones, a walk through the levels of spheres
+// above the groups finds those that the other body comes near, and they are searched tile after
+// tile: each moving tile against all tiles of the fixed body.
 
-#define NSVCD__SEGMENTS 16          // as long as no segment then turns by more than NSVCD__SEGMENT_TURN
-#define NSVCD__MAX_SEGMENTS 64      // reached at 1280 degrees; beyond, segments turn more: still proven, only looser
+// as long as no segment then turns by more than NSVCD__SEGMENT_TURN
+#define NSVCD__SEGMENTS 16
+// reached at 1280 degrees; beyond, segments turn more: still proven, only looser
+#define NSVCD__MAX_SEGMENTS 64
 #define NSVCD__SEGMENT_TURN 0.349f  // radians, 20 degrees
 #define NSVCD__FINE_TURN 0.131f     // radians, 7.5 degrees: nothing is gained by shorter segments
-#define NSVCD__RUN_TURN 0.785f      // radians, 45 degrees: a run is cut before it turns more, for the decoder's twist
+// radians, 45 degrees: a run is cut before it turns more, for the decoder's twist
+#define NSVCD__RUN_TURN 0.785f
 #define NSVCD__BLOCKS (NSVCD__MAX_SEGMENTS / NSVCD__LANES)
-// Of the lengths that go into a difference of places: about 15 float operations of 6e-8 each, doubled.
+// Of the lengths that go into a difference of places: about 15 float operations of 6e-8 each,
+// doubled.
 #define NSVCD__ROUNDING 2e-6f
 
-// A run: the patches `moving` and `fixed` overlap from t_enter to t_exit (both with the deviation added).
+// A run: the patches `moving` and `fixed` overlap from t_enter to t_exit (both with the deviation
+// added).
 typedef struct nsvcd__candidate {
   uint16_t moving, fixed;
   float t_enter, t_exit;
@@ -5317,20 +5915,24 @@ typedef struct nsvcd__candidate {
 
 // Chords x0 + tau v of 16 moving spheres, their radii plus deviation, and -1 / |v|^2.
 typedef struct nsvcd__chords {
-  float x[NSVCD__LANES], y[NSVCD__LANES], z[NSVCD__LANES], vx[NSVCD__LANES], vy[NSVCD__LANES], vz[NSVCD__LANES];
+  float x[NSVCD__LANES], y[NSVCD__LANES], z[NSVCD__LANES], vx[NSVCD__LANES], vy[NSVCD__LANES],
+      vz[NSVCD__LANES];
   float inverse[NSVCD__LANES], reach[NSVCD__LANES];
 } nsvcd__chords;
 
 // 16 segments: pose at the start, change of the pose until the end, deviation.
 typedef struct nsvcd__segments {
-  float rotation[9][NSVCD__LANES], position[3][NSVCD__LANES], turned[9][NSVCD__LANES], moved[3][NSVCD__LANES];
+  float rotation[9][NSVCD__LANES], position[3][NSVCD__LANES], turned[9][NSVCD__LANES],
+      moved[3][NSVCD__LANES];
   float spread[NSVCD__LANES], bulge[NSVCD__LANES];
   // For the proof, the same along directions: see nsvcd__deviation.
-  float rounding[NSVCD__LANES], drift[NSVCD__LANES], axis[3][NSVCD__LANES], bulge_along_axis[NSVCD__LANES];
+  float rounding[NSVCD__LANES], drift[NSVCD__LANES], axis[3][NSVCD__LANES],
+      bulge_along_axis[NSVCD__LANES];
   float drift_along_axis[NSVCD__LANES], way[3][NSVCD__LANES], drift_off_way[NSVCD__LANES];
 } nsvcd__segments;
 
-// Poses of both bodies at 16 ticks, and one more, in the world; and quaternions as the fixed body sees them.
+// Poses of both bodies at 16 ticks, and one more, in the world; and quaternions as the fixed body
+// sees them.
 typedef struct nsvcd__knots {
   float q[4][NSVCD__LANES + 1], p[3][NSVCD__LANES + 1], fixed_q[4][NSVCD__LANES + 1];
   float seen[4][NSVCD__LANES];
@@ -5339,12 +5941,13 @@ typedef struct nsvcd__knots {
 // What is kept of 16 segments while their knots are visited, lane by lane.
 typedef struct nsvcd__bends {
   float sum[NSVCD__LANES];  // of the turns of arcs
-  // The greatest so far of what arcs leave their chords by: per metre from the moving body's origin, along the axis
-  // too, and that origin itself.
+  // The greatest so far of what arcs leave their chords by: per metre from the moving body's
+  // origin, along the axis too, and that origin itself.
   float arc_bulge[NSVCD__LANES], axis_turn[NSVCD__LANES], arc_drift[NSVCD__LANES];
-  // The greatest so far, squared, of what knots are off their chord by: the rotation and the position, and both along
-  // the axis, or across the way.
-  float bulge[NSVCD__LANES], spread[NSVCD__LANES], axis_bulge[NSVCD__LANES], axis_drift[NSVCD__LANES];
+  // The greatest so far, squared, of what knots are off their chord by: the rotation and the
+  // position, and both along the axis, or across the way.
+  float bulge[NSVCD__LANES], spread[NSVCD__LANES], axis_bulge[NSVCD__LANES],
+      axis_drift[NSVCD__LANES];
   float way_drift[NSVCD__LANES];
 } nsvcd__bends;
 
@@ -5358,12 +5961,14 @@ typedef struct nsvcd__boxes {
   float low[3][NSVCD__LANES], high[3][NSVCD__LANES];
 } nsvcd__boxes;
 
-// Groups that are searched together: their numbers and spheres. Lanes without a group have r = NSVCD__NOWHERE.
+// Groups that are searched together: their numbers and spheres. Lanes without a group have r =
+// NSVCD__NOWHERE.
 typedef struct nsvcd__tile {
   size_t count;
   uint16_t groups[NSVCD__TILE_SLOTS];
-  const float *spheres[4];  // x y z r: the body's own where it has no more than a tile, else gathered
-  float *gathered;          // (4, NSVCD__TILE_SLOTS), or NULL
+  // x y z r: the body's own where it has no more than a tile, else gathered
+  const float *spheres[4];
+  float *gathered;  // (4, NSVCD__TILE_SLOTS), or NULL
 } nsvcd__tile;
 
 // What a query needs memory for.
@@ -5376,32 +5981,44 @@ typedef struct nsvcd__needs {
 } nsvcd__needs;
 
 typedef struct nsvcd__workspace {
-  size_t segments;                                        // S
-  size_t most_segments;                                   // that there is room for
-  float scale;                                            // of the moving body
-  uint32_t *begin;                                        // (S + 1) ticks at which they begin, then the last one
-  float *time;                                            // (S + 1) of the ends of the segments
-  float *turn;                                            // (S + 1) rotation arc from t = 0 to there, radians
-  nsvcd__segments *blocks;                                // (S / 16 rounded up)
-  nsvcd__chords *group;                                   // (S / 16 rounded up) a moving group's
-  nsvcd__chords *members;                                 // (S) its 16 members', per segment
-  nsvcd__cut *cut;                                        // in the same place: segments are cut before any search
-  uint64_t near_segments;                                 // in which the bodies' spheres meet
-  nsvcd__walk moving_walk, fixed_walk;                    // through the groups that come near; where a body is large
-  float near_low[3], near_high[3];                        // a box about the way of the moving tile
-  nsvcd__tile moving_tile, fixed_tile;                    // the groups that are searched now; below, places in these
-  uint64_t *nearby;                                       // (moving groups, fixed groups) segments in which they meet
-  size_t nearby_stride;                                   // see nsvcd__nearby
-  uint64_t wanted;                                        // segments to search; all, but where contacts are sought in order
-  uint16_t order[NSVCD__TILE_SLOTS];                      // moving groups that are near any, in the order of the search
-  size_t steps, step;                                     // how many they are, and which of them is being searched
-  uint32_t waiting;                                       // fixed groups that it has yet to be searched against
-  uint64_t posed;                                         // segments for which members[] is filled
-  float remote;                                           // no part of these members is farther from the body's origin
+  size_t segments;       // S
+  size_t most_segments;  // that there is room for
+  float scale;           // of the moving body
+  // (S + 1) ticks at which they begin, then the last one
+  uint32_t *begin;
+  float *time;  // (S + 1) of the ends of the segments
+  // (S + 1) rotation arc from t = 0 to there, radians
+  float *turn;
+  nsvcd__segments *blocks;  // (S / 16 rounded up)
+  nsvcd__chords *group;     // (S / 16 rounded up) a moving group's
+  nsvcd__chords *members;   // (S) its 16 members', per segment
+  // in the same place: segments are cut before any search
+  nsvcd__cut *cut;
+  uint64_t near_segments;  // in which the bodies' spheres meet
+  // through the groups that come near; where a body is large
+  nsvcd__walk moving_walk, fixed_walk;
+  float near_low[3], near_high[3];  // a box about the way of the moving tile
+  // the groups that are searched now; below, places in these
+  nsvcd__tile moving_tile, fixed_tile;
+  // (moving groups, fixed groups) segments in which they meet
+  uint64_t *nearby;
+  size_t nearby_stride;  // see nsvcd__nearby
+  // segments to search; all, but where contacts are sought in order
+  uint64_t wanted;
+  // moving groups that are near any, in the order of the search
+  uint16_t order[NSVCD__TILE_SLOTS];
+  // how many they are, and which of them is being searched
+  size_t steps, step;
+  // fixed groups that it has yet to be searched against
+  uint32_t waiting;
+  uint64_t posed;  // segments for which members[] is filled
+  // no part of these members is farther from the body's origin
+  float remote;
 } nsvcd__workspace;
 
-// Vectors that cross cache lines take longer: the arrays of 16 lanes begin with one, where there are vectors. Up to so many
-// bytes are passed over for that; where base is NULL, all of them are counted.
+// Vectors that cross cache lines take longer: the arrays of 16 lanes begin with one, where there
+// are vectors. Up to so many bytes are passed over for that; where base is NULL, all of them are
+// counted.
 #define NSVCD__PASSED_OVER (NSVCD__SLICE > 1 ? 64 - NSVCD_ALIGNMENT : 0)
 static void nsvcd__take_to_line(char *base, uint64_t *used) {
   if (NSVCD__PASSED_OVER == 0) return;
@@ -5409,7 +6026,8 @@ static void nsvcd__take_to_line(char *base, uint64_t *used) {
 }
 
 // Lays a workspace out in base, or, where that is NULL, only counts.
-static void nsvcd__workspace_layout(const nsvcd__needs *needs, char *base, uint64_t *used, nsvcd__workspace *work) {
+static void nsvcd__workspace_layout(const nsvcd__needs *needs, char *base, uint64_t *used,
+                                    nsvcd__workspace *work) {
   const size_t s = needs->segments;
   const size_t blocks = s / NSVCD__LANES;
   const size_t members = s * sizeof(nsvcd__chords);
@@ -5421,31 +6039,40 @@ static void nsvcd__workspace_layout(const nsvcd__needs *needs, char *base, uint6
   nsvcd__take_to_line(base, used);
   work->blocks = (nsvcd__segments *)nsvcd__take(base, used, blocks, sizeof(nsvcd__segments));
   work->group = (nsvcd__chords *)nsvcd__take(base, used, blocks, sizeof(nsvcd__chords));
-  work->members = (nsvcd__chords *)nsvcd__take(base, used, 1, members > sizeof(nsvcd__cut) ? members : sizeof(nsvcd__cut));
+  work->members = (nsvcd__chords *)nsvcd__take(
+      base, used, 1, members > sizeof(nsvcd__cut) ? members : sizeof(nsvcd__cut));
   work->cut = (nsvcd__cut *)(void *)work->members;
   work->nearby_stride = needs->fixed_groups;
-  work->nearby = (uint64_t *)nsvcd__take(base, used, needs->moving_groups * needs->fixed_groups, sizeof(uint64_t));
+  work->nearby = (uint64_t *)nsvcd__take(base, used, needs->moving_groups * needs->fixed_groups,
+                                         sizeof(uint64_t));
   work->moving_tile.gathered = (float *)nsvcd__take(base, used, gathered, sizeof(float));
   work->fixed_tile.gathered = (float *)nsvcd__take(base, used, gathered, sizeof(float));
 }
 
-// What the members of a group will be posed in serves until then, so that it need not come from the stack.
-static nsvcd__chords *nsvcd__spare_chords(const nsvcd__workspace *work) { return &work->members[0]; }
+// What the members of a group will be posed in serves until then, so that it need not come from the
+// stack.
+static nsvcd__chords *nsvcd__spare_chords(const nsvcd__workspace *work) {
+  return &work->members[0];
+}
 static nsvcd__boxes *nsvcd__spare_boxes(const nsvcd__workspace *work) {
   return (nsvcd__boxes *)(void *)&work->members[1];
 }
 
 // The segments in which group g of the moving tile meets each one of the fixed tile.
-static uint64_t *nsvcd__nearby(const nsvcd__workspace *work, size_t g) { return work->nearby + g * work->nearby_stride; }
+static uint64_t *nsvcd__nearby(const nsvcd__workspace *work, size_t g) {
+  return work->nearby + g * work->nearby_stride;
+}
 
-// Not less than the angle between two rotations, unit to 1e-4, and hardly more where it is small: 4 asin(chord / 2) of
-// their chord as quaternions, asin x <= x + (pi/2 - 1) x^3, and half a thousandth for the lengths. chord2: its square.
+// Not less than the angle between two rotations, unit to 1e-4, and hardly more where it is small: 4
+// asin(chord / 2) of their chord as quaternions, asin x <= x + (pi/2 - 1) x^3, and half a
+// thousandth for the lengths. chord2: its square.
 static nsvcd__v nsvcd__v_arc_bound(nsvcd__v chord2) {
   const nsvcd__v x = nsvcd__v_mul(nsvcd__v_set(0.50025f), nsvcd__v_sqrt(chord2));
   return nsvcd__v_mul(x, nsvcd__v_fma(nsvcd__v_set(2.2832f), nsvcd__v_mul(x, x), nsvcd__v_set(4)));
 }
 
-// The vector part of b a^-1, of two quaternions: the axis of the turn from a to b, times the sine of half its angle.
+// The vector part of b a^-1, of two quaternions: the axis of the turn from a to b, times the sine
+// of half its angle.
 static nsvcd__v3 nsvcd__v_turn_between(const nsvcd__v *a, const nsvcd__v *b) {
   const nsvcd__v3 u = nsvcd__v3_of(a[0], a[1], a[2]);
   const nsvcd__v3 v = nsvcd__v3_of(b[0], b[1], b[2]);
@@ -5453,8 +6080,10 @@ static nsvcd__v3 nsvcd__v_turn_between(const nsvcd__v *a, const nsvcd__v *b) {
   return nsvcd__v3_fma(a[3], v, nsvcd__v3_fma(nsvcd__v_negate(b[3]), u, across));
 }
 
-// The same on the shorter arc. cosine: of half the angle; near 0, rounding may have taken the longer one.
-static nsvcd__v3 nsvcd__v_shorter_turn_between(const nsvcd__v *a, const nsvcd__v *b, nsvcd__v *cosine) {
+// The same on the shorter arc. cosine: of half the angle; near 0, rounding may have taken the
+// longer one.
+static nsvcd__v3 nsvcd__v_shorter_turn_between(const nsvcd__v *a, const nsvcd__v *b,
+                                               nsvcd__v *cosine) {
   nsvcd__v dot = nsvcd__v_mul(a[0], b[0]);
   for (size_t k = 1; k < 4; k++) dot = nsvcd__v_fma(a[k], b[k], dot);
   const nsvcd__v sign = nsvcd__v_pick(nsvcd__v_set(0), dot, nsvcd__v_set(1), nsvcd__v_set(-1));
@@ -5466,15 +6095,19 @@ static nsvcd__v3 nsvcd__v_shorter_turn_between(const nsvcd__v *a, const nsvcd__v
 static nsvcd__v3 nsvcd__v3_unit(nsvcd__v3 a) {
   const nsvcd__v length = nsvcd__v_sqrt(nsvcd__v3_dot(a, a));
   const nsvcd__v least = nsvcd__v_set(1e-18f);
-  const nsvcd__v3 unit = nsvcd__v3_scale(a, nsvcd__v_div(nsvcd__v_set(1), nsvcd__v_max(length, least)));
+  const nsvcd__v3 unit =
+      nsvcd__v3_scale(a, nsvcd__v_div(nsvcd__v_set(1), nsvcd__v_max(length, least)));
   const nsvcd__v zero = nsvcd__v_set(0);
-  return nsvcd__v3_of(nsvcd__v_pick(length, least, nsvcd__v_set(1), unit.x), nsvcd__v_pick(length, least, zero, unit.y),
+  return nsvcd__v3_of(nsvcd__v_pick(length, least, nsvcd__v_set(1), unit.x),
+                      nsvcd__v_pick(length, least, zero, unit.y),
                       nsvcd__v_pick(length, least, zero, unit.z));
 }
 
 // Bounds of the total length of a track's rotation arcs, radians, and of the longest.
 static void nsvcd__measure_turn(const nsvcd__track *track, float *turn, float *widest) {
-  float chord2[NSVCD__LANES], sums[NSVCD__LANES] = {0}, longest[NSVCD__LANES] = {0};
+  float chord2[NSVCD__LANES];
+  float sums[NSVCD__LANES] = {0};
+  float longest[NSVCD__LANES] = {0};
   for (size_t first = 0; first + 1 < track->count; first += NSVCD__LANES) {
     const size_t left = track->count - 1 - first;
     const size_t count = left < NSVCD__LANES ? left : NSVCD__LANES;
@@ -5501,11 +6134,14 @@ static void nsvcd__measure_turn(const nsvcd__track *track, float *turn, float *w
   }
 }
 
-// How many segments, and into how many parts a tick must be cut where there are too few for that (else 1). Segments begin
-// at ticks.
+// How many segments, and into how many parts a tick must be cut where there are too few for that
+// (else 1). Segments begin at ticks.
 static size_t nsvcd__segment_count(const nsvcd__motion *motion, size_t greatest, uint32_t *parts) {
   const size_t ticks = motion->ticks;
-  float turn, widest, fixed_turn = 0, fixed_widest = 0;
+  float turn;
+  float widest;
+  float fixed_turn = 0;
+  float fixed_widest = 0;
   *parts = 1;
   if (motion->moving.count == 1 && !motion->fixed_moves) return 1;
   nsvcd__measure_turn(&motion->moving, &turn, &widest);
@@ -5516,8 +6152,10 @@ static size_t nsvcd__segment_count(const nsvcd__motion *motion, size_t greatest,
   size_t wanted = fine < NSVCD__SEGMENTS ? fine : NSVCD__SEGMENTS;
   if (wanted < coarse) wanted = coarse < greatest ? coarse : greatest;
   if (wanted < 1) wanted = 1;
-  if (ticks > wanted) return ticks < NSVCD__SEGMENTS ? ticks : wanted < NSVCD__SEGMENTS ? NSVCD__SEGMENTS : wanted;
-  const float of_tick = widest / (float)motion->moving.ticks + fixed_widest / (float)motion->fixed.ticks;
+  if (ticks > wanted)
+    return ticks < NSVCD__SEGMENTS ? ticks : wanted < NSVCD__SEGMENTS ? NSVCD__SEGMENTS : wanted;
+  const float of_tick =
+      widest / (float)motion->moving.ticks + fixed_widest / (float)motion->fixed.ticks;
   const size_t least = (size_t)ceilf(of_tick / NSVCD__SEGMENT_TURN);
   const size_t most = greatest / ticks;
   size_t each = wanted / ticks > least ? wanted / ticks : least;
@@ -5527,15 +6165,18 @@ static size_t nsvcd__segment_count(const nsvcd__motion *motion, size_t greatest,
 }
 
 // Reads the poses of both bodies at the first `count` of these ticks.
-static void nsvcd__knots_read(const nsvcd__motion *motion, const uint32_t *ticks, size_t count, nsvcd__knots *out) {
+static void nsvcd__knots_read(const nsvcd__motion *motion, const uint32_t *ticks, size_t count,
+                              nsvcd__knots *out) {
   const int plain = motion->moving.ticks == 1 && motion->moving.count > 1 && !motion->fixed_moves;
-  for (size_t l = 0; plain && l < count; l++) {  // the caller's own poses, of one body: no need to ask
+  // the caller's own poses, of one body: no need to ask
+  for (size_t l = 0; plain && l < count; l++) {
     const nsvcd_pose *pose = &motion->moving.poses[ticks[l]];
     for (size_t k = 0; k < 3; k++) out->p[k][l] = pose->position[k] - motion->fixed_position[k];
     for (size_t k = 0; k < 4; k++) out->q[k][l] = pose->rotation[k];
   }
   for (size_t l = 0; !plain && l < count; l++) {
-    float q[4], fixed_q[4] = {0, 0, 0, 1};
+    float q[4];
+    float fixed_q[4] = {0, 0, 0, 1};
     double p[3], fixed_p[3];
     nsvcd__track_pose(&motion->moving, ticks[l], q, p);
     for (size_t k = 0; k < 3; k++) fixed_p[k] = (double)motion->fixed_position[k];
@@ -5546,8 +6187,10 @@ static void nsvcd__knots_read(const nsvcd__motion *motion, const uint32_t *ticks
   }
 }
 
-// A slice of them, from the one in lane `first` on, up to LANES - SLICE + 1: there is one knot more than lanes.
-static nsvcd__v_poses nsvcd__knots_load(const nsvcd__motion *motion, const nsvcd__knots *from, size_t first) {
+// A slice of them, from the one in lane `first` on, up to LANES - SLICE + 1: there is one knot more
+// than lanes.
+static nsvcd__v_poses nsvcd__knots_load(const nsvcd__motion *motion, const nsvcd__knots *from,
+                                        size_t first) {
   nsvcd__v_poses out;
   for (size_t k = 0; k < 3; k++) out.p[k] = nsvcd__v_load(from->p[k] + first);
   for (size_t k = 0; k < 4; k++) out.q[k] = nsvcd__v_load(from->q[k] + first);
@@ -5561,8 +6204,8 @@ static nsvcd__v_poses nsvcd__knots_load(const nsvcd__motion *motion, const nsvcd
 }
 
 // `seen`: the quaternions as the fixed body sees them. l: the slice's first lane, here and below.
-static void nsvcd__knots_keep(const nsvcd__motion *motion, const nsvcd__v_poses *at, const nsvcd__v *seen, size_t l,
-                              nsvcd__knots *out) {
+static void nsvcd__knots_keep(const nsvcd__motion *motion, const nsvcd__v_poses *at,
+                              const nsvcd__v *seen, size_t l, nsvcd__knots *out) {
   for (size_t k = 0; k < 4; k++) nsvcd__v_store(out->q[k] + l, at->q[k]);
   for (size_t k = 0; k < 4; k++) nsvcd__v_store(out->seen[k] + l, seen[k]);
   if (!motion->fixed_moves) return;
@@ -5572,7 +6215,8 @@ static void nsvcd__knots_keep(const nsvcd__motion *motion, const nsvcd__v_poses 
 
 // A bound of the angle between a (4) and b (4), unit quaternions, lane by lane.
 static nsvcd__v nsvcd__v_arc(const nsvcd__v *a, const nsvcd__v *b) {
-  nsvcd__v dot = nsvcd__v_mul(a[0], b[0]), square = nsvcd__v_set(0);
+  nsvcd__v dot = nsvcd__v_mul(a[0], b[0]);
+  nsvcd__v square = nsvcd__v_set(0);
   for (size_t k = 1; k < 4; k++) dot = nsvcd__v_fma(a[k], b[k], dot);
   const nsvcd__v sign = nsvcd__v_pick(nsvcd__v_set(0), dot, nsvcd__v_set(1), nsvcd__v_set(-1));
   for (size_t k = 0; k < 4; k++) {
@@ -5582,14 +6226,17 @@ static nsvcd__v nsvcd__v_arc(const nsvcd__v *a, const nsvcd__v *b) {
   return nsvcd__v_arc_bound(square);
 }
 
-// A bound of h^2 / 8 |axis x a|, of a turn by h (arc: a bound of it) about a: with w = a sin(h / 2) that is no more than
-// pi / 8 h |axis x w|.
-static nsvcd__v nsvcd__v_turn_off_axis(nsvcd__v3 axis, const nsvcd__v *from, const nsvcd__v *to, nsvcd__v arc) {
+// A bound of h^2 / 8 |axis x a|, of a turn by h (arc: a bound of it) about a: with w = a sin(h / 2)
+// that is no more than pi / 8 h |axis x w|.
+static nsvcd__v nsvcd__v_turn_off_axis(nsvcd__v3 axis, const nsvcd__v *from, const nsvcd__v *to,
+                                       nsvcd__v arc) {
   const nsvcd__v3 across = nsvcd__v3_cross(axis, nsvcd__v_turn_between(from, to));
-  return nsvcd__v_mul(nsvcd__v_mul(arc, nsvcd__v_set(0.3931f)), nsvcd__v_sqrt(nsvcd__v3_dot(across, across)));
+  return nsvcd__v_mul(nsvcd__v_mul(arc, nsvcd__v_set(0.3931f)),
+                      nsvcd__v_sqrt(nsvcd__v3_dot(across, across)));
 }
 
-static void nsvcd__v_load_all(float (*from)[NSVCD__LANES], size_t l, nsvcd__v *values, size_t count) {
+static void nsvcd__v_load_all(float (*from)[NSVCD__LANES], size_t l, nsvcd__v *values,
+                              size_t count) {
   for (size_t k = 0; k < count; k++) values[k] = nsvcd__v_load(from[k] + l);
 }
 // most: of the slice.
@@ -5597,9 +6244,10 @@ static void nsvcd__v_keep_most(float *most, nsvcd__v value) {
   nsvcd__v_store(most, nsvcd__v_max(nsvcd__v_load(most), value));
 }
 
-// Poses at the starts of 16 segments, whose ticks are begin[0..16]. Starts the visit of the knots within.
-static NSVCD__APART void nsvcd__cut_starts(const nsvcd__motion *motion, const uint32_t *begin, nsvcd__segments *out,
-                                           nsvcd__cut *cut) {
+// Poses at the starts of 16 segments, whose ticks are begin[0..16]. Starts the visit of the knots
+// within.
+static NSVCD__APART void nsvcd__cut_starts(const nsvcd__motion *motion, const uint32_t *begin,
+                                           nsvcd__segments *out, nsvcd__cut *cut) {
   memset(&cut->most, 0, sizeof cut->most);
   nsvcd__knots_read(motion, begin, NSVCD__LANES + 1, &cut->here);
   NSVCD__EACH_SLICE(l) {
@@ -5615,7 +6263,8 @@ static NSVCD__APART void nsvcd__cut_starts(const nsvcd__motion *motion, const ui
 }
 
 // And at their ends, of which the starts are known.
-static NSVCD__APART void nsvcd__cut_ends(const nsvcd__motion *motion, nsvcd__segments *out, nsvcd__cut *cut) {
+static NSVCD__APART void nsvcd__cut_ends(const nsvcd__motion *motion, nsvcd__segments *out,
+                                         nsvcd__cut *cut) {
   NSVCD__EACH_SLICE(l) {
     nsvcd__v seen[4], m[9], p[3], last_seen[4];
     const nsvcd__v scale = nsvcd__v_set(motion->scale);
@@ -5636,24 +6285,30 @@ static NSVCD__APART void nsvcd__cut_ends(const nsvcd__motion *motion, nsvcd__seg
   }
 }
 
-// Of arcs in which both bodies move. With w and w' the rotation vectors of the moving and the fixed body over the arc, in
-// the world, o = w - w', and d the way from the fixed origin to the moving one, which goes by v, the second derivative of
-// what the fixed body sees of a point x is, in its axes,
+// Of arcs in which both bodies move. With w and w' the rotation vectors of the moving and the fixed
+// body over the arc, in the world, o = w - w', and d the way from the fixed origin to the moving
+// one, which goes by v, the second derivative of what the fixed body sees of a point x is, in its
+// axes,
 //   o x (o x Rx) + (o x w') x Rx   -   2 w' x v + w' x (w' x d)
-// so that the arc leaves its chord by (|o|^2 + |o x w'|) / 8 |x| and (2 |w' x v| + |w'| |w' x d|) / 8 at most.
-static void nsvcd__cut_double_arc(const nsvcd__motion *motion, const nsvcd__v_poses *from, const nsvcd__v_poses *to,
-                                  size_t l, nsvcd__cut *cut) {
+// so that the arc leaves its chord by (|o|^2 + |o x w'|) / 8 |x| and (2 |w' x v| + |w'| |w' x d|) /
+// 8 at most.
+static void nsvcd__cut_double_arc(const nsvcd__motion *motion, const nsvcd__v_poses *from,
+                                  const nsvcd__v_poses *to, size_t l, nsvcd__cut *cut) {
   const nsvcd__v eighth = nsvcd__v_set(0.12501f);
   nsvcd__v cosine, fixed_cosine;
   const nsvcd__v3 half = nsvcd__v_shorter_turn_between(from->q, to->q, &cosine);
-  const nsvcd__v3 fixed_half = nsvcd__v_shorter_turn_between(from->fixed_q, to->fixed_q, &fixed_cosine);
-  const nsvcd__v sine = nsvcd__v3_length(half), fixed_sine = nsvcd__v3_length(fixed_half);
-  const nsvcd__v difference =
-      nsvcd__v_pick(nsvcd__v_min(cosine, fixed_cosine), nsvcd__v_set(0.001f), nsvcd__v_add(sine, fixed_sine),
-                    nsvcd__v3_length(nsvcd__v3_sub(half, fixed_half)));
-  // A rotation vector is 2 asin(s) / s times these halves of length s, and asin(s) - s is at most (pi / 2 - 1) s^3.
-  const nsvcd__v cubes = nsvcd__v_fma(nsvcd__v_mul(sine, sine), sine,
-                                      nsvcd__v_mul(nsvcd__v_mul(fixed_sine, fixed_sine), fixed_sine));
+  const nsvcd__v3 fixed_half =
+      nsvcd__v_shorter_turn_between(from->fixed_q, to->fixed_q, &fixed_cosine);
+  const nsvcd__v sine = nsvcd__v3_length(half);
+  const nsvcd__v fixed_sine = nsvcd__v3_length(fixed_half);
+  const nsvcd__v difference = nsvcd__v_pick(nsvcd__v_min(cosine, fixed_cosine),
+                                            nsvcd__v_set(0.001f), nsvcd__v_add(sine, fixed_sine),
+                                            nsvcd__v3_length(nsvcd__v3_sub(half, fixed_half)));
+  // A rotation vector is 2 asin(s) / s times these halves of length s, and asin(s) - s is at most
+  // (pi / 2 - 1) s^3.
+  const nsvcd__v cubes =
+      nsvcd__v_fma(nsvcd__v_mul(sine, sine), sine,
+                   nsvcd__v_mul(nsvcd__v_mul(fixed_sine, fixed_sine), fixed_sine));
   nsvcd__v turn = nsvcd__v_mul(nsvcd__v_set(2.00001f), difference);
   turn = nsvcd__v_fma(nsvcd__v_set(1.1417f), cubes, turn);
   turn = nsvcd__v_fma(nsvcd__v_set(2e-6f), nsvcd__v_add(sine, fixed_sine), turn);
@@ -5672,8 +6327,8 @@ static void nsvcd__cut_double_arc(const nsvcd__motion *motion, const nsvcd__v_po
 }
 
 // Adds the arc from the last knot to this one, which becomes the last.
-static void nsvcd__cut_arc(const nsvcd__motion *motion, const nsvcd__v_poses *at, const nsvcd__v *seen, size_t l,
-                           nsvcd__segments *out, nsvcd__cut *cut) {
+static void nsvcd__cut_arc(const nsvcd__motion *motion, const nsvcd__v_poses *at,
+                           const nsvcd__v *seen, size_t l, nsvcd__segments *out, nsvcd__cut *cut) {
   const nsvcd__v_poses last = nsvcd__knots_load(motion, &cut->last, l);
   const nsvcd__v arc = nsvcd__v_arc(last.q, at->q);
   nsvcd__v_store(cut->most.sum + l, nsvcd__v_add(nsvcd__v_load(cut->most.sum + l), arc));
@@ -5683,13 +6338,15 @@ static void nsvcd__cut_arc(const nsvcd__motion *motion, const nsvcd__v_poses *at
     nsvcd__v last_seen[4];
     const nsvcd__v3 axis = nsvcd__v3_load(out->axis, l);
     nsvcd__v_load_all(cut->last.seen, l, last_seen, 4);
-    nsvcd__v_keep_most(cut->most.arc_bulge + l, nsvcd__v_mul(nsvcd__v_mul(arc, arc), nsvcd__v_set(0.125f)));
+    nsvcd__v_keep_most(cut->most.arc_bulge + l,
+                       nsvcd__v_mul(nsvcd__v_mul(arc, arc), nsvcd__v_set(0.125f)));
     nsvcd__v_keep_most(cut->most.axis_turn + l, nsvcd__v_turn_off_axis(axis, last_seen, seen, arc));
   }
   nsvcd__knots_keep(motion, at, seen, l, &cut->last);
 }
 
-static NSVCD__APART void nsvcd__cut_last_arc(const nsvcd__motion *motion, nsvcd__segments *out, nsvcd__cut *cut) {
+static NSVCD__APART void nsvcd__cut_last_arc(const nsvcd__motion *motion, nsvcd__segments *out,
+                                             nsvcd__cut *cut) {
   NSVCD__EACH_SLICE(l) {
     nsvcd__v seen[4];
     const nsvcd__v_poses end = nsvcd__knots_load(motion, &cut->end, l);
@@ -5698,20 +6355,23 @@ static NSVCD__APART void nsvcd__cut_last_arc(const nsvcd__motion *motion, nsvcd_
   }
 }
 
-// Adds what a knot is off its segment's chord by, of which a share of u lies before it. seen, at: its pose as the fixed
-// body sees it.
-static void nsvcd__cut_off_chord(const nsvcd__motion *motion, nsvcd__v u, const nsvcd__v *seen, const nsvcd__v *at,
-                                 size_t l, nsvcd__segments *out, nsvcd__cut *cut) {
+// Adds what a knot is off its segment's chord by, of which a share of u lies before it. seen, at:
+// its pose as the fixed body sees it.
+static void nsvcd__cut_off_chord(const nsvcd__motion *motion, nsvcd__v u, const nsvcd__v *seen,
+                                 const nsvcd__v *at, size_t l, nsvcd__segments *out,
+                                 nsvcd__cut *cut) {
   nsvcd__v r[9];
   const nsvcd__v scale = nsvcd__v_set(motion->scale);
   nsvcd__v square = nsvcd__v_set(0);
   nsvcd__v_matrix(seen, r);
   for (size_t i = 0; i < 9; i++) {
-    const nsvcd__v chord = nsvcd__v_fma(u, nsvcd__v_load(out->turned[i] + l), nsvcd__v_load(out->rotation[i] + l));
+    const nsvcd__v chord =
+        nsvcd__v_fma(u, nsvcd__v_load(out->turned[i] + l), nsvcd__v_load(out->rotation[i] + l));
     r[i] = nsvcd__v_sub(nsvcd__v_mul(scale, r[i]), chord);
     square = nsvcd__v_fma(r[i], r[i], square);
   }
-  const nsvcd__v3 chord = nsvcd__v3_fma(u, nsvcd__v3_load(out->moved, l), nsvcd__v3_load(out->position, l));
+  const nsvcd__v3 chord =
+      nsvcd__v3_fma(u, nsvcd__v3_load(out->moved, l), nsvcd__v3_load(out->position, l));
   const nsvcd__v3 off = nsvcd__v3_sub(nsvcd__v3_of(at[0], at[1], at[2]), chord);
   nsvcd__v_keep_most(cut->most.bulge + l, square);
   nsvcd__v_keep_most(cut->most.spread + l, nsvcd__v3_dot(off, off));
@@ -5720,7 +6380,8 @@ static void nsvcd__cut_off_chord(const nsvcd__motion *motion, nsvcd__v u, const 
   const nsvcd__v3 row0 = nsvcd__v3_of(r[0], r[1], r[2]);
   const nsvcd__v3 row1 = nsvcd__v3_of(r[3], r[4], r[5]);
   const nsvcd__v3 row2 = nsvcd__v3_of(r[6], r[7], r[8]);
-  const nsvcd__v3 along = nsvcd__v3_fma(axis.x, row0, nsvcd__v3_fma(axis.y, row1, nsvcd__v3_scale(row2, axis.z)));
+  const nsvcd__v3 along =
+      nsvcd__v3_fma(axis.x, row0, nsvcd__v3_fma(axis.y, row1, nsvcd__v3_scale(row2, axis.z)));
   const nsvcd__v3 off_way = nsvcd__v3_cross(nsvcd__v3_load(out->way, l), off);
   const nsvcd__v off_axis = nsvcd__v3_dot(axis, off);
   nsvcd__v_keep_most(cut->most.axis_bulge + l, nsvcd__v3_dot(along, along));
@@ -5728,9 +6389,11 @@ static void nsvcd__cut_off_chord(const nsvcd__motion *motion, nsvcd__v u, const 
   nsvcd__v_keep_most(cut->most.way_drift + l, nsvcd__v3_dot(off_way, off_way));
 }
 
-// Visits a knot of each segment: ticks (16), of segments that begin at begin[0..15] and end at begin[1..16].
-static NSVCD__APART void nsvcd__cut_knot(const nsvcd__motion *motion, const uint32_t *begin, const uint32_t *ticks,
-                                         nsvcd__segments *out, nsvcd__cut *cut) {
+// Visits a knot of each segment: ticks (16), of segments that begin at begin[0..15] and end at
+// begin[1..16].
+static NSVCD__APART void nsvcd__cut_knot(const nsvcd__motion *motion, const uint32_t *begin,
+                                         const uint32_t *ticks, nsvcd__segments *out,
+                                         nsvcd__cut *cut) {
   float share[NSVCD__LANES];
   nsvcd__knots_read(motion, ticks, NSVCD__LANES, &cut->here);
   for (size_t l = 0; l < NSVCD__LANES; l++) {
@@ -5747,8 +6410,8 @@ static NSVCD__APART void nsvcd__cut_knot(const nsvcd__motion *motion, const uint
 }
 
 // The deviations of segments whose knots have all been visited.
-static void nsvcd__cut_deviations(const nsvcd__motion *motion, float lengths, size_t l, nsvcd__segments *out,
-                                  const nsvcd__cut *cut) {
+static void nsvcd__cut_deviations(const nsvcd__motion *motion, float lengths, size_t l,
+                                  nsvcd__segments *out, const nsvcd__cut *cut) {
   const nsvcd__v scale = nsvcd__v_set(motion->scale);
   const nsvcd__v off_chord = nsvcd__v_sqrt(nsvcd__v_load(cut->most.spread + l));
   const nsvcd__v drift = nsvcd__v_add(off_chord, nsvcd__v_load(cut->most.arc_drift + l));
@@ -5763,7 +6426,8 @@ static void nsvcd__cut_deviations(const nsvcd__motion *motion, float lengths, si
     const nsvcd__v axis_turn = nsvcd__v_mul(scale, nsvcd__v_load(cut->most.axis_turn + l));
     const nsvcd__v axis_bulge = nsvcd__v_sqrt(nsvcd__v_load(cut->most.axis_bulge + l));
     nsvcd__v_store(out->bulge_along_axis + l, nsvcd__v_add(axis_bulge, axis_turn));
-    nsvcd__v_store(out->drift_along_axis + l, nsvcd__v_sqrt(nsvcd__v_load(cut->most.axis_drift + l)));
+    nsvcd__v_store(out->drift_along_axis + l,
+                   nsvcd__v_sqrt(nsvcd__v_load(cut->most.axis_drift + l)));
     nsvcd__v_store(out->drift_off_way + l, nsvcd__v_sqrt(nsvcd__v_load(cut->most.way_drift + l)));
   }
 
@@ -5777,8 +6441,8 @@ static void nsvcd__cut_deviations(const nsvcd__motion *motion, float lengths, si
 }
 
 // 16 segments, of which `count` exist; `begin`: (17) their ends in ticks. turn: arc of each.
-static void nsvcd__cut_block(const nsvcd__motion *motion, const uint32_t *begin, size_t count, float lengths,
-                             nsvcd__segments *out, nsvcd__cut *cut, float *turn) {
+static void nsvcd__cut_block(const nsvcd__motion *motion, const uint32_t *begin, size_t count,
+                             float lengths, nsvcd__segments *out, nsvcd__cut *cut, float *turn) {
   uint32_t ticks[NSVCD__LANES];
   nsvcd__cut_starts(motion, begin, out, cut);
   nsvcd__cut_ends(motion, out, cut);
@@ -5786,7 +6450,8 @@ static void nsvcd__cut_block(const nsvcd__motion *motion, const uint32_t *begin,
   for (int within = 1; within;) {
     within = 0;
     for (size_t l = 0; l < NSVCD__LANES; l++) {
-      const uint32_t next = ticks[l] < begin[l + 1] ? nsvcd__next_knot(motion, ticks[l]) : begin[l + 1];
+      const uint32_t next =
+          ticks[l] < begin[l + 1] ? nsvcd__next_knot(motion, ticks[l]) : begin[l + 1];
       ticks[l] = next < begin[l + 1] ? next : begin[l + 1];
       within |= ticks[l] < begin[l + 1];
     }
@@ -5795,7 +6460,8 @@ static void nsvcd__cut_block(const nsvcd__motion *motion, const uint32_t *begin,
   nsvcd__cut_last_arc(motion, out, cut);
   NSVCD__EACH_SLICE(l) nsvcd__cut_deviations(motion, lengths, l, out, cut);
   memcpy(turn, cut->most.sum, sizeof cut->most.sum);
-  for (size_t l = count; l < NSVCD__LANES; l++) out->spread[l] = NSVCD__NOWHERE;  // these meet nothing
+  // these meet nothing
+  for (size_t l = count; l < NSVCD__LANES; l++) out->spread[l] = NSVCD__NOWHERE;
 }
 
 // Chooses the segments: how many, and when they begin.
@@ -5806,9 +6472,11 @@ static void nsvcd__choose_segments(nsvcd__motion *motion, nsvcd__workspace *work
   work->scale = motion->scale;
   nsvcd__motion_set_ticks(motion, parts);
   const uint32_t segments = (uint32_t)work->segments;
-  const uint32_t each = motion->ticks / segments, over = motion->ticks % segments;
+  const uint32_t each = motion->ticks / segments;
+  const uint32_t over = motion->ticks % segments;
   const double per_tick = 1 / (double)motion->ticks;
-  uint32_t tick = 0, rest = 0;
+  uint32_t tick = 0;
+  uint32_t rest = 0;
   for (size_t s = 0; s <= segments; s++) {
     work->begin[s] = tick;
     work->time[s] = (float)((double)tick * per_tick);
@@ -5819,16 +6487,18 @@ static void nsvcd__choose_segments(nsvcd__motion *motion, nsvcd__workspace *work
   work->time[segments] = 1;
 }
 
-// Fills workspace: the chosen segments' poses in the fixed body's frame, and deviations. `lengths`: the bodies' extents;
-// clearance: spheres that come so near are to count as meeting.
-static void nsvcd__cut_segments(const nsvcd__motion *motion, float lengths, float clearance, nsvcd__workspace *work) {
+// Fills workspace: the chosen segments' poses in the fixed body's frame, and deviations. `lengths`:
+// the bodies' extents; clearance: spheres that come so near are to count as meeting.
+static void nsvcd__cut_segments(const nsvcd__motion *motion, float lengths, float clearance,
+                                nsvcd__workspace *work) {
   work->turn[0] = 0;
   for (size_t first = 0; first < work->segments; first += NSVCD__LANES) {
     const size_t left = work->segments - first;
     const size_t count = left < NSVCD__LANES ? left : NSVCD__LANES;
     uint32_t ends[NSVCD__LANES + 1];
     float turn[NSVCD__LANES];
-    for (size_t l = 0; l <= NSVCD__LANES; l++) ends[l] = work->begin[first + (l < count ? l : count)];
+    for (size_t l = 0; l <= NSVCD__LANES; l++)
+      ends[l] = work->begin[first + (l < count ? l : count)];
     nsvcd__segments *block = &work->blocks[first / NSVCD__LANES];
     nsvcd__cut_block(motion, ends, count, lengths, block, work->cut, turn);
     for (size_t l = 0; l < count; l++) block->spread[l] += clearance;
@@ -5837,14 +6507,17 @@ static void nsvcd__cut_segments(const nsvcd__motion *motion, float lengths, floa
 }
 
 #ifndef NSVCD_NO_NETWORK
-static NSVCD__APART void nsvcd__cut_motion(nsvcd__motion *motion, float lengths, nsvcd__workspace *work) {
+static NSVCD__APART void nsvcd__cut_motion(nsvcd__motion *motion, float lengths,
+                                           nsvcd__workspace *work) {
   nsvcd__choose_segments(motion, work);
   nsvcd__cut_segments(motion, lengths, 0, work);
 }
 #endif
 
-// Stores a slice of chords, from lane l on: x0 (3), v (3), reach. FLT_MIN keeps a chord of no length finite.
-static void nsvcd__chords_store(nsvcd__chords *c, size_t l, const nsvcd__v *x, const nsvcd__v *v, nsvcd__v reach) {
+// Stores a slice of chords, from lane l on: x0 (3), v (3), reach. FLT_MIN keeps a chord of no
+// length finite.
+static void nsvcd__chords_store(nsvcd__chords *c, size_t l, const nsvcd__v *x, const nsvcd__v *v,
+                                nsvcd__v reach) {
   const nsvcd__v square = nsvcd__v_max(nsvcd__v_dot3(v, v), nsvcd__v_set(1.2e-38f));
   nsvcd__v_store(c->x + l, x[0]);
   nsvcd__v_store(c->y + l, x[1]);
@@ -5857,7 +6530,8 @@ static void nsvcd__chords_store(nsvcd__chords *c, size_t l, const nsvcd__v *x, c
 }
 
 // Chords of one sphere (centre x y z, radius r, body frame) in the segments of a block.
-static void nsvcd__chords_of_sphere(const nsvcd__segments *b, float x, float y, float z, float r, nsvcd__chords *out) {
+static void nsvcd__chords_of_sphere(const nsvcd__segments *b, float x, float y, float z, float r,
+                                    nsvcd__chords *out) {
   const float length = sqrtf(x * x + y * y + z * z);
   NSVCD__EACH_SLICE(l) {
     const nsvcd__v centre[3] = {nsvcd__v_set(x), nsvcd__v_set(y), nsvcd__v_set(z)};
@@ -5871,15 +6545,17 @@ static void nsvcd__chords_of_sphere(const nsvcd__segments *b, float x, float y, 
       }
     }
     const nsvcd__v spread = nsvcd__v_load(b->spread + l);
-    const nsvcd__v deviation = nsvcd__v_fma(nsvcd__v_load(b->bulge + l), nsvcd__v_set(length), spread);
+    const nsvcd__v deviation =
+        nsvcd__v_fma(nsvcd__v_load(b->bulge + l), nsvcd__v_set(length), spread);
     nsvcd__chords_store(out, l, x0, v, nsvcd__v_add(deviation, nsvcd__v_set(r)));
   }
 }
 
-// Chords of 16 spheres in one segment: lane s of a block. No centre is farther from the body's origin than `remote`, in
-// that body's own frame, as all that is given; scale: of the body.
-static void nsvcd__chords_of_members(const nsvcd__segments *b, size_t s, const float *x, const float *y, const float *z,
-                                     const float *r, float scale, float remote, nsvcd__chords *out) {
+// Chords of 16 spheres in one segment: lane s of a block. No centre is farther from the body's
+// origin than `remote`, in that body's own frame, as all that is given; scale: of the body.
+static void nsvcd__chords_of_members(const nsvcd__segments *b, size_t s, const float *x,
+                                     const float *y, const float *z, const float *r, float scale,
+                                     float remote, nsvcd__chords *out) {
   const float deviation = b->spread[s] + b->bulge[s] * remote;
   NSVCD__EACH_SLICE(l) {
     const nsvcd__v centre[3] = {nsvcd__v_load(x + l), nsvcd__v_load(y + l), nsvcd__v_load(z + l)};
@@ -5892,7 +6568,8 @@ static void nsvcd__chords_of_members(const nsvcd__segments *b, size_t s, const f
         v[i] = nsvcd__v_fma(nsvcd__v_set(b->turned[3 * i + k][s]), centre[k], v[i]);
       }
     }
-    const nsvcd__v reach = nsvcd__v_fma(nsvcd__v_set(scale), nsvcd__v_load(r + l), nsvcd__v_set(deviation));
+    const nsvcd__v reach =
+        nsvcd__v_fma(nsvcd__v_set(scale), nsvcd__v_load(r + l), nsvcd__v_set(deviation));
     nsvcd__chords_store(out, l, x0, v, reach);
   }
 }
@@ -5902,7 +6579,8 @@ static inline nsvcd__v nsvcd__v_signed_square(nsvcd__v reach) {
   return nsvcd__v_mul(reach, nsvcd__v_max(reach, nsvcd__v_sub(nsvcd__v_set(0), reach)));
 }
 
-// Squared distance of the chord from the resting centre. d: from that centre to the start of the chord, v: the chord.
+// Squared distance of the chord from the resting centre. d: from that centre to the start of the
+// chord, v: the chord.
 NSVCD__INLINE nsvcd__v nsvcd__nearest2(const nsvcd__v *d, const nsvcd__v *v, nsvcd__v inverse) {
   const nsvcd__v tau = nsvcd__v_clamp(nsvcd__v_mul(nsvcd__v_dot3(d, v), inverse), 0, 1);
   const nsvcd__v nearest[3] = {nsvcd__v_fma(tau, v[0], d[0]), nsvcd__v_fma(tau, v[1], d[1]),
@@ -5910,9 +6588,10 @@ NSVCD__INLINE nsvcd__v nsvcd__nearest2(const nsvcd__v *d, const nsvcd__v *v, nsv
   return nsvcd__v_dot3(nearest, nearest);
 }
 
-// The test. d: from the resting centre to the start of the chord, v: the chord. A bit for each lane of the slice: does
-// it come within `reach`?
-NSVCD__INLINE uint32_t nsvcd__comes_within(const nsvcd__v *d, const nsvcd__v *v, nsvcd__v inverse, nsvcd__v reach) {
+// The test. d: from the resting centre to the start of the chord, v: the chord. A bit for each lane
+// of the slice: does it come within `reach`?
+NSVCD__INLINE uint32_t nsvcd__comes_within(const nsvcd__v *d, const nsvcd__v *v, nsvcd__v inverse,
+                                           nsvcd__v reach) {
   return nsvcd__v_le(nsvcd__nearest2(d, v, inverse), nsvcd__v_signed_square(reach));
 }
 
@@ -5924,7 +6603,8 @@ static uint32_t nsvcd__meet(const nsvcd__chords *c, float x, float y, float z, f
     const nsvcd__v d[3] = {nsvcd__v_sub(nsvcd__v_load(c->x + l), nsvcd__v_set(x)),
                            nsvcd__v_sub(nsvcd__v_load(c->y + l), nsvcd__v_set(y)),
                            nsvcd__v_sub(nsvcd__v_load(c->z + l), nsvcd__v_set(z))};
-    const nsvcd__v v[3] = {nsvcd__v_load(c->vx + l), nsvcd__v_load(c->vy + l), nsvcd__v_load(c->vz + l)};
+    const nsvcd__v v[3] = {nsvcd__v_load(c->vx + l), nsvcd__v_load(c->vy + l),
+                           nsvcd__v_load(c->vz + l)};
     const nsvcd__v reach = nsvcd__v_add(nsvcd__v_load(c->reach + l), nsvcd__v_set(r));
     met |= nsvcd__comes_within(d, v, nsvcd__v_load(c->inverse + l), reach) << l;
   }
@@ -5932,8 +6612,8 @@ static uint32_t nsvcd__meet(const nsvcd__chords *c, float x, float y, float z, f
 }
 
 // Lane s of a chord against 16 resting spheres.
-static uint32_t nsvcd__meet_members(const nsvcd__chords *c, size_t s, const float *x, const float *y, const float *z,
-                                    const float *r) {
+static uint32_t nsvcd__meet_members(const nsvcd__chords *c, size_t s, const float *x,
+                                    const float *y, const float *z, const float *r) {
   uint32_t met = 0;
   NSVCD__TALLY(tests, 1);
   NSVCD__EACH_SLICE(l) {
@@ -5947,8 +6627,10 @@ static uint32_t nsvcd__meet_members(const nsvcd__chords *c, size_t s, const floa
   return met;
 }
 
-// The segments among `wanted` in which a sphere with chords[] (one block per 16 segments) meets a resting one.
-static uint64_t nsvcd__meet_in(const nsvcd__chords *chords, uint64_t wanted, float x, float y, float z, float r) {
+// The segments among `wanted` in which a sphere with chords[] (one block per 16 segments) meets a
+// resting one.
+static uint64_t nsvcd__meet_in(const nsvcd__chords *chords, uint64_t wanted, float x, float y,
+                               float z, float r) {
   uint64_t met = 0;
   for (size_t block = 0; block < NSVCD__BLOCKS && wanted >> (NSVCD__LANES * block); block++) {
     const size_t shift = NSVCD__LANES * block;
@@ -5976,13 +6658,15 @@ static int nsvcd__is_shallower(const nsvcd__candidate *a, const nsvcd__candidate
 }
 
 // Places `item` into heap[0..count), whose entry at `hole` is free, at or below that entry.
-static void nsvcd__sift_down(nsvcd__candidate *heap, size_t count, size_t hole, nsvcd__candidate item) {
+static void nsvcd__sift_down(nsvcd__candidate *heap, size_t count, size_t hole,
+                             nsvcd__candidate item) {
   for (;;) {
     size_t child = 2 * hole + 1;
     if (child >= count) break;
     if (child + 1 < count && nsvcd__is_shallower(&heap[child + 1], &heap[child])) child++;
     if (!nsvcd__is_shallower(&heap[child], &item)) break;
-    heap[hole] = heap[child], hole = child;
+    heap[hole] = heap[child];
+    hole = child;
   }
   heap[hole] = item;
 }
@@ -5991,7 +6675,8 @@ static void nsvcd__candidates_add(nsvcd__candidates *kept, const nsvcd__candidat
   kept->total++;
   if (kept->count < kept->limit) {
     size_t hole = kept->count++;
-    for (; hole > 0 && nsvcd__is_shallower(item, &kept->items[(hole - 1) / 2]); hole = (hole - 1) / 2) {
+    for (; hole > 0 && nsvcd__is_shallower(item, &kept->items[(hole - 1) / 2]);
+         hole = (hole - 1) / 2) {
       kept->items[hole] = kept->items[(hole - 1) / 2];
     }
     kept->items[hole] = *item;
@@ -6000,44 +6685,55 @@ static void nsvcd__candidates_add(nsvcd__candidates *kept, const nsvcd__candidat
   }
 }
 
-// Runs of a slice that are still growing, one per lane. Places on a segment's line are counted in segments from its
-// start: `nearest` on the whole line, `half2` the square of what it is from there to where the spheres first touch.
+// Runs of a slice that are still growing, one per lane. Places on a segment's line are counted in
+// segments from its start: `nearest` on the whole line, `half2` the square of what it is from there
+// to where the spheres first touch.
 typedef struct nsvcd__runs {
-  uint32_t open;        // lanes
-  size_t oldest, last;  // segments: in which the oldest of them began, and the last that all of them reach
-  nsvcd__v fresh;       // 1 in lanes without a run, else 0
+  uint32_t open;  // lanes
+  // segments: in which the oldest of them began, and the last that all of them reach
+  size_t oldest, last;
+  nsvcd__v fresh;  // 1 in lanes without a run, else 0
   nsvcd__v first, first_nearest, first_half2, last_nearest, last_half2;
   nsvcd__v square, least_segment, least;  // of the least distance: its square, and where
 } nsvcd__runs;
 
-// Ends the runs of `lanes` of a slice and hands them on. Its first lane is patch i of the moving body; j: the patch of
-// the fixed one.
-static void nsvcd__runs_close(nsvcd__runs *runs, uint32_t lanes, const nsvcd__workspace *work, const nsvcd_body *moving,
-                              size_t i, const nsvcd_body *fixed, size_t j, nsvcd__candidates *kept) {
+// Ends the runs of `lanes` of a slice and hands them on. Its first lane is patch i of the moving
+// body; j: the patch of the fixed one.
+static void nsvcd__runs_close(nsvcd__runs *runs, uint32_t lanes, const nsvcd__workspace *work,
+                              const nsvcd_body *moving, size_t i, const nsvcd_body *fixed, size_t j,
+                              nsvcd__candidates *kept) {
   const float *time = work->time;
-  const nsvcd__v zero = nsvcd__v_set(0), one = nsvcd__v_set(1);
-  const nsvcd__v r = nsvcd__v_mul(nsvcd__v_set(work->scale), nsvcd__v_load(nsvcd__body_r(moving) + i));
-  const nsvcd__v radii = nsvcd__v_max(nsvcd__v_add(r, nsvcd__v_set(nsvcd__body_r(fixed)[j])), nsvcd__v_set(1e-30f));
-  float first[NSVCD__SLICE], enter[NSVCD__SLICE], leave[NSVCD__SLICE], least_segment[NSVCD__SLICE], least[NSVCD__SLICE],
-      depth[NSVCD__SLICE];
+  const nsvcd__v zero = nsvcd__v_set(0);
+  const nsvcd__v one = nsvcd__v_set(1);
+  const nsvcd__v r =
+      nsvcd__v_mul(nsvcd__v_set(work->scale), nsvcd__v_load(nsvcd__body_r(moving) + i));
+  const nsvcd__v radii =
+      nsvcd__v_max(nsvcd__v_add(r, nsvcd__v_set(nsvcd__body_r(fixed)[j])), nsvcd__v_set(1e-30f));
+  float first[NSVCD__SLICE], enter[NSVCD__SLICE], leave[NSVCD__SLICE], least_segment[NSVCD__SLICE],
+      least[NSVCD__SLICE], depth[NSVCD__SLICE];
   runs->open &= ~lanes;
   if (kept->count == kept->limit) {  // most are shallower than all that is kept: only counted
     const float share = kept->limit ? (1 - kept->items[0].depth) * 1.000001f : 0;
     const nsvcd__v most = nsvcd__v_mul(radii, nsvcd__v_set(share > 0 ? share : 0));
-    const uint32_t deep = kept->limit ? lanes & nsvcd__v_le(runs->square, nsvcd__v_mul(most, most)) : 0;
+    const uint32_t deep =
+        kept->limit ? lanes & nsvcd__v_le(runs->square, nsvcd__v_mul(most, most)) : 0;
     kept->total += nsvcd__bit_count(lanes & ~deep);
     lanes = deep;
     if (!lanes) return;
   }
-  const nsvcd__v before = nsvcd__v_sqrt(nsvcd__v_max(runs->first_half2, zero)),
-                 after = nsvcd__v_sqrt(nsvcd__v_max(runs->last_half2, zero));
-  nsvcd__v_store(first, runs->first), nsvcd__v_store(least_segment, runs->least_segment);
+  const nsvcd__v before = nsvcd__v_sqrt(nsvcd__v_max(runs->first_half2, zero));
+  const nsvcd__v after = nsvcd__v_sqrt(nsvcd__v_max(runs->last_half2, zero));
+  nsvcd__v_store(first, runs->first);
+  nsvcd__v_store(least_segment, runs->least_segment);
   nsvcd__v_store(enter, nsvcd__v_max(nsvcd__v_sub(runs->first_nearest, before), zero));
   nsvcd__v_store(leave, nsvcd__v_min(nsvcd__v_add(runs->last_nearest, after), one));
   nsvcd__v_store(least, runs->least);
   nsvcd__v_store(depth, nsvcd__v_sub(one, nsvcd__v_div(nsvcd__v_sqrt(runs->square), radii)));
   for (; lanes; lanes &= lanes - 1) {
-    const size_t l = nsvcd__lowest_bit(lanes), a = (size_t)first[l], b = runs->last, c = (size_t)least_segment[l];
+    const size_t l = nsvcd__lowest_bit(lanes);
+    const size_t a = (size_t)first[l];
+    const size_t b = runs->last;
+    const size_t c = (size_t)least_segment[l];
     nsvcd__candidate candidate = {(uint16_t)(i + l),
                                   (uint16_t)j,
                                   time[a] + enter[l] * (time[a + 1] - time[a]),
@@ -6052,18 +6748,20 @@ static void nsvcd__runs_close(nsvcd__runs *runs, uint32_t lanes, const nsvcd__wo
   }
 }
 
-// The segments before which all runs of the members of a group against patch j of the fixed body are cut: the oldest of them
-// would turn too far, or a segment is left out in between. Asked for all 16 beforehand, so that machines with narrower
-// slices find the same runs.
-static uint64_t nsvcd__run_cuts(const nsvcd__workspace *work, const nsvcd_body *fixed, size_t j, uint64_t wanted) {
+// The segments before which all runs of the members of a group against patch j of the fixed body
+// are cut: the oldest of them would turn too far, or a segment is left out in between. Asked for
+// all 16 beforehand, so that machines with narrower slices find the same runs.
+static uint64_t nsvcd__run_cuts(const nsvcd__workspace *work, const nsvcd_body *fixed, size_t j,
+                                uint64_t wanted) {
   uint64_t cuts = wanted & ~(wanted << 1);  // where the segment before is left out
   uint32_t open = 0;
   size_t oldest = 0;
   if (!(work->turn[work->segments] > NSVCD__RUN_TURN)) return cuts;
   for (; wanted; wanted &= wanted - 1) {
     const size_t s = nsvcd__lowest_bit(wanted);
-    const uint32_t met = nsvcd__meet(&work->members[s], nsvcd__body_x(fixed)[j], nsvcd__body_y(fixed)[j],
-                                     nsvcd__body_z(fixed)[j], nsvcd__body_r(fixed)[j]);
+    const uint32_t met =
+        nsvcd__meet(&work->members[s], nsvcd__body_x(fixed)[j], nsvcd__body_y(fixed)[j],
+                    nsvcd__body_z(fixed)[j], nsvcd__body_r(fixed)[j]);
     if (open && work->turn[s + 1] - work->turn[oldest] > NSVCD__RUN_TURN) cuts |= (uint64_t)1 << s;
     if (cuts >> s & 1) open = 0;
     open &= met;
@@ -6073,15 +6771,19 @@ static uint64_t nsvcd__run_cuts(const nsvcd__workspace *work, const nsvcd_body *
   return cuts;
 }
 
-// A slice of the members of moving group g, from lane l on, against patch j of the fixed body, in the segments `wanted`.
-// cuts: see nsvcd__run_cuts; where a slice is all of them, it finds that itself.
-static void nsvcd__slice_against_patch(const nsvcd__workspace *work, const nsvcd_body *moving, size_t g, size_t l,
-                                       const nsvcd_body *fixed, size_t j, uint64_t wanted, uint64_t cuts,
-                                       nsvcd__candidates *kept) {
+// A slice of the members of moving group g, from lane l on, against patch j of the fixed body, in
+// the segments `wanted`. cuts: see nsvcd__run_cuts; where a slice is all of them, it finds that
+// itself.
+static void nsvcd__slice_against_patch(const nsvcd__workspace *work, const nsvcd_body *moving,
+                                       size_t g, size_t l, const nsvcd_body *fixed, size_t j,
+                                       uint64_t wanted, uint64_t cuts, nsvcd__candidates *kept) {
   const size_t i = NSVCD__GROUP * g + l;
-  const nsvcd__v half = nsvcd__v_set(0.5f), one = nsvcd__v_set(1), zero = nsvcd__v_set(0),
-                 r = nsvcd__v_set(nsvcd__body_r(fixed)[j]);
-  const nsvcd__v centre[3] = {nsvcd__v_set(nsvcd__body_x(fixed)[j]), nsvcd__v_set(nsvcd__body_y(fixed)[j]),
+  const nsvcd__v half = nsvcd__v_set(0.5f);
+  const nsvcd__v one = nsvcd__v_set(1);
+  const nsvcd__v zero = nsvcd__v_set(0);
+  const nsvcd__v r = nsvcd__v_set(nsvcd__body_r(fixed)[j]);
+  const nsvcd__v centre[3] = {nsvcd__v_set(nsvcd__body_x(fixed)[j]),
+                              nsvcd__v_set(nsvcd__body_y(fixed)[j]),
                               nsvcd__v_set(nsvcd__body_z(fixed)[j])};
   nsvcd__runs runs = {0, 0, 0, one, zero, zero, zero, zero, zero, zero, zero, zero};
   for (; wanted; wanted &= wanted - 1) {
@@ -6090,10 +6792,12 @@ static void nsvcd__slice_against_patch(const nsvcd__workspace *work, const nsvcd
     const nsvcd__v d[3] = {nsvcd__v_sub(nsvcd__v_load(c->x + l), centre[0]),
                            nsvcd__v_sub(nsvcd__v_load(c->y + l), centre[1]),
                            nsvcd__v_sub(nsvcd__v_load(c->z + l), centre[2])};
-    const nsvcd__v v[3] = {nsvcd__v_load(c->vx + l), nsvcd__v_load(c->vy + l), nsvcd__v_load(c->vz + l)};
-    const nsvcd__v inverse = nsvcd__v_load(c->inverse + l),
-                   limit = nsvcd__v_signed_square(nsvcd__v_add(nsvcd__v_load(c->reach + l), r));
-    const nsvcd__v nearest = nsvcd__v_mul(nsvcd__v_dot3(d, v), inverse), tau = nsvcd__v_clamp(nearest, 0, 1);
+    const nsvcd__v v[3] = {nsvcd__v_load(c->vx + l), nsvcd__v_load(c->vy + l),
+                           nsvcd__v_load(c->vz + l)};
+    const nsvcd__v inverse = nsvcd__v_load(c->inverse + l);
+    const nsvcd__v limit = nsvcd__v_signed_square(nsvcd__v_add(nsvcd__v_load(c->reach + l), r));
+    const nsvcd__v nearest = nsvcd__v_mul(nsvcd__v_dot3(d, v), inverse);
+    const nsvcd__v tau = nsvcd__v_clamp(nearest, 0, 1);
     nsvcd__v chord[3], line[3];
     for (size_t k = 0; k < 3; k++) chord[k] = nsvcd__v_fma(tau, v[k], d[k]);
     const nsvcd__v square = nsvcd__v_dot3(chord, chord);
@@ -6101,7 +6805,8 @@ static void nsvcd__slice_against_patch(const nsvcd__workspace *work, const nsvcd
     uint32_t ended = runs.open & ~met;
     const int by_itself = NSVCD__SLICE == NSVCD__LANES;
     const int turns = by_itself && work->turn[s + 1] - work->turn[runs.oldest] > NSVCD__RUN_TURN;
-    const int is_cut = by_itself ? runs.open && (runs.last + 1 != s || turns) : (int)(cuts >> s & 1);
+    const int is_cut =
+        by_itself ? runs.open && (runs.last + 1 != s || turns) : (int)(cuts >> s & 1);
     if (is_cut) {
       ended = runs.open;
       runs.fresh = one;
@@ -6111,28 +6816,32 @@ static void nsvcd__slice_against_patch(const nsvcd__workspace *work, const nsvcd
       runs.fresh = one;
       continue;
     }
-    // |d + tau v| = reach, solved from the nearest point of the line outwards: b^2 - ac would cancel on long chords.
+    // |d + tau v| = reach, solved from the nearest point of the line outwards: b^2 - ac would
+    // cancel on long chords.
     for (size_t k = 0; k < 3; k++) line[k] = nsvcd__v_fma(nearest, v[k], d[k]);
     const nsvcd__v half2 = nsvcd__v_mul(nsvcd__v_sub(nsvcd__v_dot3(line, line), limit), inverse);
-    const nsvcd__v now = nsvcd__v_set((float)s),
-                   before = nsvcd__v_pick(half, runs.fresh, nsvcd__v_set(1e38f), runs.square);
+    const nsvcd__v now = nsvcd__v_set((float)s);
+    const nsvcd__v before = nsvcd__v_pick(half, runs.fresh, nsvcd__v_set(1e38f), runs.square);
     runs.first = nsvcd__v_pick(half, runs.fresh, now, runs.first);
     runs.first_nearest = nsvcd__v_pick(half, runs.fresh, nearest, runs.first_nearest);
     runs.first_half2 = nsvcd__v_pick(half, runs.fresh, half2, runs.first_half2);
-    runs.last_nearest = nearest, runs.last_half2 = half2;
+    runs.last_nearest = nearest;
+    runs.last_half2 = half2;
     runs.least_segment = nsvcd__v_pick(square, before, now, runs.least_segment);
     runs.least = nsvcd__v_pick(square, before, tau, runs.least);
     runs.square = nsvcd__v_min(square, before);
     runs.fresh = nsvcd__v_pick(square, limit, zero, one);
     if (!runs.open) runs.oldest = s;
-    runs.open = met, runs.last = s;
+    runs.open = met;
+    runs.last = s;
   }
   if (runs.open) nsvcd__runs_close(&runs, runs.open, work, moving, i, fixed, j, kept);
 }
 
 // The 16 members of moving group g against patch j of the fixed body, in the segments `wanted`.
-static void nsvcd__members_against_patch(const nsvcd__workspace *work, const nsvcd_body *moving, size_t g,
-                                         const nsvcd_body *fixed, size_t j, uint64_t wanted, nsvcd__candidates *kept) {
+static void nsvcd__members_against_patch(const nsvcd__workspace *work, const nsvcd_body *moving,
+                                         size_t g, const nsvcd_body *fixed, size_t j,
+                                         uint64_t wanted, nsvcd__candidates *kept) {
   NSVCD__TALLY(tests, nsvcd__bit_count(wanted));
   const uint64_t cuts = NSVCD__SLICE < NSVCD__LANES ? nsvcd__run_cuts(work, fixed, j, wanted) : 0;
   NSVCD__EACH_SLICE(l) nsvcd__slice_against_patch(work, moving, g, l, fixed, j, wanted, cuts, kept);
@@ -6145,7 +6854,8 @@ static void nsvcd__members_against_patch(const nsvcd__workspace *work, const nsv
 // Chords of a sphere of the moving body in all segments, into work->group.
 static void nsvcd__chords_in_all(nsvcd__workspace *work, const float *centre, float radius) {
   for (size_t b = 0; NSVCD__LANES * b < work->segments; b++) {
-    nsvcd__chords_of_sphere(&work->blocks[b], centre[0], centre[1], centre[2], work->scale * radius, &work->group[b]);
+    nsvcd__chords_of_sphere(&work->blocks[b], centre[0], centre[1], centre[2], work->scale * radius,
+                            &work->group[b]);
   }
 }
 
@@ -6156,16 +6866,19 @@ static void nsvcd__chords_of_group(nsvcd__workspace *work, const nsvcd_body *mov
 }
 
 // Grows a slice of boxes, from lane l on, by chords where they are near the fixed body.
-static void nsvcd__boxes_grow(const nsvcd__chords *c, size_t l, const nsvcd_body *fixed, nsvcd__boxes *out) {
+static void nsvcd__boxes_grow(const nsvcd__chords *c, size_t l, const nsvcd_body *fixed,
+                              nsvcd__boxes *out) {
   const nsvcd__v x[3] = {nsvcd__v_load(c->x + l), nsvcd__v_load(c->y + l), nsvcd__v_load(c->z + l)};
-  const nsvcd__v v[3] = {nsvcd__v_load(c->vx + l), nsvcd__v_load(c->vy + l), nsvcd__v_load(c->vz + l)};
+  const nsvcd__v v[3] = {nsvcd__v_load(c->vx + l), nsvcd__v_load(c->vy + l),
+                         nsvcd__v_load(c->vz + l)};
   const nsvcd__v d[3] = {nsvcd__v_sub(x[0], nsvcd__v_set(fixed->centre[0])),
                          nsvcd__v_sub(x[1], nsvcd__v_set(fixed->centre[1])),
                          nsvcd__v_sub(x[2], nsvcd__v_set(fixed->centre[2]))};
   const nsvcd__v reach = nsvcd__v_load(c->reach + l);
   const nsvcd__v sum = nsvcd__v_add(reach, nsvcd__v_set(fixed->radius));
   const nsvcd__v square = nsvcd__nearest2(d, v, nsvcd__v_load(c->inverse + l));
-  const nsvcd__v nearby = nsvcd__v_pick(square, nsvcd__v_signed_square(sum), reach, nsvcd__v_set(NSVCD__NOWHERE));
+  const nsvcd__v nearby =
+      nsvcd__v_pick(square, nsvcd__v_signed_square(sum), reach, nsvcd__v_set(NSVCD__NOWHERE));
   for (size_t k = 0; k < 3; k++) {
     const nsvcd__v end = nsvcd__v_add(x[k], v[k]);
     const nsvcd__v low = nsvcd__v_sub(nsvcd__v_min(x[k], end), nearby);
@@ -6175,10 +6888,12 @@ static void nsvcd__boxes_grow(const nsvcd__chords *c, size_t l, const nsvcd_body
   }
 }
 
-// Boxes in which 16 groups of the moving tile, from `first`, stay as long as they are near the fixed body: its axes,
-// metres. Empty ones, low above high, for those that never are. wanted: the segments to look at.
-static void nsvcd__boxes_of_groups(const nsvcd__workspace *work, const nsvcd_body *moving, size_t first,
-                                   const nsvcd_body *fixed, uint64_t wanted, nsvcd__boxes *out) {
+// Boxes in which 16 groups of the moving tile, from `first`, stay as long as they are near the
+// fixed body: its axes, metres. Empty ones, low above high, for those that never are. wanted: the
+// segments to look at.
+static void nsvcd__boxes_of_groups(const nsvcd__workspace *work, const nsvcd_body *moving,
+                                   size_t first, const nsvcd_body *fixed, uint64_t wanted,
+                                   nsvcd__boxes *out) {
   const nsvcd__tile *tile = &work->moving_tile;
   NSVCD__TALLY(tests, nsvcd__bit_count(wanted));
   for (size_t n = 0; n < 3 * NSVCD__LANES; n++) {
@@ -6188,16 +6903,17 @@ static void nsvcd__boxes_of_groups(const nsvcd__workspace *work, const nsvcd_bod
   for (; wanted; wanted &= wanted - 1) {
     const size_t s = nsvcd__lowest_bit(wanted);
     nsvcd__chords *c = nsvcd__spare_chords(work);
-    nsvcd__chords_of_members(&work->blocks[s / NSVCD__LANES], s % NSVCD__LANES, tile->spheres[0] + first,
-                             tile->spheres[1] + first, tile->spheres[2] + first, tile->spheres[3] + first, work->scale,
+    nsvcd__chords_of_members(&work->blocks[s / NSVCD__LANES], s % NSVCD__LANES,
+                             tile->spheres[0] + first, tile->spheres[1] + first,
+                             tile->spheres[2] + first, tile->spheres[3] + first, work->scale,
                              moving->extent, c);
     NSVCD__EACH_SLICE(l) nsvcd__boxes_grow(c, l, fixed, out);
   }
 }
 
 // 16 spheres that touch a box.
-static uint32_t nsvcd__spheres_at_box(const float *low, const float *high, const float *x, const float *y, const float *z,
-                                      const float *r) {
+static uint32_t nsvcd__spheres_at_box(const float *low, const float *high, const float *x,
+                                      const float *y, const float *z, const float *r) {
   const float *centre[3] = {x, y, z};
   uint32_t touched = 0;
   NSVCD__EACH_SLICE(l) {
@@ -6228,9 +6944,10 @@ static uint32_t nsvcd__groups_at_box(const nsvcd__boxes *boxes, size_t l, const 
   return groups;
 }
 
-// Fills nearby[g] with the segments in which group g of the moving tile meets each one of the fixed tile, of those
-// `groups`. Returns how many they are over all groups.
-static size_t nsvcd__group_against_tile(nsvcd__workspace *work, const nsvcd_body *moving, size_t g, uint32_t groups) {
+// Fills nearby[g] with the segments in which group g of the moving tile meets each one of the fixed
+// tile, of those `groups`. Returns how many they are over all groups.
+static size_t nsvcd__group_against_tile(nsvcd__workspace *work, const nsvcd_body *moving, size_t g,
+                                        uint32_t groups) {
   const nsvcd__tile *tile = &work->fixed_tile;
   const uint64_t all = ~(uint64_t)0 >> (NSVCD__MAX_SEGMENTS - work->segments);
   uint64_t *nearby = nsvcd__nearby(work, g);
@@ -6239,16 +6956,17 @@ static size_t nsvcd__group_against_tile(nsvcd__workspace *work, const nsvcd_body
   memset(nearby, 0, tile->count * sizeof *nearby);
   for (; groups; groups &= groups - 1) {
     const size_t h = nsvcd__lowest_bit(groups);
-    nearby[h] = nsvcd__meet_in(work->group, all, tile->spheres[0][h], tile->spheres[1][h], tile->spheres[2][h],
-                               tile->spheres[3][h]);
+    nearby[h] = nsvcd__meet_in(work->group, all, tile->spheres[0][h], tile->spheres[1][h],
+                               tile->spheres[2][h], tile->spheres[3][h]);
     meetings += nsvcd__bit_count(nearby[h]);
   }
   return meetings;
 }
 
-// Puts the steps of the search of both tiles in order. wanted: segments in which the bodies' spheres meet.
-static void nsvcd__search_tile(nsvcd__workspace *work, const nsvcd_body *moving, const nsvcd_body *fixed,
-                               uint64_t wanted) {
+// Puts the steps of the search of both tiles in order. wanted: segments in which the bodies'
+// spheres meet.
+static void nsvcd__search_tile(nsvcd__workspace *work, const nsvcd_body *moving,
+                               const nsvcd_body *fixed, uint64_t wanted) {
   uint16_t meetings[NSVCD__TILE_SLOTS];
   nsvcd__boxes *boxes = nsvcd__spare_boxes(work);
   work->steps = 0;
@@ -6270,13 +6988,16 @@ static void nsvcd__search_tile(nsvcd__workspace *work, const nsvcd_body *moving,
   }
 }
 
-static int nsvcd__is_large(const nsvcd_body *body) { return nsvcd__body_groups(body) > NSVCD__TILE; }
+static int nsvcd__is_large(const nsvcd_body *body) {
+  return nsvcd__body_groups(body) > NSVCD__TILE;
+}
 
 // Fills a tile with the next groups that a walk finds.
 static void nsvcd__tile_fill(nsvcd__tile *tile, nsvcd__walk *walk) {
   size_t g;
   for (size_t k = 0; k < 4; k++) tile->spheres[k] = tile->gathered + k * NSVCD__TILE_SLOTS;
-  for (size_t n = 0; n < 4 * NSVCD__TILE_SLOTS; n++) tile->gathered[n] = n < 3 * NSVCD__TILE_SLOTS ? 0 : NSVCD__NOWHERE;
+  for (size_t n = 0; n < 4 * NSVCD__TILE_SLOTS; n++)
+    tile->gathered[n] = n < 3 * NSVCD__TILE_SLOTS ? 0 : NSVCD__NOWHERE;
   tile->count = 0;
   while (tile->count < NSVCD__TILE && nsvcd__walk_next(walk, &g)) {
     float *to = tile->gathered + tile->count;
@@ -6293,15 +7014,20 @@ static void nsvcd__tile_fill_all(nsvcd__tile *tile, const nsvcd_body *body) {
 }
 
 // Filters of a walk, given the workspace. All spheres that there are.
-static uint32_t nsvcd__exists(const void *what, const float *x, const float *y, const float *z, const float *r) {
+static uint32_t nsvcd__exists(const void *what, const float *x, const float *y, const float *z,
+                              const float *r) {
   uint32_t exists = 0;
-  (void)what, (void)x, (void)y, (void)z;
+  (void)what;
+  (void)x;
+  (void)y;
+  (void)z;
   NSVCD__EACH_SLICE(l) exists |= nsvcd__v_le(nsvcd__v_set(0), nsvcd__v_load(r + l)) << l;
   return exists;
 }
 
 // Spheres of the moving body that meet that of the fixed one.
-static uint32_t nsvcd__comes_near(const void *what, const float *x, const float *y, const float *z, const float *r) {
+static uint32_t nsvcd__comes_near(const void *what, const float *x, const float *y, const float *z,
+                                  const float *r) {
   const nsvcd__workspace *work = (const nsvcd__workspace *)what;
   const nsvcd_body *fixed = work->fixed_walk.body;
   const float extent = work->moving_walk.body->extent;
@@ -6309,20 +7035,23 @@ static uint32_t nsvcd__comes_near(const void *what, const float *x, const float 
   for (uint64_t wanted = work->near_segments; wanted; wanted &= wanted - 1) {
     const size_t s = nsvcd__lowest_bit(wanted);
     nsvcd__chords *chords = nsvcd__spare_chords(work);
-    nsvcd__chords_of_members(&work->blocks[s / NSVCD__LANES], s % NSVCD__LANES, x, y, z, r, work->scale, extent, chords);
+    nsvcd__chords_of_members(&work->blocks[s / NSVCD__LANES], s % NSVCD__LANES, x, y, z, r,
+                             work->scale, extent, chords);
     met |= nsvcd__meet(chords, fixed->centre[0], fixed->centre[1], fixed->centre[2], fixed->radius);
   }
   return met;
 }
 
 // Spheres of the fixed body that meet that of the moving tile, whose chords are work->group.
-static uint32_t nsvcd__is_approached(const void *what, const float *x, const float *y, const float *z, const float *r) {
+static uint32_t nsvcd__is_approached(const void *what, const float *x, const float *y,
+                                     const float *z, const float *r) {
   const nsvcd__workspace *work = (const nsvcd__workspace *)what;
   const uint32_t nearby = nsvcd__spheres_at_box(work->near_low, work->near_high, x, y, z, r);
   uint32_t met = 0;
   for (uint64_t wanted = work->near_segments; wanted && nearby & ~met; wanted &= wanted - 1) {
     const size_t s = nsvcd__lowest_bit(wanted);
-    met |= nearby & nsvcd__meet_members(&work->group[s / NSVCD__LANES], s % NSVCD__LANES, x, y, z, r);
+    met |=
+        nearby & nsvcd__meet_members(&work->group[s / NSVCD__LANES], s % NSVCD__LANES, x, y, z, r);
   }
   return met;
 }
@@ -6332,7 +7061,8 @@ static void nsvcd__chords_of_tile(nsvcd__workspace *work, const nsvcd_body *movi
   const nsvcd__tile *tile = &work->moving_tile;
   float sphere[4] = {moving->centre[0], moving->centre[1], moving->centre[2], moving->radius};
   if (nsvcd__is_large(moving)) {
-    nsvcd__cover_spheres(tile->count, tile->spheres[0], tile->spheres[1], tile->spheres[2], tile->spheres[3], sphere);
+    nsvcd__cover_spheres(tile->count, tile->spheres[0], tile->spheres[1], tile->spheres[2],
+                         tile->spheres[3], sphere);
   }
   nsvcd__chords_in_all(work, sphere, sphere[3]);
 }
@@ -6359,9 +7089,10 @@ static void nsvcd__box_of_way(nsvcd__workspace *work) {
   }
 }
 
-// Finds the next moving tile, an empty one if there is none, and starts the walk through the fixed body's groups that come
-// near it.
-static void nsvcd__search_moving_tile(nsvcd__workspace *work, const nsvcd_body *moving, const nsvcd_body *fixed) {
+// Finds the next moving tile, an empty one if there is none, and starts the walk through the fixed
+// body's groups that come near it.
+static void nsvcd__search_moving_tile(nsvcd__workspace *work, const nsvcd_body *moving,
+                                      const nsvcd_body *fixed) {
   nsvcd__tile_fill(&work->moving_tile, &work->moving_walk);
   if (work->moving_tile.count == 0) return;
   nsvcd__chords_of_tile(work, moving);
@@ -6370,7 +7101,8 @@ static void nsvcd__search_moving_tile(nsvcd__workspace *work, const nsvcd_body *
 }
 
 // Goes on to the next tile that has a step. 0 if there is none.
-static int nsvcd__search_next_tile(nsvcd__workspace *work, const nsvcd_body *moving, const nsvcd_body *fixed) {
+static int nsvcd__search_next_tile(nsvcd__workspace *work, const nsvcd_body *moving,
+                                   const nsvcd_body *fixed) {
   if (!nsvcd__is_large(moving) && !nsvcd__is_large(fixed)) return 0;
   while (work->moving_tile.count > 0) {
     nsvcd__chords_of_tile(work, moving);
@@ -6385,12 +7117,14 @@ static int nsvcd__search_next_tile(nsvcd__workspace *work, const nsvcd_body *mov
   return 0;
 }
 
-// Starts the search of a motion that has been cut. Returns 0 if the groups' spheres never meet: then there is no step
-// to take.
-static int nsvcd__search_begin(const nsvcd_body *moving, const nsvcd_body *fixed, nsvcd__workspace *work) {
+// Starts the search of a motion that has been cut. Returns 0 if the groups' spheres never meet:
+// then there is no step to take.
+static int nsvcd__search_begin(const nsvcd_body *moving, const nsvcd_body *fixed,
+                               nsvcd__workspace *work) {
   nsvcd__chords_in_all(work, moving->centre, moving->radius);
   uint64_t wanted = ~(uint64_t)0 >> (NSVCD__MAX_SEGMENTS - work->segments);
-  wanted = nsvcd__meet_in(work->group, wanted, fixed->centre[0], fixed->centre[1], fixed->centre[2], fixed->radius);
+  wanted = nsvcd__meet_in(work->group, wanted, fixed->centre[0], fixed->centre[1], fixed->centre[2],
+                          fixed->radius);
   work->near_segments = wanted;
   work->wanted = ~(uint64_t)0;
   work->steps = work->step = 0;
@@ -6405,13 +7139,15 @@ static int nsvcd__search_begin(const nsvcd_body *moving, const nsvcd_body *fixed
   if (!wanted) return 0;
   work->fixed_walk.body = fixed;  // the filters below ask for them
   work->moving_walk.body = moving;
-  nsvcd__walk_begin(&work->moving_walk, moving, nsvcd__is_large(moving) ? nsvcd__comes_near : nsvcd__exists, work);
+  nsvcd__walk_begin(&work->moving_walk, moving,
+                    nsvcd__is_large(moving) ? nsvcd__comes_near : nsvcd__exists, work);
   nsvcd__search_moving_tile(work, moving, fixed);
   return nsvcd__search_next_tile(work, moving, fixed);
 }
 
 // Fills members[] with what is missing of the segments `wanted`.
-static void nsvcd__pose_members(nsvcd__workspace *work, const nsvcd_body *moving, size_t g, uint64_t wanted) {
+static void nsvcd__pose_members(nsvcd__workspace *work, const nsvcd_body *moving, size_t g,
+                                uint64_t wanted) {
   const size_t i = NSVCD__GROUP * g;
   if (!(wanted & ~work->posed)) return;
   const float centre[3] = {nsvcd__body_group(moving, 0)[g], nsvcd__body_group(moving, 1)[g],
@@ -6419,23 +7155,26 @@ static void nsvcd__pose_members(nsvcd__workspace *work, const nsvcd_body *moving
   work->remote = 1.000002f * (nsvcd__length3(centre) + nsvcd__body_group(moving, 3)[g]);
   for (uint64_t missing = wanted & ~work->posed; missing; missing &= missing - 1) {
     const size_t s = nsvcd__lowest_bit(missing);
-    nsvcd__chords_of_members(&work->blocks[s / NSVCD__LANES], s % NSVCD__LANES, nsvcd__body_x(moving) + i,
-                             nsvcd__body_y(moving) + i, nsvcd__body_z(moving) + i, nsvcd__body_r(moving) + i, work->scale,
+    nsvcd__chords_of_members(&work->blocks[s / NSVCD__LANES], s % NSVCD__LANES,
+                             nsvcd__body_x(moving) + i, nsvcd__body_y(moving) + i,
+                             nsvcd__body_z(moving) + i, nsvcd__body_r(moving) + i, work->scale,
                              work->remote, &work->members[s]);
   }
   work->posed |= wanted;
 }
 
-// Patches of group h of the fixed body that moving group g meets, and in which segments, of those `wanted`.
-static uint32_t nsvcd__group_against_members(const nsvcd__workspace *work, const nsvcd_body *fixed, size_t h,
-                                             uint64_t wanted, uint64_t *segments) {  // (GROUP)
+// Patches of group h of the fixed body that moving group g meets, and in which segments, of those
+// `wanted`.
+static uint32_t nsvcd__group_against_members(const nsvcd__workspace *work, const nsvcd_body *fixed,
+                                             size_t h, uint64_t wanted,
+                                             uint64_t *segments) {  // (GROUP)
   const size_t first = NSVCD__GROUP * h;
   uint32_t met = 0;
   for (; wanted; wanted &= wanted - 1) {
     const size_t s = nsvcd__lowest_bit(wanted);
-    uint32_t bits =
-        nsvcd__meet_members(&work->group[s / NSVCD__LANES], s % NSVCD__LANES, nsvcd__body_x(fixed) + first,
-                            nsvcd__body_y(fixed) + first, nsvcd__body_z(fixed) + first, nsvcd__body_r(fixed) + first);
+    uint32_t bits = nsvcd__meet_members(&work->group[s / NSVCD__LANES], s % NSVCD__LANES,
+                                        nsvcd__body_x(fixed) + first, nsvcd__body_y(fixed) + first,
+                                        nsvcd__body_z(fixed) + first, nsvcd__body_r(fixed) + first);
     for (; bits; bits &= bits - 1) {
       const size_t l = nsvcd__lowest_bit(bits);
       segments[l] = (met >> l & 1 ? segments[l] : 0) | (uint64_t)1 << s;
@@ -6445,16 +7184,20 @@ static uint32_t nsvcd__group_against_members(const nsvcd__workspace *work, const
   return met;
 }
 
-// Turns to the moving group that is next in order. Returns the fixed group, its place in the tile, that it meets for the
-// longest time.
+// Turns to the moving group that is next in order. Returns the fixed group, its place in the tile,
+// that it meets for the longest time.
 static size_t nsvcd__search_group(nsvcd__workspace *work, const nsvcd_body *moving) {
   const size_t g = work->order[work->step];
   const uint64_t *nearby = nsvcd__nearby(work, g);
-  size_t longest = 0, most = 0;
+  size_t longest = 0;
+  size_t most = 0;
   for (size_t h = 0; h < work->fixed_tile.count; h++) {
     const size_t count = nsvcd__bit_count(nearby[h] & work->wanted);
     if (count > 0) work->waiting |= (uint32_t)1 << h;
-    if (count > most) most = count, longest = h;
+    if (count > most) {
+      most = count;
+      longest = h;
+    }
   }
   if (work->waiting) nsvcd__chords_of_group(work, moving, work->moving_tile.groups[g]);
   work->posed = 0;
@@ -6463,14 +7206,16 @@ static size_t nsvcd__search_group(nsvcd__workspace *work, const nsvcd_body *movi
 
 #ifndef NSVCD_NO_NETWORK
 // A step of the search: all runs of one pair of groups. Returns 1 if there are more steps to take.
-static NSVCD__APART int nsvcd__search_step(nsvcd__workspace *work, const nsvcd_body *moving, const nsvcd_body *fixed,
-                              nsvcd__candidates *kept) {
-  const size_t at = work->waiting ? nsvcd__lowest_bit(work->waiting) : nsvcd__search_group(work, moving);
+static NSVCD__APART int nsvcd__search_step(nsvcd__workspace *work, const nsvcd_body *moving,
+                                           const nsvcd_body *fixed, nsvcd__candidates *kept) {
+  const size_t at =
+      work->waiting ? nsvcd__lowest_bit(work->waiting) : nsvcd__search_group(work, moving);
   const size_t turn = work->order[work->step];
   const size_t g = work->moving_tile.groups[turn];
   const size_t h = work->fixed_tile.groups[at];
   uint64_t segments[NSVCD__GROUP];
-  uint32_t met = nsvcd__group_against_members(work, fixed, h, nsvcd__nearby(work, turn)[at], segments);
+  uint32_t met =
+      nsvcd__group_against_members(work, fixed, h, nsvcd__nearby(work, turn)[at], segments);
   for (; met; met &= met - 1) {
     const size_t l = nsvcd__lowest_bit(met);
     nsvcd__pose_members(work, moving, g, segments[l]);
@@ -6481,84 +7226,110 @@ static NSVCD__APART int nsvcd__search_step(nsvcd__workspace *work, const nsvcd_b
   return work->step < work->steps || nsvcd__search_next_tile(work, moving, fixed);
 }
 
-// Instead of a search, in a motion that has been cut: all runs of one moving group and one patch of the fixed body.
-static void nsvcd__search_patch(nsvcd__workspace *work, const nsvcd_body *moving, size_t g, const nsvcd_body *fixed,
-                                size_t j, nsvcd__candidates *kept) {
+// Instead of a search, in a motion that has been cut: all runs of one moving group and one patch of
+// the fixed body.
+static void nsvcd__search_patch(nsvcd__workspace *work, const nsvcd_body *moving, size_t g,
+                                const nsvcd_body *fixed, size_t j, nsvcd__candidates *kept) {
   const uint64_t all = ~(uint64_t)0 >> (NSVCD__MAX_SEGMENTS - work->segments);
   nsvcd__chords_of_group(work, moving, g);
-  const uint64_t wanted = nsvcd__meet_in(work->group, all, nsvcd__body_x(fixed)[j], nsvcd__body_y(fixed)[j],
-                                         nsvcd__body_z(fixed)[j], nsvcd__body_r(fixed)[j]);
+  const uint64_t wanted =
+      nsvcd__meet_in(work->group, all, nsvcd__body_x(fixed)[j], nsvcd__body_y(fixed)[j],
+                     nsvcd__body_z(fixed)[j], nsvcd__body_r(fixed)[j]);
   work->posed = 0;
   nsvcd__pose_members(work, moving, g, wanted);
   nsvcd__members_against_patch(work, moving, g, fixed, j, wanted, kept);
 }
 
-static void nsvcd__candidates_start(nsvcd__candidates *kept, nsvcd__candidate *items, size_t limit) {
-  kept->items = items, kept->limit = limit, kept->count = 0, kept->total = 0;
+static void nsvcd__candidates_start(nsvcd__candidates *kept, nsvcd__candidate *items,
+                                    size_t limit) {
+  kept->items = items;
+  kept->limit = limit;
+  kept->count = 0;
+  kept->total = 0;
 }
 
 #endif  // NSVCD_NO_NETWORK
 
 #ifndef NSVCD_NO_PROOF
-// ------------------------------------------------------------------------------------------------------ proof
-// In: two bodies of triangles and a motion. Out: a witness (two triangles that meet, and when), a certificate that the
-// surfaces never do, or neither: undecided.
+// ------------------------------------------------------------------------------------------- proof
+// In: two bodies of triangles and a motion. Out: a witness (two triangles that meet, and when), a
+// certificate that the surfaces never do, or neither: undecided.
 //
-// THEOREM. Let both bodies be scaled and posed by the motions of section *motion*: between two poses the position is linear
-// in t and the rotation a slerp. If the proof ends in CERTIFIED_FREE, then at no t in [0,1] do the surfaces of the two
-// meshes come within the clearance of each other, and no component of one lies within the other.
-//   1. Every point of a surface lies in a piece of some patch (section *surface*). So it is enough to part each patch of
+// THEOREM. Let both bodies be scaled and posed by the motions of section *motion*: between two
+// poses the position is linear in t and the rotation a slerp. If the proof ends in CERTIFIED_FREE,
+// then at no t in [0,1] do the surfaces of the two meshes come within the clearance of each other,
+// and no component of one lies within the other.
+//   1. Every point of a surface lies in a piece of some patch (section *surface*). So it is enough
+//   to part each patch of
 //      one body from each of the other, at all times.
-//   2. The broad phase leaves out only patches and segments of time in which the spheres over the pieces stay apart. What
-//      it leaves, a pair of patches in one segment, is an *item*. Every item is parted by one of the steps below, or the
-//      verdict is not CERTIFIED_FREE.
-//   3. A *span* is a stretch of the motion: a segment or a part of one. In it the true place of a point x of the moving
-//      body (body frame) leaves the chord between its places at the ends by no more than nsvcd__deviation along any
-//      direction: that is the bulge of section *broad phase*, taken along a plane's normal (within one arc of angle h of
-//      one body it is h^2 / 8 |x|, and nothing along the axis). A plane that has the moving side's places at both ends on
-//      one side, by more than that and the clearance, has their chords there too, for a chord is convex, and so all places
-//      between.
-//   4. Discs: the plane is normal to a patch, or to a group of 16; what each side reaches along it follows from its disc.
+//   2. The broad phase leaves out only patches and segments of time in which the spheres over the
+//   pieces stay apart. What
+//      it leaves, a pair of patches in one segment, is an *item*. Every item is parted by one of
+//      the steps below, or the verdict is not CERTIFIED_FREE.
+//   3. A *span* is a stretch of the motion: a segment or a part of one. In it the true place of a
+//   point x of the moving
+//      body (body frame) leaves the chord between its places at the ends by no more than
+//      nsvcd__deviation along any direction: that is the bulge of section *broad phase*, taken
+//      along a plane's normal (within one arc of angle h of one body it is h^2 / 8 |x|, and nothing
+//      along the axis). A plane that has the moving side's places at both ends on one side, by more
+//      than that and the clearance, has their chords there too, for a chord is convex, and so all
+//      places between.
+//   4. Discs: the plane is normal to a patch, or to a group of 16; what each side reaches along it
+//   follows from its disc.
 //      Hulls: any plane; a patch's pieces are within its slack of the hull of its first vertices.
-//      Triangles: a plane for a pair of listed triangles. A patch lists all triangles of its pieces, whole or in parts.
-//   5. Rounding: every plane allows for NSVCD__ROUNDING of all lengths that enter a float computation (`rounding`, part of
-//      `spread`). Stored vertices are off by the patch's slack or quantum, which every plane allows for too. Pairs of
-//      triangles are parted in double. Comparisons are such that a number that is none parts nothing.
-//   6. Containment is decided at t = 0, component by component: a body that gets in or out later crosses a surface. The
-//      crossings of a ray with the closed components of the other body are counted with their sign; a ray that passes
-//      an edge too closely is replaced by another. Open components enclose nothing.
-// A WITNESS is a pair of stored triangles that share a point at the true pose, in double; the mesh's own triangles are
-// then within the two quanta of each other. Faces that are parallel when they meet do so at one time only, which rounded
-// numbers miss: there, a corner that is on one side of the other triangle at one time and on the other at another, and
-// within its edges all the while, has met it between (an edge and an edge likewise), and halving finds when. UNDECIDED:
-// two triangles come closer than their quanta and the tolerance without meeting, or the limit of work was reached.
+//      Triangles: a plane for a pair of listed triangles. A patch lists all triangles of its
+//      pieces, whole or in parts.
+//   5. Rounding: every plane allows for NSVCD__ROUNDING of all lengths that enter a float
+//   computation (`rounding`, part of
+//      `spread`). Stored vertices are off by the patch's slack or quantum, which every plane allows
+//      for too. Pairs of triangles are parted in double. Comparisons are such that a number that is
+//      none parts nothing.
+//   6. Containment is decided at t = 0, component by component: a body that gets in or out later
+//   crosses a surface. The
+//      crossings of a ray with the closed components of the other body are counted with their sign;
+//      a ray that passes an edge too closely is replaced by another. Open components enclose
+//      nothing.
+// A WITNESS is a pair of stored triangles that share a point at the true pose, in double; the
+// mesh's own triangles are then within the two quanta of each other. Faces that are parallel when
+// they meet do so at one time only, which rounded numbers miss: there, a corner that is on one side
+// of the other triangle at one time and on the other at another, and within its edges all the
+// while, has met it between (an edge and an edge likewise), and halving finds when. UNDECIDED: two
+// triangles come closer than their quanta and the tolerance without meeting, or the limit of work
+// was reached.
 //
-// FIRST CONTACT. Contacts end the motion: whenever one is found, only what is more than the tolerance before it matters from
-// then on, and is proven free or gives an earlier contact. Segments are searched some at a time, in their order, so that
-// the first ones found are early ones. THE LEAST DISTANCE. Contacts lower the clearance: it begins as a distance that two
-// vertices have, and whenever triangles are found nearer than that, it becomes their distance less the tolerance. What
-// has been parted stays parted, by more than that. So both are one search whose question shrinks, and in the end all of
-// the motion that matters is proven free at the clearance that matters.
+// FIRST CONTACT. Contacts end the motion: whenever one is found, only what is more than the
+// tolerance before it matters from then on, and is proven free or gives an earlier contact.
+// Segments are searched some at a time, in their order, so that the first ones found are early
+// ones. THE LEAST DISTANCE. Contacts lower the clearance: it begins as a distance that two vertices
+// have, and whenever triangles are found nearer than that, it becomes their distance less the
+// tolerance. What has been parted stays parted, by more than that. So both are one search whose
+// question shrinks, and in the end all of the motion that matters is proven free at the clearance
+// that matters.
 //
-// Work is counted in units: a plane sought for two hulls, 16 triangles against the box of 16, one of them against these, a
-// pair of triangles at one time, a ray against 16 triangles. A query stops within one patch's listings, or one ray, of its
-// limit.
+// Work is counted in units: a plane sought for two hulls, 16 triangles against the box of 16, one
+// of them against these, a pair of triangles at one time, a ray against 16 triangles. A query stops
+// within one patch's listings, or one ray, of its limit.
 
-#define NSVCD__ITEMS 256         // items that no plane parts, kept at once; when there are more, those are settled first
-#define NSVCD__NEWS 8            // items that are worth a look before the search goes on
-#define NSVCD__FRESH 48          // items found, before planes are tried on them
-#define NSVCD__PLANE_STEPS 12    // of Gilbert's iteration
-#define NSVCD__HEIGHTS 256       // over the last plane, remembered: of moving patches,
-#define NSVCD__REST_HEIGHTS 64   // and of resting ones
-#define NSVCD__DEEP 0.2f         // depth from which on an item is worth a look for a witness before any plane
-#define NSVCD__WINDOW 8          // blocks of a resting patch, loaded at once
-#define NSVCD__HOPE 8            // so many looks for a witness come before triangles are tried over a whole segment
-#define NSVCD__NEVER 1e300       // ticks
-#define NSVCD__TOUCHES 32        // contacts at the start, looked at together
-#define NSVCD__LIFTS 6           // directions in which they are undone, at most
-#define NSVCD__IN_ORDER 4        // segments that are searched together, where the first contact is sought
-#define NSVCD__HALVINGS 40       // of a span for a pair of triangles, at most
-#define NSVCD__PATIENCE_TO_PART 12  // parts of a span that pairs of triangles ask for, before all go on with its halves,
+// items that no plane parts, kept at once; when there are more, those are settled first
+#define NSVCD__ITEMS 256
+#define NSVCD__NEWS 8           // items that are worth a look before the search goes on
+#define NSVCD__FRESH 48         // items found, before planes are tried on them
+#define NSVCD__PLANE_STEPS 12   // of Gilbert's iteration
+#define NSVCD__HEIGHTS 256      // over the last plane, remembered: of moving patches,
+#define NSVCD__REST_HEIGHTS 64  // and of resting ones
+// depth from which on an item is worth a look for a witness before any plane
+#define NSVCD__DEEP 0.2f
+#define NSVCD__WINDOW 8  // blocks of a resting patch, loaded at once
+// so many looks for a witness come before triangles are tried over a whole segment
+#define NSVCD__HOPE 8
+#define NSVCD__NEVER 1e300  // ticks
+#define NSVCD__TOUCHES 32   // contacts at the start, looked at together
+#define NSVCD__LIFTS 6      // directions in which they are undone, at most
+// segments that are searched together, where the first contact is sought
+#define NSVCD__IN_ORDER 4
+#define NSVCD__HALVINGS 40  // of a span for a pair of triangles, at most
+// parts of a span that pairs of triangles ask for, before all go on with its halves,
+#define NSVCD__PATIENCE_TO_PART 12
 #define NSVCD__SHORTEST 0.015    // if it is longer than this share of an arc
 #define NSVCD__ARC_PARTS 8       // of an arc, waiting
 #define NSVCD__PLACED 8          // poses that are remembered
@@ -6576,22 +7347,26 @@ typedef struct nsvcd__item {
 typedef struct nsvcd__leg {
   double start[4], end[4];  // at its poses before and after: unit quaternions, on the shorter side
   double half_angle;        // between them as quaternions: half the angle of the turn
-  double from, share;       // where between these poses the arc begins, and how much of the way it lasts
+  // where between these poses the arc begins, and how much of the way it lasts
+  double from, share;
 } nsvcd__leg;
 
 // The motion between two knots, in double and in the fixed body's units.
 typedef struct nsvcd__arc {
   uint32_t first, ticks;  // when it begins, and how long it lasts; no ticks: none
   int fixed_moves;
-  double scale;           // of the moving body
-  nsvcd__leg moving;      // as the fixed body sees it; where that moves, in the world, and so is
-  nsvcd__leg fixed;       // the fixed body's own
-  nsvcd__d3 from, moved;  // from the fixed body's origin to the moving one's, and how it changes; in the same axes
-  nsvcd__d3 lift;         // what is added to that as the fixed body sees it
-  nsvcd__d3 axis;         // of the turn, unit, if the fixed body does not turn
+  double scale;       // of the moving body
+  nsvcd__leg moving;  // as the fixed body sees it; where that moves, in the world, and so is
+  nsvcd__leg fixed;   // the fixed body's own
+  // from the fixed body's origin to the moving one's, and how it changes; in the same axes
+  nsvcd__d3 from, moved;
+  nsvcd__d3 lift;  // what is added to that as the fixed body sees it
+  nsvcd__d3 axis;  // of the turn, unit, if the fixed body does not turn
   int has_axis;
-  double turn, speed;    // over the arc, as the fixed body sees it: radians, and the way of the moving origin, at most
-  double bulge, drift;   // what points one metre from the moving body's origin, and that itself, leave their chord by
+  // over the arc, as the fixed body sees it: radians, and the way of the moving origin, at most
+  double turn, speed;
+  // what points one metre from the moving body's origin, and that itself, leave their chord by
+  double bulge, drift;
 } nsvcd__arc;
 
 // A pose in double: rows of the rotation.
@@ -6604,11 +7379,13 @@ typedef struct nsvcd__placement {
 typedef struct nsvcd__span {
   nsvcd__transform start, end;
   double t_start, t_end;
-  float spread, bulge;                // of any direction, as in section *broad phase*
-  float rounding, drift;              // the two parts of spread
-  nsvcd__f3 axis, way;                // unit; of the turn from start to end, and of the origin's way
-  float bulge_along_axis;             // what points at 1 m leave their chords by, along the axis
-  float drift_along_axis, drift_off_way;  // what the origin leaves its chord by: along the axis, and across the way
+  float spread, bulge;    // of any direction, as in section *broad phase*
+  float rounding, drift;  // the two parts of spread
+  // unit; of the turn from start to end, and of the origin's way
+  nsvcd__f3 axis, way;
+  float bulge_along_axis;  // what points at 1 m leave their chords by, along the axis
+  // what the origin leaves its chord by: along the axis, and across the way
+  float drift_along_axis, drift_off_way;
 } nsvcd__span;
 
 // 16 triangles of a patch, lane by lane: corners (corner, axis, lane), and their boxes.
@@ -6623,8 +7400,8 @@ typedef struct nsvcd__box {
 } nsvcd__box;
 
 typedef struct nsvcd__contact {
-  double tick;      // when
-  double distance;  // of the triangles
+  double tick;              // when
+  double distance;          // of the triangles
   nsvcd__d3 point, normal;  // the fixed body's frame; out of the fixed body
   uint32_t moving_triangle, fixed_triangle;
   uint16_t moving_patch, fixed_patch;
@@ -6662,32 +7439,34 @@ typedef struct nsvcd__proof {
   nsvcd__motion *motion;
   nsvcd__facets moving, fixed;
   // Lengths are in the fixed body's units.
-  float lengths;         // extents of both bodies
-  double tolerance;      // beyond the quanta
-  // What is asked. A contact is two triangles that come within the clearance. With `measure` each contact makes that the
-  // distance of its triangles, less this; with `first` each ends the motion so many ticks before it. So what is proven in
-  // the end holds for the rest.
+  float lengths;     // extents of both bodies
+  double tolerance;  // beyond the quanta
+  // What is asked. A contact is two triangles that come within the clearance. With `measure` each
+  // contact makes that the distance of its triangles, less this; with `first` each ends the motion
+  // so many ticks before it. So what is proven in the end holds for the rest.
   double clearance, measure, first;
   double skin;
-  int gathers;           // contacts are not taken, but gathered: those that a lift along no normal known undoes
+  // contacts are not taken, but gathered: those that a lift along no normal known undoes
+  int gathers;
   nsvcd__d3 normals[NSVCD__LIFTS];  // unit, of what the moving body touches, towards it
   size_t touch_count, normal_count;
-  double end;            // ticks: what begins then or later does not matter
-  double clipped_end;    // what that was when a segment was clipped last,
-  uint64_t clipped;      // and those that were
-  double unsure;         // ticks: when the first doubt begins, two triangles that came too near to tell
-  int lost;              // something else was left undecided: all from `settled` on
-  double settled;        // ticks
+  double end;          // ticks: what begins then or later does not matter
+  double clipped_end;  // what that was when a segment was clipped last,
+  uint64_t clipped;    // and those that were
+  // ticks: when the first doubt begins, two triangles that came too near to tell
+  double unsure;
+  int lost;        // something else was left undecided: all from `settled` on
+  double settled;  // ticks
   int has_contact;
   size_t work, limit;    // units
   int within;            // a component seems to be within the other body, but close to its surface
   nsvcd__contact found;  // if there is a contact, or WITHIN
-  nsvcd__contact doubt;   // what the first doubt is about
+  nsvcd__contact doubt;  // what the first doubt is about
   nsvcd__arc arc;        // the last one asked for
   uint64_t spans_known;  // segments
   nsvcd__span *spans;    // (S)
-  // Where the search is: in a moving group, in a pair of it and a resting one; what this one's patches meet, and in which
-  // segments.
+  // Where the search is: in a moving group, in a pair of it and a resting one; what this one's
+  // patches meet, and in which segments.
   int in_group, in_pair;
   uint32_t met;
   uint64_t met_in[NSVCD__GROUP];
@@ -6697,29 +7476,32 @@ typedef struct nsvcd__proof {
     nsvcd__item items[NSVCD__ITEMS];       // that no plane parts over their segment
     nsvcd__touch touches[NSVCD__TOUCHES];  // gathered before there are any
   } of;
-  float hull_start[3][NSVCD__LANES], hull_end[3][NSVCD__LANES], hull_rest[3][NSVCD__LANES];  // posed
-  nsvcd__f3 held;    // normal of the last plane that held,
-  uint32_t plane;    // and how many held before; 0: none
+  // posed
+  float hull_start[3][NSVCD__LANES], hull_end[3][NSVCD__LANES], hull_rest[3][NSVCD__LANES];
+  nsvcd__f3 held;  // normal of the last plane that held,
+  uint32_t plane;  // and how many held before; 0: none
   nsvcd__height heights[NSVCD__HEIGHTS], rest_heights[NSVCD__REST_HEIGHTS];
   nsvcd__block moving_block, fixed_blocks[NSVCD__WINDOW];
   nsvcd__box bounds[NSVCD__WINDOW];  // of the fixed blocks
   size_t window;                     // how many they are
-  double pair_ends[NSVCD__HALVINGS + 2];  // later ends of the parts of a span to come, for a pair, the last one first
-  double arc_ends[NSVCD__ARC_PARTS];      // the same for all pairs of an item
-  nsvcd__span span;                       // of an arc
-  nsvcd__d3 parting;   // unit normal of the plane that parted a pair last
-  size_t parts;        // of the span, that pairs asked for so far
-  size_t misses;       // looks for a witness that found none
+  // later ends of the parts of a span to come, for a pair, the last one first
+  double pair_ends[NSVCD__HALVINGS + 2];
+  double arc_ends[NSVCD__ARC_PARTS];  // the same for all pairs of an item
+  nsvcd__span span;                   // of an arc
+  nsvcd__d3 parting;                  // unit normal of the plane that parted a pair last
+  size_t parts;                       // of the span, that pairs asked for so far
+  size_t misses;                      // looks for a witness that found none
   nsvcd__placed placed[NSVCD__PLACED];
   size_t next_placed;
   float posed[2][3][3][NSVCD__LANES];  // corners of the moving block at the ends of a span
   uint32_t crossed[NSVCD__CROSSED];    // triangles
 } nsvcd__proof;
 
-// Tests hear of every certificate: kind, patches, listings (or NSVCD_NONE), times, and the plane's normal (3), fixed
-// body's frame, which points to the moving side.
+// Tests hear of every certificate: kind, patches, listings (or NSVCD_NONE), times, and the plane's
+// normal (3), fixed body's frame, which points to the moving side.
 #ifndef NSVCD__CERTIFY
-#define NSVCD__CERTIFY(kind, moving, fixed, moving_listing, fixed_listing, t_start, t_end, normal) ((void)0)
+#define NSVCD__CERTIFY(kind, moving, fixed, moving_listing, fixed_listing, t_start, t_end, normal) \
+  ((void)0)
 #else
 #define NSVCD__CERTIFIES
 #endif
@@ -6746,13 +7528,17 @@ static void nsvcd__conjugate_times(const double *a, const double *b, double *out
 }
 
 static void nsvcd__rows_of(const double *q, nsvcd__d3 *rows) {  // q unit
-  const double x = q[0], y = q[1], z = q[2], w = q[3];
+  const double x = q[0];
+  const double y = q[1];
+  const double z = q[2];
+  const double w = q[3];
   rows[0] = nsvcd__d3_of(1 - 2 * (y * y + z * z), 2 * (x * y - z * w), 2 * (x * z + y * w));
   rows[1] = nsvcd__d3_of(2 * (x * y + z * w), 1 - 2 * (x * x + z * z), 2 * (y * z - x * w));
   rows[2] = nsvcd__d3_of(2 * (x * z - y * w), 2 * (y * z + x * w), 1 - 2 * (x * x + y * y));
 }
 static nsvcd__d3 nsvcd__rotate(const nsvcd__d3 *rows, nsvcd__d3 a) {
-  return nsvcd__d3_of(nsvcd__d3_dot(rows[0], a), nsvcd__d3_dot(rows[1], a), nsvcd__d3_dot(rows[2], a));
+  return nsvcd__d3_of(nsvcd__d3_dot(rows[0], a), nsvcd__d3_dot(rows[1], a),
+                      nsvcd__d3_dot(rows[2], a));
 }
 static nsvcd__d3 nsvcd__rotate_back(const nsvcd__d3 *rows, nsvcd__d3 a) {
   const nsvcd__d3 sum = nsvcd__d3_add(nsvcd__d3_scale(rows[0], a.x), nsvcd__d3_scale(rows[1], a.y));
@@ -6771,7 +7557,8 @@ static double nsvcd__turn_weights(double half_angle, double u, double *after) {
 
 // The rotation a share u in [0,1] of the arc later than its start; q unit.
 static void nsvcd__leg_at(const nsvcd__leg *leg, double u, double *q) {
-  double after, square = 0;
+  double after;
+  double square = 0;
   const double before = nsvcd__turn_weights(leg->half_angle, leg->from + leg->share * u, &after);
   for (size_t k = 0; k < 4; k++) {
     q[k] = before * leg->start[k] + after * leg->end[k];
@@ -6782,8 +7569,8 @@ static void nsvcd__leg_at(const nsvcd__leg *leg, double u, double *q) {
 }
 
 // A track's leg of an arc, and its positions at both ends of it, metres.
-static void nsvcd__leg_init(const nsvcd__track *track, uint32_t first, uint32_t ticks, nsvcd__leg *leg,
-                            nsvcd__d3 *ends) {
+static void nsvcd__leg_init(const nsvcd__track *track, uint32_t first, uint32_t ticks,
+                            nsvcd__leg *leg, nsvcd__d3 *ends) {
   if (track->count == 1) {
     nsvcd__unit_quaternion(track->poses->rotation, leg->start);
     memcpy(leg->end, leg->start, sizeof leg->end);
@@ -6806,7 +7593,8 @@ static void nsvcd__leg_init(const nsvcd__track *track, uint32_t first, uint32_t 
   ends[1] = nsvcd__d3_add(start, nsvcd__d3_scale(way, leg->from + leg->share));
 
   const double sign = nsvcd__is_opposed(a->rotation, b->rotation) ? -1 : 1;
-  double apart = 0, together = 0;
+  double apart = 0;
+  double together = 0;
   nsvcd__unit_quaternion(a->rotation, leg->start);
   nsvcd__unit_quaternion(b->rotation, leg->end);
   for (size_t i = 0; i < 4; i++) {
@@ -6821,7 +7609,8 @@ static void nsvcd__leg_init(const nsvcd__track *track, uint32_t first, uint32_t 
 static nsvcd__d3 nsvcd__leg_turn(const nsvcd__leg *leg) {
   const nsvcd__d3 u = nsvcd__d3_of(leg->start[0], leg->start[1], leg->start[2]);
   const nsvcd__d3 v = nsvcd__d3_of(leg->end[0], leg->end[1], leg->end[2]);
-  const nsvcd__d3 difference = nsvcd__d3_sub(nsvcd__d3_scale(v, leg->start[3]), nsvcd__d3_scale(u, leg->end[3]));
+  const nsvcd__d3 difference =
+      nsvcd__d3_sub(nsvcd__d3_scale(v, leg->start[3]), nsvcd__d3_scale(u, leg->end[3]));
   const nsvcd__d3 across = nsvcd__d3_add(difference, nsvcd__d3_cross(u, v));
   const double sine = nsvcd__d3_length(across);
   return nsvcd__d3_scale(across, sine > 0 ? 2 * leg->half_angle * leg->share / sine : 0);
@@ -6866,8 +7655,9 @@ static const nsvcd__arc *nsvcd__arc_at(nsvcd__proof *p, uint32_t first) {
   nsvcd__leg_init(&motion->moving, first, ticks, &arc->moving, ends);
   nsvcd__leg_init(&motion->fixed, first, ticks, &arc->fixed, fixed_ends);
   arc->from = nsvcd__d3_scale(nsvcd__d3_sub(ends[0], fixed_ends[0]), per_metre);
-  arc->moved = nsvcd__d3_scale(nsvcd__d3_sub(nsvcd__d3_sub(ends[1], fixed_ends[1]), nsvcd__d3_sub(ends[0], fixed_ends[0])),
-                               per_metre);
+  arc->moved = nsvcd__d3_scale(
+      nsvcd__d3_sub(nsvcd__d3_sub(ends[1], fixed_ends[1]), nsvcd__d3_sub(ends[0], fixed_ends[0])),
+      per_metre);
   if (arc->fixed_moves) {
     nsvcd__arc_bend(arc);
     return arc;
@@ -6892,8 +7682,8 @@ static const nsvcd__arc *nsvcd__arc_at(nsvcd__proof *p, uint32_t first) {
   return arc;
 }
 
-// The true pose, seen from the fixed body, a share u in [0,1] of the arc later than its start. Rows are those of the
-// rotation times the moving body's scale.
+// The true pose, seen from the fixed body, a share u in [0,1] of the arc later than its start. Rows
+// are those of the rotation times the moving body's scale.
 static nsvcd__placement nsvcd__placement_at(const nsvcd__arc *arc, double u) {
   double q[4];
   nsvcd__placement at;
@@ -6914,8 +7704,8 @@ static nsvcd__placement nsvcd__placement_at(const nsvcd__arc *arc, double u) {
   return at;
 }
 
-// The same, of the arc last asked for, remembered: pairs of triangles ask for the same poses again. The last two that were
-// asked for stay where they are.
+// The same, of the arc last asked for, remembered: pairs of triangles ask for the same poses again.
+// The last two that were asked for stay where they are.
 static const nsvcd__placement *nsvcd__placed_at(nsvcd__proof *p, double u) {
   size_t n = 0;
   const nsvcd__arc *arc = &p->arc;
@@ -6948,14 +7738,17 @@ static nsvcd__transform nsvcd__transform_of(const nsvcd__placement *at) {
 // ---- spans
 
 // The time at which so many ticks have gone by.
-static double nsvcd__time_of(const nsvcd__proof *p, double ticks) { return ticks / (double)p->motion->ticks; }
+static double nsvcd__time_of(const nsvcd__proof *p, double ticks) {
+  return ticks / (double)p->motion->ticks;
+}
 
 // The time a share u of the arc last asked for later than its start.
 static double nsvcd__time_in_arc(const nsvcd__proof *p, double u) {
   return nsvcd__time_of(p, (double)p->arc.first + u * (double)p->arc.ticks);
 }
 
-static nsvcd__span nsvcd__span_of_segment(const nsvcd__motion *motion, const nsvcd__workspace *work, size_t s) {
+static nsvcd__span nsvcd__span_of_segment(const nsvcd__motion *motion, const nsvcd__workspace *work,
+                                          size_t s) {
   const nsvcd__segments *block = &work->blocks[s / NSVCD__LANES];
   const size_t l = s % NSVCD__LANES;
   nsvcd__span span;
@@ -6963,7 +7756,8 @@ static nsvcd__span nsvcd__span_of_segment(const nsvcd__motion *motion, const nsv
     span.start.rotation[i] = block->rotation[i][l];
     span.end.rotation[i] = block->rotation[i][l] + block->turned[i][l];
   }
-  span.start.position = nsvcd__f3_of(block->position[0][l], block->position[1][l], block->position[2][l]);
+  span.start.position =
+      nsvcd__f3_of(block->position[0][l], block->position[1][l], block->position[2][l]);
   const nsvcd__f3 moved = nsvcd__f3_of(block->moved[0][l], block->moved[1][l], block->moved[2][l]);
   span.end.position = nsvcd__f3_add(span.start.position, moved);
   span.spread = block->rounding[l] + block->drift[l];
@@ -6981,7 +7775,8 @@ static nsvcd__span nsvcd__span_of_segment(const nsvcd__motion *motion, const nsv
 }
 
 // Kept once it has been made.
-static const nsvcd__span *nsvcd__segment_span(nsvcd__proof *p, const nsvcd__workspace *work, size_t s) {
+static const nsvcd__span *nsvcd__segment_span(nsvcd__proof *p, const nsvcd__workspace *work,
+                                              size_t s) {
   if (!(p->spans_known >> s & 1)) {
     p->spans[s] = nsvcd__span_of_segment(p->motion, work, s);
     p->spans[s].t_end = fmin(p->spans[s].t_end, nsvcd__time_of(p, p->end));
@@ -7013,9 +7808,10 @@ static nsvcd__span nsvcd__span_of_arc(nsvcd__proof *p, uint32_t first, double u0
   return span;
 }
 
-// What the points of the moving body, none farther than `reach` from its origin, leave their chords by along a direction
-// n, |n| <= 1, but for rounding. With D the difference between the true rotation and the chord's at some time, and d that
-// of the positions, a point x is off by n.(D x + d). Split n into its parts along the axis and across it: then
+// What the points of the moving body, none farther than `reach` from its origin, leave their chords
+// by along a direction n, |n| <= 1, but for rounding. With D the difference between the true
+// rotation and the chord's at some time, and d that of the positions, a point x is off by n.(D x +
+// d). Split n into its parts along the axis and across it: then
 //   |n.D x| <= (|n.axis| |D^T axis| + |n x axis| |D|) |x|
 // and |n.d| is bounded in the same way, or with the way of the origin in place of the axis.
 static float nsvcd__deviation(const nsvcd__span *span, nsvcd__f3 n, float reach) {
@@ -7069,9 +7865,12 @@ NSVCD__INLINE nsvcd__v nsvcd__v_deviation(const nsvcd__v_span *span, nsvcd__v3 n
   const nsvcd__v across = nsvcd__v3_length(nsvcd__v3_cross(n, span->axis));
   const nsvcd__v along_way = nsvcd__v_max(dot_way, nsvcd__v_negate(dot_way));
   const nsvcd__v across_way = nsvcd__v3_length(nsvcd__v3_cross(n, span->way));
-  const nsvcd__v by_axis = nsvcd__v_fma(along, span->drift_along_axis, nsvcd__v_mul(across, span->drift));
-  const nsvcd__v by_way = nsvcd__v_fma(along_way, span->drift, nsvcd__v_mul(across_way, span->drift_off_way));
-  const nsvcd__v turn = nsvcd__v_fma(along, span->bulge_along_axis, nsvcd__v_mul(across, span->bulge));
+  const nsvcd__v by_axis =
+      nsvcd__v_fma(along, span->drift_along_axis, nsvcd__v_mul(across, span->drift));
+  const nsvcd__v by_way =
+      nsvcd__v_fma(along_way, span->drift, nsvcd__v_mul(across_way, span->drift_off_way));
+  const nsvcd__v turn =
+      nsvcd__v_fma(along, span->bulge_along_axis, nsvcd__v_mul(across, span->bulge));
   return nsvcd__v_fma(turn, nsvcd__v_set(reach), nsvcd__v_min(by_axis, by_way));
 }
 
@@ -7083,9 +7882,11 @@ static float nsvcd__quanta_of(const nsvcd__proof *p, size_t i, size_t j) {
   return p->motion->scale * p->moving.quanta[i] + p->fixed.quanta[j];
 }
 
-// No point of the patch's pieces is farther from the body's origin; in the body's own units, as bulges have it.
+// No point of the patch's pieces is farther from the body's origin; in the body's own units, as
+// bulges have it.
 static float nsvcd__patch_reach(const nsvcd__facets *f, size_t patch) {
-  return 1.000001f * (nsvcd__f3_length(nsvcd__facet_centre(f, patch)) + nsvcd__body_r(f->body)[patch]);
+  return 1.000001f *
+         (nsvcd__f3_length(nsvcd__facet_centre(f, patch)) + nsvcd__body_r(f->body)[patch]);
 }
 
 // ---- discs
@@ -7095,13 +7896,16 @@ typedef struct nsvcd__reach_along {
   nsvcd__v low, high;
 } nsvcd__reach_along;
 
-// A disc along a direction: `along` is the direction's part along the disc's normal, `across` its length across that.
-NSVCD__INLINE nsvcd__reach_along nsvcd__disc_along(nsvcd__v low, nsvcd__v high, nsvcd__v radius_across, nsvcd__v along,
+// A disc along a direction: `along` is the direction's part along the disc's normal, `across` its
+// length across that.
+NSVCD__INLINE nsvcd__reach_along nsvcd__disc_along(nsvcd__v low, nsvcd__v high,
+                                                   nsvcd__v radius_across, nsvcd__v along,
                                                    nsvcd__v across) {
   const nsvcd__v a = nsvcd__v_mul(low, along);
   const nsvcd__v b = nsvcd__v_mul(high, along);
   const nsvcd__v side = nsvcd__v_mul(radius_across, across);
-  const nsvcd__reach_along out = {nsvcd__v_sub(nsvcd__v_min(a, b), side), nsvcd__v_add(nsvcd__v_max(a, b), side)};
+  const nsvcd__reach_along out = {nsvcd__v_sub(nsvcd__v_min(a, b), side),
+                                  nsvcd__v_add(nsvcd__v_max(a, b), side)};
   return out;
 }
 
@@ -7124,7 +7928,8 @@ typedef struct nsvcd__approach {
   const float *discs;           // and their discs, in the moving body's units (6, stride)
   size_t stride;
   float scale, per_scale;  // of the moving body
-  float reach;             // no point of the group is farther from the body's origin, in its body's units
+  // no point of the group is farther from the body's origin, in its body's units
+  float reach;
   float clearance;
 } nsvcd__approach;
 
@@ -7139,11 +7944,14 @@ NSVCD__INLINE nsvcd__v_approach nsvcd__v_approach_load(const nsvcd__approach *a,
   const nsvcd__chords *c = a->chords;
   const float *d = a->discs + l;
   const size_t stride = a->stride;
-  const nsvcd__v3 start = nsvcd__v3_of(nsvcd__v_load(c->x + l), nsvcd__v_load(c->y + l), nsvcd__v_load(c->z + l));
+  const nsvcd__v3 start =
+      nsvcd__v3_of(nsvcd__v_load(c->x + l), nsvcd__v_load(c->y + l), nsvcd__v_load(c->z + l));
   nsvcd__v_approach out;
   out.from = nsvcd__v3_sub(start, nsvcd__v3_set(a->centre));
-  out.chord = nsvcd__v3_of(nsvcd__v_load(c->vx + l), nsvcd__v_load(c->vy + l), nsvcd__v_load(c->vz + l));
-  out.normal = nsvcd__v3_of(nsvcd__v_load(d), nsvcd__v_load(d + stride), nsvcd__v_load(d + 2 * stride));
+  out.chord =
+      nsvcd__v3_of(nsvcd__v_load(c->vx + l), nsvcd__v_load(c->vy + l), nsvcd__v_load(c->vz + l));
+  out.normal =
+      nsvcd__v3_of(nsvcd__v_load(d), nsvcd__v_load(d + stride), nsvcd__v_load(d + 2 * stride));
   out.low = nsvcd__v_load(d + 3 * stride);
   out.high = nsvcd__v_load(d + 4 * stride);
   out.across = nsvcd__v_load(d + 5 * stride);
@@ -7151,28 +7959,32 @@ NSVCD__INLINE nsvcd__v_approach nsvcd__v_approach_load(const nsvcd__approach *a,
 }
 
 #ifdef NSVCD__CERTIFIES
-// Lanes `apart` of a slice, their planes normal to `plane`. In lanes `below` the moving side is on the other side.
-static void nsvcd__certify_discs(const nsvcd__approach *a, const nsvcd__span *span, size_t l, uint32_t apart,
-                                 uint32_t below, nsvcd__v3 plane) {
+// Lanes `apart` of a slice, their planes normal to `plane`. In lanes `below` the moving side is on
+// the other side.
+static void nsvcd__certify_discs(const nsvcd__approach *a, const nsvcd__span *span, size_t l,
+                                 uint32_t apart, uint32_t below, nsvcd__v3 plane) {
   float lanes[3][NSVCD__LANES];
   nsvcd__v3_store(lanes, l, plane);
   for (size_t k = 0; k < NSVCD__SLICE; k++) {
     const float sign = below >> k & 1 ? -1.0f : 1.0f;
-    const float normal[3] = {sign * lanes[0][l + k], sign * lanes[1][l + k], sign * lanes[2][l + k]};
+    const float normal[3] = {sign * lanes[0][l + k], sign * lanes[1][l + k],
+                             sign * lanes[2][l + k]};
     if (apart >> k & 1) {
-      NSVCD__CERTIFY(NSVCD__BY_DISC, NSVCD__GROUP * a->group + l + k, a->patch, NSVCD_NONE, NSVCD_NONE, span->t_start,
-                     span->t_end, normal);
+      NSVCD__CERTIFY(NSVCD__BY_DISC, NSVCD__GROUP * a->group + l + k, a->patch, NSVCD_NONE,
+                     NSVCD_NONE, span->t_start, span->t_end, normal);
     }
   }
 }
-#define NSVCD__CERTIFY_DISCS(a, span, l, apart, below, plane) nsvcd__certify_discs(a, span, l, apart, below, plane)
+#define NSVCD__CERTIFY_DISCS(a, span, l, apart, below, plane) \
+  nsvcd__certify_discs(a, span, l, apart, below, plane)
 #else
 #define NSVCD__CERTIFY_DISCS(a, span, l, apart, below, plane) ((void)0)
 #endif
 
-// Lanes of `met` that the plane normal to the resting disc parts: on the side of its normal, or on the other (`below`).
-static uint32_t nsvcd__apart_by_fixed_disc(const nsvcd__approach *a, const nsvcd__span *span, nsvcd__f3 normal,
-                                           float low, float high, uint32_t met) {
+// Lanes of `met` that the plane normal to the resting disc parts: on the side of its normal, or on
+// the other (`below`).
+static uint32_t nsvcd__apart_by_fixed_disc(const nsvcd__approach *a, const nsvcd__span *span,
+                                           nsvcd__f3 normal, float low, float high, uint32_t met) {
   const nsvcd__f3 normal_at_start = nsvcd__f3_rotate_back(span->start.rotation, normal);
   const nsvcd__f3 normal_at_end = nsvcd__f3_rotate_back(span->end.rotation, normal);
   const float deviation = a->clearance + span->rounding + nsvcd__deviation(span, normal, a->reach);
@@ -7186,15 +7998,17 @@ static uint32_t nsvcd__apart_by_fixed_disc(const nsvcd__approach *a, const nsvcd
     const nsvcd__v3 at_end = nsvcd__v3_set(normal_at_end);
     const nsvcd__v side_start = nsvcd__v3_length(nsvcd__v3_cross(at_start, seen.normal));
     const nsvcd__v side_end = nsvcd__v3_length(nsvcd__v3_cross(at_end, seen.normal));
-    const nsvcd__reach_along start =
-        nsvcd__disc_along(seen.low, seen.high, seen.across, nsvcd__v3_dot(at_start, seen.normal), side_start);
-    const nsvcd__reach_along end =
-        nsvcd__disc_along(seen.low, seen.high, seen.across, nsvcd__v3_dot(at_end, seen.normal), side_end);
+    const nsvcd__reach_along start = nsvcd__disc_along(
+        seen.low, seen.high, seen.across, nsvcd__v3_dot(at_start, seen.normal), side_start);
+    const nsvcd__reach_along end = nsvcd__disc_along(seen.low, seen.high, seen.across,
+                                                     nsvcd__v3_dot(at_end, seen.normal), side_end);
 
     const nsvcd__v height = nsvcd__v3_dot(n, seen.from);
     const nsvcd__v height_end = nsvcd__v_add(height, nsvcd__v3_dot(n, seen.chord));
-    const nsvcd__v lowest = nsvcd__v_min(nsvcd__v_add(height, start.low), nsvcd__v_add(height_end, end.low));
-    const nsvcd__v highest = nsvcd__v_max(nsvcd__v_add(height, start.high), nsvcd__v_add(height_end, end.high));
+    const nsvcd__v lowest =
+        nsvcd__v_min(nsvcd__v_add(height, start.low), nsvcd__v_add(height_end, end.low));
+    const nsvcd__v highest =
+        nsvcd__v_max(nsvcd__v_add(height, start.high), nsvcd__v_add(height_end, end.high));
     const uint32_t below = nsvcd__v_lt(highest, nsvcd__v_set(low - deviation));
     const uint32_t above = nsvcd__v_lt(nsvcd__v_set(high + deviation), lowest);
     const uint32_t parted = (above | below) & wanted;
@@ -7204,10 +8018,12 @@ static uint32_t nsvcd__apart_by_fixed_disc(const nsvcd__approach *a, const nsvcd
   return apart;
 }
 
-// The same with the plane normal to the mean w of the moving disc's normals m0 and m1 at both ends. |w| <= 1. These
-// normals make the same angle with w: along it they are |w|^2, across it no more than half of what they differ by.
-static uint32_t nsvcd__apart_by_moving_disc(const nsvcd__approach *a, const nsvcd__span *span, nsvcd__f3 normal,
-                                            float low, float high, float across, uint32_t met) {
+// The same with the plane normal to the mean w of the moving disc's normals m0 and m1 at both ends.
+// |w| <= 1. These normals make the same angle with w: along it they are |w|^2, across it no more
+// than half of what they differ by.
+static uint32_t nsvcd__apart_by_moving_disc(const nsvcd__approach *a, const nsvcd__span *span,
+                                            nsvcd__f3 normal, float low, float high, float across,
+                                            uint32_t met) {
   const float half = 0.5f * a->per_scale;  // rotations in a span are times the scale
   uint32_t apart = 0;
   nsvcd__transform middle, half_turn;
@@ -7224,10 +8040,12 @@ static uint32_t nsvcd__apart_by_moving_disc(const nsvcd__approach *a, const nsvc
     const nsvcd__v3 w = nsvcd__v3_transform(&middle, seen.normal);
     const nsvcd__v3 n = nsvcd__v3_set(normal);
     const nsvcd__v turned = nsvcd__v3_length(nsvcd__v3_transform(&half_turn, seen.normal));
-    const nsvcd__reach_along moving = nsvcd__disc_along(
-        seen.low, seen.high, seen.across, nsvcd__v_mul(scale, nsvcd__v3_dot(w, w)), nsvcd__v_mul(scale, turned));
-    const nsvcd__reach_along fixed = nsvcd__disc_along(nsvcd__v_set(low), nsvcd__v_set(high), nsvcd__v_set(across),
-                                                       nsvcd__v3_dot(w, n), nsvcd__v3_length(nsvcd__v3_cross(w, n)));
+    const nsvcd__reach_along moving =
+        nsvcd__disc_along(seen.low, seen.high, seen.across,
+                          nsvcd__v_mul(scale, nsvcd__v3_dot(w, w)), nsvcd__v_mul(scale, turned));
+    const nsvcd__reach_along fixed =
+        nsvcd__disc_along(nsvcd__v_set(low), nsvcd__v_set(high), nsvcd__v_set(across),
+                          nsvcd__v3_dot(w, n), nsvcd__v3_length(nsvcd__v3_cross(w, n)));
 
     const nsvcd__v height = nsvcd__v3_dot(w, seen.from);
     const nsvcd__v height_end = nsvcd__v_add(height, nsvcd__v3_dot(w, seen.chord));
@@ -7245,13 +8063,16 @@ static uint32_t nsvcd__apart_by_moving_disc(const nsvcd__approach *a, const nsvc
   return apart;
 }
 
-// Of the lanes `met` of moving group g in a segment, those that discs do not part from resting patch j.
+// Of the lanes `met` of moving group g in a segment, those that discs do not part from resting
+// patch j.
 static uint32_t nsvcd__discs_meet(const nsvcd__proof *p, const nsvcd__chords *c, size_t g, size_t j,
                                   const nsvcd__span *span, float reach, uint32_t met) {
   const size_t fixed_padded = p->fixed.body->padded;
   const float *f = p->fixed.discs + j;
   const nsvcd__f3 normal = nsvcd__f3_of(f[0], f[fixed_padded], f[2 * fixed_padded]);
-  const float low = f[3 * fixed_padded], high = f[4 * fixed_padded], across = f[5 * fixed_padded];
+  const float low = f[3 * fixed_padded];
+  const float high = f[4 * fixed_padded];
+  const float across = f[5 * fixed_padded];
   nsvcd__approach a;
   a.group = g;
   a.patch = j;
@@ -7288,14 +8109,17 @@ static nsvcd__disc nsvcd__disc_at(const float *discs, size_t stride, size_t i) {
   return out;
 }
 
-NSVCD__INLINE nsvcd__reach_along nsvcd__one_disc_along(const nsvcd__disc *disc, nsvcd__v along, nsvcd__v across) {
-  return nsvcd__disc_along(nsvcd__v_set(disc->low), nsvcd__v_set(disc->high), nsvcd__v_set(disc->across), along, across);
+NSVCD__INLINE nsvcd__reach_along nsvcd__one_disc_along(const nsvcd__disc *disc, nsvcd__v along,
+                                                       nsvcd__v across) {
+  return nsvcd__disc_along(nsvcd__v_set(disc->low), nsvcd__v_set(disc->high),
+                           nsvcd__v_set(disc->across), along, across);
 }
 
 // A slice of 16 matrices, (9, LANES), times one vector; and back.
 NSVCD__INLINE nsvcd__v3 nsvcd__v3_turned(float (*m)[NSVCD__LANES], size_t l, nsvcd__f3 a) {
   const nsvcd__v3 v = nsvcd__v3_set(a);
-  return nsvcd__v3_of(nsvcd__v3_dot(nsvcd__v3_load(m, l), v), nsvcd__v3_dot(nsvcd__v3_load(m + 3, l), v),
+  return nsvcd__v3_of(nsvcd__v3_dot(nsvcd__v3_load(m, l), v),
+                      nsvcd__v3_dot(nsvcd__v3_load(m + 3, l), v),
                       nsvcd__v3_dot(nsvcd__v3_load(m + 6, l), v));
 }
 NSVCD__INLINE nsvcd__v3 nsvcd__v3_turned_back(float (*m)[NSVCD__LANES], size_t l, nsvcd__f3 a) {
@@ -7304,38 +8128,51 @@ NSVCD__INLINE nsvcd__v3 nsvcd__v3_turned_back(float (*m)[NSVCD__LANES], size_t l
                        nsvcd__v3_fma(nsvcd__v_set(a.y), nsvcd__v3_load(m + 3, l), sum));
 }
 
-// Segments of a slice of a block in which discs part a moving group from a resting one. The planes are those of single
-// discs, nsvcd__apart_by_fixed_disc and nsvcd__apart_by_moving_disc, with all in lanes but the discs.
-static uint32_t nsvcd__groups_apart(nsvcd__segments *block, const nsvcd__chords *c, size_t l, const nsvcd__disc *moving,
-                                    const nsvcd__disc *fixed, nsvcd__f3 fixed_centre, float scale, float reach,
+// Segments of a slice of a block in which discs part a moving group from a resting one. The planes
+// are those of single discs, nsvcd__apart_by_fixed_disc and nsvcd__apart_by_moving_disc, with all
+// in lanes but the discs.
+static uint32_t nsvcd__groups_apart(nsvcd__segments *block, const nsvcd__chords *c, size_t l,
+                                    const nsvcd__disc *moving, const nsvcd__disc *fixed,
+                                    nsvcd__f3 fixed_centre, float scale, float reach,
                                     float clearance, nsvcd__v3 *planes, uint32_t *below) {
   const nsvcd__v_span spans = nsvcd__v_span_load(block, l);
   const nsvcd__v allowed = nsvcd__v_add(spans.rounding, nsvcd__v_set(clearance));
   const nsvcd__v3 n = nsvcd__v3_set(fixed->normal);
   const nsvcd__v3 m = nsvcd__v3_set(moving->normal);
-  const nsvcd__v3 centre = nsvcd__v3_of(nsvcd__v_load(c->x + l), nsvcd__v_load(c->y + l), nsvcd__v_load(c->z + l));
+  const nsvcd__v3 centre =
+      nsvcd__v3_of(nsvcd__v_load(c->x + l), nsvcd__v_load(c->y + l), nsvcd__v_load(c->z + l));
   const nsvcd__v3 from = nsvcd__v3_sub(centre, nsvcd__v3_set(fixed_centre));
-  const nsvcd__v3 chord = nsvcd__v3_of(nsvcd__v_load(c->vx + l), nsvcd__v_load(c->vy + l), nsvcd__v_load(c->vz + l));
+  const nsvcd__v3 chord =
+      nsvcd__v3_of(nsvcd__v_load(c->vx + l), nsvcd__v_load(c->vy + l), nsvcd__v_load(c->vz + l));
 
   const nsvcd__v3 at_start = nsvcd__v3_turned_back(block->rotation, l, fixed->normal);
-  const nsvcd__v3 at_end = nsvcd__v3_add(at_start, nsvcd__v3_turned_back(block->turned, l, fixed->normal));
-  const nsvcd__reach_along start = nsvcd__one_disc_along(moving, nsvcd__v3_dot(at_start, m),
-                                                         nsvcd__v3_length(nsvcd__v3_cross(at_start, m)));
-  const nsvcd__reach_along end =
-      nsvcd__one_disc_along(moving, nsvcd__v3_dot(at_end, m), nsvcd__v3_length(nsvcd__v3_cross(at_end, m)));
+  const nsvcd__v3 at_end =
+      nsvcd__v3_add(at_start, nsvcd__v3_turned_back(block->turned, l, fixed->normal));
+  const nsvcd__reach_along start = nsvcd__one_disc_along(
+      moving, nsvcd__v3_dot(at_start, m), nsvcd__v3_length(nsvcd__v3_cross(at_start, m)));
+  const nsvcd__reach_along end = nsvcd__one_disc_along(
+      moving, nsvcd__v3_dot(at_end, m), nsvcd__v3_length(nsvcd__v3_cross(at_end, m)));
   const nsvcd__v height = nsvcd__v3_dot(n, from);
   const nsvcd__v height_end = nsvcd__v_add(height, nsvcd__v3_dot(n, chord));
-  const nsvcd__v lowest = nsvcd__v_min(nsvcd__v_add(height, start.low), nsvcd__v_add(height_end, end.low));
-  const nsvcd__v highest = nsvcd__v_max(nsvcd__v_add(height, start.high), nsvcd__v_add(height_end, end.high));
+  const nsvcd__v lowest =
+      nsvcd__v_min(nsvcd__v_add(height, start.low), nsvcd__v_add(height_end, end.low));
+  const nsvcd__v highest =
+      nsvcd__v_max(nsvcd__v_add(height, start.high), nsvcd__v_add(height_end, end.high));
   const nsvcd__v deviation = nsvcd__v_add(allowed, nsvcd__v_deviation(&spans, n, reach));
   below[0] = nsvcd__v_lt(highest, nsvcd__v_sub(nsvcd__v_set(fixed->low), deviation));
-  const uint32_t by_fixed = nsvcd__v_lt(nsvcd__v_add(nsvcd__v_set(fixed->high), deviation), lowest) | below[0];
+  const uint32_t by_fixed =
+      nsvcd__v_lt(nsvcd__v_add(nsvcd__v_set(fixed->high), deviation), lowest) | below[0];
 
-  const nsvcd__v half = nsvcd__v_set(0.5f / scale), whole = nsvcd__v_set(1 / scale), size = nsvcd__v_set(scale);
-  const nsvcd__v3 turned = nsvcd__v3_scale(nsvcd__v3_turned(block->turned, l, moving->normal), half);
-  const nsvcd__v3 w = nsvcd__v3_fma(whole, nsvcd__v3_turned(block->rotation, l, moving->normal), turned);
-  const nsvcd__reach_along own = nsvcd__one_disc_along(moving, nsvcd__v_mul(size, nsvcd__v3_dot(w, w)),
-                                                       nsvcd__v_mul(size, nsvcd__v3_length(turned)));
+  const nsvcd__v half = nsvcd__v_set(0.5f / scale);
+  const nsvcd__v whole = nsvcd__v_set(1 / scale);
+  const nsvcd__v size = nsvcd__v_set(scale);
+  const nsvcd__v3 turned =
+      nsvcd__v3_scale(nsvcd__v3_turned(block->turned, l, moving->normal), half);
+  const nsvcd__v3 w =
+      nsvcd__v3_fma(whole, nsvcd__v3_turned(block->rotation, l, moving->normal), turned);
+  const nsvcd__reach_along own =
+      nsvcd__one_disc_along(moving, nsvcd__v_mul(size, nsvcd__v3_dot(w, w)),
+                            nsvcd__v_mul(size, nsvcd__v3_length(turned)));
   const nsvcd__reach_along other =
       nsvcd__one_disc_along(fixed, nsvcd__v3_dot(w, n), nsvcd__v3_length(nsvcd__v3_cross(w, n)));
   const nsvcd__v along = nsvcd__v3_dot(w, from);
@@ -7352,21 +8189,26 @@ static uint32_t nsvcd__groups_apart(nsvcd__segments *block, const nsvcd__chords 
 }
 
 #ifdef NSVCD__CERTIFIES
-// All pairs of members of two groups, in the segments `apart` of a slice that begins with segment `first`.
-static void nsvcd__certify_groups(const nsvcd__proof *p, const nsvcd__workspace *work, size_t first, size_t g, size_t h,
-                                  uint32_t apart, const nsvcd__v3 *planes, const uint32_t *below) {
+// All pairs of members of two groups, in the segments `apart` of a slice that begins with segment
+// `first`.
+static void nsvcd__certify_groups(const nsvcd__proof *p, const nsvcd__workspace *work, size_t first,
+                                  size_t g, size_t h, uint32_t apart, const nsvcd__v3 *planes,
+                                  const uint32_t *below) {
   float lanes[2][3][NSVCD__LANES];
   for (size_t k = 0; k < 2; k++) nsvcd__v3_store(lanes[k], 0, planes[k]);
   for (size_t l = 0; l < NSVCD__SLICE; l++) {
     if (!(apart >> l & 1)) continue;
     const size_t which = below[2] >> l & 1 ? 0 : 1;
     const float sign = below[which] >> l & 1 ? -1.0f : 1.0f;
-    const float normal[3] = {sign * lanes[which][0][l], sign * lanes[which][1][l], sign * lanes[which][2][l]};
+    const float normal[3] = {sign * lanes[which][0][l], sign * lanes[which][1][l],
+                             sign * lanes[which][2][l]};
     const nsvcd__span span = nsvcd__span_of_segment(p->motion, work, first + l);
     for (size_t k = 0; k < NSVCD__GROUP * NSVCD__GROUP; k++) {
-      const size_t i = NSVCD__GROUP * g + k / NSVCD__GROUP, j = NSVCD__GROUP * h + k % NSVCD__GROUP;
+      const size_t i = NSVCD__GROUP * g + k / NSVCD__GROUP;
+      const size_t j = NSVCD__GROUP * h + k % NSVCD__GROUP;
       if (i >= p->moving.body->points || j >= p->fixed.body->points) continue;
-      NSVCD__CERTIFY(NSVCD__BY_DISC, i, j, NSVCD_NONE, NSVCD_NONE, span.t_start, span.t_end, normal);
+      NSVCD__CERTIFY(NSVCD__BY_DISC, i, j, NSVCD_NONE, NSVCD_NONE, span.t_start, span.t_end,
+                     normal);
     }
   }
 }
@@ -7376,10 +8218,11 @@ static void nsvcd__certify_groups(const nsvcd__proof *p, const nsvcd__workspace 
 #define NSVCD__CERTIFY_GROUPS(p, work, first, g, h, apart, planes, below) ((void)0)
 #endif
 
-// Clears the segments in which discs part moving group g from the resting ones that it meets, its chords being those in
-// the workspace.
+// Clears the segments in which discs part moving group g from the resting ones that it meets, its
+// chords being those in the workspace.
 static void nsvcd__part_groups(const nsvcd__proof *p, nsvcd__workspace *work) {
-  const nsvcd_body *moving = p->moving.body, *fixed = p->fixed.body;
+  const nsvcd_body *moving = p->moving.body;
+  const nsvcd_body *fixed = p->fixed.body;
   const size_t turn = work->order[work->step];
   const size_t g = work->moving_tile.groups[turn];
   const nsvcd__disc own =
@@ -7390,9 +8233,11 @@ static void nsvcd__part_groups(const nsvcd__proof *p, nsvcd__workspace *work) {
   for (uint32_t waiting = work->waiting; waiting; waiting &= waiting - 1) {
     const size_t at = nsvcd__lowest_bit(waiting);
     const size_t h = work->fixed_tile.groups[at];
-    const nsvcd__disc disc = nsvcd__disc_at(p->fixed.group_discs, nsvcd__group_slots(fixed->padded), h);
-    const nsvcd__f3 fixed_centre = nsvcd__f3_of(nsvcd__body_group(fixed, 0)[h], nsvcd__body_group(fixed, 1)[h],
-                                                nsvcd__body_group(fixed, 2)[h]);
+    const nsvcd__disc disc =
+        nsvcd__disc_at(p->fixed.group_discs, nsvcd__group_slots(fixed->padded), h);
+    const nsvcd__f3 fixed_centre =
+        nsvcd__f3_of(nsvcd__body_group(fixed, 0)[h], nsvcd__body_group(fixed, 1)[h],
+                     nsvcd__body_group(fixed, 2)[h]);
     uint64_t *met = &nsvcd__nearby(work, turn)[at];
     for (size_t b = 0; b < NSVCD__BLOCKS && *met >> (NSVCD__LANES * b); b++) {
       const uint32_t there = (uint32_t)(*met >> (NSVCD__LANES * b)) & 0xffff;
@@ -7404,8 +8249,8 @@ static void nsvcd__part_groups(const nsvcd__proof *p, nsvcd__workspace *work) {
         uint32_t below[3];
         if (!wanted) continue;
         const uint32_t parted =
-            nsvcd__groups_apart(&work->blocks[b], &work->group[b], l, &own, &disc, fixed_centre, work->scale, reach,
-                                nsvcd__clearance_of(p), planes, below);
+            nsvcd__groups_apart(&work->blocks[b], &work->group[b], l, &own, &disc, fixed_centre,
+                                work->scale, reach, nsvcd__clearance_of(p), planes, below);
         const uint32_t apart = wanted & parted;
         NSVCD__CERTIFY_GROUPS(p, work, NSVCD__LANES * b + l, g, h, apart, planes, below);
         *met &= ~((uint64_t)apart << (NSVCD__LANES * b + l));
@@ -7423,7 +8268,8 @@ static void nsvcd__pose_hulls(nsvcd__proof *p, size_t i, size_t j, const nsvcd__
     const nsvcd__v3 moving = nsvcd__facet_vertices(&p->moving, i, 0, p->moving.hull_counts[i], l);
     nsvcd__v3_store(p->hull_start, l, nsvcd__v3_transform(&span->start, moving));
     nsvcd__v3_store(p->hull_end, l, nsvcd__v3_transform(&span->end, moving));
-    nsvcd__v3_store(p->hull_rest, l, nsvcd__facet_vertices(&p->fixed, j, 0, p->fixed.hull_counts[j], l));
+    nsvcd__v3_store(p->hull_rest, l,
+                    nsvcd__facet_vertices(&p->fixed, j, 0, p->fixed.hull_counts[j], l));
   }
 }
 
@@ -7432,22 +8278,27 @@ static nsvcd__f3 nsvcd__lane_of(float (*lanes)[NSVCD__LANES], size_t l) {
 }
 static float nsvcd__clamp01(float x) { return x < 0 ? 0 : x < 1 ? x : 1; }
 
-// Posed hulls along a direction: how far the moving one, at both ends of the span, stays ahead of the resting one, and
-// the difference of the two vertices that say so.
+// Posed hulls along a direction: how far the moving one, at both ends of the span, stays ahead of
+// the resting one, and the difference of the two vertices that say so.
 typedef struct nsvcd__support {
   float gap;
   nsvcd__f3 difference;
 } nsvcd__support;
 
-// The lesser of the least number so far and that of a slice. What is no number stays none, and parts nothing.
+// The lesser of the least number so far and that of a slice. What is no number stays none, and
+// parts nothing.
 static inline float nsvcd__least_of(float least, float of_slice) {
   return least < of_slice || least != least ? least : of_slice;
 }
 
 NSVCD__INLINE nsvcd__support nsvcd__support_along(nsvcd__proof *p, nsvcd__f3 normal) {
-  float either[NSVCD__LANES], rest[NSVCD__LANES];  // the moving side's lower heights, and the resting side's, negated
-  float lowest = HUGE_VALF, lowest_rest = HUGE_VALF;
-  uint32_t starts = 0, least = 0, least_rest = 0;
+  // the moving side's lower heights, and the resting side's, negated
+  float either[NSVCD__LANES], rest[NSVCD__LANES];
+  float lowest = HUGE_VALF;
+  float lowest_rest = HUGE_VALF;
+  uint32_t starts = 0;
+  uint32_t least = 0;
+  uint32_t least_rest = 0;
   NSVCD__EACH_SLICE(l) {
     const nsvcd__v3 n = nsvcd__v3_set(normal);
     const nsvcd__v at_start = nsvcd__v3_dot(n, nsvcd__v3_load(p->hull_start, l));
@@ -7470,24 +8321,28 @@ NSVCD__INLINE nsvcd__support nsvcd__support_along(nsvcd__proof *p, nsvcd__f3 nor
   const size_t b = nsvcd__lowest_bit(least_rest | 0x8000);
   const int is_start = (starts >> a & 1) != 0;
   const nsvcd__f3 moving = nsvcd__lane_of(is_start ? p->hull_start : p->hull_end, a);
-  const nsvcd__support out = {lowest - highest, nsvcd__f3_sub(moving, nsvcd__lane_of(p->hull_rest, b))};
+  const nsvcd__support out = {lowest - highest,
+                              nsvcd__f3_sub(moving, nsvcd__lane_of(p->hull_rest, b))};
   return out;
 }
 
-// Directions that are worth a try before any search: that of the last plane that held, the discs' normals, and the line
-// of centres. The last one is the first of the search.
+// Directions that are worth a try before any search: that of the last plane that held, the discs'
+// normals, and the line of centres. The last one is the first of the search.
 #define NSVCD__GUESSES 4
 static void nsvcd__guess_normals(const nsvcd__proof *p, size_t i, size_t j, const nsvcd__span *span,
                                  nsvcd__f3 *guesses) {
-  const size_t moving_padded = p->moving.body->padded, fixed_padded = p->fixed.body->padded;
-  const float *m = p->moving.discs + i, *f = p->fixed.discs + j;
+  const size_t moving_padded = p->moving.body->padded;
+  const size_t fixed_padded = p->fixed.body->padded;
+  const float *m = p->moving.discs + i;
+  const float *f = p->fixed.discs + j;
   const nsvcd__f3 centre = nsvcd__facet_centre(&p->moving, i);
   const nsvcd__f3 start = nsvcd__f3_transform(&span->start, centre);
   const nsvcd__f3 end = nsvcd__f3_transform(&span->end, centre);
-  const nsvcd__f3 line =
-      nsvcd__f3_sub(nsvcd__f3_scale(nsvcd__f3_add(start, end), 0.5f), nsvcd__facet_centre(&p->fixed, j));
+  const nsvcd__f3 line = nsvcd__f3_sub(nsvcd__f3_scale(nsvcd__f3_add(start, end), 0.5f),
+                                       nsvcd__facet_centre(&p->fixed, j));
   const nsvcd__f3 own = nsvcd__f3_of(m[0], m[moving_padded], m[2 * moving_padded]);
-  const nsvcd__f3 moved = nsvcd__f3_sub(nsvcd__f3_transform(&span->start, own), span->start.position);
+  const nsvcd__f3 moved =
+      nsvcd__f3_sub(nsvcd__f3_transform(&span->start, own), span->start.position);
   const nsvcd__f3 fixed = nsvcd__f3_of(f[0], f[fixed_padded], f[2 * fixed_padded]);
   guesses[0] = p->held;
   guesses[1] = nsvcd__f3_scale(fixed, nsvcd__f3_dot(fixed, line) < 0 ? -1.0f : 1.0f);
@@ -7495,9 +8350,11 @@ static void nsvcd__guess_normals(const nsvcd__proof *p, size_t i, size_t j, cons
   guesses[3] = line;
 }
 
-// Is there a plane between two patches over the whole span? After the guesses Gilbert's iteration (1966) towards the
-// point nearest to 0 of the differences of the two hulls; each of its directions is tried. p->held is what held.
-static NSVCD__APART int nsvcd__hulls_are_apart(nsvcd__proof *p, size_t i, size_t j, const nsvcd__span *span) {
+// Is there a plane between two patches over the whole span? After the guesses Gilbert's iteration
+// (1966) towards the point nearest to 0 of the differences of the two hulls; each of its directions
+// is tried. p->held is what held.
+static NSVCD__APART int nsvcd__hulls_are_apart(nsvcd__proof *p, size_t i, size_t j,
+                                               const nsvcd__span *span) {
   const float slacks = p->motion->scale * p->moving.slacks[i] + p->fixed.slacks[j];
   const float slack = slacks + span->rounding + nsvcd__clearance_of(p);
   const float reach = nsvcd__patch_reach(&p->moving, i);
@@ -7535,7 +8392,7 @@ static NSVCD__APART int nsvcd__hulls_are_apart(nsvcd__proof *p, size_t i, size_t
 // ---- pairs of triangles, in double
 
 typedef struct nsvcd__nearest {
-  double square;       // of the distance
+  double square;  // of the distance
   nsvcd__d3 on_a, on_b;
 } nsvcd__nearest;
 
@@ -7551,14 +8408,19 @@ static void nsvcd__keep_nearer(nsvcd__nearest *best, nsvcd__d3 a, nsvcd__d3 b) {
 }
 
 // The nearest points of the edges a0 a1 and b0 b1 (Ericson 2005, 5.1.9).
-static void nsvcd__edges_nearest(nsvcd__d3 a0, nsvcd__d3 a1, nsvcd__d3 b0, nsvcd__d3 b1, nsvcd__nearest *best) {
+static void nsvcd__edges_nearest(nsvcd__d3 a0, nsvcd__d3 a1, nsvcd__d3 b0, nsvcd__d3 b1,
+                                 nsvcd__nearest *best) {
   const nsvcd__d3 u = nsvcd__d3_sub(a1, a0);
   const nsvcd__d3 v = nsvcd__d3_sub(b1, b0);
   const nsvcd__d3 w = nsvcd__d3_sub(a0, b0);
-  const double uu = nsvcd__d3_dot(u, u), vv = nsvcd__d3_dot(v, v), uv = nsvcd__d3_dot(u, v);
-  const double uw = nsvcd__d3_dot(u, w), vw = nsvcd__d3_dot(v, w);
+  const double uu = nsvcd__d3_dot(u, u);
+  const double vv = nsvcd__d3_dot(v, v);
+  const double uv = nsvcd__d3_dot(u, v);
+  const double uw = nsvcd__d3_dot(u, w);
+  const double vw = nsvcd__d3_dot(v, w);
   const double determinant = uu * vv - uv * uv;
-  double s = determinant > 1e-14 * uu * vv ? nsvcd__clamp_share((uv * vw - uw * vv) / determinant) : 0;
+  double s =
+      determinant > 1e-14 * uu * vv ? nsvcd__clamp_share((uv * vw - uw * vv) / determinant) : 0;
   const double t = vv > 0 ? nsvcd__clamp_share((uv * s + vw) / vv) : 0;
   s = uu > 0 ? nsvcd__clamp_share((uv * t - uw) / uu) : 0;
   nsvcd__keep_nearer(best, nsvcd__d3_mix(a0, a1, s), nsvcd__d3_mix(b0, b1, t));
@@ -7573,12 +8435,14 @@ static int nsvcd__foot_within(nsvcd__d3 x, const nsvcd__d3 *t, nsvcd__d3 *foot) 
   *foot = nsvcd__d3_sub(x, nsvcd__d3_scale(n, height));
   for (size_t k = 0; k < 3; k++) {
     const nsvcd__d3 edge = nsvcd__d3_sub(t[(k + 1) % 3], t[k]);
-    if (nsvcd__d3_dot(n, nsvcd__d3_cross(edge, nsvcd__d3_sub(*foot, t[k]))) < -1e-12 * square) return 0;
+    if (nsvcd__d3_dot(n, nsvcd__d3_cross(edge, nsvcd__d3_sub(*foot, t[k]))) < -1e-12 * square)
+      return 0;
   }
   return 1;
 }
 
-// Corners of one triangle above the plane of another, in units of the length of its normal, which is not made unit.
+// Corners of one triangle above the plane of another, in units of the length of its normal, which
+// is not made unit.
 typedef struct nsvcd__heights {
   nsvcd__d3 normal;
   double of[3];
@@ -7595,9 +8459,11 @@ static int nsvcd__on_one_side(const double *h) {
 }
 
 // Where an edge of a passes through b.
-static int nsvcd__edges_pass(const nsvcd__d3 *a, const nsvcd__d3 *b, const double *heights, nsvcd__d3 *point) {
+static int nsvcd__edges_pass(const nsvcd__d3 *a, const nsvcd__d3 *b, const double *heights,
+                             nsvcd__d3 *point) {
   for (size_t k = 0; k < 3; k++) {
-    const double h0 = heights[k], h1 = heights[(k + 1) % 3];
+    const double h0 = heights[k];
+    const double h1 = heights[(k + 1) % 3];
     if ((h0 > 0 && h1 > 0) || (h0 < 0 && h1 < 0) || !(fabs(h0 - h1) > 0)) continue;
     if (nsvcd__foot_within(nsvcd__d3_mix(a[k], a[(k + 1) % 3], h0 / (h0 - h1)), b, point)) return 1;
   }
@@ -7624,14 +8490,16 @@ static nsvcd__nearest nsvcd__triangles_nearest(const nsvcd__d3 *a, const nsvcd__
     return best;
   }
   for (size_t k = 0; k < 3; k++) {
-    for (size_t n = 0; n < 3; n++) nsvcd__edges_nearest(a[k], a[(k + 1) % 3], b[n], b[(n + 1) % 3], &best);
+    for (size_t n = 0; n < 3; n++)
+      nsvcd__edges_nearest(a[k], a[(k + 1) % 3], b[n], b[(n + 1) % 3], &best);
     if (nsvcd__foot_within(a[k], b, &point)) nsvcd__keep_nearer(&best, a[k], point);
     if (nsvcd__foot_within(b[k], a, &point)) nsvcd__keep_nearer(&best, point, b[k]);
   }
   return best;
 }
 
-static void nsvcd__place_triangle(const nsvcd__placement *at, const nsvcd__d3 *corners, nsvcd__d3 *out) {
+static void nsvcd__place_triangle(const nsvcd__placement *at, const nsvcd__d3 *corners,
+                                  nsvcd__d3 *out) {
   for (size_t k = 0; k < 3; k++) out[k] = nsvcd__place_point(at, corners[k]);
 }
 
@@ -7639,8 +8507,8 @@ static void nsvcd__place_triangle(const nsvcd__placement *at, const nsvcd__d3 *c
 typedef struct nsvcd__pair {
   size_t moving_patch, fixed_patch, moving_listing, fixed_listing;
   nsvcd__d3 moving[3], fixed[3];
-  double reach;   // of the moving one, from its body's origin, in its body's units
-  double slack;   // quanta, and rounding in double
+  double reach;  // of the moving one, from its body's origin, in its body's units
+  double slack;  // quanta, and rounding in double
   double rounding;
 } nsvcd__pair;
 
@@ -7653,13 +8521,14 @@ static nsvcd__pair nsvcd__pair_of(const nsvcd__proof *p, size_t i, size_t j, siz
     pair.reach = reach > pair.reach ? reach : pair.reach;
   }
   pair.rounding = NSVCD__SAME_PLACE * ((double)p->lengths + nsvcd__d3_length(p->arc.from));
-  pair.slack = p->arc.scale * (double)p->moving.quanta[i] + (double)p->fixed.quanta[j] + pair.rounding;
+  pair.slack =
+      p->arc.scale * (double)p->moving.quanta[i] + (double)p->fixed.quanta[j] + pair.rounding;
   pair.slack += NSVCD__SAME_PLACE * nsvcd__d3_length(p->arc.moved);
   return pair;
 }
 
-// Two triangles come within the clearance a share u of the arc later than its start. MEETS if that is an answer, TAKEN if
-// there may be a better one.
+// Two triangles come within the clearance a share u of the arc later than its start. MEETS if that
+// is an answer, TAKEN if there may be a better one.
 static nsvcd__verdict nsvcd__take_contact(nsvcd__proof *p, const nsvcd__pair *pair, double u,
                                           const nsvcd__nearest *nearest) {
   const nsvcd__d3 *t = pair->fixed;
@@ -7670,8 +8539,10 @@ static nsvcd__verdict nsvcd__take_contact(nsvcd__proof *p, const nsvcd__pair *pa
   p->found.tick = (double)p->arc.first + u * (double)p->arc.ticks;
   p->found.distance = touches ? 0 : distance;
   p->found.point = nearest->on_b;
-  p->found.normal = nsvcd__d3_unit(touches ? face : nsvcd__d3_sub(nearest->on_a, nearest->on_b), nsvcd__d3_of(0, 0, 0));
-  p->found.moving_triangle = nsvcd__facet_number(&p->moving, pair->moving_patch, pair->moving_listing);
+  p->found.normal = nsvcd__d3_unit(touches ? face : nsvcd__d3_sub(nearest->on_a, nearest->on_b),
+                                   nsvcd__d3_of(0, 0, 0));
+  p->found.moving_triangle =
+      nsvcd__facet_number(&p->moving, pair->moving_patch, pair->moving_listing);
   p->found.fixed_triangle = nsvcd__facet_number(&p->fixed, pair->fixed_patch, pair->fixed_listing);
   p->found.moving_patch = (uint16_t)pair->moving_patch;
   p->found.fixed_patch = (uint16_t)pair->fixed_patch;
@@ -7686,9 +8557,10 @@ static nsvcd__verdict nsvcd__take_contact(nsvcd__proof *p, const nsvcd__pair *pa
   return NSVCD__MEETS;
 }
 
-// Two triangles come so near from u0 to u1 of the arc that it cannot be told whether they touch. Where a contact follows,
-// it begins here.
-static NSVCD__APART void nsvcd__take_doubt(nsvcd__proof *p, const nsvcd__pair *pair, double u0, double u1) {
+// Two triangles come so near from u0 to u1 of the arc that it cannot be told whether they touch.
+// Where a contact follows, it begins here.
+static NSVCD__APART void nsvcd__take_doubt(nsvcd__proof *p, const nsvcd__pair *pair, double u0,
+                                           double u1) {
   const double tick = (double)p->arc.first + u0 * (double)p->arc.ticks;
   if (!(tick < p->unsure)) return;
   const nsvcd__contact found = p->found;
@@ -7706,21 +8578,27 @@ static NSVCD__APART void nsvcd__take_doubt(nsvcd__proof *p, const nsvcd__pair *p
 }
 
 // What of the arc matters: the share of it at which the rest does not.
-static double nsvcd__arc_limit(const nsvcd__proof *p) { return (p->end - (double)p->arc.first) / (double)p->arc.ticks; }
+static double nsvcd__arc_limit(const nsvcd__proof *p) {
+  return (p->end - (double)p->arc.first) / (double)p->arc.ticks;
+}
 
 // Does the plane with this unit normal part the pair from u0 to u1 of the arc?
-static int nsvcd__plane_parts(nsvcd__proof *p, const nsvcd__pair *pair, double u0, double u1, nsvcd__d3 normal) {
+static int nsvcd__plane_parts(nsvcd__proof *p, const nsvcd__pair *pair, double u0, double u1,
+                              nsvcd__d3 normal) {
   const nsvcd__arc *arc = &p->arc;
   const nsvcd__placement *start = nsvcd__placed_at(p, u0);
   const nsvcd__placement *end = nsvcd__placed_at(p, u1);
-  double lowest = HUGE_VAL, highest = -HUGE_VAL;
+  double lowest = HUGE_VAL;
+  double highest = -HUGE_VAL;
   for (size_t k = 0; k < 3; k++) {
     lowest = fmin(lowest, nsvcd__d3_dot(normal, nsvcd__place_point(start, pair->moving[k])));
     lowest = fmin(lowest, nsvcd__d3_dot(normal, nsvcd__place_point(end, pair->moving[k])));
     highest = fmax(highest, nsvcd__d3_dot(normal, pair->fixed[k]));
   }
-  const double off_axis = arc->has_axis ? nsvcd__d3_length(nsvcd__d3_cross(normal, arc->axis)) + 1e-6 : 1;
-  const double deviation = (u1 - u0) * (u1 - u0) * (arc->bulge * pair->reach * off_axis + arc->drift);
+  const double off_axis =
+      arc->has_axis ? nsvcd__d3_length(nsvcd__d3_cross(normal, arc->axis)) + 1e-6 : 1;
+  const double deviation =
+      (u1 - u0) * (u1 - u0) * (arc->bulge * pair->reach * off_axis + arc->drift);
   return lowest - highest > p->clearance + pair->slack + deviation;
 }
 
@@ -7743,19 +8621,22 @@ static int nsvcd__foot_well_within(nsvcd__d3 x, const nsvcd__d3 *t, double margi
 }
 
 // Have two heights different signs, clear of 0 by their margins?
-static int nsvcd__are_opposed(double before, double least_before, double after, double least_after) {
+static int nsvcd__are_opposed(double before, double least_before, double after,
+                              double least_after) {
   const int falls = before > least_before && after < -least_after;
   const int rises = before < -least_before && after > least_after;
   return falls || rises;
 }
 
 // Is x on different sides of a triangle's plane, farther than `margin` from it, at two times?
-static int nsvcd__changes_sides(nsvcd__d3 x0, const nsvcd__d3 *t0, nsvcd__d3 x1, const nsvcd__d3 *t1, double margin) {
+static int nsvcd__changes_sides(nsvcd__d3 x0, const nsvcd__d3 *t0, nsvcd__d3 x1,
+                                const nsvcd__d3 *t1, double margin) {
   const nsvcd__d3 n0 = nsvcd__d3_cross(nsvcd__d3_sub(t0[1], t0[0]), nsvcd__d3_sub(t0[2], t0[0]));
   const nsvcd__d3 n1 = nsvcd__d3_cross(nsvcd__d3_sub(t1[1], t1[0]), nsvcd__d3_sub(t1[2], t1[0]));
   const double before = nsvcd__d3_dot(n0, nsvcd__d3_sub(x0, t0[0]));
   const double after = nsvcd__d3_dot(n1, nsvcd__d3_sub(x1, t1[0]));
-  return nsvcd__are_opposed(before, margin * nsvcd__d3_length(n0), after, margin * nsvcd__d3_length(n1));
+  return nsvcd__are_opposed(before, margin * nsvcd__d3_length(n0), after,
+                            margin * nsvcd__d3_length(n1));
 }
 
 // Six times the volume of the tetrahedron of two edges.
@@ -7764,8 +8645,10 @@ static double nsvcd__edges_volume(nsvcd__d3 a0, nsvcd__d3 a1, nsvcd__d3 b0, nsvc
   return nsvcd__d3_dot(across, nsvcd__d3_sub(b0, a0));
 }
 
-// Do two edges pass through each other: do they change sides, and are their lines nearest to each other well within both?
-static int nsvcd__edges_cross(const nsvcd__passage *p, size_t k, nsvcd__d3 b0, nsvcd__d3 b1, double margin) {
+// Do two edges pass through each other: do they change sides, and are their lines nearest to each
+// other well within both?
+static int nsvcd__edges_cross(const nsvcd__passage *p, size_t k, nsvcd__d3 b0, nsvcd__d3 b1,
+                              double margin) {
   const size_t next = (k + 1) % 3;
   const nsvcd__d3 u = nsvcd__d3_sub(p->middle[next], p->middle[k]);
   const nsvcd__d3 v = nsvcd__d3_sub(b1, b0);
@@ -7779,13 +8662,16 @@ static int nsvcd__edges_cross(const nsvcd__passage *p, size_t k, nsvcd__d3 b0, n
   const nsvcd__d3 w = nsvcd__d3_sub(b0, p->middle[k]);
   const double s = nsvcd__d3_dot(nsvcd__d3_cross(w, v), across) / (size * size);
   const double t = nsvcd__d3_dot(nsvcd__d3_cross(w, u), across) / (size * size);
-  const double room = 4 * p->way * lengths / size;  // the lines' nearest points move no farther along them
-  const double room_s = room / nsvcd__d3_length(u), room_t = room / nsvcd__d3_length(v);
+  // the lines' nearest points move no farther along them
+  const double room = 4 * p->way * lengths / size;
+  const double room_s = room / nsvcd__d3_length(u);
+  const double room_t = room / nsvcd__d3_length(v);
   return s > room_s && s < 1 - room_s && t > room_t && t < 1 - room_t;
 }
 
-// Have two triangles met between these times, since a corner has passed through the other one, or an edge through an edge?
-// That is how faces meet which are parallel then: at no single time can it be seen in rounded numbers.
+// Have two triangles met between these times, since a corner has passed through the other one, or
+// an edge through an edge? That is how faces meet which are parallel then: at no single time can it
+// be seen in rounded numbers.
 static int nsvcd__triangles_pass(const nsvcd__passage *p, const nsvcd__d3 *fixed, double margin) {
   for (size_t k = 0; k < 3; k++) {
     if (nsvcd__foot_well_within(p->middle[k], fixed, 2 * p->way) &&
@@ -7804,7 +8690,8 @@ static int nsvcd__triangles_pass(const nsvcd__passage *p, const nsvcd__d3 *fixed
 }
 
 // The same for a pair from u0 to u1 of the arc, at that speed.
-static int nsvcd__pair_passes(nsvcd__proof *p, const nsvcd__pair *pair, double u0, double u1, double speed) {
+static int nsvcd__pair_passes(nsvcd__proof *p, const nsvcd__pair *pair, double u0, double u1,
+                              double speed) {
   nsvcd__passage passage;
   nsvcd__place_triangle(nsvcd__placed_at(p, u0), pair->moving, passage.start);
   nsvcd__place_triangle(nsvcd__placed_at(p, 0.5 * (u0 + u1)), pair->moving, passage.middle);
@@ -7813,9 +8700,10 @@ static int nsvcd__pair_passes(nsvcd__proof *p, const nsvcd__pair *pair, double u
   return nsvcd__triangles_pass(&passage, pair->fixed, pair->rounding);
 }
 
-// Where a pair has met by passing, the time is narrowed down to rounding, and is the contact's. FREE where it has not.
-static NSVCD__APART nsvcd__verdict nsvcd__find_passage(nsvcd__proof *p, const nsvcd__pair *pair, double u0, double u1,
-                                                       double speed) {
+// Where a pair has met by passing, the time is narrowed down to rounding, and is the contact's.
+// FREE where it has not.
+static NSVCD__APART nsvcd__verdict nsvcd__find_passage(nsvcd__proof *p, const nsvcd__pair *pair,
+                                                       double u0, double u1, double speed) {
   if (!nsvcd__pair_passes(p, pair, u0, u1, speed)) return NSVCD__FREE;
   for (size_t n = 0; n < NSVCD__HALVINGS; n++) {
     const double middle = 0.5 * (u0 + u1);
@@ -7833,27 +8721,31 @@ static NSVCD__APART nsvcd__verdict nsvcd__find_passage(nsvcd__proof *p, const ns
   return nsvcd__take_contact(p, pair, when, &nearest);
 }
 
-static void nsvcd__certify_pair(const nsvcd__proof *p, const nsvcd__pair *pair, double u0, double u1) {
+static void nsvcd__certify_pair(const nsvcd__proof *p, const nsvcd__pair *pair, double u0,
+                                double u1) {
   const float normal[3] = {(float)p->parting.x, (float)p->parting.y, (float)p->parting.z};
   const double start = nsvcd__time_in_arc(p, u0);
   const double end = nsvcd__time_in_arc(p, u1);
-  NSVCD__CERTIFY(NSVCD__BY_TRIANGLES, pair->moving_patch, pair->fixed_patch, pair->moving_listing, pair->fixed_listing,
-                 start, end, normal);
+  NSVCD__CERTIFY(NSVCD__BY_TRIANGLES, pair->moving_patch, pair->fixed_patch, pair->moving_listing,
+                 pair->fixed_listing, start, end, normal);
   (void)normal;
   (void)start;
   (void)end;
   (void)pair;
 }
 
-// Settles a pair of triangles from u0 to u1 of the arc: halves the time until a plane parts them in each part, the one
-// that parted a pair last or one at the middle's nearest points, or there is a contact, or they come too close to tell.
-static NSVCD__APART nsvcd__verdict nsvcd__settle_pair(nsvcd__proof *p, const nsvcd__pair *pair, double u0, double u1) {
+// Settles a pair of triangles from u0 to u1 of the arc: halves the time until a plane parts them in
+// each part, the one that parted a pair last or one at the middle's nearest points, or there is a
+// contact, or they come too close to tell.
+static NSVCD__APART nsvcd__verdict nsvcd__settle_pair(nsvcd__proof *p, const nsvcd__pair *pair,
+                                                      double u0, double u1) {
   const nsvcd__arc *arc = &p->arc;
   const double speed = arc->speed + arc->turn * arc->scale * pair->reach;
   const double close = pair->slack + p->tolerance;
   double *ends = p->pair_ends;
   size_t left = 1;
-  int undecided = 0, taken = 0;
+  int undecided = 0;
+  int taken = 0;
   ends[0] = u1;
   for (double u = u0; left > 0;) {
     const double end = fmin(ends[left - 1], nsvcd__arc_limit(p));
@@ -7903,10 +8795,10 @@ static NSVCD__APART nsvcd__verdict nsvcd__settle_pair(nsvcd__proof *p, const nsv
 
 // ---- blocks of triangles
 
-// Corner k of listings first .. first + count - 1, as vertices of their patch, the last one repeated to 16: what
-// nsvcd__facet_corner says of each, the patch asked once.
-static void nsvcd__block_corners(const nsvcd__facets *f, size_t patch, size_t first, size_t count, size_t k,
-                                 uint16_t *vertices) {
+// Corner k of listings first .. first + count - 1, as vertices of their patch, the last one
+// repeated to 16: what nsvcd__facet_corner says of each, the patch asked once.
+static void nsvcd__block_corners(const nsvcd__facets *f, size_t patch, size_t first, size_t count,
+                                 size_t k, uint16_t *vertices) {
   const size_t bytes = nsvcd__corner_bytes(f->first_vertex[patch + 1] - f->first_vertex[patch]);
   const size_t at = 3 * (first - f->first_triangle[patch]) + k;
   const unsigned char *corners = f->listings + f->first_byte[patch] + bytes * at;
@@ -7915,11 +8807,13 @@ static void nsvcd__block_corners(const nsvcd__facets *f, size_t patch, size_t fi
     for (size_t l = 0; l < NSVCD__LANES; l++) vertices[l] = corners[3 * (l < last ? l : last)];
     return;
   }
-  for (size_t l = 0; l < NSVCD__LANES; l++) memcpy(vertices + l, corners + 6 * (l < last ? l : last), 2);
+  for (size_t l = 0; l < NSVCD__LANES; l++)
+    memcpy(vertices + l, corners + 6 * (l < last ? l : last), 2);
 }
 
 // Listings first .. first + count - 1 of a patch, at most 16; the last is repeated.
-static void nsvcd__block_load(const nsvcd__facets *f, size_t patch, size_t first, size_t count, nsvcd__block *out) {
+static void nsvcd__block_load(const nsvcd__facets *f, size_t patch, size_t first, size_t count,
+                              nsvcd__block *out) {
   const size_t all = f->first_vertex[patch + 1] - f->first_vertex[patch];
   const int16_t *x = f->vertices + 3 * (size_t)f->first_vertex[patch];
   const int16_t *y = x + all;
@@ -7937,8 +8831,9 @@ static void nsvcd__block_load(const nsvcd__facets *f, size_t patch, size_t first
       places[2][l] = z[vertices[l]];
     }
     NSVCD__EACH_SLICE(l) {
-      const nsvcd__v3 integers = nsvcd__v3_of(nsvcd__v_load_int16(places[0] + l), nsvcd__v_load_int16(places[1] + l),
-                                              nsvcd__v_load_int16(places[2] + l));
+      const nsvcd__v3 integers =
+          nsvcd__v3_of(nsvcd__v_load_int16(places[0] + l), nsvcd__v_load_int16(places[1] + l),
+                       nsvcd__v_load_int16(places[2] + l));
       const nsvcd__v step = nsvcd__v_set(f->steps[patch]);
       nsvcd__v3_store(out->corners[k], l, nsvcd__v3_fma(step, integers, nsvcd__v3_set(centre)));
     }
@@ -7953,10 +8848,12 @@ static void nsvcd__block_load(const nsvcd__facets *f, size_t patch, size_t first
 }
 
 // Poses the corners of the moving block, into p->posed[which].
-static NSVCD__APART void nsvcd__block_pose(nsvcd__proof *p, const nsvcd__transform *at, size_t which) {
+static NSVCD__APART void nsvcd__block_pose(nsvcd__proof *p, const nsvcd__transform *at,
+                                           size_t which) {
   for (size_t k = 0; k < 3; k++) {
     NSVCD__EACH_SLICE(l) {
-      nsvcd__v3_store(p->posed[which][k], l, nsvcd__v3_transform(at, nsvcd__v3_load(p->moving_block.corners[k], l)));
+      nsvcd__v3_store(p->posed[which][k], l,
+                      nsvcd__v3_transform(at, nsvcd__v3_load(p->moving_block.corners[k], l)));
     }
   }
 }
@@ -7984,12 +8881,13 @@ static float nsvcd__least_lane(const float *lanes) {
 }
 static float nsvcd__greatest_lane(const float *lanes) {
   float least = HUGE_VALF;
-  NSVCD__EACH_SLICE(l) least = nsvcd__least_of(least, nsvcd__v_least(nsvcd__v_negate(nsvcd__v_load(lanes + l))));
+  NSVCD__EACH_SLICE(l)
+  least = nsvcd__least_of(least, nsvcd__v_least(nsvcd__v_negate(nsvcd__v_load(lanes + l))));
   return -least;
 }
 
-// Loads up to NSVCD__WINDOW blocks of resting patch j, from listing `first` on, and what they extend to. The same patch is
-// often asked for again.
+// Loads up to NSVCD__WINDOW blocks of resting patch j, from listing `first` on, and what they
+// extend to. The same patch is often asked for again.
 static void nsvcd__window_load(nsvcd__proof *p, size_t j, size_t first) {
   const size_t end = p->fixed.first_triangle[j + 1];
   if (p->window > 0 && p->fixed_blocks[0].first == first) return;
@@ -7997,10 +8895,12 @@ static void nsvcd__window_load(nsvcd__proof *p, size_t j, size_t first) {
   for (size_t n = first; n < end && p->window < NSVCD__WINDOW; n += NSVCD__LANES) {
     nsvcd__block *block = &p->fixed_blocks[p->window];
     nsvcd__block_load(&p->fixed, j, n, end - n < NSVCD__LANES ? end - n : NSVCD__LANES, block);
-    p->bounds[p->window].low = nsvcd__f3_of(nsvcd__least_lane(block->low[0]), nsvcd__least_lane(block->low[1]),
-                                            nsvcd__least_lane(block->low[2]));
-    p->bounds[p->window].high = nsvcd__f3_of(nsvcd__greatest_lane(block->high[0]), nsvcd__greatest_lane(block->high[1]),
-                                             nsvcd__greatest_lane(block->high[2]));
+    p->bounds[p->window].low =
+        nsvcd__f3_of(nsvcd__least_lane(block->low[0]), nsvcd__least_lane(block->low[1]),
+                     nsvcd__least_lane(block->low[2]));
+    p->bounds[p->window].high =
+        nsvcd__f3_of(nsvcd__greatest_lane(block->high[0]), nsvcd__greatest_lane(block->high[1]),
+                     nsvcd__greatest_lane(block->high[2]));
     p->window++;
   }
 }
@@ -8026,25 +8926,30 @@ static nsvcd__box nsvcd__box_of_lane(nsvcd__block *block, size_t l) {
   return out;
 }
 
-// A margin along normals of any length. Where their squares underflow it is so large that nothing is beyond it.
+// A margin along normals of any length. Where their squares underflow it is so large that nothing
+// is beyond it.
 static nsvcd__v nsvcd__margin_along(nsvcd__v3 n, float margin) {
   const nsvcd__v square = nsvcd__v3_dot(n, n);
   const nsvcd__v limit = nsvcd__v_mul(nsvcd__v_set(margin), nsvcd__v_sqrt(square));
   return nsvcd__v_pick(square, nsvcd__v_set(1e-30f), nsvcd__v_set(1e30f), limit);
 }
 
-// Lanes of a slice, from s on, of a fixed block that planes with these normals, of any length, have on one side of lane l of
-// the moving one, at `ends` (1 or 2) poses, by more than `margin`. below: the moving one is on the side that the normal
-// points from.
-NSVCD__INLINE uint32_t nsvcd__normals_part(nsvcd__proof *p, size_t l, nsvcd__block *fixed, size_t s, size_t ends,
-                                           float margin, nsvcd__v3 n, uint32_t *below) {
+// Lanes of a slice, from s on, of a fixed block that planes with these normals, of any length, have
+// on one side of lane l of the moving one, at `ends` (1 or 2) poses, by more than `margin`. below:
+// the moving one is on the side that the normal points from.
+NSVCD__INLINE uint32_t nsvcd__normals_part(nsvcd__proof *p, size_t l, nsvcd__block *fixed, size_t s,
+                                           size_t ends, float margin, nsvcd__v3 n,
+                                           uint32_t *below) {
   const nsvcd__v3 b0 = nsvcd__v3_load(fixed->corners[0], s);
-  const nsvcd__v height1 = nsvcd__v3_dot(n, nsvcd__v3_sub(nsvcd__v3_load(fixed->corners[1], s), b0));
-  const nsvcd__v height2 = nsvcd__v3_dot(n, nsvcd__v3_sub(nsvcd__v3_load(fixed->corners[2], s), b0));
+  const nsvcd__v height1 =
+      nsvcd__v3_dot(n, nsvcd__v3_sub(nsvcd__v3_load(fixed->corners[1], s), b0));
+  const nsvcd__v height2 =
+      nsvcd__v3_dot(n, nsvcd__v3_sub(nsvcd__v3_load(fixed->corners[2], s), b0));
   const nsvcd__v zero = nsvcd__v_set(0);
   const nsvcd__v low = nsvcd__v_min(zero, nsvcd__v_min(height1, height2));
   const nsvcd__v high = nsvcd__v_max(zero, nsvcd__v_max(height1, height2));
-  nsvcd__v lowest = nsvcd__v_set(HUGE_VALF), highest = nsvcd__v_set(-HUGE_VALF);
+  nsvcd__v lowest = nsvcd__v_set(HUGE_VALF);
+  nsvcd__v highest = nsvcd__v_set(-HUGE_VALF);
   for (size_t k = 0; k < 3 * ends; k++) {
     const nsvcd__v3 a = nsvcd__v3_set(nsvcd__lane_of(p->posed[k / 3][k % 3], l));
     const nsvcd__v height = nsvcd__v3_dot(n, nsvcd__v3_sub(a, b0));
@@ -8056,17 +8961,19 @@ NSVCD__INLINE uint32_t nsvcd__normals_part(nsvcd__proof *p, size_t l, nsvcd__blo
   return nsvcd__v_lt(nsvcd__v_add(high, limit), lowest) | *below;
 }
 
-// Normal number k of those that may part two triangles: of the fixed ones in a slice, of lane l of the moving one, and of an
-// edge of each.
+// Normal number k of those that may part two triangles: of the fixed ones in a slice, of lane l of
+// the moving one, and of an edge of each.
 #define NSVCD__NORMALS 11
-NSVCD__INLINE nsvcd__v3 nsvcd__normal_to_try(nsvcd__proof *p, size_t l, nsvcd__block *fixed, size_t s, size_t k) {
+NSVCD__INLINE nsvcd__v3 nsvcd__normal_to_try(nsvcd__proof *p, size_t l, nsvcd__block *fixed,
+                                             size_t s, size_t k) {
   if (k == 1) {
     const nsvcd__f3 a = nsvcd__lane_of(p->posed[0][0], l);
     const nsvcd__f3 u = nsvcd__f3_sub(nsvcd__lane_of(p->posed[0][1], l), a);
     const nsvcd__f3 v = nsvcd__f3_sub(nsvcd__lane_of(p->posed[0][2], l), a);
     return nsvcd__v3_set(nsvcd__f3_cross(u, v));
   }
-  const size_t fixed_edge = k == 0 ? 0 : (k - 2) % 3, moving_edge = k == 0 ? 0 : (k - 2) / 3;
+  const size_t fixed_edge = k == 0 ? 0 : (k - 2) % 3;
+  const size_t moving_edge = k == 0 ? 0 : (k - 2) / 3;
   const nsvcd__v3 b = nsvcd__v3_load(fixed->corners[fixed_edge], s);
   const nsvcd__v3 edge = nsvcd__v3_sub(nsvcd__v3_load(fixed->corners[(fixed_edge + 1) % 3], s), b);
   if (k == 0) return nsvcd__v3_cross(edge, nsvcd__v3_sub(nsvcd__v3_load(fixed->corners[2], s), b));
@@ -8076,26 +8983,30 @@ NSVCD__INLINE nsvcd__v3 nsvcd__normal_to_try(nsvcd__proof *p, size_t l, nsvcd__b
 }
 
 #ifdef NSVCD__CERTIFIES
-// All pairs of lane l and the `apart` lanes of a block, by the planes of their slice, from s on, or, where that is NULL, by
-// their boxes.
-static void nsvcd__certify_block(nsvcd__proof *p, size_t i, size_t j, size_t l, const nsvcd__block *b,
-                                 const nsvcd__span *span, uint32_t apart, size_t s, const nsvcd__v3 *plane, uint32_t below) {
+// All pairs of lane l and the `apart` lanes of a block, by the planes of their slice, from s on,
+// or, where that is NULL, by their boxes.
+static void nsvcd__certify_block(nsvcd__proof *p, size_t i, size_t j, size_t l,
+                                 const nsvcd__block *b, const nsvcd__span *span, uint32_t apart,
+                                 size_t s, const nsvcd__v3 *plane, uint32_t below) {
   float lanes[3][NSVCD__LANES];
   const nsvcd__block *a = &p->moving_block;
   if (plane) nsvcd__v3_store(lanes, s, *plane);
   for (size_t n = 0; n < b->count; n++) {
-    float normal[3] = {0, 0, 0}, widest = -HUGE_VALF;
+    float normal[3] = {0, 0, 0};
+    float widest = -HUGE_VALF;
     const float sign = below >> n & 1 ? -1.0f : 1.0f;
     if (!(apart >> n & 1)) continue;
     for (size_t k = 0; k < 3; k++) {
       if (plane) normal[k] = sign * lanes[k][n];
-      const float above = a->low[k][l] - b->high[k][n], under = b->low[k][n] - a->high[k][l];
+      const float above = a->low[k][l] - b->high[k][n];
+      const float under = b->low[k][n] - a->high[k][l];
       if (plane || (above <= widest && under <= widest)) continue;
       widest = above > under ? above : under;
       normal[0] = normal[1] = normal[2] = 0;
       normal[k] = above > under ? 1.0f : -1.0f;
     }
-    NSVCD__CERTIFY(NSVCD__BY_TRIANGLES, i, j, a->first + l, b->first + n, span->t_start, span->t_end, normal);
+    NSVCD__CERTIFY(NSVCD__BY_TRIANGLES, i, j, a->first + l, b->first + n, span->t_start,
+                   span->t_end, normal);
   }
 }
 #define NSVCD__CERTIFY_BLOCK(p, i, j, l, b, span, apart, s, plane, below) \
@@ -8104,9 +9015,10 @@ static void nsvcd__certify_block(nsvcd__proof *p, size_t i, size_t j, size_t l, 
 #define NSVCD__CERTIFY_BLOCK(p, i, j, l, b, span, apart, s, plane, below) ((void)0)
 #endif
 
-// Lanes of a fixed block that neither boxes nor planes part from lane l of the moving one, at `ends` poses. span: of
-// patches i and j, for the certificates; NULL for none.
-static NSVCD__APART uint32_t nsvcd__row_left(nsvcd__proof *p, size_t i, size_t j, size_t l, nsvcd__block *fixed, size_t ends,
+// Lanes of a fixed block that neither boxes nor planes part from lane l of the moving one, at
+// `ends` poses. span: of patches i and j, for the certificates; NULL for none.
+static NSVCD__APART uint32_t nsvcd__row_left(nsvcd__proof *p, size_t i, size_t j, size_t l,
+                                             nsvcd__block *fixed, size_t ends,
                                              const nsvcd__span *span, float margin) {
   uint32_t met = nsvcd__lanes_near(fixed, nsvcd__box_of_lane(&p->moving_block, l), margin);
   if (span) NSVCD__CERTIFY_BLOCK(p, i, j, l, fixed, span, ~met, 0, NULL, 0);
@@ -8115,7 +9027,8 @@ static NSVCD__APART uint32_t nsvcd__row_left(nsvcd__proof *p, size_t i, size_t j
       uint32_t below;
       if (!(met >> s & NSVCD__SLICE_MASK)) continue;
       const nsvcd__v3 normal = nsvcd__normal_to_try(p, l, fixed, s, k);
-      const uint32_t apart = nsvcd__normals_part(p, l, fixed, s, ends, margin, normal, &below) << s & met;
+      const uint32_t apart =
+          nsvcd__normals_part(p, l, fixed, s, ends, margin, normal, &below) << s & met;
       if (span) NSVCD__CERTIFY_BLOCK(p, i, j, l, fixed, span, apart, s, &normal, below << s);
       met &= ~apart;
     }
@@ -8127,8 +9040,10 @@ static NSVCD__APART uint32_t nsvcd__row_left(nsvcd__proof *p, size_t i, size_t j
 
 // ---- witnesses
 
-// The nearest points of a posed triangle and another, if they come within the clearance; NULL square: HUGE_VAL if not.
-static nsvcd__nearest nsvcd__contact_of(const nsvcd__proof *p, const nsvcd__d3 *posed, const nsvcd__pair *pair) {
+// The nearest points of a posed triangle and another, if they come within the clearance; NULL
+// square: HUGE_VAL if not.
+static nsvcd__nearest nsvcd__contact_of(const nsvcd__proof *p, const nsvcd__d3 *posed,
+                                        const nsvcd__pair *pair) {
   nsvcd__nearest out = {HUGE_VAL, {0, 0, 0}, {0, 0, 0}};
   nsvcd__d3 point;
   if (nsvcd__triangles_meet(posed, pair->fixed, &point)) {
@@ -8144,7 +9059,8 @@ static nsvcd__nearest nsvcd__contact_of(const nsvcd__proof *p, const nsvcd__d3 *
 
 // How far a triangle must go along n until it is beyond the other; negative if it is already.
 static double nsvcd__lift_along(nsvcd__d3 n, const nsvcd__d3 *moving, const nsvcd__d3 *fixed) {
-  double lowest = HUGE_VAL, highest = -HUGE_VAL;
+  double lowest = HUGE_VAL;
+  double highest = -HUGE_VAL;
   for (size_t k = 0; k < 3; k++) {
     lowest = fmin(lowest, nsvcd__d3_dot(n, moving[k]));
     highest = fmax(highest, nsvcd__d3_dot(n, fixed[k]));
@@ -8152,13 +9068,17 @@ static double nsvcd__lift_along(nsvcd__d3 n, const nsvcd__d3 *moving, const nsvc
   return highest - lowest;
 }
 
-// Directions that may undo a touch: the normals of the moving triangle, turned about, and of the fixed one; and, if they are
-// apart, that from point to point. All point to where the moving body is.
+// Directions that may undo a touch: the normals of the moving triangle, turned about, and of the
+// fixed one; and, if they are apart, that from point to point. All point to where the moving body
+// is.
 static void nsvcd__touch_normals(const nsvcd__touch *t, nsvcd__d3 *out) {
   const nsvcd__d3 none = nsvcd__d3_of(0, 0, 0);
-  const nsvcd__d3 *a = t->moving, *b = t->fixed;
-  out[0] = nsvcd__d3_unit(nsvcd__d3_cross(nsvcd__d3_sub(a[2], a[0]), nsvcd__d3_sub(a[1], a[0])), none);
-  out[1] = nsvcd__d3_unit(nsvcd__d3_cross(nsvcd__d3_sub(b[1], b[0]), nsvcd__d3_sub(b[2], b[0])), none);
+  const nsvcd__d3 *a = t->moving;
+  const nsvcd__d3 *b = t->fixed;
+  out[0] =
+      nsvcd__d3_unit(nsvcd__d3_cross(nsvcd__d3_sub(a[2], a[0]), nsvcd__d3_sub(a[1], a[0])), none);
+  out[1] =
+      nsvcd__d3_unit(nsvcd__d3_cross(nsvcd__d3_sub(b[1], b[0]), nsvcd__d3_sub(b[2], b[0])), none);
   out[2] = t->apart;
 }
 
@@ -8172,8 +9092,10 @@ static int nsvcd__undoes(const nsvcd__proof *p, nsvcd__d3 n, const nsvcd__touch 
   return nsvcd__d3_dot(n, normals[0]) > -0.3 && nsvcd__d3_dot(n, normals[1]) > -0.3;
 }
 
-// Keeps two triangles that are within the clearance at the start, unless a direction that is known undoes that.
-static void nsvcd__gather_contact(nsvcd__proof *p, const nsvcd__pair *pair, const nsvcd__d3 *posed) {
+// Keeps two triangles that are within the clearance at the start, unless a direction that is known
+// undoes that.
+static void nsvcd__gather_contact(nsvcd__proof *p, const nsvcd__pair *pair,
+                                  const nsvcd__d3 *posed) {
   nsvcd__touch touch;
   memcpy(touch.moving, posed, sizeof touch.moving);
   memcpy(touch.fixed, pair->fixed, sizeof touch.fixed);
@@ -8187,10 +9109,10 @@ static void nsvcd__gather_contact(nsvcd__proof *p, const nsvcd__pair *pair, cons
   if (p->touch_count < NSVCD__TOUCHES) p->of.touches[p->touch_count++] = touch;
 }
 
-// Among the moving block, posed `at`, and a block of the window: looks for a contact a share u of the arc later than its
-// start. FREE: there is none.
-static nsvcd__verdict nsvcd__find_witness_in(nsvcd__proof *p, size_t i, size_t j, size_t n, const nsvcd__placement *at,
-                                             double u, float margin) {
+// Among the moving block, posed `at`, and a block of the window: looks for a contact a share u of
+// the arc later than its start. FREE: there is none.
+static nsvcd__verdict nsvcd__find_witness_in(nsvcd__proof *p, size_t i, size_t j, size_t n,
+                                             const nsvcd__placement *at, double u, float margin) {
   nsvcd__block *fixed = &p->fixed_blocks[n];
   uint32_t lanes = nsvcd__lanes_near(&p->moving_block, p->bounds[n], margin);
   for (; lanes; lanes &= lanes - 1) {
@@ -8199,7 +9121,8 @@ static nsvcd__verdict nsvcd__find_witness_in(nsvcd__proof *p, size_t i, size_t j
     uint32_t met = nsvcd__row_left(p, i, j, l, fixed, 1, NULL, margin);
     for (; met; met &= met - 1) {
       const size_t listing = p->moving_block.first + l;
-      const nsvcd__pair pair = nsvcd__pair_of(p, i, j, listing, fixed->first + nsvcd__lowest_bit(met));
+      const nsvcd__pair pair =
+          nsvcd__pair_of(p, i, j, listing, fixed->first + nsvcd__lowest_bit(met));
       nsvcd__d3 posed[3];
       nsvcd__place_triangle(at, pair.moving, posed);
       p->work++;
@@ -8222,17 +9145,21 @@ static nsvcd__verdict nsvcd__find_witness_in(nsvcd__proof *p, size_t i, size_t j
 // Loads 16 triangles of moving patch i, from listing `first` on.
 static void nsvcd__moving_block_load(nsvcd__proof *p, size_t i, size_t first) {
   const size_t left = p->moving.first_triangle[i + 1] - first;
-  nsvcd__block_load(&p->moving, i, first, left < NSVCD__LANES ? left : NSVCD__LANES, &p->moving_block);
+  nsvcd__block_load(&p->moving, i, first, left < NSVCD__LANES ? left : NSVCD__LANES,
+                    &p->moving_block);
 }
 
-// Looks for a contact of triangles of patches i and j a share u of an arc later than its start. FREE: there is none.
-static nsvcd__verdict nsvcd__find_witness(nsvcd__proof *p, size_t i, size_t j, uint32_t first, double u) {
+// Looks for a contact of triangles of patches i and j a share u of an arc later than its start.
+// FREE: there is none.
+static nsvcd__verdict nsvcd__find_witness(nsvcd__proof *p, size_t i, size_t j, uint32_t first,
+                                          double u) {
   const nsvcd__arc *arc = nsvcd__arc_at(p, first);
   const nsvcd__placement at = nsvcd__placement_at(arc, u);
   const nsvcd__transform rounded = nsvcd__transform_of(&at);
   const float rounding = NSVCD__ROUNDING * (p->lengths + nsvcd__f3_length(rounded.position));
   const float margin = rounding + nsvcd__clearance_of(p);
-  const size_t moving_end = p->moving.first_triangle[i + 1], fixed_end = p->fixed.first_triangle[j + 1];
+  const size_t moving_end = p->moving.first_triangle[i + 1];
+  const size_t fixed_end = p->fixed.first_triangle[j + 1];
   NSVCD__TALLY(tries, 1);
   for (size_t b = p->fixed.first_triangle[j]; b < fixed_end; b += NSVCD__WINDOW * NSVCD__LANES) {
     nsvcd__window_load(p, j, b);
@@ -8267,8 +9194,10 @@ static uint32_t nsvcd__arc_and_share(const nsvcd__motion *motion, double at, dou
   return first;
 }
 
-// Looks for a contact of an item where its spheres are nearest, if that still matters. FREE: there is none.
-static nsvcd__verdict nsvcd__seek_item(nsvcd__proof *p, const nsvcd__workspace *work, nsvcd__item *item) {
+// Looks for a contact of an item where its spheres are nearest, if that still matters. FREE: there
+// is none.
+static nsvcd__verdict nsvcd__seek_item(nsvcd__proof *p, const nsvcd__workspace *work,
+                                       nsvcd__item *item) {
   const double start = (double)work->begin[item->segment];
   const double end = fmin((double)work->begin[item->segment + 1u], p->clipped_end);
   const double tick = start + (double)item->share * (end - start);
@@ -8281,11 +9210,13 @@ static nsvcd__verdict nsvcd__seek_item(nsvcd__proof *p, const nsvcd__workspace *
 
 // ---- what hulls leave
 
-// Lane l of the moving block, posed at both ends of a span from u0 to u1 of the arc, and block n of the window: pairs that
-// planes do not part are settled one by one, and what parts one may part others. TOO_LONG when they have asked for more
-// than `patience` parts of the span; without any, when there is such a pair.
+// Lane l of the moving block, posed at both ends of a span from u0 to u1 of the arc, and block n of
+// the window: pairs that planes do not part are settled one by one, and what parts one may part
+// others. TOO_LONG when they have asked for more than `patience` parts of the span; without any,
+// when there is such a pair.
 static nsvcd__verdict nsvcd__settle_row(nsvcd__proof *p, size_t i, size_t j, size_t l, size_t n,
-                                        const nsvcd__span *span, float margin, double u0, double u1, size_t patience) {
+                                        const nsvcd__span *span, float margin, double u0, double u1,
+                                        size_t patience) {
   nsvcd__block *fixed = &p->fixed_blocks[n];
   const float quanta = nsvcd__quanta_of(p, i, j);
   const float reach = p->moving.body->extent + p->moving.quanta[i];
@@ -8295,17 +9226,20 @@ static nsvcd__verdict nsvcd__settle_row(nsvcd__proof *p, size_t i, size_t j, siz
   uint32_t met = nsvcd__row_left(p, i, j, l, fixed, 2, span, margin);
   for (; met; met &= met - 1) {
     const nsvcd__f3 last = nsvcd__f3_round(p->parting);
-    const float along = quanta + span->rounding + nsvcd__clearance_of(p) + nsvcd__deviation(span, last, reach);
+    const float along =
+        quanta + span->rounding + nsvcd__clearance_of(p) + nsvcd__deviation(span, last, reach);
     NSVCD__EACH_SLICE(s) {
       const nsvcd__v3 normal = nsvcd__v3_set(last);
-      const uint32_t apart = nsvcd__normals_part(p, l, fixed, s, 2, along, normal, &below) << s & met;
+      const uint32_t apart =
+          nsvcd__normals_part(p, l, fixed, s, 2, along, normal, &below) << s & met;
       NSVCD__CERTIFY_BLOCK(p, i, j, l, fixed, span, apart, s, &normal, below << s);
       met &= ~apart;
     }
     if (!met) break;
     if (patience == 0) return NSVCD__TOO_LONG;
     const size_t listing = p->moving_block.first + l;
-    const nsvcd__pair pair = nsvcd__pair_of(p, i, j, listing, fixed->first + nsvcd__lowest_bit(met));
+    const nsvcd__pair pair =
+        nsvcd__pair_of(p, i, j, listing, fixed->first + nsvcd__lowest_bit(met));
     const nsvcd__verdict one = nsvcd__settle_pair(p, &pair, u0, u1);
     if (one == NSVCD__MEETS || one == NSVCD__TAKEN || p->work > p->limit) return one;
     if (one == NSVCD__UNDECIDED) verdict = one;
@@ -8316,11 +9250,13 @@ static nsvcd__verdict nsvcd__settle_row(nsvcd__proof *p, size_t i, size_t j, siz
 
 // All pairs of triangles of an item's patches over a span from u0 to u1 of the arc.
 static NSVCD__APART nsvcd__verdict nsvcd__settle_triangles(nsvcd__proof *p, size_t i, size_t j,
-                                                           const nsvcd__span *span, double u0, double u1,
-                                                           size_t patience) {
-  const size_t moving_end = p->moving.first_triangle[i + 1], fixed_end = p->fixed.first_triangle[j + 1];
+                                                           const nsvcd__span *span, double u0,
+                                                           double u1, size_t patience) {
+  const size_t moving_end = p->moving.first_triangle[i + 1];
+  const size_t fixed_end = p->fixed.first_triangle[j + 1];
   const float reach = p->moving.body->extent + p->moving.quanta[i];
-  const float margin = nsvcd__quanta_of(p, i, j) + span->spread + nsvcd__clearance_of(p) + span->bulge * reach;
+  const float margin =
+      nsvcd__quanta_of(p, i, j) + span->spread + nsvcd__clearance_of(p) + span->bulge * reach;
   nsvcd__verdict verdict = NSVCD__FREE;
   p->parts = 0;
   for (size_t b = p->fixed.first_triangle[j]; b < fixed_end; b += NSVCD__WINDOW * NSVCD__LANES) {
@@ -8339,7 +9275,8 @@ static NSVCD__APART nsvcd__verdict nsvcd__settle_triangles(nsvcd__proof *p, size
             NSVCD__CERTIFY_BLOCK(p, i, j, l, &p->fixed_blocks[n], span, 0xffff, 0, NULL, 0);
             continue;
           }
-          const nsvcd__verdict row = nsvcd__settle_row(p, i, j, l, n, span, margin, u0, u1, patience);
+          const nsvcd__verdict row =
+              nsvcd__settle_row(p, i, j, l, n, span, margin, u0, u1, patience);
           if (row == NSVCD__MEETS || row == NSVCD__TOO_LONG || row == NSVCD__TAKEN) return row;
           if (p->work > p->limit) return NSVCD__UNDECIDED;
           if (row == NSVCD__UNDECIDED) verdict = row;
@@ -8350,18 +9287,20 @@ static NSVCD__APART nsvcd__verdict nsvcd__settle_triangles(nsvcd__proof *p, size
   return verdict;
 }
 
-static void nsvcd__certify_item(const nsvcd__proof *p, const nsvcd__span *span, const nsvcd__item *item) {
+static void nsvcd__certify_item(const nsvcd__proof *p, const nsvcd__span *span,
+                                const nsvcd__item *item) {
   const float normal[3] = {p->held.x, p->held.y, p->held.z};
-  NSVCD__CERTIFY(NSVCD__BY_HULL, item->moving, item->fixed, NSVCD_NONE, NSVCD_NONE, span->t_start, span->t_end,
-                 normal);
+  NSVCD__CERTIFY(NSVCD__BY_HULL, item->moving, item->fixed, NSVCD_NONE, NSVCD_NONE, span->t_start,
+                 span->t_end, normal);
   (void)normal;
   (void)span;
   (void)item;
 }
 
-// An item from u0 to u1 of an arc, or from halves to halves of that: by a plane that fits it, or by its triangles.
-static nsvcd__verdict nsvcd__settle_arc(nsvcd__proof *p, const nsvcd__item *item, uint32_t first, double u0,
-                                        double u1) {
+// An item from u0 to u1 of an arc, or from halves to halves of that: by a plane that fits it, or by
+// its triangles.
+static nsvcd__verdict nsvcd__settle_arc(nsvcd__proof *p, const nsvcd__item *item, uint32_t first,
+                                        double u0, double u1) {
   double *ends = p->arc_ends;
   size_t left = 1;
   nsvcd__verdict verdict = NSVCD__FREE;
@@ -8376,7 +9315,8 @@ static nsvcd__verdict nsvcd__settle_arc(nsvcd__proof *p, const nsvcd__item *item
     } else {
       const int may_halve = end - u > NSVCD__SHORTEST && left < NSVCD__ARC_PARTS;
       const size_t patience = may_halve ? NSVCD__PATIENCE_TO_PART : (size_t)-1;
-      const nsvcd__verdict part = nsvcd__settle_triangles(p, item->moving, item->fixed, &p->span, u, end, patience);
+      const nsvcd__verdict part =
+          nsvcd__settle_triangles(p, item->moving, item->fixed, &p->span, u, end, patience);
       if (part == NSVCD__MEETS || p->work > p->limit) return part;
       if (part == NSVCD__TAKEN) continue;
       if (part == NSVCD__TOO_LONG) {
@@ -8392,7 +9332,8 @@ static nsvcd__verdict nsvcd__settle_arc(nsvcd__proof *p, const nsvcd__item *item
 }
 
 // An item that no plane parts over its segment, arc by arc.
-static nsvcd__verdict nsvcd__settle_item(nsvcd__proof *p, const nsvcd__workspace *work, const nsvcd__item *item) {
+static nsvcd__verdict nsvcd__settle_item(nsvcd__proof *p, const nsvcd__workspace *work,
+                                         const nsvcd__item *item) {
   const uint32_t end = work->begin[item->segment + 1u];
   nsvcd__verdict verdict = NSVCD__FREE;
   for (uint32_t at = work->begin[item->segment]; at < end && (double)at < p->end;) {
@@ -8409,8 +9350,8 @@ static nsvcd__verdict nsvcd__settle_item(nsvcd__proof *p, const nsvcd__workspace
   return verdict;
 }
 
-// The height over p->held above which a moving patch stays in a segment, all allowances taken off. Neighbours of an item
-// that a plane parts ask for the same again.
+// The height over p->held above which a moving patch stays in a segment, all allowances taken off.
+// Neighbours of an item that a plane parts ask for the same again.
 static float nsvcd__least_height(nsvcd__proof *p, const nsvcd__span *span, size_t i, size_t s) {
   const uint32_t key = (uint32_t)(i * NSVCD__MAX_SEGMENTS + s);
   nsvcd__height *known = &p->heights[(NSVCD__GROUP * s + i % NSVCD__GROUP) % NSVCD__HEIGHTS];
@@ -8423,10 +9364,12 @@ static float nsvcd__least_height(nsvcd__proof *p, const nsvcd__span *span, size_
     const nsvcd__v at_end = nsvcd__v3_dot(n, nsvcd__v3_transform(&span->end, hull));
     lowest = nsvcd__least_of(lowest, nsvcd__v_least(nsvcd__v_min(at_start, at_end)));
   }
-  const float slack = (p->motion->scale * p->moving.slacks[i] + span->rounding) * nsvcd__f3_length(p->held);
+  const float slack =
+      (p->motion->scale * p->moving.slacks[i] + span->rounding) * nsvcd__f3_length(p->held);
   known->plane = p->plane;
   known->key = key;
-  known->height = lowest - slack - nsvcd__deviation(span, p->held, nsvcd__patch_reach(&p->moving, i));
+  known->height =
+      lowest - slack - nsvcd__deviation(span, p->held, nsvcd__patch_reach(&p->moving, i));
   return known->height;
 }
 
@@ -8448,7 +9391,8 @@ static float nsvcd__greatest_height(nsvcd__proof *p, size_t j) {
 }
 
 // Does a plane with the normal that held last part an item's patches over its segment?
-static int nsvcd__held_again(nsvcd__proof *p, const nsvcd__workspace *work, const nsvcd__item *item) {
+static int nsvcd__held_again(nsvcd__proof *p, const nsvcd__workspace *work,
+                             const nsvcd__item *item) {
   const nsvcd__span *span = nsvcd__segment_span(p, work, item->segment);
   const float least = nsvcd__least_height(p, span, item->moving, item->segment);
   const float clearance = nsvcd__clearance_of(p) * nsvcd__f3_length(p->held);
@@ -8458,7 +9402,8 @@ static int nsvcd__held_again(nsvcd__proof *p, const nsvcd__workspace *work, cons
 }
 
 // Is there any plane that does?
-static int nsvcd__item_is_parted(nsvcd__proof *p, const nsvcd__workspace *work, const nsvcd__item *item) {
+static int nsvcd__item_is_parted(nsvcd__proof *p, const nsvcd__workspace *work,
+                                 const nsvcd__item *item) {
   const nsvcd__span *span = nsvcd__segment_span(p, work, item->segment);
   if (!nsvcd__hulls_are_apart(p, item->moving, item->fixed, span)) return 0;
   nsvcd__certify_item(p, span, item);
@@ -8466,7 +9411,8 @@ static int nsvcd__item_is_parted(nsvcd__proof *p, const nsvcd__workspace *work, 
 }
 
 // Is there one for each pair of their triangles?
-static int nsvcd__triangles_are_parted(nsvcd__proof *p, const nsvcd__workspace *work, const nsvcd__item *item) {
+static int nsvcd__triangles_are_parted(nsvcd__proof *p, const nsvcd__workspace *work,
+                                       const nsvcd__item *item) {
   const nsvcd__span *span = nsvcd__segment_span(p, work, item->segment);
   return nsvcd__settle_triangles(p, item->moving, item->fixed, span, 0, 0, 0) == NSVCD__FREE;
 }
@@ -8490,8 +9436,9 @@ static int nsvcd__matters(const nsvcd__proof *p, const nsvcd__workspace *work, s
   return (double)work->begin[segment] < p->end;
 }
 
-// Where the end of what matters lies within a segment, that segment is cut off there. What leaves a chord by some length
-// leaves that of a part of the time by no more than twice that, along any direction.
+// Where the end of what matters lies within a segment, that segment is cut off there. What leaves a
+// chord by some length leaves that of a part of the time by no more than twice that, along any
+// direction.
 static NSVCD__APART void nsvcd__clip_segment(nsvcd__proof *p, nsvcd__workspace *work) {
   size_t s = 0;
   double u;
@@ -8528,15 +9475,17 @@ static NSVCD__APART nsvcd__verdict nsvcd__settle_items(nsvcd__proof *p, nsvcd__w
     if (p->work > p->limit) return NSVCD__UNDECIDED;
     nsvcd__clip_segment(p, work);
     if (!nsvcd__matters(p, work, p->of.items[n].segment)) continue;
-    if (p->clipped >> p->of.items[n].segment & 1 && nsvcd__item_is_parted(p, work, &p->of.items[n])) continue;
+    if (p->clipped >> p->of.items[n].segment & 1 && nsvcd__item_is_parted(p, work, &p->of.items[n]))
+      continue;
     if (nsvcd__settle_item(p, work, &p->of.items[n]) == NSVCD__MEETS) return NSVCD__MEETS;
   }
   p->count = 0;
   return p->work > p->limit ? NSVCD__UNDECIDED : NSVCD__FREE;
 }
 
-// Looks at fresh items, the best first: parts those that planes can part, looks for a witness in the others, and
-// keeps them. The last plane that held is tried on all before anything else: it often holds for neighbours.
+// Looks at fresh items, the best first: parts those that planes can part, looks for a witness in
+// the others, and keeps them. The last plane that held is tried on all before anything else: it
+// often holds for neighbours.
 static NSVCD__APART nsvcd__verdict nsvcd__sift_items(nsvcd__proof *p, nsvcd__workspace *work) {
   size_t count = 0;
   nsvcd__clip_segment(p, work);
@@ -8546,7 +9495,8 @@ static NSVCD__APART nsvcd__verdict nsvcd__sift_items(nsvcd__proof *p, nsvcd__wor
   }
   p->fresh_count = 0;
   nsvcd__sort_items(p, p->fresh, count);
-  if (count > 0 && p->fresh[0].depth > NSVCD__DEEP && nsvcd__seek_item(p, work, &p->fresh[0]) == NSVCD__MEETS) {
+  if (count > 0 && p->fresh[0].depth > NSVCD__DEEP &&
+      nsvcd__seek_item(p, work, &p->fresh[0]) == NSVCD__MEETS) {
     return NSVCD__MEETS;
   }
 
@@ -8577,11 +9527,17 @@ typedef struct nsvcd__ray {
   double margin;  // a ray that passes an edge within this tells nothing
 } nsvcd__ray;
 
-// +1 if the ray leaves through the triangle, -1 if it enters, 0 if it misses it; *unclear if it passes an edge.
-static int nsvcd__ray_crosses(const nsvcd__ray *ray, const nsvcd__d3 *t, double margin, int *unclear) {
-  double around[3], least = HUGE_VAL, most = -HUGE_VAL, nearest = HUGE_VAL;
+// +1 if the ray leaves through the triangle, -1 if it enters, 0 if it misses it; *unclear if it
+// passes an edge.
+static int nsvcd__ray_crosses(const nsvcd__ray *ray, const nsvcd__d3 *t, double margin,
+                              int *unclear) {
+  double around[3];
+  double least = HUGE_VAL;
+  double most = -HUGE_VAL;
+  double nearest = HUGE_VAL;
   const nsvcd__d3 n = nsvcd__d3_cross(nsvcd__d3_sub(t[1], t[0]), nsvcd__d3_sub(t[2], t[0]));
-  for (size_t k = 0; k < 3; k++) {  // the signed volumes of the edges and the ray: all alike if it passes within
+  // the signed volumes of the edges and the ray: all alike if it passes within
+  for (size_t k = 0; k < 3; k++) {
     const nsvcd__d3 edge = nsvcd__d3_sub(t[(k + 1) % 3], t[k]);
     const nsvcd__d3 across = nsvcd__d3_cross(edge, ray->direction);
     const double length = nsvcd__d3_length(across);
@@ -8599,7 +9555,8 @@ static int nsvcd__ray_crosses(const nsvcd__ray *ray, const nsvcd__d3 *t, double 
     // Near the line of an edge, but is it near the triangle?
     nsvcd__d3 far_end = nsvcd__d3_add(ray->from, nsvcd__d3_scale(ray->direction, 4 * 1.6e7));
     nsvcd__nearest near_edge = {HUGE_VAL, {0, 0, 0}, {0, 0, 0}};
-    for (size_t k = 0; k < 3; k++) nsvcd__edges_nearest(ray->from, far_end, t[k], t[(k + 1) % 3], &near_edge);
+    for (size_t k = 0; k < 3; k++)
+      nsvcd__edges_nearest(ray->from, far_end, t[k], t[(k + 1) % 3], &near_edge);
     if (near_edge.square <= 4 * margin * margin) *unclear = 1;
     if (least < 0 && most > 0) return 0;
   }
@@ -8609,14 +9566,15 @@ static int nsvcd__ray_crosses(const nsvcd__ray *ray, const nsvcd__d3 *t, double 
 }
 
 // Lanes of 16 spheres, in the body's frame, that the ray meets.
-static uint32_t nsvcd__spheres_on_ray(const nsvcd_body *b, const nsvcd__ray *ray, const float *x, const float *y,
-                                      const float *z, const float *r) {
+static uint32_t nsvcd__spheres_on_ray(const nsvcd_body *b, const nsvcd__ray *ray, const float *x,
+                                      const float *y, const float *z, const float *r) {
   const nsvcd__f3 from = nsvcd__f3_round(ray->from);
   const nsvcd__f3 direction = nsvcd__f3_round(ray->direction);
   const float rounding = (float)ray->margin + 4 * NSVCD__ROUNDING * b->extent;
   uint32_t met = 0;
   NSVCD__EACH_SLICE(l) {
-    const nsvcd__v3 centre = nsvcd__v3_of(nsvcd__v_load(x + l), nsvcd__v_load(y + l), nsvcd__v_load(z + l));
+    const nsvcd__v3 centre =
+        nsvcd__v3_of(nsvcd__v_load(x + l), nsvcd__v_load(y + l), nsvcd__v_load(z + l));
     const nsvcd__v3 n = nsvcd__v3_set(direction);
     const nsvcd__v3 d = nsvcd__v3_sub(centre, nsvcd__v3_set(from));
     const nsvcd__v3 off = nsvcd__v3_cross(d, n);
@@ -8632,7 +9590,8 @@ typedef struct nsvcd__ray_of {
   const nsvcd_body *body;
   const nsvcd__ray *ray;
 } nsvcd__ray_of;
-static uint32_t nsvcd__is_on_ray(const void *what, const float *x, const float *y, const float *z, const float *r) {
+static uint32_t nsvcd__is_on_ray(const void *what, const float *x, const float *y, const float *z,
+                                 const float *r) {
   const nsvcd__ray_of *of = (const nsvcd__ray_of *)what;
   return nsvcd__spheres_on_ray(of->body, of->ray, x, y, z, r);
 }
@@ -8640,11 +9599,12 @@ static uint32_t nsvcd__is_on_ray(const void *what, const float *x, const float *
 // Members of group g whose spheres the ray meets: it may meet their pieces.
 static uint32_t nsvcd__patches_on_ray(const nsvcd_body *b, const nsvcd__ray *ray, size_t g) {
   const size_t first = NSVCD__GROUP * g;
-  return nsvcd__spheres_on_ray(b, ray, nsvcd__body_x(b) + first, nsvcd__body_y(b) + first, nsvcd__body_z(b) + first,
-                               nsvcd__body_r(b) + first);
+  return nsvcd__spheres_on_ray(b, ray, nsvcd__body_x(b) + first, nsvcd__body_y(b) + first,
+                               nsvcd__body_z(b) + first, nsvcd__body_r(b) + first);
 }
 
-// Is the triangle new to the list of those that a ray has crossed? Then it is added; *unclear if there is no room.
+// Is the triangle new to the list of those that a ray has crossed? Then it is added; *unclear if
+// there is no room.
 static int nsvcd__is_new(nsvcd__proof *p, size_t *count, uint32_t number, int *unclear) {
   for (size_t k = 0; k < *count; k++) {
     if (p->crossed[k] == number) return 0;
@@ -8654,10 +9614,11 @@ static int nsvcd__is_new(nsvcd__proof *p, size_t *count, uint32_t number, int *u
   return 1;
 }
 
-// Lanes of a block whose triangles the ray crosses, or passes within the margin, and some more. The signed volumes of the
-// edges and the ray are products of an edge and a place on it, both off by rounding of the corners: by no more than
-// `rounding`, square metres.
-static uint32_t nsvcd__lanes_on_ray(nsvcd__block *block, const nsvcd__ray *ray, float margin, float rounding) {
+// Lanes of a block whose triangles the ray crosses, or passes within the margin, and some more. The
+// signed volumes of the edges and the ray are products of an edge and a place on it, both off by
+// rounding of the corners: by no more than `rounding`, square metres.
+static uint32_t nsvcd__lanes_on_ray(nsvcd__block *block, const nsvcd__ray *ray, float margin,
+                                    float rounding) {
   const nsvcd__f3 start = nsvcd__f3_round(ray->from);
   const nsvcd__f3 way = nsvcd__f3_round(ray->direction);
   uint32_t missed = 0;
@@ -8683,9 +9644,10 @@ static uint32_t nsvcd__lanes_on_ray(nsvcd__block *block, const nsvcd__ray *ray, 
   return (((uint32_t)1 << (block->count - 1) << 1) - 1) & ~missed;
 }
 
-// How often the surface of the closed components winds about a point, by one ray; *unclear if it cannot tell. A triangle
-// counts once, whatever patches list it, or parts of it.
-static int nsvcd__crossings(nsvcd__proof *p, const nsvcd__facets *f, const nsvcd__ray *ray, int *unclear) {
+// How often the surface of the closed components winds about a point, by one ray; *unclear if it
+// cannot tell. A triangle counts once, whatever patches list it, or parts of it.
+static int nsvcd__crossings(nsvcd__proof *p, const nsvcd__facets *f, const nsvcd__ray *ray,
+                            int *unclear) {
   nsvcd__block *block = &p->fixed_blocks[0];
   p->window = 0;
   const float remote = (float)nsvcd__d3_length(ray->from) + f->body->extent;
@@ -8730,11 +9692,13 @@ typedef struct nsvcd__surroundings {
 } nsvcd__surroundings;
 
 // Lanes of 16 spheres that come within that; a filter of a walk.
-static uint32_t nsvcd__is_around(const void *what, const float *x, const float *y, const float *z, const float *r) {
+static uint32_t nsvcd__is_around(const void *what, const float *x, const float *y, const float *z,
+                                 const float *r) {
   const nsvcd__surroundings *here = (const nsvcd__surroundings *)what;
   uint32_t met = 0;
   NSVCD__EACH_SLICE(l) {
-    const nsvcd__v3 centre = nsvcd__v3_of(nsvcd__v_load(x + l), nsvcd__v_load(y + l), nsvcd__v_load(z + l));
+    const nsvcd__v3 centre =
+        nsvcd__v3_of(nsvcd__v_load(x + l), nsvcd__v_load(y + l), nsvcd__v_load(z + l));
     const nsvcd__v3 d = nsvcd__v3_sub(centre, nsvcd__v3_set(here->place));
     const nsvcd__v reach = nsvcd__v_add(nsvcd__v_load(r + l), nsvcd__v_set(here->distance));
     met |= nsvcd__v_le(nsvcd__v3_dot(d, d), nsvcd__v_signed_square(reach)) << l;
@@ -8742,10 +9706,10 @@ static uint32_t nsvcd__is_around(const void *what, const float *x, const float *
   return met;
 }
 
-// Is a stored triangle of patch i so close to the place that the true surface may be on its other side? `distance`: that
-// close, and what float rounding may add.
-static int nsvcd__patch_is_near(nsvcd__proof *p, const nsvcd__facets *f, size_t i, nsvcd__d3 place, double tolerance,
-                                float distance) {
+// Is a stored triangle of patch i so close to the place that the true surface may be on its other
+// side? `distance`: that close, and what float rounding may add.
+static int nsvcd__patch_is_near(nsvcd__proof *p, const nsvcd__facets *f, size_t i, nsvcd__d3 place,
+                                double tolerance, float distance) {
   const nsvcd__d3 point[3] = {place, place, place};
   const nsvcd__box here = {nsvcd__f3_round(place), nsvcd__f3_round(place)};
   nsvcd__block *block = &p->fixed_blocks[0];
@@ -8766,11 +9730,13 @@ static int nsvcd__patch_is_near(nsvcd__proof *p, const nsvcd__facets *f, size_t 
 }
 
 // Is a stored triangle that close?
-static int nsvcd__surface_is_near(nsvcd__proof *p, const nsvcd__facets *f, nsvcd__d3 place, double tolerance) {
+static int nsvcd__surface_is_near(nsvcd__proof *p, const nsvcd__facets *f, nsvcd__d3 place,
+                                  double tolerance) {
   const nsvcd_body *b = f->body;
   const nsvcd__f3 rounded = nsvcd__f3_round(place);
   const float remote = nsvcd__f3_length(rounded) + b->extent;
-  const float distance = 2 * nsvcd__widest_quantum(f) + (float)tolerance * 1.0001f + 4 * NSVCD__ROUNDING * remote;
+  const float distance =
+      2 * nsvcd__widest_quantum(f) + (float)tolerance * 1.0001f + 4 * NSVCD__ROUNDING * remote;
   const nsvcd__surroundings here = {rounded, distance};
   size_t g;
   nsvcd__walk walk;
@@ -8787,12 +9753,15 @@ static int nsvcd__surface_is_near(nsvcd__proof *p, const nsvcd__facets *f, nsvcd
   return 0;
 }
 
-// Does the body enclose a place of its frame, farther from its surface than rounding? Rays in directions that no mesh is
-// likely to be aligned with, the first one on the side of the body on which the place is. unit: of its frame.
-static int nsvcd__is_enclosed(nsvcd__proof *p, const nsvcd__facets *f, double unit, nsvcd__d3 place) {
-  static const double directions[8][3] = {
-      {0.5359, 0.6013, 0.5927},   {-0.5741, 0.6229, 0.5314},  {0.6127, -0.5531, 0.5644},  {-0.5477, -0.5923, 0.5909},
-      {0.6311, 0.5573, -0.5396},  {-0.6053, 0.5297, -0.5941}, {0.5623, -0.6217, -0.5452}, {-0.5849, -0.5407, -0.6047}};
+// Does the body enclose a place of its frame, farther from its surface than rounding? Rays in
+// directions that no mesh is likely to be aligned with, the first one on the side of the body on
+// which the place is. unit: of its frame.
+static int nsvcd__is_enclosed(nsvcd__proof *p, const nsvcd__facets *f, double unit,
+                              nsvcd__d3 place) {
+  static const double directions[8][3] = {{0.5359, 0.6013, 0.5927},   {-0.5741, 0.6229, 0.5314},
+                                          {0.6127, -0.5531, 0.5644},  {-0.5477, -0.5923, 0.5909},
+                                          {0.6311, 0.5573, -0.5396},  {-0.6053, 0.5297, -0.5941},
+                                          {0.5623, -0.6217, -0.5452}, {-0.5849, -0.5407, -0.6047}};
   const nsvcd__d3 centre = nsvcd__d3_load(f->body->centre);
   const nsvcd__d3 off = nsvcd__d3_sub(place, centre);
   const double radius = (double)f->body->radius;
@@ -8814,8 +9783,8 @@ static int nsvcd__is_enclosed(nsvcd__proof *p, const nsvcd__facets *f, double un
   return 0;
 }
 
-// Does some surface of a body lie outside of a sphere about the other? start: from the frame of the first to that of the
-// second, in which the first is of this scale.
+// Does some surface of a body lie outside of a sphere about the other? start: from the frame of the
+// first to that of the second, in which the first is of this scale.
 static int nsvcd__sticks_out(const nsvcd__facets *inner, const nsvcd__transform *start, float scale,
                              const nsvcd_body *outer) {
   const nsvcd_body *b = inner->body;
@@ -8828,7 +9797,8 @@ static int nsvcd__sticks_out(const nsvcd__facets *inner, const nsvcd__transform 
     const float *r = nsvcd__body_r(b) + first;
     uint32_t out = 0;
     NSVCD__EACH_SLICE(l) {
-      const nsvcd__v3 own = nsvcd__v3_of(nsvcd__v_load(x + l), nsvcd__v_load(y + l), nsvcd__v_load(z + l));
+      const nsvcd__v3 own =
+          nsvcd__v3_of(nsvcd__v_load(x + l), nsvcd__v_load(y + l), nsvcd__v_load(z + l));
       const nsvcd__v3 d = nsvcd__v3_sub(nsvcd__v3_transform(start, own), nsvcd__v3_set(centre));
       const nsvcd__v radius = nsvcd__v_set(outer->radius + rounding);
       const nsvcd__v limit = nsvcd__v_fma(nsvcd__v_set(scale), nsvcd__v_load(r + l), radius);
@@ -8843,7 +9813,8 @@ static int nsvcd__sticks_out(const nsvcd__facets *inner, const nsvcd__transform 
 }
 
 // Seeds first .. first + 15 that may be in the sphere and in the box about the other body.
-static uint32_t nsvcd__seeds_near(const nsvcd__facets *inner, size_t first, const nsvcd__transform *start, float scale,
+static uint32_t nsvcd__seeds_near(const nsvcd__facets *inner, size_t first,
+                                  const nsvcd__transform *start, float scale,
                                   const nsvcd__facets *outer) {
   const nsvcd_body *o = outer->body;
   const size_t left = inner->components - first;
@@ -8871,8 +9842,8 @@ static uint32_t nsvcd__seeds_near(const nsvcd__facets *inner, size_t first, cons
   return nearby;
 }
 
-// The pose that takes the fixed body's frame to the moving one's, which is of this scale: rows are those of the inverse
-// rotation, over it.
+// The pose that takes the fixed body's frame to the moving one's, which is of this scale: rows are
+// those of the inverse rotation, over it.
 static nsvcd__placement nsvcd__inverse_placement(const nsvcd__placement *at, double scale) {
   const double inverse = 1 / (scale * scale);
   nsvcd__placement out;
@@ -8886,17 +9857,18 @@ static nsvcd__placement nsvcd__inverse_placement(const nsvcd__placement *at, dou
 // One body at the start of the motion, as the other sees it.
 typedef struct nsvcd__enclosure {
   const nsvcd__facets *inner, *outer;
-  nsvcd__placement start;     // of the inner body in the outer one's frame,
-  nsvcd__transform rounded;   // the same,
-  nsvcd__placement back;      // and the other way round
-  float scale;                // of the inner body, in that frame
-  double unit;                // of that frame: the fixed body's units
-  int inner_moves;            // it is the motion's moving body
+  nsvcd__placement start;    // of the inner body in the outer one's frame,
+  nsvcd__transform rounded;  // the same,
+  nsvcd__placement back;     // and the other way round
+  float scale;               // of the inner body, in that frame
+  double unit;               // of that frame: the fixed body's units
+  int inner_moves;           // it is the motion's moving body
 } nsvcd__enclosure;
 
-// Are some of the inner body's components, those with seeds from `first` to `end`, within the outer one? Then p->found
-// has the point, and p->within is set; 1 if that is certain.
-static int nsvcd__encloses_seeds(nsvcd__proof *p, const nsvcd__enclosure *e, size_t first, size_t end) {
+// Are some of the inner body's components, those with seeds from `first` to `end`, within the outer
+// one? Then p->found has the point, and p->within is set; 1 if that is certain.
+static int nsvcd__encloses_seeds(nsvcd__proof *p, const nsvcd__enclosure *e, size_t first,
+                                 size_t end) {
   uint32_t nearby = 0;
   for (size_t n = first; n < end; n++) {
     const size_t l = (n - first) % NSVCD__LANES;
@@ -8919,15 +9891,21 @@ static int nsvcd__encloses_seeds(nsvcd__proof *p, const nsvcd__enclosure *e, siz
   return 0;
 }
 
-// The same of all components. Where they are many, only those of groups that come near the outer body are asked for.
+// The same of all components. Where they are many, only those of groups that come near the outer
+// body are asked for.
 static int nsvcd__encloses_any(nsvcd__proof *p, const nsvcd__enclosure *e) {
-  const nsvcd_body *inner = e->inner->body, *outer = e->outer->body;
+  const nsvcd_body *inner = e->inner->body;
+  const nsvcd_body *outer = e->outer->body;
   if (outer->open) return 0;
-  if (e->inner->components == 1 && nsvcd__sticks_out(e->inner, &e->rounded, e->scale, outer)) return 0;
-  if (e->inner->components <= NSVCD__LANES) return nsvcd__encloses_seeds(p, e, 0, e->inner->components);
-  const nsvcd__f3 centre = nsvcd__f3_round(nsvcd__place_point(&e->back, nsvcd__d3_load(outer->centre)));
+  if (e->inner->components == 1 && nsvcd__sticks_out(e->inner, &e->rounded, e->scale, outer))
+    return 0;
+  if (e->inner->components <= NSVCD__LANES)
+    return nsvcd__encloses_seeds(p, e, 0, e->inner->components);
+  const nsvcd__f3 centre =
+      nsvcd__f3_round(nsvcd__place_point(&e->back, nsvcd__d3_load(outer->centre)));
   const float remote = nsvcd__f3_length(centre) + inner->extent + outer->extent / e->scale;
-  const nsvcd__surroundings here = {centre, outer->radius / e->scale + 4 * NSVCD__ROUNDING * remote};
+  const nsvcd__surroundings here = {centre,
+                                    outer->radius / e->scale + 4 * NSVCD__ROUNDING * remote};
   size_t g;
   nsvcd__walk walk;
   nsvcd__walk_begin(&walk, inner, nsvcd__is_around, &here);
@@ -8937,9 +9915,10 @@ static int nsvcd__encloses_any(nsvcd__proof *p, const nsvcd__enclosure *e) {
   return 0;
 }
 
-// Is a component of one body within the other at the start of the motion? Then p->found has its point. Where that is so
-// close to the surface that quanta matter, 0 is returned and p->within is set: if planes then part all patches at t = 0,
-// the point, the stored surface and the true one, patch by patch on one side of a plane, agree, and it is within.
+// Is a component of one body within the other at the start of the motion? Then p->found has its
+// point. Where that is so close to the surface that quanta matter, 0 is returned and p->within is
+// set: if planes then part all patches at t = 0, the point, the stored surface and the true one,
+// patch by patch on one side of a plane, agree, and it is within.
 static NSVCD__APART int nsvcd__starts_within(nsvcd__proof *p) {
   nsvcd__enclosure moving, fixed;
   moving.start = nsvcd__placement_at(nsvcd__arc_at(p, 0), 0);
@@ -8969,10 +9948,12 @@ static uint64_t nsvcd__segments_that_matter(const nsvcd__proof *p, const nsvcd__
   return s == 64 ? work->wanted : work->wanted & (((uint64_t)1 << s) - 1);
 }
 
-// Adds the items of moving group g and resting patch j in the segments `left`, and clears these, as long as there is room
-// for 16 more.
-static void nsvcd__collect_items(nsvcd__proof *p, const nsvcd__workspace *work, size_t g, size_t j, uint64_t *left) {
-  const nsvcd_body *moving = p->moving.body, *fixed = p->fixed.body;
+// Adds the items of moving group g and resting patch j in the segments `left`, and clears these, as
+// long as there is room for 16 more.
+static void nsvcd__collect_items(nsvcd__proof *p, const nsvcd__workspace *work, size_t g, size_t j,
+                                 uint64_t *left) {
+  const nsvcd_body *moving = p->moving.body;
+  const nsvcd_body *fixed = p->fixed.body;
   const nsvcd__f3 place = nsvcd__facet_centre(&p->fixed, j);
   const float radius = nsvcd__body_r(fixed)[j];
   const float *own = nsvcd__body_r(moving) + NSVCD__GROUP * g;
@@ -8984,10 +9965,13 @@ static void nsvcd__collect_items(nsvcd__proof *p, const nsvcd__workspace *work, 
     float share[NSVCD__LANES];
     uint32_t met = 0;
     NSVCD__EACH_SLICE(l) {
-      const nsvcd__v3 start = nsvcd__v3_of(nsvcd__v_load(c->x + l), nsvcd__v_load(c->y + l), nsvcd__v_load(c->z + l));
-      const nsvcd__v3 v = nsvcd__v3_of(nsvcd__v_load(c->vx + l), nsvcd__v_load(c->vy + l), nsvcd__v_load(c->vz + l));
+      const nsvcd__v3 start =
+          nsvcd__v3_of(nsvcd__v_load(c->x + l), nsvcd__v_load(c->y + l), nsvcd__v_load(c->z + l));
+      const nsvcd__v3 v = nsvcd__v3_of(nsvcd__v_load(c->vx + l), nsvcd__v_load(c->vy + l),
+                                       nsvcd__v_load(c->vz + l));
       const nsvcd__v3 d = nsvcd__v3_sub(start, nsvcd__v3_set(place));
-      const nsvcd__v tau = nsvcd__v_clamp(nsvcd__v_mul(nsvcd__v3_dot(d, v), nsvcd__v_load(c->inverse + l)), 0, 1);
+      const nsvcd__v tau =
+          nsvcd__v_clamp(nsvcd__v_mul(nsvcd__v3_dot(d, v), nsvcd__v_load(c->inverse + l)), 0, 1);
       const nsvcd__v3 closest = nsvcd__v3_fma(tau, v, d);
       const nsvcd__v square = nsvcd__v3_dot(closest, closest);
       const nsvcd__v reach = nsvcd__v_add(nsvcd__v_load(c->reach + l), nsvcd__v_set(radius));
@@ -9010,9 +9994,11 @@ static void nsvcd__collect_items(nsvcd__proof *p, const nsvcd__workspace *work, 
   }
 }
 
-// Goes on with the search of a tile until there are fresh items enough for a look. 0 when it has come to its end.
+// Goes on with the search of a tile until there are fresh items enough for a look. 0 when it has
+// come to its end.
 static NSVCD__APART int nsvcd__collect(nsvcd__proof *p, nsvcd__workspace *work) {
-  const nsvcd_body *moving = p->moving.body, *fixed = p->fixed.body;
+  const nsvcd_body *moving = p->moving.body;
+  const nsvcd_body *fixed = p->fixed.body;
   for (; work->step < work->steps; work->step++) {
     const size_t turn = work->order[work->step];
     const size_t g = work->moving_tile.groups[turn];
@@ -9025,7 +10011,8 @@ static NSVCD__APART int nsvcd__collect(nsvcd__proof *p, nsvcd__workspace *work) 
       const size_t at = nsvcd__lowest_bit(work->waiting);
       const size_t h = work->fixed_tile.groups[at];
       if (!p->in_pair) {
-        const uint64_t wanted = nsvcd__nearby(work, turn)[at] & nsvcd__segments_that_matter(p, work);
+        const uint64_t wanted =
+            nsvcd__nearby(work, turn)[at] & nsvcd__segments_that_matter(p, work);
         p->met = nsvcd__group_against_members(work, fixed, h, wanted, p->met_in);
         p->in_pair = 1;
       }
@@ -9046,9 +10033,11 @@ static NSVCD__APART int nsvcd__collect(nsvcd__proof *p, nsvcd__workspace *work) 
   return 0;
 }
 
-// Patches to look through for one that is near a place of the body's frame: all, or of a large body those of a group that is
-// found by going down the levels of spheres, always to the nearest. There is one with a surface among them.
-static void nsvcd__patches_towards(const nsvcd__facets *f, nsvcd__f3 place, size_t *first, size_t *end) {
+// Patches to look through for one that is near a place of the body's frame: all, or of a large body
+// those of a group that is found by going down the levels of spheres, always to the nearest. There
+// is one with a surface among them.
+static void nsvcd__patches_towards(const nsvcd__facets *f, nsvcd__f3 place, size_t *first,
+                                   size_t *end) {
   const nsvcd_body *body = f->body;
   *first = 0;
   *end = body->points;
@@ -9062,7 +10051,8 @@ static void nsvcd__patches_towards(const nsvcd__facets *f, nsvcd__f3 place, size
     float best = HUGE_VALF;
     for (size_t n = from; n < from + count && n < level.count; n++) {
       const nsvcd__f3 centre = nsvcd__f3_of(x[n], x[level.slots + n], x[2 * level.slots + n]);
-      const float distance = nsvcd__f3_length(nsvcd__f3_sub(centre, place)) - x[3 * level.slots + n];
+      const float distance =
+          nsvcd__f3_length(nsvcd__f3_sub(centre, place)) - x[3 * level.slots + n];
       if (distance >= best) continue;
       best = distance;
       nearest = n;
@@ -9077,8 +10067,8 @@ static void nsvcd__patches_towards(const nsvcd__facets *f, nsvcd__f3 place, size
   }
 }
 
-// How near the bodies come for certain, and a little more: the least distance between the vertices of two patches that are
-// near each other at a time when the bodies are. Where `measure` begins.
+// How near the bodies come for certain, and a little more: the least distance between the vertices
+// of two patches that are near each other at a time when the bodies are. Where `measure` begins.
 static NSVCD__APART double nsvcd__guess_clearance(nsvcd__proof *p, const nsvcd__workspace *work) {
   const nsvcd__d3 centre = nsvcd__d3_load(p->moving.body->centre);
   const nsvcd__d3 other = nsvcd__d3_load(p->fixed.body->centre);
@@ -9096,7 +10086,8 @@ static NSVCD__APART double nsvcd__guess_clearance(nsvcd__proof *p, const nsvcd__
   const nsvcd__transform pose = nsvcd__transform_of(&nearest);
   const nsvcd__placement back = nsvcd__inverse_placement(&nearest, p->arc.scale);
   nsvcd__f3 target = nsvcd__f3_round(other);
-  size_t i = 0, j = 0;
+  size_t i = 0;
+  size_t j = 0;
   for (size_t round = 0; round < 2; round++) {  // from one body to the other, and again
     size_t first, end;
     float best = HUGE_VALF;
@@ -9122,7 +10113,8 @@ static NSVCD__APART double nsvcd__guess_clearance(nsvcd__proof *p, const nsvcd__
       j = k;
     }
   }
-  float lanes[3][NSVCD__LANES], least_square = HUGE_VALF;
+  float lanes[3][NSVCD__LANES];
+  float least_square = HUGE_VALF;
   NSVCD__EACH_SLICE(l) {
     const nsvcd__v3 moving = nsvcd__facet_vertices(&p->moving, i, 0, p->moving.hull_counts[i], l);
     nsvcd__v3_store(lanes, l, nsvcd__v3_transform(&pose, moving));
@@ -9177,7 +10169,8 @@ static nsvcd__verdict nsvcd__prove_tile_in_order(nsvcd__proof *p, nsvcd__workspa
 
 // The same, tile after tile. What is settled in one of several tells nothing of the others.
 static nsvcd__verdict nsvcd__prove_in_order(nsvcd__proof *p, nsvcd__workspace *work) {
-  const nsvcd_body *moving = p->moving.body, *fixed = p->fixed.body;
+  const nsvcd_body *moving = p->moving.body;
+  const nsvcd_body *fixed = p->fixed.body;
   nsvcd__verdict verdict;
   do {
     verdict = nsvcd__prove_tile_in_order(p, work);
@@ -9187,7 +10180,8 @@ static nsvcd__verdict nsvcd__prove_in_order(nsvcd__proof *p, nsvcd__workspace *w
 }
 
 static nsvcd__verdict nsvcd__prove(nsvcd__proof *p, nsvcd__workspace *work) {
-  const float lifted = nsvcd__f3_length(nsvcd__f3_of(p->motion->lift[0], p->motion->lift[1], p->motion->lift[2]));
+  const float lifted =
+      nsvcd__f3_length(nsvcd__f3_of(p->motion->lift[0], p->motion->lift[1], p->motion->lift[2]));
   const float apart = p->lengths + nsvcd__clearance_of(p) + 1.0001f * lifted;
   if (!(p->measure > 0) && nsvcd__motion_is_far(p->motion, apart)) {
     return NSVCD__FREE;
@@ -9198,10 +10192,12 @@ static nsvcd__verdict nsvcd__prove(nsvcd__proof *p, nsvcd__workspace *work) {
   if (p->measure > 0) p->clearance = nsvcd__guess_clearance(p, work);
   nsvcd__cut_segments(p->motion, p->lengths, nsvcd__clearance_of(p), work);
   nsvcd__search_begin(p->moving.body, p->fixed.body, work);
-  const nsvcd__verdict verdict = p->first > 0 ? nsvcd__prove_in_order(p, work) : nsvcd__prove_tiles(p, work);
+  const nsvcd__verdict verdict =
+      p->first > 0 ? nsvcd__prove_in_order(p, work) : nsvcd__prove_tiles(p, work);
   if (p->lost) p->settled = 0;  // whether one is within the other, at the start
   p->lost |= verdict == NSVCD__UNDECIDED;
-  if (p->first > 0 && p->has_contact && p->unsure <= p->end) {  // a doubt that ends in a contact is its beginning
+  // a doubt that ends in a contact is its beginning
+  if (p->first > 0 && p->has_contact && p->unsure <= p->end) {
     p->found = p->doubt;
     p->end = p->unsure;
   }
@@ -9231,10 +10227,11 @@ static void nsvcd__proof_restart(nsvcd__proof *p) {
 }
 
 // ---- leaving a contact
-// What carries a body must not stop it. Which contacts are those? The body is asked about as if it were lifted off all that
-// it touches at the start, by a vector v that has the skin's length along every normal there. That is a motion like any
-// other, and what is proven of it is proven: the body stays clear of everything when displaced by v, so that, undisplaced,
-// it goes no deeper than |v| into anything. What presses in deeper than the skin at the start has no such v, nor has what is
+// What carries a body must not stop it. Which contacts are those? The body is asked about as if it
+// were lifted off all that it touches at the start, by a vector v that has the skin's length along
+// every normal there. That is a motion like any other, and what is proven of it is proven: the body
+// stays clear of everything when displaced by v, so that, undisplaced, it goes no deeper than |v|
+// into anything. What presses in deeper than the skin at the start has no such v, nor has what is
 // held from opposite sides, and is hit as ever. v is constant as the fixed body sees it.
 
 // Gathers what the moving body touches at the start, or as much of it as can be looked at together.
@@ -9262,7 +10259,8 @@ static size_t nsvcd__undone(const nsvcd__proof *p, nsvcd__d3 n) {
   return count;
 }
 
-// Of the normals of what touches, and across an edge of each, one that undoes the most; `best` as it is if none undoes any.
+// Of the normals of what touches, and across an edge of each, one that undoes the most; `best` as
+// it is if none undoes any.
 static size_t nsvcd__best_lift(const nsvcd__proof *p, nsvcd__d3 *best) {
   const nsvcd__d3 none = nsvcd__d3_of(0, 0, 0);
   size_t most = 0;
@@ -9307,8 +10305,8 @@ static int nsvcd__choose_lifts(nsvcd__proof *p) {
   return 1;
 }
 
-// The shortest vector, nearly, that has the skin's length along all normals that were gathered. 0 if there is none of less
-// than four skins.
+// The shortest vector, nearly, that has the skin's length along all normals that were gathered. 0
+// if there is none of less than four skins.
 static nsvcd__d3 nsvcd__lift_off(const nsvcd__proof *p) {
   nsvcd__d3 lift = {0, 0, 0};
   for (size_t round = 0; round < 64; round++) {
@@ -9336,7 +10334,8 @@ static NSVCD__APART void nsvcd__lift_motion(nsvcd__proof *p, nsvcd__workspace *w
   p->clearance += 0.05 * p->skin;  // what is about to touch is lifted off too
   p->gathers = 1;
   int liftable = 1;
-  for (int more = 1; more && liftable;) {  // as many times as there are too many contacts to look at at once
+  // as many times as there are too many contacts to look at at once
+  for (int more = 1; more && liftable;) {
     nsvcd__proof_restart(p);
     nsvcd__gather_contacts(p, work);
     more = p->touch_count > 0;
@@ -9354,26 +10353,29 @@ static NSVCD__APART void nsvcd__lift_motion(nsvcd__proof *p, nsvcd__workspace *w
 #endif  // NSVCD_NO_PROOF
 
 #ifndef NSVCD_NO_NETWORK
-// ------------------------------------------------------------------------------------------------ containment
-// In: two bodies and a pose. Out: is one inside the other? A body wholly inside another never crosses its surface, so
-// surfaces cannot tell. The winding number of a closed surface can (Jacobson et al. 2013), and far from the surface
-// each patch is as good as a dipole of its area vector (Barill et al. 2018):
+// ------------------------------------------------------------------------------------- containment
+// In: two bodies and a pose. Out: is one inside the other? A body wholly inside another never
+// crosses its surface, so surfaces cannot tell. The winding number of a closed surface can
+// (Jacobson et al. 2013), and far from the surface each patch is as good as a dipole of its area
+// vector (Barill et al. 2018):
 //   w(x) = sum_i A_i . (p_i - x) / (4 pi |p_i - x|^3)     1 inside, 0 outside
-// Near the surface it is not: a flat disc seen from its covering radius gives 0.25 where 0.146 is true, from half of
-// it 1.0 where 0.28 is true. So the place asked about is the patch centre of the inner body (of NSVCD__PROBES) that is
-// farthest from the outer patches in units of their radii, and below NSVCD__CLEARANCE the answer is no: then it lies
-// in a covering sphere, the broad phase has candidates, and the network is asked. Measured at a million places about
-// spheres of 32 to 512 patches, the worst error of w is 0.55 from 0.75 radii on, 0.52 from 1, 0.06 from 1.5; from 1 on,
+// Near the surface it is not: a flat disc seen from its covering radius gives 0.25 where 0.146 is
+// true, from half of it 1.0 where 0.28 is true. So the place asked about is the patch centre of the
+// inner body (of NSVCD__PROBES) that is farthest from the outer patches in units of their radii,
+// and below NSVCD__CLEARANCE the answer is no: then it lies in a covering sphere, the broad phase
+// has candidates, and the network is asked. Measured at a million places about spheres of 32 to 512
+// patches, the worst error of w is 0.55 from 0.75 radii on, 0.52 from 1, 0.06 from 1.5; from 1 on,
 // fewer than 1 in 1,000 exceed 0.3.
-// In bodies of more than a tile's patches the sums of area vectors stand for those of whole groups, and of what is above
-// them, where the place is farther than NSVCD__DIPOLE of their spheres' radii: w is then within 0.05 of the sum over all
-// patches (tests/test_level.c).
-// Cost: at most NSVCD__PROBES * N distances each way, where one body's centres lie in the other's sphere; of large bodies
-// only those of groups nearby.
+// In bodies of more than a tile's patches the sums of area vectors stand for those of whole groups,
+// and of what is above them, where the place is farther than NSVCD__DIPOLE of their spheres' radii:
+// w is then within 0.05 of the sum over all patches (tests/test_level.c).
+// Cost: at most NSVCD__PROBES * N distances each way, where one body's centres lie in the other's
+// sphere; of large bodies only those of groups nearby.
 
 #define NSVCD__PROBES NSVCD__LANES
 #define NSVCD__CLEARANCE 1.0f
-#define NSVCD__AMPLE 2.0f   // no place needs more clearance than this, and what is farther away is not looked at
+// no place needs more clearance than this, and what is farther away is not looked at
+#define NSVCD__AMPLE 2.0f
 #define NSVCD__DIPOLE 3.0f
 
 // Places that a walk asks about: a ball over them.
@@ -9398,9 +10400,11 @@ static nsvcd__places nsvcd__places_of(float (*places)[NSVCD__PROBES]) {
   return out;
 }
 
-// A filter of a walk: spheres whose members may be nearer to one of the places than NSVCD__AMPLE of their radii. A member
-// (p, r) of a sphere (c, R) has |p - c| + r <= R, so that |p - x| / r is at least |c - x| / R.
-static uint32_t nsvcd__may_be_close(const void *what, const float *x, const float *y, const float *z, const float *r) {
+// A filter of a walk: spheres whose members may be nearer to one of the places than NSVCD__AMPLE of
+// their radii. A member (p, r) of a sphere (c, R) has |p - c| + r <= R, so that |p - x| / r is at
+// least |c - x| / R.
+static uint32_t nsvcd__may_be_close(const void *what, const float *x, const float *y,
+                                    const float *z, const float *r) {
   const nsvcd__places *places = (const nsvcd__places *)what;
   uint32_t close = 0;
   NSVCD__EACH_SLICE(l) {
@@ -9408,26 +10412,36 @@ static uint32_t nsvcd__may_be_close(const void *what, const float *x, const floa
     const nsvcd__v d[3] = {nsvcd__v_sub(nsvcd__v_load(x + l), nsvcd__v_set(places->centre[0])),
                            nsvcd__v_sub(nsvcd__v_load(y + l), nsvcd__v_set(places->centre[1])),
                            nsvcd__v_sub(nsvcd__v_load(z + l), nsvcd__v_set(places->centre[2]))};
-    const nsvcd__v reach = nsvcd__v_fma(radius, nsvcd__v_set(NSVCD__AMPLE), nsvcd__v_set(places->radius));
+    const nsvcd__v reach =
+        nsvcd__v_fma(radius, nsvcd__v_set(NSVCD__AMPLE), nsvcd__v_set(places->radius));
     close |= nsvcd__v_le(nsvcd__v_dot3(d, d), nsvcd__v_signed_square(reach)) << l;
   }
   return close;
 }
 
-// Least |p_i - x| / r_i, squared, at a slice of places, over the patches of a group, or what it was.
-static nsvcd__v nsvcd__clearance2(const nsvcd_body *body, size_t group, const nsvcd__v *place, nsvcd__v least) {
-  const float *x = nsvcd__body_x(body), *y = nsvcd__body_y(body), *z = nsvcd__body_z(body), *r = nsvcd__body_r(body);
-  const size_t end = NSVCD__GROUP * (group + 1) < body->points ? NSVCD__GROUP * (group + 1) : body->points;
+// Least |p_i - x| / r_i, squared, at a slice of places, over the patches of a group, or what it
+// was.
+static nsvcd__v nsvcd__clearance2(const nsvcd_body *body, size_t group, const nsvcd__v *place,
+                                  nsvcd__v least) {
+  const float *x = nsvcd__body_x(body);
+  const float *y = nsvcd__body_y(body);
+  const float *z = nsvcd__body_z(body);
+  const float *r = nsvcd__body_r(body);
+  const size_t end =
+      NSVCD__GROUP * (group + 1) < body->points ? NSVCD__GROUP * (group + 1) : body->points;
   for (size_t i = NSVCD__GROUP * group; i < end; i++) {
-    const nsvcd__v d[3] = {nsvcd__v_sub(nsvcd__v_set(x[i]), place[0]), nsvcd__v_sub(nsvcd__v_set(y[i]), place[1]),
+    const nsvcd__v d[3] = {nsvcd__v_sub(nsvcd__v_set(x[i]), place[0]),
+                           nsvcd__v_sub(nsvcd__v_set(y[i]), place[1]),
                            nsvcd__v_sub(nsvcd__v_set(z[i]), place[2])};
-    const float square = r[i] * r[i], inverse = 1 / (square > 1e-37f ? square : 1e-37f);
+    const float square = r[i] * r[i];
+    const float inverse = 1 / (square > 1e-37f ? square : 1e-37f);
     least = nsvcd__v_min(least, nsvcd__v_mul(nsvcd__v_dot3(d, d), nsvcd__v_set(inverse)));
   }
   return least;
 }
 
-// The same over all patches of a body, but NSVCD__AMPLE, squared, is the most it says. out: (PROBES).
+// The same over all patches of a body, but NSVCD__AMPLE, squared, is the most it says. out:
+// (PROBES).
 static void nsvcd__clearances(const nsvcd_body *body, float (*places)[NSVCD__PROBES], float *out) {
   const nsvcd__places near_to = nsvcd__places_of(places);
   nsvcd__walk walk;
@@ -9443,24 +10457,26 @@ static void nsvcd__clearances(const nsvcd_body *body, float (*places)[NSVCD__PRO
   }
 }
 
-// The terms of the winding number (their lanes added up) of some spheres, a multiple of 16, with their area vectors. Where
-// radii are given, they say which spheres count: those that are far from the point, and the bits of the others are
-// returned, of 64 at most.
-static uint64_t nsvcd__dipoles(const float *x, size_t stride, const float *areas, size_t count, const float *radii,
-                               const float *point, float *lanes) {
+// The terms of the winding number (their lanes added up) of some spheres, a multiple of 16, with
+// their area vectors. Where radii are given, they say which spheres count: those that are far from
+// the point, and the bits of the others are returned, of 64 at most.
+static uint64_t nsvcd__dipoles(const float *x, size_t stride, const float *areas, size_t count,
+                               const float *radii, const float *point, float *lanes) {
   uint64_t close = 0;
   NSVCD__EACH_SLICE(l) {
     const nsvcd__v at[3] = {nsvcd__v_set(point[0]), nsvcd__v_set(point[1]), nsvcd__v_set(point[2])};
     const nsvcd__v zero = nsvcd__v_set(0);
     nsvcd__v sum = nsvcd__v_load(lanes + l);
     for (size_t i = l; i < count; i += NSVCD__LANES) {
-      const nsvcd__v d[3] = {nsvcd__v_sub(nsvcd__v_load(x + i), at[0]), nsvcd__v_sub(nsvcd__v_load(x + stride + i), at[1]),
+      const nsvcd__v d[3] = {nsvcd__v_sub(nsvcd__v_load(x + i), at[0]),
+                             nsvcd__v_sub(nsvcd__v_load(x + stride + i), at[1]),
                              nsvcd__v_sub(nsvcd__v_load(x + 2 * stride + i), at[2])};
       const nsvcd__v area[3] = {nsvcd__v_load(areas + i), nsvcd__v_load(areas + stride + i),
                                 nsvcd__v_load(areas + 2 * stride + i)};
       const nsvcd__v length = nsvcd__v_max(nsvcd__v_length3(d), nsvcd__v_set(1e-30f));
       const nsvcd__v inverse = nsvcd__v_div(nsvcd__v_set(1), length);
-      const nsvcd__v cosine = nsvcd__v_mul(nsvcd__v_dot3(area, d), inverse);  // step by step: the cube may overflow
+      // step by step: the cube may overflow
+      const nsvcd__v cosine = nsvcd__v_mul(nsvcd__v_dot3(area, d), inverse);
       nsvcd__v term = nsvcd__v_mul(nsvcd__v_mul(cosine, inverse), inverse);
       if (radii) {
         const nsvcd__v reach = nsvcd__v_mul(nsvcd__v_set(NSVCD__DIPOLE), nsvcd__v_load(radii + i));
@@ -9474,21 +10490,22 @@ static uint64_t nsvcd__dipoles(const float *x, size_t stride, const float *areas
   return close;
 }
 
-// Adds the terms of the spheres of a level from `first` on: of those that are far from the point, and of the members of the
-// others.
-static void nsvcd__dipoles_of_level(const nsvcd_body *body, size_t n, size_t first, size_t count, const float *point,
-                                    float *lanes) {
+// Adds the terms of the spheres of a level from `first` on: of those that are far from the point,
+// and of the members of the others.
+static void nsvcd__dipoles_of_level(const nsvcd_body *body, size_t n, size_t first, size_t count,
+                                    const float *point, float *lanes) {
   const nsvcd__level level = nsvcd__level_of(body->padded, n);
   const float *x = nsvcd__body_floats(body, level.first + first);
-  uint64_t close = nsvcd__dipoles(x, level.slots, nsvcd__level_areas(body, level) + first, count, x + 3 * level.slots, point,
-                                  lanes);
+  uint64_t close = nsvcd__dipoles(x, level.slots, nsvcd__level_areas(body, level) + first, count,
+                                  x + 3 * level.slots, point, lanes);
   for (; close; close &= close - 1) {
     const size_t member = NSVCD__GROUP * (first + nsvcd__lowest_bit(close));
     if (n > 0) {
       nsvcd__dipoles_of_level(body, n - 1, member, NSVCD__GROUP, point, lanes);
     } else {
       const float *areas = nsvcd__body_areas(body) + member;
-      nsvcd__dipoles(nsvcd__body_x(body) + member, body->padded, areas, NSVCD__GROUP, NULL, point, lanes);
+      nsvcd__dipoles(nsvcd__body_x(body) + member, body->padded, areas, NSVCD__GROUP, NULL, point,
+                     lanes);
     }
   }
 }
@@ -9501,19 +10518,23 @@ static float nsvcd__winding_number(const nsvcd_body *body, const float *point) {
     const size_t slots = nsvcd__level_of(body->padded, top).slots;
     nsvcd__dipoles_of_level(body, top, 0, slots, point, lanes);
   } else {
-    nsvcd__dipoles(nsvcd__body_x(body), body->padded, nsvcd__body_areas(body), body->padded, NULL, point, lanes);
+    nsvcd__dipoles(nsvcd__body_x(body), body->padded, nsvcd__body_areas(body), body->padded, NULL,
+                   point, lanes);
   }
-  for (size_t l = 0; l < NSVCD__LANES; l++) total += lanes[l];  // in this order, whatever the slices
+  // in this order, whatever the slices
+  for (size_t l = 0; l < NSVCD__LANES; l++) total += lanes[l];
   return total / 12.5663706f;
 }
 
-// 1 if `inner`, of this scale and at the pose (rotation, position) in the frame of `outer`, lies inside it.
-static int nsvcd__is_inside(const nsvcd_body *inner, const nsvcd_body *outer, float scale, const float *rotation,
-                            const float *position) {
+// 1 if `inner`, of this scale and at the pose (rotation, position) in the frame of `outer`, lies
+// inside it.
+static int nsvcd__is_inside(const nsvcd_body *inner, const nsvcd_body *outer, float scale,
+                            const float *rotation, const float *position) {
   float places[3][NSVCD__PROBES], clearance[NSVCD__PROBES], point[3];
   if (outer->open) return 0;
   for (size_t k = 0; k < NSVCD__PROBES; k++) {
-    const size_t i = k * inner->points / NSVCD__PROBES;  // neighbours are stored together: equal steps spread over it
+    // neighbours are stored together: equal steps spread over it
+    const size_t i = k * inner->points / NSVCD__PROBES;
     const float p[3] = {nsvcd__body_x(inner)[i], nsvcd__body_y(inner)[i], nsvcd__body_z(inner)[i]};
     nsvcd__mul33_vec(rotation, p, point);
     for (size_t n = 0; n < 3; n++) places[n][k] = scale * point[n] + position[n];
@@ -9522,7 +10543,8 @@ static int nsvcd__is_inside(const nsvcd_body *inner, const nsvcd_body *outer, fl
   uint32_t within = 0;
   NSVCD__EACH_SLICE(l) {
     nsvcd__v off[3];
-    for (size_t n = 0; n < 3; n++) off[n] = nsvcd__v_sub(nsvcd__v_load(places[n] + l), nsvcd__v_set(outer->centre[n]));
+    for (size_t n = 0; n < 3; n++)
+      off[n] = nsvcd__v_sub(nsvcd__v_load(places[n] + l), nsvcd__v_set(outer->centre[n]));
     within |= nsvcd__v_le(nsvcd__v_length3(off), nsvcd__v_set(outer->radius)) << l;
   }
   if (within != 0xffff) return 0;
@@ -9534,10 +10556,10 @@ static int nsvcd__is_inside(const nsvcd_body *inner, const nsvcd_body *outer, fl
   return fabsf(nsvcd__winding_number(outer, point)) > 0.5f;  // -1 where the mesh is inside out
 }
 
-// 1 if one body lies inside the other, whichever, when the moving one, of this scale, is at (rotation, position) in the
-// fixed frame.
-static int nsvcd__is_contained(const nsvcd_body *moving, const nsvcd_body *fixed, float scale, const float *rotation,
-                               const float *position) {
+// 1 if one body lies inside the other, whichever, when the moving one, of this scale, is at
+// (rotation, position) in the fixed frame.
+static int nsvcd__is_contained(const nsvcd_body *moving, const nsvcd_body *fixed, float scale,
+                               const float *rotation, const float *position) {
   float back[9], from[3];
   nsvcd__transpose33(rotation, back);
   nsvcd__mul33_vec(back, position, from);
@@ -9546,28 +10568,32 @@ static int nsvcd__is_contained(const nsvcd_body *moving, const nsvcd_body *fixed
          nsvcd__is_inside(fixed, moving, 1 / scale, back, from);
 }
 
-// ---------------------------------------------------------------------------------------------------- decoder
-// In: candidate pairs of patches and the motion over the intervals in which their spheres meet. Out: a logit each.
+// ----------------------------------------------------------------------------------------- decoder
+// In: candidate pairs of patches and the motion over the intervals in which their spheres meet.
+// Out: a logit each.
 //
-// The motion is linearised about the middle of the interval; then everything is expressed in a frame that moves with
-// the pair, in units of r1 + r2 (appendix F), so the logit is invariant to rigid motion and scale. The symmetries that
-// are left are removed by convention, not learned:
+// The motion is linearised about the middle of the interval; then everything is expressed in a
+// frame that moves with the pair, in units of r1 + r2 (appendix F), so the logit is invariant to
+// rigid motion and scale. The symmetries that are left are removed by convention, not learned:
 //   swap           the larger patch comes first
 //   axis 1         the line between the centres
-//   axis 2         the velocity across the line, plus a twentieth of the lean (the difference of the patches' mean
-//                  directions, latent channel 0), so that it has a limit where the velocity vanishes
+//   axis 2         the velocity across the line, plus a twentieth of the lean (the difference of
+//                  the patches' mean directions, latent channel 0), so that it has a limit where
+//                  the velocity vanishes
 //   time reversal  time runs so that velocity and lean, across the line, do not oppose each other
-//   mirror         axis 3 points to the side of the lean; where the lean is on neither side, as it is for a pair at
-//                  rest, the frame is right-handed
-// Degenerate cases: centres that coincide (to 1e-5 of r1 + r2) take the lean, else x, as axis 1; a reference that
-// vanishes takes the coordinate axis farthest from axis 1 as axis 2.
+//   mirror         axis 3 points to the side of the lean; where the lean is on neither side, as it
+//                  is for a pair at rest, the frame is right-handed
+// Degenerate cases: centres that coincide (to 1e-5 of r1 + r2) take the lean, else x, as axis 1; a
+// reference that vanishes takes the coordinate axis farthest from axis 1 as axis 2.
 //
-// Pairs are asked about in batches of 16, at most. They become inputs a slice at a time, one per lane (only their
-// latents are turned pair by pair, channels side by side), and these go through the layers some rows at a time.
+// Pairs are asked about in batches of 16, at most. They become inputs a slice at a time, one per
+// lane (only their latents are turned pair by pair, channels side by side), and these go through
+// the layers some rows at a time.
 
 #define NSVCD__BATCH NSVCD__LANES
-// Rows of inputs at a time, and the step in which the layers of floats go through them: where there are no vectors,
-// there may be no stack for more, and without floats nothing is gained by more than one.
+// Rows of inputs at a time, and the step in which the layers of floats go through them: where there
+// are no vectors, there may be no stack for more, and without floats nothing is gained by more than
+// one.
 #if NSVCD__SLICE > 1
 #define NSVCD__ROWS NSVCD__BATCH
 #define NSVCD__ROW_STEP 4
@@ -9591,31 +10617,38 @@ static int nsvcd__is_contained(const nsvcd_body *moving, const nsvcd_body *fixed
 #else
 #define NSVCD__WIDEST NSVCD__WIDEST_TINY
 #endif
-#define NSVCD__MOST_INPUTS (NSVCD__WIDEST > NSVCD__DECODER_IN ? NSVCD__WIDEST : NSVCD__DECODER_IN)  // of a layer
+// of a layer
+#define NSVCD__MOST_INPUTS (NSVCD__WIDEST > NSVCD__DECODER_IN ? NSVCD__WIDEST : NSVCD__DECODER_IN)
 #define NSVCD__LEAN 0.05f  // share of the lean in axis 2
 #define NSVCD__SIDE 1e-4f  // a lean less than this to one side of axes 1 and 2 is on neither
 
 // A slice of pairs.
 typedef struct nsvcd__pairs {
-  nsvcd__v p1[3], p2[3];  // centres at mid-interval: of the moving patch, of the fixed one; the fixed body's frame
-  nsvcd__v r1, r2;        // metres
-  nsvcd__v rotation[9];   // of the moving body at mid-interval
-  nsvcd__v v[3];          // half displacement of the point midway between p1 and p2, as part of the moving body
-  nsvcd__v w[3];          // half rotation vector
+  // centres at mid-interval: of the moving patch, of the fixed one; the fixed body's frame
+  nsvcd__v p1[3], p2[3];
+  nsvcd__v r1, r2;       // metres
+  nsvcd__v rotation[9];  // of the moving body at mid-interval
+  // half displacement of the point midway between p1 and p2, as part of the moving body
+  nsvcd__v v[3];
+  nsvcd__v w[3];                                      // half rotation vector
   const int8_t *z1[NSVCD__SLICE], *z2[NSVCD__SLICE];  // latents, body frames
 } nsvcd__pairs;
 
-// Half the rotation vector of a unit quaternion, from the sine s of half the angle: asin(s) / s times its vector part.
+// Half the rotation vector of a unit quaternion, from the sine s of half the angle: asin(s) / s
+// times its vector part.
 static void nsvcd__v_half_rotation(const nsvcd__v *q, nsvcd__v *w) {
   const nsvcd__v sign = nsvcd__v_pick(nsvcd__v_set(0), q[3], nsvcd__v_set(1), nsvcd__v_set(-1));
   const nsvcd__v square = nsvcd__v_dot3(q, q);
   nsvcd__v ratio = nsvcd__v_set(0.02237216f);  // the series of asin(s) / s, to 2e-6 for s < 0.5
   static const float series[5] = {0.03038194f, 0.04464286f, 0.075f, 0.16666667f, 1};
   for (size_t k = 0; k < 5; k++) ratio = nsvcd__v_fma(ratio, square, nsvcd__v_set(series[k]));
-  uint32_t wide = nsvcd__v_le(nsvcd__v_set(0.25f), square);  // over 60 degrees: a motion of few samples
+  // over 60 degrees: a motion of few samples
+  uint32_t wide = nsvcd__v_le(nsvcd__v_set(0.25f), square);
   if (wide) {
     float r[NSVCD__SLICE], s2[NSVCD__SLICE], c[NSVCD__SLICE];
-    nsvcd__v_store(r, ratio), nsvcd__v_store(s2, square), nsvcd__v_store(c, nsvcd__v_mul(sign, q[3]));
+    nsvcd__v_store(r, ratio);
+    nsvcd__v_store(s2, square);
+    nsvcd__v_store(c, nsvcd__v_mul(sign, q[3]));
     for (; wide; wide &= wide - 1) {
       const size_t l = nsvcd__lowest_bit(wide);
       r[l] = atan2f(sqrtf(s2[l]), c[l]) / sqrtf(s2[l]);
@@ -9625,11 +10658,13 @@ static void nsvcd__v_half_rotation(const nsvcd__v *q, nsvcd__v *w) {
   for (size_t k = 0; k < 3; k++) w[k] = nsvcd__v_mul(nsvcd__v_mul(sign, ratio), q[k]);
 }
 
-// A track's poses at `count` times t in [0,1], 1 to SLICE, one per lane: unit quaternions q (4), and positions from an
-// origin, (3).
-static void nsvcd__track_poses_at(const nsvcd__track *track, const float *t, size_t count, const float *origin,
-                                  nsvcd__v *q, nsvcd__v *p) {
-  float from[7][NSVCD__SLICE] = {{0}}, to[7][NSVCD__SLICE] = {{0}}, share[NSVCD__SLICE] = {0};
+// A track's poses at `count` times t in [0,1], 1 to SLICE, one per lane: unit quaternions q (4),
+// and positions from an origin, (3).
+static void nsvcd__track_poses_at(const nsvcd__track *track, const float *t, size_t count,
+                                  const float *origin, nsvcd__v *q, nsvcd__v *p) {
+  float from[7][NSVCD__SLICE] = {{0}};
+  float to[7][NSVCD__SLICE] = {{0}};
+  float share[NSVCD__SLICE] = {0};
   const size_t last = track->count > 1 ? track->count - 2 : 0;
   for (size_t l = count; l < NSVCD__SLICE; l++) from[6][l] = 1;
   for (size_t l = 0; l < count; l++) {
@@ -9638,7 +10673,8 @@ static void nsvcd__track_poses_at(const nsvcd__track *track, const float *t, siz
     const nsvcd_pose *a = &track->poses[k];
     const nsvcd_pose *b = track->count > 1 ? a + 1 : a;
     float slerped[4];
-    const float *qa = a->rotation, *qb = b->rotation;
+    const float *qa = a->rotation;
+    const float *qb = b->rotation;
     const float u = at - (float)k;
     const float dot = qa[0] * qb[0] + qa[1] * qb[1] + qa[2] * qb[2] + qa[3] * qb[3];
     const float sign = dot < 0 ? -1.0f : 1.0f;
@@ -9651,21 +10687,25 @@ static void nsvcd__track_poses_at(const nsvcd__track *track, const float *t, siz
       from[n][l] = a->position[n] - origin[n];
       to[n][l] = b->position[n] - a->position[n];
     }
-    // Within 5 degrees the straight line, brought back to unit length, is the slerp to 2e-6 radians.
+    // Within 5 degrees the straight line, brought back to unit length, is the slerp to 2e-6
+    // radians.
     for (size_t n = 0; n < 4; n++) {
       from[3 + n][l] = qa[n];
       to[3 + n][l] = qa == qb ? 0 : sign * qb[n] - qa[n];
     }
   }
   const nsvcd__v u = nsvcd__v_load(share);
-  for (size_t n = 0; n < 3; n++) p[n] = nsvcd__v_fma(u, nsvcd__v_load(to[n]), nsvcd__v_load(from[n]));
-  for (size_t n = 0; n < 4; n++) q[n] = nsvcd__v_fma(u, nsvcd__v_load(to[3 + n]), nsvcd__v_load(from[3 + n]));
+  for (size_t n = 0; n < 3; n++)
+    p[n] = nsvcd__v_fma(u, nsvcd__v_load(to[n]), nsvcd__v_load(from[n]));
+  for (size_t n = 0; n < 4; n++)
+    q[n] = nsvcd__v_fma(u, nsvcd__v_load(to[3 + n]), nsvcd__v_load(from[3 + n]));
   nsvcd__v_quat_normalize(q);
 }
 
-// Poses in the fixed body's frame at `count` times t in [0,1], 1 to SLICE, one per lane: unit quaternions q (4),
-// positions p (3).
-static void nsvcd__v_poses_at(const nsvcd__motion *motion, const float *t, size_t count, nsvcd__v *q, nsvcd__v *p) {
+// Poses in the fixed body's frame at `count` times t in [0,1], 1 to SLICE, one per lane: unit
+// quaternions q (4), positions p (3).
+static void nsvcd__v_poses_at(const nsvcd__motion *motion, const float *t, size_t count,
+                              nsvcd__v *q, nsvcd__v *p) {
   nsvcd__v_poses at;
   nsvcd__track_poses_at(&motion->moving, t, count, motion->fixed_position, at.q, at.p);
   if (motion->fixed_moves) {
@@ -9678,13 +10718,18 @@ static void nsvcd__v_poses_at(const nsvcd__motion *motion, const float *t, size_
 
 // The pairs of `count` candidates, 1 to SLICE. What is in the lanes beyond does not matter.
 static NSVCD__APART void nsvcd__pairs_of(const nsvcd_body *moving, const nsvcd_body *fixed,
-                                         const nsvcd__motion *motion, nsvcd__candidate *const *candidates, size_t count,
+                                         const nsvcd__motion *motion,
+                                         nsvcd__candidate *const *candidates, size_t count,
                                          nsvcd__pairs *pairs) {
-  float lanes[8][NSVCD__SLICE] = {{0}}, enter[NSVCD__SLICE], leave[NSVCD__SLICE], middle[NSVCD__SLICE];
+  float lanes[8][NSVCD__SLICE] = {{0}};
+  float enter[NSVCD__SLICE];
+  float leave[NSVCD__SLICE];
+  float middle[NSVCD__SLICE];
   const float scale = motion->scale;
   for (size_t l = 0; l < count; l++) {
     const nsvcd__candidate *candidate = candidates[l];
-    const size_t i = candidate->moving, j = candidate->fixed;
+    const size_t i = candidate->moving;
+    const size_t j = candidate->fixed;
     lanes[0][l] = scale * nsvcd__body_x(moving)[i];
     lanes[1][l] = scale * nsvcd__body_y(moving)[i];
     lanes[2][l] = scale * nsvcd__body_z(moving)[i];
@@ -9699,15 +10744,18 @@ static NSVCD__APART void nsvcd__pairs_of(const nsvcd_body *moving, const nsvcd_b
     pairs->z1[l] = nsvcd__body_latents(moving) + NSVCD__LATENT * i;
     pairs->z2[l] = nsvcd__body_latents(fixed) + NSVCD__LATENT * j;
   }
-  const nsvcd__v half = nsvcd__v_set(0.5f),
-                 c[3] = {nsvcd__v_load(lanes[0]), nsvcd__v_load(lanes[1]), nsvcd__v_load(lanes[2])};
+  const nsvcd__v half = nsvcd__v_set(0.5f);
+  const nsvcd__v c[3] = {nsvcd__v_load(lanes[0]), nsvcd__v_load(lanes[1]), nsvcd__v_load(lanes[2])};
   nsvcd__v q1[4], q2[4], p1[3], p2[3], q[4], p[3], x1[3], x2[3], r[9], arm[3];
   nsvcd__v_poses_at(motion, enter, count, q1, p1);
   nsvcd__v_poses_at(motion, leave, count, q2, p2);
   nsvcd__v_poses_at(motion, middle, count, q, p);
-  nsvcd__v_matrix(q1, r), nsvcd__v_mul33_vec(r, c, x1);
-  nsvcd__v_matrix(q2, r), nsvcd__v_mul33_vec(r, c, x2);
-  nsvcd__v_matrix(q, pairs->rotation), nsvcd__v_mul33_vec(pairs->rotation, c, pairs->p1);
+  nsvcd__v_matrix(q1, r);
+  nsvcd__v_mul33_vec(r, c, x1);
+  nsvcd__v_matrix(q2, r);
+  nsvcd__v_mul33_vec(r, c, x2);
+  nsvcd__v_matrix(q, pairs->rotation);
+  nsvcd__v_mul33_vec(pairs->rotation, c, pairs->p1);
   for (size_t k = 0; k < 3; k++) q1[k] = nsvcd__v_sub(nsvcd__v_set(0), q1[k]);
   nsvcd__v_quat_mul(q2, q1, q);
   nsvcd__v_half_rotation(q, pairs->w);
@@ -9721,7 +10769,8 @@ static NSVCD__APART void nsvcd__pairs_of(const nsvcd_body *moving, const nsvcd_b
     const nsvcd__v step = nsvcd__v_add(nsvcd__v_sub(x2[k], x1[k]), nsvcd__v_sub(p2[k], p1[k]));
     pairs->v[k] = nsvcd__v_fma(half, step, pairs->v[k]);
   }
-  pairs->r1 = nsvcd__v_load(lanes[6]), pairs->r2 = nsvcd__v_load(lanes[7]);
+  pairs->r1 = nsvcd__v_load(lanes[6]);
+  pairs->r2 = nsvcd__v_load(lanes[7]);
 }
 
 // Removes from a its part along the unit vector e.
@@ -9732,27 +10781,40 @@ static void nsvcd__v_across(const nsvcd__v *a, const nsvcd__v *e, nsvcd__v *out)
 
 // a over its length, where that exceeds `least`; elsewhere `instead`.
 static void nsvcd__v_unit3(const nsvcd__v *a, float least, const nsvcd__v *instead, nsvcd__v *out) {
-  const nsvcd__v length = nsvcd__v_length3(a), floor = nsvcd__v_set(least);
+  const nsvcd__v length = nsvcd__v_length3(a);
+  const nsvcd__v floor = nsvcd__v_set(least);
   const nsvcd__v inverse = nsvcd__v_div(nsvcd__v_set(1), nsvcd__v_max(length, floor));
-  for (size_t k = 0; k < 3; k++) out[k] = nsvcd__v_pick(length, floor, instead[k], nsvcd__v_mul(a[k], inverse));
+  for (size_t k = 0; k < 3; k++)
+    out[k] = nsvcd__v_pick(length, floor, instead[k], nsvcd__v_mul(a[k], inverse));
 }
 
-// The pairs' frames: rows are their axes in the fixed body's frame. d: the line from the larger patch to the smaller
-// one, over r1 + r2; lean likewise. Reverses v and w where time is to run backwards. Returns -1 where mirrored, else 1.
-static nsvcd__v nsvcd__v_pair_frame(const nsvcd__v *d, const nsvcd__v *lean, nsvcd__v *v, nsvcd__v *w,
-                                    nsvcd__v *frame) {
-  const nsvcd__v zero = nsvcd__v_set(0), one = nsvcd__v_set(1), minus = nsvcd__v_set(-1);
-  const nsvcd__v x_axis[3] = {one, zero, zero},
-                 line[3] = {nsvcd__v_add(lean[0], nsvcd__v_set(1e-6f)), lean[1], lean[2]};
-  nsvcd__v *e1 = frame, *e2 = frame + 3, *e3 = frame + 6, lean_across[3], v_across[3], ref[3], instead[3];
+// The pairs' frames: rows are their axes in the fixed body's frame. d: the line from the larger
+// patch to the smaller one, over r1 + r2; lean likewise. Reverses v and w where time is to run
+// backwards. Returns -1 where mirrored, else 1.
+static nsvcd__v nsvcd__v_pair_frame(const nsvcd__v *d, const nsvcd__v *lean, nsvcd__v *v,
+                                    nsvcd__v *w, nsvcd__v *frame) {
+  const nsvcd__v zero = nsvcd__v_set(0);
+  const nsvcd__v one = nsvcd__v_set(1);
+  const nsvcd__v minus = nsvcd__v_set(-1);
+  const nsvcd__v x_axis[3] = {one, zero, zero};
+  const nsvcd__v line[3] = {nsvcd__v_add(lean[0], nsvcd__v_set(1e-6f)), lean[1], lean[2]};
+  nsvcd__v *e1 = frame;
+  nsvcd__v *e2 = frame + 3;
+  nsvcd__v *e3 = frame + 6;
+  nsvcd__v lean_across[3];
+  nsvcd__v v_across[3];
+  nsvcd__v ref[3];
+  nsvcd__v instead[3];
   nsvcd__v_unit3(line, 1e-9f, x_axis, instead);
   nsvcd__v_unit3(d, 1e-5f, instead, e1);
   nsvcd__v_across(lean, e1, lean_across);
   nsvcd__v_across(v, e1, v_across);
   const nsvcd__v sign = nsvcd__v_pick(zero, nsvcd__v_dot3(lean_across, v_across), one, minus);
   for (size_t k = 0; k < 3; k++) {
-    v[k] = nsvcd__v_mul(sign, v[k]), w[k] = nsvcd__v_mul(sign, w[k]);
-    ref[k] = nsvcd__v_fma(nsvcd__v_set(NSVCD__LEAN), lean_across[k], nsvcd__v_mul(sign, v_across[k]));
+    v[k] = nsvcd__v_mul(sign, v[k]);
+    w[k] = nsvcd__v_mul(sign, w[k]);
+    ref[k] =
+        nsvcd__v_fma(nsvcd__v_set(NSVCD__LEAN), lean_across[k], nsvcd__v_mul(sign, v_across[k]));
   }
   if (nsvcd__v_le(nsvcd__v_length3(ref),
                   nsvcd__v_set(1e-7f))) {  // somewhere: then the coordinate axis farthest from e1
@@ -9766,7 +10828,8 @@ static nsvcd__v nsvcd__v_pair_frame(const nsvcd__v *d, const nsvcd__v *lean, nsv
   }
   nsvcd__v_unit3(ref, 1e-7f, instead, e2);
   nsvcd__v_cross(e1, e2, e3);
-  const nsvcd__v side = nsvcd__v_pick(nsvcd__v_set(-NSVCD__SIDE), nsvcd__v_dot3(lean, e3), one, minus);
+  const nsvcd__v side =
+      nsvcd__v_pick(nsvcd__v_set(-NSVCD__SIDE), nsvcd__v_dot3(lean, e3), one, minus);
   for (size_t k = 0; k < 3; k++) e3[k] = nsvcd__v_mul(side, e3[k]);
   return side;
 }
@@ -9776,7 +10839,8 @@ static nsvcd__v nsvcd__v_reach(const nsvcd__pairs *pairs) {
   nsvcd__v line[3];
   for (size_t k = 0; k < 3; k++) line[k] = nsvcd__v_sub(pairs->p2[k], pairs->p1[k]);
   const nsvcd__v least = nsvcd__v_fma(
-      nsvcd__v_set(1e-6f), nsvcd__v_add(nsvcd__v_length3(line), nsvcd__v_length3(pairs->v)), nsvcd__v_set(1e-30f));
+      nsvcd__v_set(1e-6f), nsvcd__v_add(nsvcd__v_length3(line), nsvcd__v_length3(pairs->v)),
+      nsvcd__v_set(1e-30f));
   return nsvcd__v_max(nsvcd__v_add(pairs->r1, pairs->r2), least);
 }
 
@@ -9789,14 +10853,16 @@ typedef struct nsvcd__views {
 } nsvcd__views;
 
 static void nsvcd__views_of(const nsvcd__pairs *pairs, size_t count, nsvcd__views *view) {
-  const nsvcd__v inverse = nsvcd__v_div(nsvcd__v_set(1), nsvcd__v_reach(pairs)), step = nsvcd__v_set(1.0f / 127);
-  const nsvcd__v k1 = nsvcd__v_mul(pairs->r1, inverse), k2 = nsvcd__v_mul(pairs->r2, inverse);
+  const nsvcd__v inverse = nsvcd__v_div(nsvcd__v_set(1), nsvcd__v_reach(pairs));
+  const nsvcd__v step = nsvcd__v_set(1.0f / 127);
+  const nsvcd__v k1 = nsvcd__v_mul(pairs->r1, inverse);
+  const nsvcd__v k2 = nsvcd__v_mul(pairs->r2, inverse);
   const nsvcd__v order = nsvcd__v_pick(pairs->r2, pairs->r1, nsvcd__v_set(1), nsvcd__v_set(-1));
   float mean[6][NSVCD__SLICE] = {{0}};
   nsvcd__v mean1[3], turned[3];
   for (size_t l = 0; l < count; l++) {
     for (size_t k = 0; k < 3; k++) {
-      mean[k][l] = (float)pairs->z1[l][NSVCD_W_CHANNELS * k],
+      mean[k][l] = (float)pairs->z1[l][NSVCD_W_CHANNELS * k];
       mean[3 + k][l] = (float)pairs->z2[l][NSVCD_W_CHANNELS * k];
     }
   }
@@ -9804,12 +10870,19 @@ static void nsvcd__views_of(const nsvcd__pairs *pairs, size_t count, nsvcd__view
   nsvcd__v_mul33_vec(pairs->rotation, mean1, turned);
   for (size_t k = 0; k < 3; k++) {
     const nsvcd__v mean2 = nsvcd__v_mul(step, nsvcd__v_load(mean[3 + k]));
-    // Seen from the other body the motion is reversed as well, but time may run either way: v and w can stay.
-    view->lean[k] = nsvcd__v_mul(order, nsvcd__v_sub(nsvcd__v_mul(turned[k], k1), nsvcd__v_mul(mean2, k2)));
-    view->d[k] = nsvcd__v_mul(order, nsvcd__v_mul(inverse, nsvcd__v_sub(pairs->p2[k], pairs->p1[k])));
-    view->v[k] = nsvcd__v_mul(inverse, pairs->v[k]), view->w[k] = pairs->w[k];
+    // Seen from the other body the motion is reversed as well, but time may run either way: v and w
+    // can stay.
+    view->lean[k] =
+        nsvcd__v_mul(order, nsvcd__v_sub(nsvcd__v_mul(turned[k], k1), nsvcd__v_mul(mean2, k2)));
+    view->d[k] =
+        nsvcd__v_mul(order, nsvcd__v_mul(inverse, nsvcd__v_sub(pairs->p2[k], pairs->p1[k])));
+    view->v[k] = nsvcd__v_mul(inverse, pairs->v[k]);
+    view->w[k] = pairs->w[k];
   }
-  view->inverse = inverse, view->k1 = k1, view->k2 = k2, view->order = order;
+  view->inverse = inverse;
+  view->k1 = k1;
+  view->k2 = k2;
+  view->order = order;
   view->side = nsvcd__v_pair_frame(view->d, view->lean, view->v, view->w, view->frame);
 }
 
@@ -9821,7 +10894,8 @@ typedef struct nsvcd__scenes {
   float facts[NSVCD__FACTS][NSVCD__SLICE];
 } nsvcd__scenes;
 
-static NSVCD__APART void nsvcd__scenes_of(const nsvcd__pairs *pairs, size_t count, nsvcd__scenes *scene) {
+static NSVCD__APART void nsvcd__scenes_of(const nsvcd__pairs *pairs, size_t count,
+                                          nsvcd__scenes *scene) {
   nsvcd__views view;
   nsvcd__views_of(pairs, count, &view);
   const nsvcd__v *d = view.d;
@@ -9856,8 +10930,9 @@ static NSVCD__APART void nsvcd__scenes_of(const nsvcd__pairs *pairs, size_t coun
   nsvcd__v_store(scene->facts[11], nsvcd__v_length3(view.w));
 }
 
-// Appendix F: the inputs of the decoder for the first `count` pairs of a slice, x (count, DECODER_IN): vectors of the
-// larger patch and of the other, their scalars, and twelve facts of the geometry.
+// Appendix F: the inputs of the decoder for the first `count` pairs of a slice, x (count,
+// DECODER_IN): vectors of the larger patch and of the other, their scalars, and twelve facts of the
+// geometry.
 static NSVCD__APART void nsvcd__invariants(const nsvcd__pairs *pairs, size_t count, float *x) {
   nsvcd__scenes scene;
   float latent_turn[NSVCD__TURN][NSVCD__SLICE];
@@ -9865,7 +10940,8 @@ static NSVCD__APART void nsvcd__invariants(const nsvcd__pairs *pairs, size_t cou
   nsvcd__scenes_of(pairs, count, &scene);
   nsvcd__wigner(scene.turn1, nsvcd__v_mul(scene.k1, step), latent_turn);
   for (size_t l = 0; l < count; l++) {
-    nsvcd__turn_latent(pairs->z1[l], latent_turn, l, scene.keep >> l & 1 ? 0 : 1, x + NSVCD__DECODER_IN * l);
+    nsvcd__turn_latent(pairs->z1[l], latent_turn, l, scene.keep >> l & 1 ? 0 : 1,
+                       x + NSVCD__DECODER_IN * l);
   }
   nsvcd__wigner(scene.turn2, nsvcd__v_mul(scene.k2, step), latent_turn);
   for (size_t l = 0; l < count; l++, x += NSVCD__DECODER_IN) {
@@ -9876,9 +10952,11 @@ static NSVCD__APART void nsvcd__invariants(const nsvcd__pairs *pairs, size_t cou
   }
 }
 
-// The inputs of the decoder for `count` candidates, x (count, DECODER_IN), a slice of them at a time.
-static void nsvcd__inputs_of(const nsvcd_body *moving, const nsvcd_body *fixed, const nsvcd__motion *motion,
-                             nsvcd__candidate *const *candidates, size_t count, float *x) {
+// The inputs of the decoder for `count` candidates, x (count, DECODER_IN), a slice of them at a
+// time.
+static void nsvcd__inputs_of(const nsvcd_body *moving, const nsvcd_body *fixed,
+                             const nsvcd__motion *motion, nsvcd__candidate *const *candidates,
+                             size_t count, float *x) {
   for (size_t l = 0; l < count; l += NSVCD__SLICE) {
     const size_t size = count - l < NSVCD__SLICE ? count - l : NSVCD__SLICE;
     nsvcd__pairs pairs;
@@ -9888,10 +10966,11 @@ static void nsvcd__inputs_of(const nsvcd_body *moving, const nsvcd_body *fixed, 
 }
 
 #ifndef NSVCD_NO_FLOAT
-// `rows` rows of a layer, `tiles` slices of outputs each: y = w^T x + bias. x (rows, from), y (rows, to), w (inputs,
-// outputs). rows * tiles sums must fit into the registers.
-NSVCD__INLINE void nsvcd__layer_tile(const float *w, const float *bias, size_t inputs, size_t outputs, const float *x,
-                                     size_t from, float *y, size_t to, int relu, size_t rows, size_t tiles) {
+// `rows` rows of a layer, `tiles` slices of outputs each: y = w^T x + bias. x (rows, from), y
+// (rows, to), w (inputs, outputs). rows * tiles sums must fit into the registers.
+NSVCD__INLINE void nsvcd__layer_tile(const float *w, const float *bias, size_t inputs,
+                                     size_t outputs, const float *x, size_t from, float *y,
+                                     size_t to, int relu, size_t rows, size_t tiles) {
   nsvcd__v sum[8][4], column[4];
   NSVCD__UNROLL
   for (size_t p = 0; p < rows; p++) {
@@ -9912,41 +10991,51 @@ NSVCD__INLINE void nsvcd__layer_tile(const float *w, const float *bias, size_t i
   for (size_t p = 0; p < rows; p++) {
     NSVCD__UNROLL
     for (size_t t = 0; t < tiles; t++) {
-      nsvcd__v_store(y + to * p + NSVCD__SLICE * t, relu ? nsvcd__v_max(sum[p][t], nsvcd__v_set(0)) : sum[p][t]);
+      nsvcd__v_store(y + to * p + NSVCD__SLICE * t,
+                     relu ? nsvcd__v_max(sum[p][t], nsvcd__v_set(0)) : sum[p][t]);
     }
   }
 }
 
-// One layer for `rows` pairs, a multiple of 4. outputs: a multiple of 16. The weights of the largest head do not fit
-// into the first cache, so the more rows at a time the better: 8 by 2 or 4 by 4 sums in 32 registers, 4 by 16 outputs,
-// or by 4 slices where that is less, in fewer.
+// One layer for `rows` pairs, a multiple of 4. outputs: a multiple of 16. The weights of the
+// largest head do not fit into the first cache, so the more rows at a time the better: 8 by 2 or 4
+// by 4 sums in 32 registers, 4 by 16 outputs, or by 4 slices where that is less, in fewer.
 #define NSVCD__TILES (NSVCD__LANES / NSVCD__SLICE < 4 ? NSVCD__LANES / NSVCD__SLICE : 4)
-static void nsvcd__layer(const float *w, const float *bias, size_t inputs, size_t outputs, size_t rows, const float *x,
-                         size_t from, float *y, size_t to, int relu) {
-  size_t p = 0, o;
+static void nsvcd__layer(const float *w, const float *bias, size_t inputs, size_t outputs,
+                         size_t rows, const float *x, size_t from, float *y, size_t to, int relu) {
+  size_t p = 0;
+  size_t o;
 #if defined(__AVX512F__) && !defined(NSVCD_NO_SIMD)
   for (; p + 8 <= rows; p += 8) {
     const float *row = x + from * p;
     for (o = 0; o + 32 <= outputs; o += 32) {
-      nsvcd__layer_tile(w + o, bias + o, inputs, outputs, row, from, y + to * p + o, to, relu, 8, 2);
+      nsvcd__layer_tile(w + o, bias + o, inputs, outputs, row, from, y + to * p + o, to, relu, 8,
+                        2);
     }
-    if (o < outputs) nsvcd__layer_tile(w + o, bias + o, inputs, outputs, row, from, y + to * p + o, to, relu, 8, 1);
+    if (o < outputs)
+      nsvcd__layer_tile(w + o, bias + o, inputs, outputs, row, from, y + to * p + o, to, relu, 8,
+                        1);
   }
   for (; p < rows; p += 4) {
     const float *row = x + from * p;
     for (o = 0; o + 64 <= outputs; o += 64) {
-      nsvcd__layer_tile(w + o, bias + o, inputs, outputs, row, from, y + to * p + o, to, relu, 4, 4);
+      nsvcd__layer_tile(w + o, bias + o, inputs, outputs, row, from, y + to * p + o, to, relu, 4,
+                        4);
     }
     for (; o + 32 <= outputs; o += 32) {
-      nsvcd__layer_tile(w + o, bias + o, inputs, outputs, row, from, y + to * p + o, to, relu, 4, 2);
+      nsvcd__layer_tile(w + o, bias + o, inputs, outputs, row, from, y + to * p + o, to, relu, 4,
+                        2);
     }
-    if (o < outputs) nsvcd__layer_tile(w + o, bias + o, inputs, outputs, row, from, y + to * p + o, to, relu, 4, 1);
+    if (o < outputs)
+      nsvcd__layer_tile(w + o, bias + o, inputs, outputs, row, from, y + to * p + o, to, relu, 4,
+                        1);
   }
 #else
   for (; p < rows; p += 4) {
     const float *row = x + from * p;
     for (o = 0; o < outputs; o += NSVCD__TILES * NSVCD__SLICE) {
-      nsvcd__layer_tile(w + o, bias + o, inputs, outputs, row, from, y + to * p + o, to, relu, 4, NSVCD__TILES);
+      nsvcd__layer_tile(w + o, bias + o, inputs, outputs, row, from, y + to * p + o, to, relu, 4,
+                        NSVCD__TILES);
     }
   }
 #endif
@@ -9954,28 +11043,32 @@ static void nsvcd__layer(const float *w, const float *bias, size_t inputs, size_
 #endif  // NSVCD_NO_FLOAT
 
 #ifndef NSVCD_NO_INT8
-// A layer in integers: its inputs over the largest of them are bytes in [1, 255] about 128, because the processors'
-// instructions multiply unsigned by signed bytes; sums are exact in int32, and 128 times the sum of the weights too
-// much.
+// A layer in integers: its inputs over the largest of them are bytes in [1, 255] about 128, because
+// the processors' instructions multiply unsigned by signed bytes; sums are exact in int32, and 128
+// times the sum of the weights too much.
 //   nsvcd__to_bytes   x (inputs) -> bytes (inputs); returns the step
-//   nsvcd__dot_bytes  bytes (BYTE_ROWS, inputs), w (inputs / 4, outputs, 4) -> dot (BYTE_ROWS, outputs)
+//   nsvcd__dot_bytes  bytes (BYTE_ROWS, inputs), w (inputs / 4, outputs, 4) -> dot (BYTE_ROWS,
+//                     outputs)
 //   nsvcd__from_dots  dot (outputs) -> y (outputs)
 // Inputs and outputs are multiples of 16.
 #if defined(__AVX512VNNI__) && !defined(NSVCD_NO_SIMD)
 #define NSVCD__BYTE_ROWS 4  // at a time: they share the weights that are loaded
 static float nsvcd__to_bytes(const float *x, size_t inputs, uint8_t *bytes) {
   __m512 most = _mm512_set1_ps(1e-20f);
-  for (size_t i = 0; i < inputs; i += 16) most = _mm512_max_ps(most, _mm512_abs_ps(_mm512_loadu_ps(x + i)));
+  for (size_t i = 0; i < inputs; i += 16)
+    most = _mm512_max_ps(most, _mm512_abs_ps(_mm512_loadu_ps(x + i)));
   const float largest = _mm512_reduce_max_ps(most);
-  const __m512 inverse = _mm512_set1_ps(127 / largest), middle = _mm512_set1_ps(128.5f);
+  const __m512 inverse = _mm512_set1_ps(127 / largest);
+  const __m512 middle = _mm512_set1_ps(128.5f);
   for (size_t i = 0; i < inputs; i += 16) {
-    const __m512i value = _mm512_cvttps_epi32(_mm512_fmadd_ps(_mm512_loadu_ps(x + i), inverse, middle));
+    const __m512i value =
+        _mm512_cvttps_epi32(_mm512_fmadd_ps(_mm512_loadu_ps(x + i), inverse, middle));
     _mm_storeu_si128((__m128i *)(void *)(bytes + i), _mm512_cvtepi32_epi8(value));
   }
   return largest / 127;
 }
-NSVCD__INLINE void nsvcd__dot_tile(const int8_t *w, size_t inputs, size_t outputs, const uint8_t *bytes, int32_t *dot,
-                                   size_t tiles) {
+NSVCD__INLINE void nsvcd__dot_tile(const int8_t *w, size_t inputs, size_t outputs,
+                                   const uint8_t *bytes, int32_t *dot, size_t tiles) {
   __m512i sum[4][4];
   NSVCD__UNROLL
   for (size_t p = 0; p < 4; p++) {
@@ -9997,23 +11090,26 @@ NSVCD__INLINE void nsvcd__dot_tile(const int8_t *w, size_t inputs, size_t output
   NSVCD__UNROLL
   for (size_t p = 0; p < 4; p++) {
     NSVCD__UNROLL
-    for (size_t t = 0; t < tiles; t++) _mm512_storeu_si512((void *)(dot + outputs * p + 16 * t), sum[p][t]);
+    for (size_t t = 0; t < tiles; t++)
+      _mm512_storeu_si512((void *)(dot + outputs * p + 16 * t), sum[p][t]);
   }
 }
-static void nsvcd__dot_bytes(const int8_t *w, size_t inputs, size_t outputs, const uint8_t *bytes, int32_t *dot) {
+static void nsvcd__dot_bytes(const int8_t *w, size_t inputs, size_t outputs, const uint8_t *bytes,
+                             int32_t *dot) {
   size_t o = 0;
   for (; o + 64 <= outputs; o += 64) nsvcd__dot_tile(w + 4 * o, inputs, outputs, bytes, dot + o, 4);
   for (; o + 32 <= outputs; o += 32) nsvcd__dot_tile(w + 4 * o, inputs, outputs, bytes, dot + o, 2);
   if (o < outputs) nsvcd__dot_tile(w + 4 * o, inputs, outputs, bytes, dot + o, 1);
 }
-static void nsvcd__from_dots(const int32_t *dot, const float *sum, const float *scale, const float *bias, float step,
-                             size_t outputs, int relu, float *y) {
+static void nsvcd__from_dots(const int32_t *dot, const float *sum, const float *scale,
+                             const float *bias, float step, size_t outputs, int relu, float *y) {
   const __m512 least = _mm512_set1_ps(relu ? 0 : -1e30f);
   for (size_t o = 0; o < outputs; o += 16) {
     const __m512 value = _mm512_cvtepi32_ps(_mm512_loadu_si512((const void *)(dot + o)));
     const __m512 exact = _mm512_fmadd_ps(_mm512_loadu_ps(sum + o), _mm512_set1_ps(-128), value);
     const __m512 factor = _mm512_mul_ps(_mm512_set1_ps(step), _mm512_loadu_ps(scale + o));
-    _mm512_storeu_ps(y + o, _mm512_max_ps(least, _mm512_fmadd_ps(exact, factor, _mm512_loadu_ps(bias + o))));
+    _mm512_storeu_ps(
+        y + o, _mm512_max_ps(least, _mm512_fmadd_ps(exact, factor, _mm512_loadu_ps(bias + o))));
   }
 }
 #else
@@ -10025,17 +11121,21 @@ static float nsvcd__to_bytes(const float *x, size_t inputs, uint8_t *bytes) {
   for (size_t i = 0; i < inputs; i++) bytes[i] = (uint8_t)(int32_t)(x[i] * inverse + 128.5f);
   return most / 127;
 }
-static void nsvcd__dot_bytes(const int8_t *w, size_t inputs, size_t outputs, const uint8_t *bytes, int32_t *dot) {
+static void nsvcd__dot_bytes(const int8_t *w, size_t inputs, size_t outputs, const uint8_t *bytes,
+                             int32_t *dot) {
   memset(dot, 0, outputs * sizeof *dot);
   for (size_t i = 0; i < inputs; i += 4, w += 4 * outputs) {
-    const int32_t x0 = bytes[i], x1 = bytes[i + 1], x2 = bytes[i + 2], x3 = bytes[i + 3];
+    const int32_t x0 = bytes[i];
+    const int32_t x1 = bytes[i + 1];
+    const int32_t x2 = bytes[i + 2];
+    const int32_t x3 = bytes[i + 3];
     for (size_t o = 0; o < outputs; o++) {
       dot[o] += (x0 * w[4 * o] + x1 * w[4 * o + 1]) + (x2 * w[4 * o + 2] + x3 * w[4 * o + 3]);
     }
   }
 }
-static void nsvcd__from_dots(const int32_t *dot, const float *sum, const float *scale, const float *bias, float step,
-                             size_t outputs, int relu, float *y) {
+static void nsvcd__from_dots(const int32_t *dot, const float *sum, const float *scale,
+                             const float *bias, float step, size_t outputs, int relu, float *y) {
   for (size_t o = 0; o < outputs; o++) {
     const float value = bias[o] + ((float)dot[o] - 128 * sum[o]) * (step * scale[o]);
     y[o] = relu && value < 0 ? 0 : value;
@@ -10043,8 +11143,10 @@ static void nsvcd__from_dots(const int32_t *dot, const float *sum, const float *
 }
 #endif
 
-// As nsvcd__head_logits, in int8 arithmetic. A row is bytes before its outputs are written: they may take its place.
-static NSVCD__APART void nsvcd__head_by_bytes(const nsvcd__head *head, const float *x, size_t count, float *logits) {
+// As nsvcd__head_logits, in int8 arithmetic. A row is bytes before its outputs are written: they
+// may take its place.
+static NSVCD__APART void nsvcd__head_by_bytes(const nsvcd__head *head, const float *x, size_t count,
+                                              float *logits) {
   const float *bias = nsvcd_w_decoder_bias + head->outputs;
   float y[NSVCD__ROWS * NSVCD__WIDEST];
   size_t from = NSVCD__DECODER_IN;
@@ -10063,8 +11165,9 @@ static NSVCD__APART void nsvcd__head_by_bytes(const nsvcd__head *head, const flo
       }
       nsvcd__dot_bytes(nsvcd_w_decoder_int8 + weights, inputs, outputs, bytes, dot);
       for (size_t p = 0; p < NSVCD__BYTE_ROWS; p++) {
-        nsvcd__from_dots(dot + outputs * p, nsvcd_w_decoder_sum + output, nsvcd_w_decoder_scale + output, bias, step[p],
-                         outputs, relu, y + NSVCD__WIDEST * (first + p));
+        nsvcd__from_dots(dot + outputs * p, nsvcd_w_decoder_sum + output,
+                         nsvcd_w_decoder_scale + output, bias, step[p], outputs, relu,
+                         y + NSVCD__WIDEST * (first + p));
       }
     }
     bias += outputs;
@@ -10079,7 +11182,8 @@ static NSVCD__APART void nsvcd__head_by_bytes(const nsvcd__head *head, const flo
 
 #ifndef NSVCD_NO_FLOAT
 // As nsvcd__head_logits, in fp32.
-static NSVCD__APART void nsvcd__head_by_floats(const nsvcd__head *head, const float *x, size_t count, float *logits) {
+static NSVCD__APART void nsvcd__head_by_floats(const nsvcd__head *head, const float *x,
+                                               size_t count, float *logits) {
   const float *bias = nsvcd_w_decoder_bias + head->outputs;
   float a[NSVCD__ROWS * NSVCD__WIDEST];
   float b[NSVCD__ROWS * NSVCD__WIDEST];
@@ -10091,7 +11195,8 @@ static NSVCD__APART void nsvcd__head_by_floats(const nsvcd__head *head, const fl
     const size_t outputs = head->sizes[l + 1];
     const size_t rows = nsvcd__round_up(count, NSVCD__ROW_STEP);
     const int relu = l + 1 < head->layers;
-    nsvcd__layer(nsvcd_w_decoder + weights, bias, inputs, outputs, rows, x, from, to, NSVCD__WIDEST, relu);
+    nsvcd__layer(nsvcd_w_decoder + weights, bias, inputs, outputs, rows, x, from, to, NSVCD__WIDEST,
+                 relu);
     bias += outputs;
     weights += inputs * outputs;
     x = to;
@@ -10102,9 +11207,10 @@ static NSVCD__APART void nsvcd__head_by_floats(const nsvcd__head *head, const fl
 }
 #endif  // NSVCD_NO_FLOAT
 
-// x (ROWS, DECODER_IN) -> the logits of the first `count` pairs by `head`, in fp32 or int8 arithmetic. Some rows at a
-// time: x must hold numbers up to a multiple of ROW_STEP.
-static void nsvcd__head_logits(const nsvcd__head *head, const float *x, size_t count, int int8, float *logits) {
+// x (ROWS, DECODER_IN) -> the logits of the first `count` pairs by `head`, in fp32 or int8
+// arithmetic. Some rows at a time: x must hold numbers up to a multiple of ROW_STEP.
+static void nsvcd__head_logits(const nsvcd__head *head, const float *x, size_t count, int int8,
+                               float *logits) {
   (void)int8;
 #ifndef NSVCD_NO_INT8
 #ifndef NSVCD_NO_FLOAT
@@ -10121,9 +11227,9 @@ static void nsvcd__head_logits(const nsvcd__head *head, const float *x, size_t c
 
 #endif  // NSVCD_NO_NETWORK
 
-// ------------------------------------------------------------------------------------------------------ query
-// In: a mesh -> a body; two bodies and a motion -> an answer, by proof (section *proof*) or by the network (NeuralSVCD,
-// algorithm 1).
+// ------------------------------------------------------------------------------------------- query
+// In: a mesh -> a body; two bodies and a motion -> an answer, by proof (section *proof*) or by the
+// network (NeuralSVCD, algorithm 1).
 
 #ifndef NSVCD_NO_ENCODER
 // What a body is built of.
@@ -10170,8 +11276,8 @@ static int nsvcd__is_cancelled(const nsvcd__plan *plan, double done) {
 }
 
 // Room for all patches; 0 without memory, and the caller frees.
-static int nsvcd__parts_alloc(const nsvcd__plan *plan, size_t components, const nsvcd_allocator *allocator,
-                              nsvcd__parts *parts) {
+static int nsvcd__parts_alloc(const nsvcd__plan *plan, size_t components,
+                              const nsvcd_allocator *allocator, nsvcd__parts *parts) {
   parts->centres = (float *)nsvcd__alloc_array(allocator, plan->points, 3 * sizeof(float));
   if (!parts->centres) return 0;
 #ifndef NSVCD_NO_NETWORK
@@ -10183,15 +11289,19 @@ static int nsvcd__parts_alloc(const nsvcd__plan *plan, size_t components, const 
   }
 #endif
 #ifndef NSVCD_NO_PROOF
-  if (plan->triangles && !nsvcd__surface_begin(plan->points, components, allocator, &parts->surface)) return 0;
+  if (plan->triangles &&
+      !nsvcd__surface_begin(plan->points, components, allocator, &parts->surface))
+    return 0;
 #endif
   (void)components;
   return 1;
 }
 
 #ifndef NSVCD_NO_NETWORK
-// Adds the latents of one region's patches. margin: metres by which the surface may stick out of their balls.
-static void nsvcd__parts_add_latents(const nsvcd__patches *patches, double margin, nsvcd__parts *parts) {
+// Adds the latents of one region's patches. margin: metres by which the surface may stick out of
+// their balls.
+static void nsvcd__parts_add_latents(const nsvcd__patches *patches, double margin,
+                                     nsvcd__parts *parts) {
   float *radii = parts->radii + parts->count;
   float *areas = parts->areas + 3 * parts->count;
   int8_t *latents = parts->latents + NSVCD__LATENT * parts->count;
@@ -10200,17 +11310,19 @@ static void nsvcd__parts_add_latents(const nsvcd__patches *patches, double margi
     const size_t first = patches->offsets[i];
     const size_t count = patches->offsets[i + 1] - first;
     float latent[NSVCD__LATENT];
-    nsvcd__encode_patch(patches->points + 3 * first, patches->normals + 3 * first, count, patches->centres + 3 * i,
-                        patches->radii[i], latent);
-    for (size_t k = 0; k < NSVCD__LATENT; k++) latents[NSVCD__LATENT * i + k] = (int8_t)lrintf(127 * latent[k]);
-    radii[i] = margin > 0 ? (float)(((double)patches->radii[i] + margin) * (1 + 1e-7)) : patches->radii[i];
+    nsvcd__encode_patch(patches->points + 3 * first, patches->normals + 3 * first, count,
+                        patches->centres + 3 * i, patches->radii[i], latent);
+    for (size_t k = 0; k < NSVCD__LATENT; k++)
+      latents[NSVCD__LATENT * i + k] = (int8_t)lrintf(127 * latent[k]);
+    radii[i] =
+        margin > 0 ? (float)(((double)patches->radii[i] + margin) * (1 + 1e-7)) : patches->radii[i];
   }
 }
 #endif
 
 // Adds one region's patches.
-static nsvcd_result nsvcd__parts_add(nsvcd__regions *regions, size_t n, size_t points, const nsvcd_allocator *allocator,
-                                     nsvcd__parts *parts) {
+static nsvcd_result nsvcd__parts_add(nsvcd__regions *regions, size_t n, size_t points,
+                                     const nsvcd_allocator *allocator, nsvcd__parts *parts) {
   nsvcd__region region;
   nsvcd__patches patches;
   nsvcd_result result = nsvcd__region_begin(regions, n, allocator, &region);
@@ -10219,7 +11331,8 @@ static nsvcd_result nsvcd__parts_add(nsvcd__regions *regions, size_t n, size_t p
   if (!result) {
     memcpy(parts->centres + 3 * parts->count, patches.centres, 3 * patches.count * sizeof(float));
 #ifndef NSVCD_NO_PROOF
-    if (parts->surface.balls) result = nsvcd__surface_add(&region, &patches, allocator, &parts->surface);
+    if (parts->surface.balls)
+      result = nsvcd__surface_add(&region, &patches, allocator, &parts->surface);
 #endif
 #ifndef NSVCD_NO_NETWORK
     // The mesh has the cuts rounded: each coordinate by half a unit in the last place, at most.
@@ -10236,10 +11349,13 @@ static nsvcd_result nsvcd__parts_add(nsvcd__regions *regions, size_t n, size_t p
 // Everything but the blob, region by region.
 static nsvcd_result nsvcd__parts_describe(const nsvcd__plan *plan, nsvcd__regions *regions,
                                           const nsvcd_allocator *allocator, nsvcd__parts *parts) {
-  if (!nsvcd__parts_alloc(plan, regions->component_count, allocator, parts)) return NSVCD_ERROR_MEMORY;
+  if (!nsvcd__parts_alloc(plan, regions->component_count, allocator, parts))
+    return NSVCD_ERROR_MEMORY;
   for (size_t n = 0; n < regions->count; n++) {
-    if (nsvcd__is_cancelled(plan, (double)(n + 1) / (double)(regions->count + 2))) return NSVCD_ERROR_CANCELLED;
-    const size_t points = plan->points * (n + 1) / regions->count - plan->points * n / regions->count;
+    if (nsvcd__is_cancelled(plan, (double)(n + 1) / (double)(regions->count + 2)))
+      return NSVCD_ERROR_CANCELLED;
+    const size_t points =
+        plan->points * (n + 1) / regions->count - plan->points * n / regions->count;
     const nsvcd_result result = nsvcd__parts_add(regions, n, points, allocator, parts);
     if (result) return result;
   }
@@ -10256,8 +11372,8 @@ static nsvcd_result nsvcd__parts_describe(const nsvcd__plan *plan, nsvcd__region
 }
 
 // On success release with nsvcd__parts_free.
-static nsvcd_result nsvcd__parts_build(const nsvcd_mesh *mesh, const nsvcd__plan *plan, const nsvcd_allocator *allocator,
-                                       nsvcd__parts *parts) {
+static nsvcd_result nsvcd__parts_build(const nsvcd_mesh *mesh, const nsvcd__plan *plan,
+                                       const nsvcd_allocator *allocator, nsvcd__parts *parts) {
   nsvcd__regions regions;
   memset(parts, 0, sizeof *parts);
   parts->mesh = mesh;
@@ -10271,21 +11387,23 @@ static nsvcd_result nsvcd__parts_build(const nsvcd_mesh *mesh, const nsvcd__plan
 }
 
 // Writes the blob, (latents_size + facets_size) bytes, its patches in the given order (N).
-static nsvcd_result nsvcd__parts_write(const nsvcd__parts *parts, const uint16_t *order, void *memory,
-                                       const nsvcd_body **body) {
+static nsvcd_result nsvcd__parts_write(const nsvcd__parts *parts, const uint16_t *order,
+                                       void *memory, const nsvcd_body **body) {
   nsvcd_body *b = (nsvcd_body *)memory;
   nsvcd_result result = NSVCD_OK;
 #ifndef NSVCD_NO_NETWORK
   const nsvcd_body *built;
   if (parts->latents_size) {
-    result = nsvcd__body_build(parts->count, parts->centres, parts->radii, parts->areas, parts->latents, order,
-                               NSVCD_WEIGHTS_ID, parts->open, memory, parts->latents_size, &built);
+    result = nsvcd__body_build(parts->count, parts->centres, parts->radii, parts->areas,
+                               parts->latents, order, NSVCD_WEIGHTS_ID, parts->open, memory,
+                               parts->latents_size, &built);
   }
 #endif
 #ifndef NSVCD_NO_PROOF
   if (!result && parts->facets_size) {
-    result = nsvcd__facets_build(parts->mesh, &parts->surface, parts->counts, parts->centres, order, parts->open,
-                                 (char *)memory + parts->latents_size, parts->facets_size);
+    result =
+        nsvcd__facets_build(parts->mesh, &parts->surface, parts->counts, parts->centres, order,
+                            parts->open, (char *)memory + parts->latents_size, parts->facets_size);
   }
 #endif
   if (result) return result;
@@ -10300,8 +11418,9 @@ static nsvcd_result nsvcd__parts_write(const nsvcd__parts *parts, const uint16_t
 }
 
 // Puts the patches in order and writes the blob. MEMORY if there is none for that.
-static nsvcd_result nsvcd__parts_order_and_write(const nsvcd__parts *parts, const nsvcd_allocator *allocator,
-                                                 void *memory, const nsvcd_body **body) {
+static nsvcd_result nsvcd__parts_order_and_write(const nsvcd__parts *parts,
+                                                 const nsvcd_allocator *allocator, void *memory,
+                                                 const nsvcd_body **body) {
   uint16_t *order = (uint16_t *)nsvcd__alloc_array(allocator, 2 * parts->count, sizeof(uint16_t));
   if (!order) return NSVCD_ERROR_MEMORY;
   for (size_t i = 0; i < parts->count; i++) order[i] = (uint16_t)i;
@@ -10312,10 +11431,12 @@ static nsvcd_result nsvcd__parts_order_and_write(const nsvcd__parts *parts, cons
 }
 
 // How many patches, where the options do not say.
-static size_t nsvcd__points_for(const nsvcd_mesh *mesh, const nsvcd_encode_options *o, double area, int triangles) {
+static size_t nsvcd__points_for(const nsvcd_mesh *mesh, const nsvcd_encode_options *o, double area,
+                                int triangles) {
   const size_t most = NSVCD_MAX_POINTS;
   if (o->patch_radius > 0) {
-    // N balls of radius r cover about N r^2 / 0.45 of surface: measured, on the real meshes, for N = 32 to 512.
+    // N balls of radius r cover about N r^2 / 0.45 of surface: measured, on the real meshes, for N
+    // = 32 to 512.
     const double count = ceil(0.45 * area / ((double)o->patch_radius * (double)o->patch_radius));
     return count >= (double)most ? most : count >= 1 ? (size_t)count : 1;
   }
@@ -10327,7 +11448,8 @@ static size_t nsvcd__points_for(const nsvcd_mesh *mesh, const nsvcd_encode_optio
 }
 
 // Options with the defaults filled in. mesh: checked.
-static nsvcd_result nsvcd__plan_of(const nsvcd_mesh *mesh, const nsvcd_encode_options *options, nsvcd__plan *plan) {
+static nsvcd_result nsvcd__plan_of(const nsvcd_mesh *mesh, const nsvcd_encode_options *options,
+                                   nsvcd__plan *plan) {
   nsvcd_encode_options none;
   const nsvcd_encode_options *o = options ? options : &none;
   memset(&none, 0, sizeof none);
@@ -10342,14 +11464,16 @@ static nsvcd_result nsvcd__plan_of(const nsvcd_mesh *mesh, const nsvcd_encode_op
   plan->latents = !o->no_latents;
 #endif
   if (!plan->triangles && !plan->latents) return NSVCD_ERROR_ARGUMENT;  // nothing would be left
-  if (!nsvcd__is_finite(o->patch_radius) || o->patch_radius < 0 || o->points > NSVCD_MAX_POINTS) return NSVCD_ERROR_ARGUMENT;
+  if (!nsvcd__is_finite(o->patch_radius) || o->patch_radius < 0 || o->points > NSVCD_MAX_POINTS)
+    return NSVCD_ERROR_ARGUMENT;
   if (o->latents && o->no_latents) return NSVCD_ERROR_ARGUMENT;
   const nsvcd_result checked = nsvcd__mesh_check(mesh);
   if (checked) return checked;
   const double area = nsvcd__mesh_area(mesh);
   if (!(area > 0)) return NSVCD_ERROR_EMPTY;
   plan->points = o->points ? o->points : nsvcd__points_for(mesh, o, area, plan->triangles);
-  if (plan->triangles && plan->points > NSVCD_SMALL_POINTS) plan->latents = plan->latents && o->latents;
+  if (plan->triangles && plan->points > NSVCD_SMALL_POINTS)
+    plan->latents = plan->latents && o->latents;
   return NSVCD_OK;
 }
 
@@ -10395,7 +11519,8 @@ NSVCDDEF nsvcd_body_facts nsvcd_body_describe(const nsvcd_body *body) {
   memcpy(facts.centre, body->centre, sizeof facts.centre);
   facts.radius = body->radius;
   facts.latents = body->weights_id != 0;
-  for (size_t i = 0; i < body->points; i++) facts.mean_patch_radius += nsvcd__body_r(body)[i] / (float)body->points;
+  for (size_t i = 0; i < body->points; i++)
+    facts.mean_patch_radius += nsvcd__body_r(body)[i] / (float)body->points;
 #ifndef NSVCD_NO_PROOF
   const nsvcd_body *triangles = nsvcd__triangles_of(body);
   if (triangles) {
@@ -10408,9 +11533,11 @@ NSVCDDEF nsvcd_body_facts nsvcd_body_describe(const nsvcd_body *body) {
   return facts;
 }
 
-NSVCDDEF int nsvcd_body_patch(const nsvcd_body *body, uint32_t patch, float centre[3], float *radius) {
+NSVCDDEF int nsvcd_body_patch(const nsvcd_body *body, uint32_t patch, float centre[3],
+                              float *radius) {
   if (!body || patch >= body->points) return 0;
-  centre[0] = nsvcd__body_x(body)[patch], centre[1] = nsvcd__body_y(body)[patch],
+  centre[0] = nsvcd__body_x(body)[patch];
+  centre[1] = nsvcd__body_y(body)[patch];
   centre[2] = nsvcd__body_z(body)[patch];
   *radius = nsvcd__body_r(body)[patch];
   return 1;
@@ -10443,26 +11570,32 @@ NSVCDDEF const char *nsvcd_status_string(nsvcd_status status) {
 #define NSVCD__LARGEST_MODEL NSVCD_MODEL_TINY
 #endif
 
-#define NSVCD__SHORTLIST 4       // times K: the deepest pairs, from which the tiny head chooses
-#define NSVCD__CLEAR_LOGIT 3.0f  // a verdict this positive needs no second pair, and one this clear no second head
-#define NSVCD__PORTION 4         // pairs that the chosen head sees at once
-#define NSVCD__LOOKS 2           // times the shortlist: pairs to look at before the search is done, at most
-#define NSVCD__PROBE 8           // new pairs that are worth a first look before the search is done; later a full batch
+#define NSVCD__SHORTLIST 4  // times K: the deepest pairs, from which the tiny head chooses
+// a verdict this positive needs no second pair, and one this clear no second head
+#define NSVCD__CLEAR_LOGIT 3.0f
+#define NSVCD__PORTION 4  // pairs that the chosen head sees at once
+// times the shortlist: pairs to look at before the search is done, at most
+#define NSVCD__LOOKS 2
+// new pairs that are worth a first look before the search is done; later a full batch
+#define NSVCD__PROBE 8
 
 #endif  // NSVCD_NO_NETWORK
 
 #ifndef NSVCD_NO_NETWORK
 
-// The threshold to subtract from the logit. weights.h has one per head, recall and N = 32, 64, ..., 512; between those,
-// and for two bodies that differ, it is interpolated at the mean of log2 N. Returns 0 for any other recall.
-static int nsvcd__threshold(size_t model, float recall, size_t points1, size_t points2, float *threshold) {
+// The threshold to subtract from the logit. weights.h has one per head, recall and N = 32, 64, ...,
+// 512; between those, and for two bodies that differ, it is interpolated at the mean of log2 N.
+// Returns 0 for any other recall.
+static int nsvcd__threshold(size_t model, float recall, size_t points1, size_t points2,
+                            float *threshold) {
   if (!nsvcd__is_finite(recall)) return 0;
   for (size_t k = 0; k < NSVCD_W_RECALLS; k++) {
     if (recall < nsvcd_w_recall[k] || recall > nsvcd_w_recall[k]) continue;
     float size = 0.5f * (log2f((float)points1) + log2f((float)points2)) - 5;
     size = size < 0 ? 0 : size > NSVCD_W_SIZES - 1 ? NSVCD_W_SIZES - 1 : size;
     const size_t row = size < NSVCD_W_SIZES - 1 ? (size_t)size : NSVCD_W_SIZES - 2;
-    const float low = nsvcd_w_threshold[model][row][k], high = nsvcd_w_threshold[model][row + 1][k];
+    const float low = nsvcd_w_threshold[model][row][k];
+    const float high = nsvcd_w_threshold[model][row + 1][k];
     *threshold = low + (size - (float)row) * (high - low);
     return 1;
   }
@@ -10470,8 +11603,9 @@ static int nsvcd__threshold(size_t model, float recall, size_t points1, size_t p
 }
 
 // Scores of `count` candidates, 1 to 16, by a head.
-static void nsvcd__decode(const nsvcd_body *moving, const nsvcd_body *fixed, const nsvcd__motion *motion,
-                          nsvcd__candidate *const *candidates, size_t count, const nsvcd__head *head, int int8) {
+static void nsvcd__decode(const nsvcd_body *moving, const nsvcd_body *fixed,
+                          const nsvcd__motion *motion, nsvcd__candidate *const *candidates,
+                          size_t count, const nsvcd__head *head, int int8) {
   for (size_t first = 0; first < count; first += NSVCD__ROWS) {
     const size_t rows = count - first < NSVCD__ROWS ? count - first : NSVCD__ROWS;
     float x[NSVCD__ROWS * NSVCD__DECODER_IN];
@@ -10531,17 +11665,23 @@ typedef struct nsvcd__query {
 #endif
 } nsvcd__query;
 
-// What NSVCD_PROOF_WORKSPACE_BYTES and NSVCD_NETWORK_WORKSPACE_BYTES count on; where this does not compile they are wrong.
-typedef char nsvcd__constants_hold[sizeof(nsvcd__query) + 3 * NSVCD_ALIGNMENT + NSVCD__PASSED_OVER <= 1024 && sizeof(nsvcd__segments) <= 148 * 16 &&
-                                           sizeof(nsvcd__chords) <= 512 && sizeof(nsvcd__cut) <= 16 * 512 &&
-                                           NSVCD__TILE_SLOTS == 32 && NSVCD_ALIGNMENT == sizeof(uint64_t)
-                                       ? 1
-                                       : -1];
+// What NSVCD_PROOF_WORKSPACE_BYTES and NSVCD_NETWORK_WORKSPACE_BYTES count on; where this does not
+// compile they are wrong.
+typedef char
+    nsvcd__constants_hold[sizeof(nsvcd__query) + 3 * NSVCD_ALIGNMENT + NSVCD__PASSED_OVER <= 1024 &&
+                                  sizeof(nsvcd__segments) <= 148 * 16 &&
+                                  sizeof(nsvcd__chords) <= 512 && sizeof(nsvcd__cut) <= 16 * 512 &&
+                                  NSVCD__TILE_SLOTS == 32 && NSVCD_ALIGNMENT == sizeof(uint64_t)
+                              ? 1
+                              : -1];
 #ifndef NSVCD_NO_PROOF
-typedef char nsvcd__proof_constants_hold[sizeof(nsvcd__proof) <= 24576 && sizeof(nsvcd__span) <= 168 ? 1 : -1];
+typedef char nsvcd__proof_constants_hold[sizeof(nsvcd__proof) <= 24576 && sizeof(nsvcd__span) <= 168
+                                             ? 1
+                                             : -1];
 #endif
 #ifndef NSVCD_NO_NETWORK
-typedef char nsvcd__network_constants_hold[NSVCD__SHORTLIST * sizeof(nsvcd__candidate) <= 96 && NSVCD__LATENT == 40 ? 1 : -1];
+typedef char nsvcd__network_constants_hold
+    [NSVCD__SHORTLIST * sizeof(nsvcd__candidate) <= 96 && NSVCD__LATENT == 40 ? 1 : -1];
 #endif
 
 // What any question may need.
@@ -10553,7 +11693,8 @@ static nsvcd__needs nsvcd__needs_most(void) {
   return needs;
 }
 
-// Lays a query out at base, which is aligned, or, where that is NULL, only counts. Returns the bytes that it takes.
+// Lays a query out at base, which is aligned, or, where that is NULL, only counts. Returns the
+// bytes that it takes.
 static size_t nsvcd__query_layout(const nsvcd__needs *needs, char *base) {
   nsvcd__query counted;
   uint64_t used = 0;
@@ -10563,13 +11704,15 @@ static size_t nsvcd__query_layout(const nsvcd__needs *needs, char *base) {
   uint64_t end = used;
 #ifndef NSVCD_NO_NETWORK
   uint64_t network = used;
-  query->kept = (nsvcd__candidate *)nsvcd__take(base, &network, needs->candidates, sizeof(nsvcd__candidate));
+  query->kept =
+      (nsvcd__candidate *)nsvcd__take(base, &network, needs->candidates, sizeof(nsvcd__candidate));
   end = network;
 #endif
 #ifndef NSVCD_NO_PROOF
   uint64_t proof = used;
   query->proof = (nsvcd__proof *)nsvcd__take(base, &proof, needs->proof != 0, sizeof(nsvcd__proof));
-  query->spans = (nsvcd__span *)nsvcd__take(base, &proof, needs->proof ? needs->segments : 0, sizeof(nsvcd__span));
+  query->spans = (nsvcd__span *)nsvcd__take(base, &proof, needs->proof ? needs->segments : 0,
+                                            sizeof(nsvcd__span));
   end = proof > end ? proof : end;
 #endif
   return (size_t)end;
@@ -10588,16 +11731,20 @@ static void nsvcd__answer_free(nsvcd_answer *answer) {
 
 #ifndef NSVCD_NO_NETWORK
 
-static nsvcd_result nsvcd__settings_of(const nsvcd_sweep_options *options, size_t points1, size_t points2,
-                                       nsvcd__settings *settings) {
+static nsvcd_result nsvcd__settings_of(const nsvcd_sweep_options *options, size_t points1,
+                                       size_t points2, nsvcd__settings *settings) {
   const nsvcd_sweep_options *o = options;
-  if (o->pairs > NSVCD_MAX_PAIRS || (unsigned)o->model > (unsigned)NSVCD_MODEL_BASE) return NSVCD_ERROR_ARGUMENT;
-  if (o->precision != NSVCD_PRECISION_FLOAT && o->precision != NSVCD_PRECISION_INT8) return NSVCD_ERROR_ARGUMENT;
-  const size_t model = (size_t)(o->model ? o->model : NSVCD__LARGEST_MODEL) - (size_t)NSVCD_MODEL_TINY;
+  if (o->pairs > NSVCD_MAX_PAIRS || (unsigned)o->model > (unsigned)NSVCD_MODEL_BASE)
+    return NSVCD_ERROR_ARGUMENT;
+  if (o->precision != NSVCD_PRECISION_FLOAT && o->precision != NSVCD_PRECISION_INT8)
+    return NSVCD_ERROR_ARGUMENT;
+  const size_t model =
+      (size_t)(o->model ? o->model : NSVCD__LARGEST_MODEL) - (size_t)NSVCD_MODEL_TINY;
   if (!nsvcd_w_heads[model].layers) return NSVCD_ERROR_ARGUMENT;  // compiled out
   settings->pairs = o->pairs ? o->pairs : NSVCD_DEFAULT_PAIRS;
   settings->shortlist = model == 0 ? settings->pairs : NSVCD__SHORTLIST * settings->pairs;
-  settings->head = &nsvcd_w_heads[model], settings->ranker = &nsvcd_w_heads[0];
+  settings->head = &nsvcd_w_heads[model];
+  settings->ranker = &nsvcd_w_heads[0];
 #ifdef NSVCD_NO_FLOAT
   settings->int8 = 1;
 #else
@@ -10606,7 +11753,9 @@ static nsvcd_result nsvcd__settings_of(const nsvcd_sweep_options *options, size_
 #ifdef NSVCD_NO_INT8
   if (settings->int8) return NSVCD_ERROR_ARGUMENT;
 #endif
-  return nsvcd__threshold(model, o->recall, points1, points2, &settings->threshold) ? NSVCD_OK : NSVCD_ERROR_ARGUMENT;
+  return nsvcd__threshold(model, o->recall, points1, points2, &settings->threshold)
+             ? NSVCD_OK
+             : NSVCD_ERROR_ARGUMENT;
 }
 
 static NSVCD__APART int nsvcd__starts_inside(const nsvcd__task *ask) {
@@ -10615,11 +11764,13 @@ static NSVCD__APART int nsvcd__starts_inside(const nsvcd__task *ask) {
   return nsvcd__is_contained(ask->moving, ask->fixed, ask->motion.scale, rotation, position);
 }
 
-// Scores candidates that have no score yet, `most` at most: the deeper ones, roughly, because a heap ends with them.
-// Returns 0, and does nothing, if there are fewer than `least`.
-static int nsvcd__score(const nsvcd__task *ask, nsvcd__candidates *kept, size_t least, size_t most) {
+// Scores candidates that have no score yet, `most` at most: the deeper ones, roughly, because a
+// heap ends with them. Returns 0, and does nothing, if there are fewer than `least`.
+static int nsvcd__score(const nsvcd__task *ask, nsvcd__candidates *kept, size_t least,
+                        size_t most) {
   nsvcd__candidate *batch[NSVCD__BATCH];
-  size_t count = 0, left = 0;
+  size_t count = 0;
+  size_t left = 0;
   for (size_t k = 0; k < kept->count; k++) left += kept->items[k].score <= NSVCD__NO_SCORE;
   if (left < least || left == 0) return 0;
   left = left < most ? left : most;
@@ -10628,8 +11779,10 @@ static int nsvcd__score(const nsvcd__task *ask, nsvcd__candidates *kept, size_t 
     batch[count++] = &kept->items[k - 1];
     if (count < NSVCD__BATCH && count < left) continue;
     NSVCD__TALLY(ranked, count);
-    nsvcd__decode(ask->moving, ask->fixed, &ask->motion, batch, count, ask->settings.ranker, ask->settings.int8);
-    left -= count, count = 0;
+    nsvcd__decode(ask->moving, ask->fixed, &ask->motion, batch, count, ask->settings.ranker,
+                  ask->settings.int8);
+    left -= count;
+    count = 0;
   }
   return 1;
 }
@@ -10643,17 +11796,21 @@ static void nsvcd__best_first(nsvcd__candidate *items, size_t count, size_t of) 
       if (d > 0 || (d >= 0 && nsvcd__is_shallower(&items[best], &items[i]))) best = i;
     }
     const nsvcd__candidate first = items[best];
-    items[best] = items[k], items[k] = first;
+    items[best] = items[k];
+    items[k] = first;
   }
 }
 
-static void nsvcd__answer_with(const nsvcd__task *ask, const nsvcd__candidate *candidate, const nsvcd__head *head,
-                               nsvcd_answer *answer) {
+static void nsvcd__answer_with(const nsvcd__task *ask, const nsvcd__candidate *candidate,
+                               const nsvcd__head *head, nsvcd_answer *answer) {
   answer->logit = candidate->score - ask->settings.threshold;
   answer->contact_time = candidate->t_least;
   answer->patch_a = candidate->moving;
   answer->patch_b = candidate->fixed;
-  if (ask->decisive) ask->decisive->candidate = *candidate, ask->decisive->head = head;
+  if (ask->decisive) {
+    ask->decisive->candidate = *candidate;
+    ask->decisive->head = head;
+  }
 }
 
 // Does the tiny head see no collision there, clearly?
@@ -10661,33 +11818,37 @@ static int nsvcd__is_harmless(const nsvcd__candidate *candidate, float threshold
   return candidate->score < (threshold < 0 ? threshold : 0) - NSVCD__CLEAR_LOGIT;
 }
 
-// Is the most suspicious of the candidates scored so far clearly a collision, or, where they are all, clearly none?
-// Then no other head needs to look: 35,000 answers on the validation sets, N = 128 to 512, are the same as with twice
-// the margin, but for one, which is better.
-static int nsvcd__is_clear(const nsvcd__task *ask, const nsvcd__candidates *kept, int all, nsvcd_answer *answer) {
+// Is the most suspicious of the candidates scored so far clearly a collision, or, where they are
+// all, clearly none? Then no other head needs to look: 35,000 answers on the validation sets, N =
+// 128 to 512, are the same as with twice the margin, but for one, which is better.
+static int nsvcd__is_clear(const nsvcd__task *ask, const nsvcd__candidates *kept, int all,
+                           nsvcd_answer *answer) {
   const float threshold = ask->settings.threshold;
   const nsvcd__candidate *most = &kept->items[0];
-  for (size_t k = 1; k < kept->count; k++) most = kept->items[k].score > most->score ? &kept->items[k] : most;
+  for (size_t k = 1; k < kept->count; k++)
+    most = kept->items[k].score > most->score ? &kept->items[k] : most;
   const int yes = most->score > NSVCD__CLEAR_LOGIT + (threshold > 0 ? threshold : 0);
   const int no = all && nsvcd__is_harmless(most, threshold);
   if (yes || no) nsvcd__answer_with(ask, most, ask->settings.ranker, answer);
   return yes || no;
 }
 
-// The verdict on the `pairs` most suspicious of the scored candidates, but for the harmless ones, 4 at a time, until
-// one is clearly positive.
+// The verdict on the `pairs` most suspicious of the scored candidates, but for the harmless ones, 4
+// at a time, until one is clearly positive.
 static void nsvcd__judge(const nsvcd__task *ask, nsvcd__candidates *kept, nsvcd_answer *answer) {
   const nsvcd__settings *settings = &ask->settings;
   size_t count = kept->count < settings->pairs ? kept->count : settings->pairs;
   nsvcd__best_first(kept->items, count, kept->count);
   while (count > 1 && nsvcd__is_harmless(&kept->items[count - 1], settings->threshold)) count--;
-  for (size_t first = 0; first < count && answer->logit < NSVCD__CLEAR_LOGIT; first += NSVCD__PORTION) {
+  for (size_t first = 0; first < count && answer->logit < NSVCD__CLEAR_LOGIT;
+       first += NSVCD__PORTION) {
     nsvcd__candidate *batch[NSVCD__PORTION] = {NULL};
     const size_t size = count - first < NSVCD__PORTION ? count - first : NSVCD__PORTION;
     for (size_t k = 0; k < size; k++) batch[k] = &kept->items[first + k];
     if (settings->head != settings->ranker) {
       NSVCD__TALLY(judged, size);
-      nsvcd__decode(ask->moving, ask->fixed, &ask->motion, batch, size, settings->head, settings->int8);
+      nsvcd__decode(ask->moving, ask->fixed, &ask->motion, batch, size, settings->head,
+                    settings->int8);
     }
     for (size_t k = 0; k < size; k++) {
       if (first + k > 0 && !(batch[k]->score - settings->threshold > answer->logit)) continue;
@@ -10696,19 +11857,21 @@ static void nsvcd__judge(const nsvcd__task *ask, nsvcd__candidates *kept, nsvcd_
   }
 }
 
-// Where the last of a batch of motions collided: the next is asked there first. Forgotten when it misleads twice.
+// Where the last of a batch of motions collided: the next is asked there first. Forgotten when it
+// misleads twice.
 typedef struct nsvcd__hint {
   int known, misled;
   uint32_t moving, fixed;
 } nsvcd__hint;
 
 // Does this motion, cut already, clearly collide where the hint says?
-static NSVCD__APART int nsvcd__collides_again(const nsvcd__task *ask, const nsvcd__hint *hint, nsvcd__query *query,
-                                 nsvcd_answer *answer) {
+static NSVCD__APART int nsvcd__collides_again(const nsvcd__task *ask, const nsvcd__hint *hint,
+                                              nsvcd__query *query, nsvcd_answer *answer) {
   const nsvcd__settings *settings = &ask->settings;
   nsvcd__candidates kept;
   nsvcd__candidates_start(&kept, query->kept, NSVCD__PORTION);
-  nsvcd__search_patch(&query->broad_phase, ask->moving, hint->moving / NSVCD__GROUP, ask->fixed, hint->fixed, &kept);
+  nsvcd__search_patch(&query->broad_phase, ask->moving, hint->moving / NSVCD__GROUP, ask->fixed,
+                      hint->fixed, &kept);
   if (!nsvcd__score(ask, &kept, 1, kept.count)) return 0;
   answer->overlapping = kept.total;
   answer->status = kept.total > settings->pairs ? NSVCD_STATUS_LIMIT : NSVCD_STATUS_OK;
@@ -10718,8 +11881,10 @@ static NSVCD__APART int nsvcd__collides_again(const nsvcd__task *ask, const nsvc
   return answer->logit >= NSVCD__CLEAR_LOGIT;
 }
 
-// Searches a motion that has been cut, looking at pairs as they are found, until one is clear or all are known.
-static NSVCD__APART void nsvcd__search_and_judge(nsvcd__task *ask, nsvcd__query *query, nsvcd_answer *answer) {
+// Searches a motion that has been cut, looking at pairs as they are found, until one is clear or
+// all are known.
+static NSVCD__APART void nsvcd__search_and_judge(nsvcd__task *ask, nsvcd__query *query,
+                                                 nsvcd_answer *answer) {
   nsvcd__workspace *work = &query->broad_phase;
   nsvcd__candidates kept;
   size_t worth = ask->settings.shortlist < NSVCD__PROBE ? ask->settings.shortlist : NSVCD__PROBE;
@@ -10729,22 +11894,26 @@ static NSVCD__APART void nsvcd__search_and_judge(nsvcd__task *ask, nsvcd__query 
   nsvcd__candidates_start(&kept, query->kept, ask->settings.shortlist);
   while (more && !clear) {
     more = nsvcd__search_step(work, ask->moving, ask->fixed, &kept);
-    // A deep collision shows early. What is scored now need not be scored later, so that looking costs little.
+    // A deep collision shows early. What is scored now need not be scored later, so that looking
+    // costs little.
     if (!more || left < worth || !nsvcd__score(ask, &kept, worth, worth)) continue;
     left -= worth;
     clear = nsvcd__is_clear(ask, &kept, 0, answer);
     if (worth == NSVCD__PROBE) worth = NSVCD__BATCH;
   }
   answer->overlapping = kept.total;
-  if (kept.total > 0) answer->status = kept.total > ask->settings.pairs ? NSVCD_STATUS_LIMIT : NSVCD_STATUS_OK;
+  if (kept.total > 0)
+    answer->status = kept.total > ask->settings.pairs ? NSVCD_STATUS_LIMIT : NSVCD_STATUS_OK;
   if (clear || kept.count == 0) return;
   nsvcd__score(ask, &kept, 1, kept.count);
   if (!nsvcd__is_clear(ask, &kept, 1, answer)) nsvcd__judge(ask, &kept, answer);
 }
 
 // Asks the network about a motion that has been prepared. hint: NULL, or that of a batch.
-static void nsvcd__answer(nsvcd__task *ask, nsvcd__query *query, nsvcd__hint *hint, nsvcd_answer *answer) {
-  (void)nsvcd__settings_of(ask->options, ask->moving->points, ask->fixed->points, &ask->settings);  // checked before
+static void nsvcd__answer(nsvcd__task *ask, nsvcd__query *query, nsvcd__hint *hint,
+                          nsvcd_answer *answer) {
+  // checked before
+  (void)nsvcd__settings_of(ask->options, ask->moving->points, ask->fixed->points, &ask->settings);
   nsvcd__answer_free(answer);
   if (nsvcd__motion_is_far(&ask->motion, ask->lengths)) return;
   nsvcd__cut_motion(&ask->motion, ask->lengths, &query->broad_phase);
@@ -10809,12 +11978,15 @@ static void nsvcd__answer_with_contact(const nsvcd__proof *p, nsvcd_answer *answ
 }
 
 // What is proven of clearances and times.
-static void nsvcd__answer_with_bounds(const nsvcd__proof *p, nsvcd__verdict verdict, nsvcd_answer *answer) {
+static void nsvcd__answer_with_bounds(const nsvcd__proof *p, nsvcd__verdict verdict,
+                                      nsvcd_answer *answer) {
   const double unit = (double)p->motion->unit;
   const double known = p->lost ? p->settled : NSVCD__NEVER;
   const double until = fmin(fmin(p->end, p->unsure), known) / (double)p->motion->ticks;
   const int is_free = verdict == NSVCD__FREE;
-  const double proven = is_free ? 1 : p->first > 0 && verdict != NSVCD__WITHIN ? fmin(fmax(until, 0), 1) : 0;
+  const double proven = is_free                                    ? 1
+                        : p->first > 0 && verdict != NSVCD__WITHIN ? fmin(fmax(until, 0), 1)
+                                                                   : 0;
   const int measured = p->measure > 0 && verdict != NSVCD__WITHIN && verdict != NSVCD__UNDECIDED;
   const double low = measured || is_free ? p->clearance : 0;
   answer->free_until = (float)(proven < 1 ? proven * (1 - 1e-7) : 1);
@@ -10855,7 +12027,8 @@ static NSVCD__APART nsvcd__verdict nsvcd__prove_start(nsvcd__proof *p, nsvcd__wo
   return verdict;
 }
 
-// Proves a question whose motion has been prepared, if it can; else the answer is UNDECIDED and says yes.
+// Proves a question whose motion has been prepared, if it can; else the answer is UNDECIDED and
+// says yes.
 static void nsvcd__answer_by_proof(nsvcd__task *ask, nsvcd__query *query, nsvcd_answer *answer) {
   nsvcd__proof *p = query->proof;
   p->spans = query->spans;
@@ -10888,10 +12061,10 @@ static void nsvcd__answer_by_proof(nsvcd__task *ask, nsvcd__query *query, nsvcd_
     const int is_clear = asked > 0 ? p->clearance > asked : !is_near;
     verdict = is_near ? NSVCD__MEETS : is_clear ? NSVCD__FREE : NSVCD__UNDECIDED;
   }
-  answer->status = verdict == NSVCD__MEETS     ? NSVCD_STATUS_WITNESS
-                 : verdict == NSVCD__WITHIN  ? NSVCD_STATUS_INSIDE
-                 : verdict == NSVCD__FREE    ? NSVCD_STATUS_CERTIFIED_FREE
-                                             : NSVCD_STATUS_UNDECIDED;
+  answer->status = verdict == NSVCD__MEETS    ? NSVCD_STATUS_WITNESS
+                   : verdict == NSVCD__WITHIN ? NSVCD_STATUS_INSIDE
+                   : verdict == NSVCD__FREE   ? NSVCD_STATUS_CERTIFIED_FREE
+                                              : NSVCD_STATUS_UNDECIDED;
   const nsvcd__to_world start = nsvcd__to_world_at(p->motion, 0);
   const nsvcd__d3 lift = nsvcd__rotate(start.rows, nsvcd__d3_load(p->motion->lift));
   const nsvcd__f3 lifted = nsvcd__f3_round(nsvcd__d3_scale(lift, p->skin > 0 ? start.unit : 0));
@@ -10919,7 +12092,8 @@ static int nsvcd__needs_proof(const nsvcd_sweep_options *options) {
 }
 
 // Answers a question that has been checked. hint: NULL, or that of a batch, for the network.
-static void nsvcd__answer_task(nsvcd__task *ask, nsvcd__query *query, void *hint, nsvcd_answer *answer) {
+static void nsvcd__answer_task(nsvcd__task *ask, nsvcd__query *query, void *hint,
+                               nsvcd_answer *answer) {
   int proven = 0;
 #ifndef NSVCD_NO_PROOF
   if (ask->method == NSVCD_METHOD_PROOF) {
@@ -10950,8 +12124,10 @@ static void nsvcd__answer_task(nsvcd__task *ask, nsvcd__query *query, void *hint
 }
 
 // The method that answers, or DEFAULT where there is none.
-static nsvcd_method nsvcd__method_of(const nsvcd_body *moving, const nsvcd_body *fixed, nsvcd_method wanted) {
-  int can_prove = 0, can_ask = 0;
+static nsvcd_method nsvcd__method_of(const nsvcd_body *moving, const nsvcd_body *fixed,
+                                     nsvcd_method wanted) {
+  int can_prove = 0;
+  int can_ask = 0;
 #ifndef NSVCD_NO_PROOF
   can_prove = moving->triangles && fixed->triangles;
 #endif
@@ -10960,14 +12136,17 @@ static nsvcd_method nsvcd__method_of(const nsvcd_body *moving, const nsvcd_body 
 #endif
   if (can_prove && wanted != NSVCD_METHOD_NETWORK) return NSVCD_METHOD_PROOF;
   if (can_ask && wanted != NSVCD_METHOD_PROOF) return NSVCD_METHOD_NETWORK;
-  (void)moving, (void)fixed;
+  (void)moving;
+  (void)fixed;
   return NSVCD_METHOD_DEFAULT;
 }
 
-// Is b to be the one that moves, and a the one in whose frame that is seen? The one that rests is that, else the larger
-// one; where they are equal, any rule that does not depend on which is a: then both ways of asking are answered alike.
+// Is b to be the one that moves, and a the one in whose frame that is seen? The one that rests is
+// that, else the larger one; where they are equal, any rule that does not depend on which is a:
+// then both ways of asking are answered alike.
 static int nsvcd__is_swapped(const nsvcd_mover *a, const nsvcd_mover *b) {
-  const size_t count_a = nsvcd__pose_count(a), count_b = nsvcd__pose_count(b);
+  const size_t count_a = nsvcd__pose_count(a);
+  const size_t count_b = nsvcd__pose_count(b);
   if ((count_a > 1) != (count_b > 1)) return count_b > 1;
   const float size_a = (a->scale > 0 ? a->scale : 1) * a->body->extent;
   const float size_b = (b->scale > 0 ? b->scale : 1) * b->body->extent;
@@ -10981,7 +12160,8 @@ static int nsvcd__is_swapped(const nsvcd_mover *a, const nsvcd_mover *b) {
 
 // Are both sides one and the same body in the same motion? Then something was passed twice.
 static int nsvcd__is_itself(const nsvcd_question *question) {
-  const nsvcd_mover *a = &question->a, *b = &question->b;
+  const nsvcd_mover *a = &question->a;
+  const nsvcd_mover *b = &question->b;
   const int same_size = !(a->scale < b->scale) && !(b->scale < a->scale);
   return a->body == b->body && a->poses == b->poses && a->count == b->count && same_size;
 }
@@ -10993,17 +12173,23 @@ static nsvcd_result nsvcd__question_check(const nsvcd_question *question) {
   if (nsvcd__is_itself(question)) return NSVCD_ERROR_SAME;
   const nsvcd_sweep_options *options = &question->options;
   if ((unsigned)options->method > (unsigned)NSVCD_METHOD_NETWORK) return NSVCD_ERROR_ARGUMENT;
-  if (options->segments > NSVCD__MAX_SEGMENTS || options->segments % NSVCD__LANES) return NSVCD_ERROR_ARGUMENT;
-  const float lengths[4] = {options->tolerance, options->clearance, options->measure, options->skin};
+  if (options->segments > NSVCD__MAX_SEGMENTS || options->segments % NSVCD__LANES)
+    return NSVCD_ERROR_ARGUMENT;
+  const float lengths[4] = {options->tolerance, options->clearance, options->measure,
+                            options->skin};
   for (size_t k = 0; k < 4; k++) {
-    const int fits = nsvcd__is_finite(lengths[k]) && lengths[k] >= 0 && lengths[k] <= NSVCD_MAX_COORDINATE;
+    const int fits =
+        nsvcd__is_finite(lengths[k]) && lengths[k] >= 0 && lengths[k] <= NSVCD_MAX_COORDINATE;
     if (!fits) return NSVCD_ERROR_TOLERANCE;
   }
-  if (!nsvcd__is_finite(options->first) || options->first < 0 || options->first > 1) return NSVCD_ERROR_TOLERANCE;
+  if (!nsvcd__is_finite(options->first) || options->first < 0 || options->first > 1)
+    return NSVCD_ERROR_TOLERANCE;
   if (options->first > 0 && options->measure > 0) return NSVCD_ERROR_ARGUMENT;
-  if (nsvcd__needs_proof(options) && options->method == NSVCD_METHOD_NETWORK) return NSVCD_ERROR_ARGUMENT;
+  if (nsvcd__needs_proof(options) && options->method == NSVCD_METHOD_NETWORK)
+    return NSVCD_ERROR_ARGUMENT;
   const nsvcd_method wanted = nsvcd__needs_proof(options) ? NSVCD_METHOD_PROOF : options->method;
-  if (nsvcd__method_of(question->a.body, question->b.body, wanted) == NSVCD_METHOD_DEFAULT) return NSVCD_ERROR_BODY;
+  if (nsvcd__method_of(question->a.body, question->b.body, wanted) == NSVCD_METHOD_DEFAULT)
+    return NSVCD_ERROR_BODY;
 #ifndef NSVCD_NO_NETWORK
   nsvcd__settings unused;
   return nsvcd__settings_of(options, question->a.body->points, question->b.body->points, &unused);
@@ -11040,9 +12226,11 @@ static size_t nsvcd__tile_groups(const nsvcd_body *body) {
   return groups < NSVCD__TILE_SLOTS ? groups : NSVCD__TILE_SLOTS;
 }
 
-// What a question that is in order needs. Which of its bodies is to be the moving one makes no difference.
+// What a question that is in order needs. Which of its bodies is to be the moving one makes no
+// difference.
 static nsvcd__needs nsvcd__needs_of(const nsvcd_question *question) {
-  const nsvcd_body *a = question->a.body, *b = question->b.body;
+  const nsvcd_body *a = question->a.body;
+  const nsvcd_body *b = question->b.body;
   const nsvcd_sweep_options *options = &question->options;
   nsvcd__needs needs;
   memset(&needs, 0, sizeof needs);
@@ -11053,12 +12241,14 @@ static nsvcd__needs nsvcd__needs_of(const nsvcd_question *question) {
     needs.fixed_groups = nsvcd__tile_groups(a);
   }
   needs.large = nsvcd__is_large(a) || nsvcd__is_large(b);
-  needs.segments = options->segments ? nsvcd__round_up(options->segments, NSVCD__LANES) : NSVCD__MAX_SEGMENTS;
+  needs.segments =
+      options->segments ? nsvcd__round_up(options->segments, NSVCD__LANES) : NSVCD__MAX_SEGMENTS;
   needs.proof = nsvcd__method_of(a, b, options->method) == NSVCD_METHOD_PROOF;
 #ifndef NSVCD_NO_NETWORK
   const size_t pairs = options->pairs ? options->pairs : NSVCD_DEFAULT_PAIRS;
   const size_t most = options->model == NSVCD_MODEL_TINY ? pairs : NSVCD__SHORTLIST * pairs;
-  if (a->weights_id && b->weights_id) needs.candidates = most > NSVCD__PORTION ? most : NSVCD__PORTION;
+  if (a->weights_id && b->weights_id)
+    needs.candidates = most > NSVCD__PORTION ? most : NSVCD__PORTION;
 #endif
   return needs;
 }
@@ -11070,7 +12260,8 @@ NSVCDDEF size_t nsvcd_sweep_workspace_size(const nsvcd_question *question) {
 }
 
 // Checks a question, and that the workspace is large enough for it.
-static NSVCD__APART nsvcd_result nsvcd__check(const nsvcd_question *question, const void *workspace, size_t workspace_size) {
+static NSVCD__APART nsvcd_result nsvcd__check(const nsvcd_question *question, const void *workspace,
+                                              size_t workspace_size) {
   const nsvcd_result result = nsvcd__question_check(question);
   if (result) return result;
   const nsvcd__needs needs = nsvcd__needs_of(question);
@@ -11080,7 +12271,8 @@ static NSVCD__APART nsvcd_result nsvcd__check(const nsvcd_question *question, co
 }
 
 // Makes a workspace ready for a question that has been checked.
-static NSVCD__APART nsvcd__query *nsvcd__query_open(const nsvcd_question *question, void *workspace) {
+static NSVCD__APART nsvcd__query *nsvcd__query_open(const nsvcd_question *question,
+                                                    void *workspace) {
   const nsvcd__needs needs = nsvcd__needs_of(question);
   nsvcd__query *query = (nsvcd__query *)workspace;
   (void)nsvcd__query_layout(&needs, (char *)workspace);
@@ -11088,13 +12280,15 @@ static NSVCD__APART nsvcd__query *nsvcd__query_open(const nsvcd_question *questi
   return query;
 }
 
-NSVCDDEF nsvcd_result nsvcd_sweep(const nsvcd_question *question, void *workspace, size_t workspace_size,
-                                  nsvcd_answer *answer) {
-  return question ? nsvcd_sweep_batch(question, 1, workspace, workspace_size, answer) : NSVCD_ERROR_ARGUMENT;
+NSVCDDEF nsvcd_result nsvcd_sweep(const nsvcd_question *question, void *workspace,
+                                  size_t workspace_size, nsvcd_answer *answer) {
+  return question ? nsvcd_sweep_batch(question, 1, workspace, workspace_size, answer)
+                  : NSVCD_ERROR_ARGUMENT;
 }
 
-NSVCDDEF nsvcd_result nsvcd_sweep_batch(const nsvcd_question *questions, size_t count, void *workspace,
-                                        size_t workspace_size, nsvcd_answer *answers) {
+NSVCDDEF nsvcd_result nsvcd_sweep_batch(const nsvcd_question *questions, size_t count,
+                                        void *workspace, size_t workspace_size,
+                                        nsvcd_answer *answers) {
   if (count > 0 && (!questions || !answers)) return NSVCD_ERROR_ARGUMENT;
   for (size_t k = 0; k < count; k++) {
     const nsvcd_result result = nsvcd__check(&questions[k], workspace, workspace_size);
@@ -11118,39 +12312,52 @@ NSVCDDEF nsvcd_result nsvcd_sweep_batch(const nsvcd_question *questions, size_t 
 }
 
 #ifndef NSVCD_NO_GRADIENT
-// --------------------------------------------------------------------------------------------------- gradient
-// In: the pair that decided an answer. Out: the derivative of its logit by the poses. Reverse mode, step by step from
-// the end, over one pair and in scalars; `by_x` is the derivative of the logit by x:
+// ---------------------------------------------------------------------------------------- gradient
+// In: the pair that decided an answer. Out: the derivative of its logit by the poses. Reverse mode,
+// step by step from the end, over one pair and in scalars; `by_x` is the derivative of the logit by
+// x:
 //
 //   head        by the decoder's inputs
-//   pair        by the line between the centres, the velocity, and the rotations, over the frame and the facts
+//   pair        by the line between the centres, the velocity, and the rotations, over the frame
+//               and the facts
 //   instants    by the moving body's poses at t_enter, t_exit and in the middle, and by these times
-//   contact     from the times to the poses at the ends of the segment in which the spheres meet or part
+//   contact     from the times to the poses at the ends of the segment in which the spheres meet or
+//               part
 //   samples     from the pose at any time to the caller's poses
 //
-// The derivative by the pose of a rigid body is a wrench: a force (by a displacement of its origin) and a torque (by a
-// small rotation about that). A force f on a point at `arm` from the origin is that force, and the torque arm x f.
+// The derivative by the pose of a rigid body is a wrench: a force (by a displacement of its origin)
+// and a torque (by a small rotation about that). A force f on a point at `arm` from the origin is
+// that force, and the torque arm x f.
 
 static void nsvcd__add_scaled3(float scale, const float *a, float *out) {
   for (size_t k = 0; k < 3; k++) out[k] += scale * a[k];
 }
 static void nsvcd__add_cross3(const float *a, const float *b, float *out) {  // out += a x b
-  out[0] += a[1] * b[2] - a[2] * b[1], out[1] += a[2] * b[0] - a[0] * b[2], out[2] += a[0] * b[1] - a[1] * b[0];
+  out[0] += a[1] * b[2] - a[2] * b[1];
+  out[1] += a[2] * b[0] - a[0] * b[2];
+  out[2] += a[0] * b[1] - a[1] * b[0];
 }
-// by_a += the derivative of |a|, times `by`. At 0, to rounding, where it has none: nothing, the mean of all directions.
+// by_a += the derivative of |a|, times `by`. At 0, to rounding, where it has none: nothing, the
+// mean of all directions.
 static void nsvcd__by_length3(const float *a, float by, float *by_a) {
   const float length = nsvcd__length3(a);
   if (length > 1e-6f) nsvcd__add_scaled3(by / length, a, by_a);
 }
 static void nsvcd__first_lanes(const nsvcd__v *a, size_t count, float *out) {
   float lanes[NSVCD__SLICE];
-  for (size_t k = 0; k < count; k++) nsvcd__v_store(lanes, a[k]), out[k] = lanes[0];
+  for (size_t k = 0; k < count; k++) {
+    nsvcd__v_store(lanes, a[k]);
+    out[k] = lanes[0];
+  }
 }
 
-// Adds to `out`: a's part along the unit vector n (or 0), times `along`, and the rest, turned about n by `angle`, times
-// `across`. All that commutes with rotations about n is of this kind.
-static void nsvcd__add_turned3(const float *a, const float *n, float along, float across, float angle, float *out) {
-  const float s = across * sinf(angle), c = across * cosf(angle), dot = nsvcd__dot3(n, a);
+// Adds to `out`: a's part along the unit vector n (or 0), times `along`, and the rest, turned about
+// n by `angle`, times `across`. All that commutes with rotations about n is of this kind.
+static void nsvcd__add_turned3(const float *a, const float *n, float along, float across,
+                               float angle, float *out) {
+  const float s = across * sinf(angle);
+  const float c = across * cosf(angle);
+  const float dot = nsvcd__dot3(n, a);
   const float side[3] = {s * n[0], s * n[1], s * n[2]};
   nsvcd__add_scaled3(c, a, out);
   nsvcd__add_scaled3((along - c) * dot, n, out);
@@ -11159,25 +12366,35 @@ static void nsvcd__add_turned3(const float *a, const float *n, float along, floa
 
 // ---- head
 
-// The weights of a layer from input i to outputs o .. o + SLICE - 1. weights, output: where the layer's begin.
-NSVCD__INLINE nsvcd__v nsvcd__weights_at(size_t weights, size_t output, size_t outputs, size_t i, size_t o) {
+// The weights of a layer from input i to outputs o .. o + SLICE - 1. weights, output: where the
+// layer's begin.
+NSVCD__INLINE nsvcd__v nsvcd__weights_at(size_t weights, size_t output, size_t outputs, size_t i,
+                                         size_t o) {
 #ifndef NSVCD_NO_FLOAT
   (void)output;
   return nsvcd__v_load(nsvcd_w_decoder + weights + outputs * i + o);
 #else
   const int8_t *w = nsvcd_w_decoder_int8 + weights + 4 * (outputs * (i / 4) + o) + i % 4;
   float lanes[NSVCD__SLICE];
-  for (size_t l = 0; l < NSVCD__SLICE; l++) lanes[l] = (float)w[4 * l] * nsvcd_w_decoder_scale[output + o + l];
+  for (size_t l = 0; l < NSVCD__SLICE; l++)
+    lanes[l] = (float)w[4 * l] * nsvcd_w_decoder_scale[output + o + l];
   return nsvcd__v_load(lanes);
 #endif
 }
 
 // The derivative of a head's logit by its inputs: x, by_x (DECODER_IN). That of ReLU at 0 is 0.
-static NSVCD__APART void nsvcd__head_gradient(const nsvcd__head *head, const float *x, float *by_x) {
-  float values[5][NSVCD__WIDEST], by[NSVCD__MOST_INPUTS] = {1}, by_inputs[NSVCD__MOST_INPUTS], lanes[NSVCD__LANES];
-  size_t weights = head->weights, output = head->outputs, l = 0;
+static NSVCD__APART void nsvcd__head_gradient(const nsvcd__head *head, const float *x,
+                                              float *by_x) {
+  float values[5][NSVCD__WIDEST];
+  float by[NSVCD__MOST_INPUTS] = {1};
+  float by_inputs[NSVCD__MOST_INPUTS];
+  float lanes[NSVCD__LANES];
+  size_t weights = head->weights;
+  size_t output = head->outputs;
+  size_t l = 0;
   for (; l + 1 < head->layers; l++) {
-    const size_t inputs = head->sizes[l], outputs = head->sizes[l + 1];
+    const size_t inputs = head->sizes[l];
+    const size_t outputs = head->sizes[l + 1];
     const float *in = l > 0 ? values[l - 1] : x;
     float *y = values[l];
     memcpy(y, nsvcd_w_decoder_bias + output, outputs * sizeof *y);
@@ -11190,17 +12407,20 @@ static NSVCD__APART void nsvcd__head_gradient(const nsvcd__head *head, const flo
       }
     }
     for (size_t o = 0; o < outputs; o++) y[o] = y[o] > 0 ? y[o] : 0;
-    weights += inputs * outputs, output += outputs;
+    weights += inputs * outputs;
+    output += outputs;
   }
   for (;; l--) {
-    const size_t inputs = head->sizes[l], outputs = head->sizes[l + 1];
+    const size_t inputs = head->sizes[l];
+    const size_t outputs = head->sizes[l + 1];
     for (size_t i = 0; i < inputs; i++) {
       by_inputs[i] = 0;
       if (l > 0 && !(values[l - 1][i] > 0)) continue;
       NSVCD__EACH_SLICE(s) {
         nsvcd__v sum = nsvcd__v_set(0);
         for (size_t o = s; o < outputs; o += NSVCD__LANES) {
-          sum = nsvcd__v_fma(nsvcd__weights_at(weights, output, outputs, i, o), nsvcd__v_load(by + o), sum);
+          sum = nsvcd__v_fma(nsvcd__weights_at(weights, output, outputs, i, o),
+                             nsvcd__v_load(by + o), sum);
         }
         nsvcd__v_store(lanes + s, sum);
       }
@@ -11208,31 +12428,40 @@ static NSVCD__APART void nsvcd__head_gradient(const nsvcd__head *head, const flo
     }
     memcpy(by, by_inputs, inputs * sizeof *by);
     if (l == 0) break;
-    weights -= head->sizes[l - 1] * inputs, output -= inputs;
+    weights -= head->sizes[l - 1] * inputs;
+    output -= inputs;
   }
   memcpy(by_x, by, NSVCD__DECODER_IN * sizeof *by_x);
 }
 
 // ---- pair
 
-// torque += the derivative by a small rotation of a latent's vectors, as they are (x) and the derivative by them (by),
-// both (3, CHANNELS), then (5, CHANNELS). On degree 2, in the basis of nsvcd__degree2, a rotation by w adds to q
+// torque += the derivative by a small rotation of a latent's vectors, as they are (x) and the
+// derivative by them (by), both (3, CHANNELS), then (5, CHANNELS). On degree 2, in the basis of
+// nsvcd__degree2, a rotation by w adds to q
 //   (wy q1 - wx q3 + 2 wz q4, wz q3 - wy q0 - wx (r q2 + q4), r (wx q1 - wy q3),
 //    wx q0 - wz q1 + wy (r q2 - q4), wx q1 + wy q3 - 2 wz q0), r being the root of 3.
 static void nsvcd__add_latent_torque(const float *x, const float *by, float *torque) {
   const float root3 = 1.7320508075688772f;
   for (size_t c = 0; c < NSVCD_W_CHANNELS; c++) {
     float a[8], g[8];
-    for (size_t k = 0; k < 8; k++) a[k] = x[NSVCD_W_CHANNELS * k + c], g[k] = by[NSVCD_W_CHANNELS * k + c];
-    const float *q = a + 3, *h = g + 3;
+    for (size_t k = 0; k < 8; k++) {
+      a[k] = x[NSVCD_W_CHANNELS * k + c];
+      g[k] = by[NSVCD_W_CHANNELS * k + c];
+    }
+    const float *q = a + 3;
+    const float *h = g + 3;
     nsvcd__add_cross3(a, g, torque);
-    torque[0] += h[3] * q[0] - h[0] * q[3] + root3 * (h[2] * q[1] - h[1] * q[2]) + h[4] * q[1] - h[1] * q[4];
-    torque[1] += h[0] * q[1] - h[1] * q[0] + root3 * (h[3] * q[2] - h[2] * q[3]) + h[4] * q[3] - h[3] * q[4];
+    torque[0] +=
+        h[3] * q[0] - h[0] * q[3] + root3 * (h[2] * q[1] - h[1] * q[2]) + h[4] * q[1] - h[1] * q[4];
+    torque[1] +=
+        h[0] * q[1] - h[1] * q[0] + root3 * (h[3] * q[2] - h[2] * q[3]) + h[4] * q[3] - h[3] * q[4];
     torque[2] += h[1] * q[3] - h[3] * q[1] + 2 * (h[0] * q[4] - h[4] * q[0]);
   }
 }
 
-// The derivative of a logit by a pair, as nsvcd__pairs has it: metres and radians, the fixed body's axes.
+// The derivative of a logit by a pair, as nsvcd__pairs has it: metres and radians, the fixed body's
+// axes.
 typedef struct nsvcd__by_pair {
   float p1[3], v[3], w[3];
   float rotation[3];  // by a small rotation of the moving patch about its centre
@@ -11243,11 +12472,14 @@ typedef struct nsvcd__view {
   float inverse, order, side, d[3], v[3], w[3], lean[3], frame[9];
 } nsvcd__view;
 
-// The adjoint of the facts: by (FACTS) -> by_d, by_v, by_w, and the torque on what they see in the frame.
-static void nsvcd__by_facts(const nsvcd__view *view, const float *facts, const float *by, float *by_d, float *by_v,
-                            float *by_w, float *torque) {
-  const float tau = facts[3], scale = 1 / (nsvcd__dot3(view->v, view->v) + 1e-6f);
-  float closest[3], by_closest[3] = {0};
+// The adjoint of the facts: by (FACTS) -> by_d, by_v, by_w, and the torque on what they see in the
+// frame.
+static void nsvcd__by_facts(const nsvcd__view *view, const float *facts, const float *by,
+                            float *by_d, float *by_v, float *by_w, float *torque) {
+  const float tau = facts[3];
+  const float scale = 1 / (nsvcd__dot3(view->v, view->v) + 1e-6f);
+  float closest[3];
+  float by_closest[3] = {0};
   for (size_t k = 0; k < 3; k++) closest[k] = view->d[k] - tau * view->v[k];
   nsvcd__by_length3(view->d, by[0], by_d);
   nsvcd__by_length3(closest, by[2], by_closest);
@@ -11269,21 +12501,36 @@ static void nsvcd__by_facts(const nsvcd__view *view, const float *facts, const f
   nsvcd__by_length3(view->w, by[11], by_w);
 }
 
-// The adjoint of nsvcd__v_pair_frame, whose conventions are constant between its switches. torque: on all that the
-// frame sees, in its coordinates; turning the frame does the opposite.
-static void nsvcd__by_frame(const nsvcd__view *view, const float *torque, float *by_d, float *by_v, float *by_lean) {
-  const float *e1 = view->frame, *e2 = e1 + 3, *e3 = e1 + 6, length = nsvcd__length3(view->d);
-  float a[3], across[3], line[3] = {view->lean[0] + 1e-6f, view->lean[1], view->lean[2]}, by_e1[3] = {0};
+// The adjoint of nsvcd__v_pair_frame, whose conventions are constant between its switches. torque:
+// on all that the frame sees, in its coordinates; turning the frame does the opposite.
+static void nsvcd__by_frame(const nsvcd__view *view, const float *torque, float *by_d, float *by_v,
+                            float *by_lean) {
+  const float *e1 = view->frame;
+  const float *e2 = e1 + 3;
+  const float *e3 = e1 + 6;
+  const float length = nsvcd__length3(view->d);
+  float a[3];
+  float across[3];
+  float line[3] = {view->lean[0] + 1e-6f, view->lean[1], view->lean[2]};
+  float by_e1[3] = {0};
   for (size_t k = 0; k < 3; k++) a[k] = NSVCD__LEAN * view->lean[k] + view->v[k];
   for (size_t k = 0; k < 3; k++) across[k] = a[k] - nsvcd__dot3(a, e1) * e1[k];
   const int vanishes = nsvcd__length3(across) <= 1e-7f;
   if (vanishes) {  // axis 2 came from a coordinate axis
-    const float x = fabsf(e1[0]), y = fabsf(e1[1]), z = fabsf(e1[2]);
+    const float x = fabsf(e1[0]);
+    const float y = fabsf(e1[1]);
+    const float z = fabsf(e1[2]);
     const size_t axis = x <= y && x <= z ? 0 : y <= z ? 1 : 2;
-    for (size_t k = 0; k < 3; k++) a[k] = k == axis, across[k] = a[k] - e1[axis] * e1[k];
+    for (size_t k = 0; k < 3; k++) {
+      a[k] = k == axis;
+      across[k] = a[k] - e1[axis] * e1[k];
+    }
   }
   const float about = torque[0] / nsvcd__length3(across);
-  if (!vanishes) nsvcd__add_scaled3(-about, e3, by_v), nsvcd__add_scaled3(-about * NSVCD__LEAN, e3, by_lean);
+  if (!vanishes) {
+    nsvcd__add_scaled3(-about, e3, by_v);
+    nsvcd__add_scaled3(-about * NSVCD__LEAN, e3, by_lean);
+  }
   nsvcd__add_scaled3(torque[1] + about * nsvcd__dot3(e1, a), e3, by_e1);
   nsvcd__add_scaled3(-torque[2], e2, by_e1);
   if (length > 1e-5f) {
@@ -11293,35 +12540,55 @@ static void nsvcd__by_frame(const nsvcd__view *view, const float *torque, float 
   }
 }
 
-// The adjoint of nsvcd__invariants for the pair in lane 0. x, by_x (DECODER_IN). The unit of length is constant.
-static NSVCD__APART void nsvcd__by_invariants(const nsvcd__pairs *pairs, const float *x, const float *by_x,
-                                              nsvcd__by_pair *by) {
+// The adjoint of nsvcd__invariants for the pair in lane 0. x, by_x (DECODER_IN). The unit of length
+// is constant.
+static NSVCD__APART void nsvcd__by_invariants(const nsvcd__pairs *pairs, const float *x,
+                                              const float *by_x, nsvcd__by_pair *by) {
   nsvcd__views views;
   nsvcd__view view;
-  float rotation[9], v[3], w[3], mean1[3], lean1[3], k1, by_d[3] = {0}, by_v[3] = {0}, by_w[3] = {0}, by_lean[3] = {0};
+  float rotation[9];
+  float v[3];
+  float w[3];
+  float mean1[3];
+  float lean1[3];
+  float k1;
+  float by_d[3] = {0};
+  float by_v[3] = {0};
+  float by_w[3] = {0};
+  float by_lean[3] = {0};
   nsvcd__views_of(pairs, 1, &views);
-  nsvcd__first_lanes(&views.inverse, 1, &view.inverse), nsvcd__first_lanes(&views.order, 1, &view.order);
-  nsvcd__first_lanes(&views.side, 1, &view.side), nsvcd__first_lanes(&views.k1, 1, &k1);
-  nsvcd__first_lanes(views.d, 3, view.d), nsvcd__first_lanes(views.v, 3, view.v);
-  nsvcd__first_lanes(views.w, 3, view.w), nsvcd__first_lanes(views.lean, 3, view.lean);
-  nsvcd__first_lanes(views.frame, 9, view.frame), nsvcd__first_lanes(pairs->rotation, 9, rotation);
-  nsvcd__first_lanes(pairs->v, 3, v), nsvcd__first_lanes(pairs->w, 3, w);
-  // Which way time runs. 0 at rest, to rounding: the logit is even in the motion, with a kink there, and the mean of
-  // its two sides is 0.
+  nsvcd__first_lanes(&views.inverse, 1, &view.inverse);
+  nsvcd__first_lanes(&views.order, 1, &view.order);
+  nsvcd__first_lanes(&views.side, 1, &view.side);
+  nsvcd__first_lanes(&views.k1, 1, &k1);
+  nsvcd__first_lanes(views.d, 3, view.d);
+  nsvcd__first_lanes(views.v, 3, view.v);
+  nsvcd__first_lanes(views.w, 3, view.w);
+  nsvcd__first_lanes(views.lean, 3, view.lean);
+  nsvcd__first_lanes(views.frame, 9, view.frame);
+  nsvcd__first_lanes(pairs->rotation, 9, rotation);
+  nsvcd__first_lanes(pairs->v, 3, v);
+  nsvcd__first_lanes(pairs->w, 3, w);
+  // Which way time runs. 0 at rest, to rounding: the logit is even in the motion, with a kink
+  // there, and the mean of its two sides is 0.
   const float same = nsvcd__dot3(view.v, v) * view.inverse + nsvcd__dot3(view.w, w);
   const float sign = fabsf(same) < 1e-12f ? 0.0f : same < 0 ? -1.0f : 1.0f;
 
   // Torques in the frame: on the moving patch's latent, then on all that the frame sees.
-  const size_t facts = 2 * NSVCD__LATENT, first = view.order > 0 ? 0 : NSVCD__VECTORS, second = NSVCD__VECTORS - first;
+  const size_t facts = 2 * NSVCD__LATENT;
+  const size_t first = view.order > 0 ? 0 : NSVCD__VECTORS;
+  const size_t second = NSVCD__VECTORS - first;
   float torque[3] = {0};
   memset(by, 0, sizeof *by);
   nsvcd__add_latent_torque(x + first, by_x + first, torque);
-  for (size_t k = 0; k < 3; k++) nsvcd__add_scaled3(view.side * torque[k], view.frame + 3 * k, by->rotation);
+  for (size_t k = 0; k < 3; k++)
+    nsvcd__add_scaled3(view.side * torque[k], view.frame + 3 * k, by->rotation);
   nsvcd__add_latent_torque(x + second, by_x + second, torque);
   nsvcd__by_facts(&view, x + facts, by_x + facts, by_d, by_v, by_w, torque);
   nsvcd__by_frame(&view, torque, by_d, by_v, by_lean);
 
-  for (size_t k = 0; k < 3; k++) mean1[k] = view.order * k1 / 127 * (float)pairs->z1[0][NSVCD_W_CHANNELS * k];
+  for (size_t k = 0; k < 3; k++)
+    mean1[k] = view.order * k1 / 127 * (float)pairs->z1[0][NSVCD_W_CHANNELS * k];
   nsvcd__mul33_vec(rotation, mean1, lean1);
   nsvcd__add_cross3(lean1, by_lean, by->rotation);
   nsvcd__add_scaled3(-view.order * view.inverse, by_d, by->p1);
@@ -11331,12 +12598,14 @@ static NSVCD__APART void nsvcd__by_invariants(const nsvcd__pairs *pairs, const f
 
 // ---- samples
 
-// From a force and a torque on a body at time t, in the world, to `gradient` (count, 6), unless that is NULL, by its poses
-// before and after t. Returns the derivative by t. With R = exp(2 u h n) A, the shorter arc from A to B = exp(2 h n) A,
-// small rotations a of A and b of B (on the left) turn R along n by (1 - u) a + u b, and across n by
-//   sin((1 - u) h) / sin h of a turned by u h about n, and sin(u h) / sin h of b turned by -(1 - u) h.
-static float nsvcd__by_poses(const nsvcd__track *track, float t, const float *force, const float *torque,
-                             float *gradient) {
+// From a force and a torque on a body at time t, in the world, to `gradient` (count, 6), unless
+// that is NULL, by its poses before and after t. Returns the derivative by t. With R = exp(2 u h n)
+// A, the shorter arc from A to B = exp(2 h n) A, small rotations a of A and b of B (on the left)
+// turn R along n by (1 - u) a + u b, and across n by
+//   sin((1 - u) h) / sin h of a turned by u h about n, and sin(u h) / sin h of b turned by -(1 - u)
+//   h.
+static float nsvcd__by_poses(const nsvcd__track *track, float t, const float *force,
+                             const float *torque, float *gradient) {
   float qa[4], qb[4], n[3], moved[3];
   const size_t arcs = track->count - 1;
   if (arcs == 0) {
@@ -11347,13 +12616,15 @@ static float nsvcd__by_poses(const nsvcd__track *track, float t, const float *fo
   const float at = t * (float)arcs;
   const size_t k = (size_t)at < arcs - 1 ? (size_t)at : arcs - 1;
   const float u = at - (float)k;
-  const nsvcd_pose *a = &track->poses[k], *b = a + 1;
+  const nsvcd_pose *a = &track->poses[k];
+  const nsvcd_pose *b = a + 1;
   nsvcd__quat_normalize(a->rotation, qa);
   nsvcd__quat_normalize(b->rotation, qb);
   const float h = nsvcd__quat_half_angle(qa, qb, nsvcd__is_opposed(a->rotation, b->rotation));
   for (size_t i = 0; i < 3; i++) n[i] = qa[3] * qb[i] - qb[3] * qa[i];
   nsvcd__add_cross3(qa, qb, n);  // sin(h) times the axis of B A^-1
-  const float sine = nsvcd__length3(n), inverse = sine > 0 ? 1 / sine : 0;
+  const float sine = nsvcd__length3(n);
+  const float inverse = sine > 0 ? 1 / sine : 0;
   for (size_t i = 0; i < 3; i++) n[i] *= inverse;
   const float wa = h > 1e-3f ? sinf((1 - u) * h) * inverse : 1 - u;
   const float wb = h > 1e-3f ? sinf(u * h) * inverse : u;
@@ -11373,10 +12644,10 @@ typedef struct nsvcd__gradients {
   float *moving, *fixed;  // (count, 6)
 } nsvcd__gradients;
 
-// The same from a force and a torque on the moving body in the fixed one's axes and units. What they do to one body they
-// do to the other the opposite way.
-static float nsvcd__by_motion(const nsvcd__motion *motion, float t, const float *seen_force, const float *seen_torque,
-                              const nsvcd__gradients *out) {
+// The same from a force and a torque on the moving body in the fixed one's axes and units. What
+// they do to one body they do to the other the opposite way.
+static float nsvcd__by_motion(const nsvcd__motion *motion, float t, const float *seen_force,
+                              const float *seen_torque, const nsvcd__gradients *out) {
   float from_fixed[9], force[3], torque[3], q[4], d[3], back[3], back_torque[3];
   double p[3], fixed_p[3];
   nsvcd__track_pose_at(&motion->moving, t, q, p);
@@ -11397,19 +12668,22 @@ static float nsvcd__by_motion(const nsvcd__motion *motion, float t, const float 
 
 // ---- instants and contact
 
-// The moving patch at seven times: entry, exit, the middle between them, and the ends of the segments in which it
-// enters (3, 4) and leaves (5, 6). The fixed body's axes, metres.
+// The moving patch at seven times: entry, exit, the middle between them, and the ends of the
+// segments in which it enters (3, 4) and leaves (5, 6). The fixed body's axes, metres.
 typedef struct nsvcd__instants {
   float t[7], arm[7][3], place[7][3];  // from the body's origin to its centre; its centre
-  int enters, leaves;                  // does it within the segment? else at one of its ends, and these do not move
+  // does it within the segment? else at one of its ends, and these do not move
+  int enters, leaves;
 } nsvcd__instants;
 
-static void nsvcd__instants_of(const nsvcd__task *ask, const nsvcd__candidate *candidate, const float *time,
-                               nsvcd__instants *at) {
-  const float t0 = candidate->t_enter, t1 = candidate->t_exit;
+static void nsvcd__instants_of(const nsvcd__task *ask, const nsvcd__candidate *candidate,
+                               const float *time, nsvcd__instants *at) {
+  const float t0 = candidate->t_enter;
+  const float t1 = candidate->t_exit;
   const nsvcd_body *moving = ask->moving;
   const size_t i = candidate->moving;
-  size_t a = 0, b = 0;
+  size_t a = 0;
+  size_t b = 0;
   while (!(t0 < time[a + 1]) && time[a + 1] < 1) a++;
   while (!(t1 <= time[b + 1]) && time[b + 1] < 1) b++;
   const float t[7] = {t0, t1, 0.5f * (t0 + t1), time[a], time[a + 1], time[b], time[b + 1]};
@@ -11425,45 +12699,62 @@ static void nsvcd__instants_of(const nsvcd__task *ask, const nsvcd__candidate *c
     nsvcd__v q[4], p[3], r[9], arm[3];
     float lanes[NSVCD__SLICE], places[NSVCD__SLICE];
     nsvcd__v_poses_at(&ask->motion, t + first, count, q, p);
-    nsvcd__v_matrix(q, r), nsvcd__v_mul33_vec(r, c, arm);
+    nsvcd__v_matrix(q, r);
+    nsvcd__v_mul33_vec(r, c, arm);
     for (size_t k = 0; k < 3; k++) {
-      nsvcd__v_store(lanes, arm[k]), nsvcd__v_store(places, nsvcd__v_add(arm[k], p[k]));
-      for (size_t l = 0; l < count; l++) at->arm[first + l][k] = lanes[l], at->place[first + l][k] = places[l];
+      nsvcd__v_store(lanes, arm[k]);
+      nsvcd__v_store(places, nsvcd__v_add(arm[k], p[k]));
+      for (size_t l = 0; l < count; l++) {
+        at->arm[first + l][k] = lanes[l];
+        at->place[first + l][k] = places[l];
+      }
     }
   }
 }
 
-// A force on the patch's centre at instant l, and a torque on the body (or NULL). Returns the derivative by the time.
-static float nsvcd__by_instant(const nsvcd__task *ask, const nsvcd__instants *at, size_t l, const float *force,
-                               const float *torque, const nsvcd__gradients *gradients) {
+// A force on the patch's centre at instant l, and a torque on the body (or NULL). Returns the
+// derivative by the time.
+static float nsvcd__by_instant(const nsvcd__task *ask, const nsvcd__instants *at, size_t l,
+                               const float *force, const float *torque,
+                               const nsvcd__gradients *gradients) {
   float sum[3] = {0};
   if (torque) nsvcd__add_scaled3(1, torque, sum);
   nsvcd__add_cross3(at->arm[l], force, sum);
   return nsvcd__by_motion(&ask->motion, at->t[l], force, sum, gradients);
 }
 
-// The adjoint of the time at which the spheres meet (l = 0) or part (l = 1): |y| = reach with y = x0 + tau x - c, from
-// the chord x of the segment; so y.(dy + x dtau) = 0. Spheres that only graze (y across x) do so for a time whose
-// derivative has no limit: it is bounded where float32 has no digits left.
-static void nsvcd__by_contact(const nsvcd__task *ask, const nsvcd__instants *at, size_t l, const float *centre,
-                              float by_time, const nsvcd__gradients *gradients) {
+// The adjoint of the time at which the spheres meet (l = 0) or part (l = 1): |y| = reach with y =
+// x0 + tau x - c, from the chord x of the segment; so y.(dy + x dtau) = 0. Spheres that only graze
+// (y across x) do so for a time whose derivative has no limit: it is bounded where float32 has no
+// digits left.
+static void nsvcd__by_contact(const nsvcd__task *ask, const nsvcd__instants *at, size_t l,
+                              const float *centre, float by_time,
+                              const nsvcd__gradients *gradients) {
   const size_t s = 3 + 2 * l;
-  const float length = at->t[s + 1] - at->t[s], tau = (at->t[l] - at->t[s]) / length;
+  const float length = at->t[s + 1] - at->t[s];
+  const float tau = (at->t[l] - at->t[s]) / length;
   float chord[3], y[3], before[3], after[3];
-  nsvcd__sub3(at->place[s + 1], at->place[s], chord), nsvcd__sub3(at->place[s], centre, y);
+  nsvcd__sub3(at->place[s + 1], at->place[s], chord);
+  nsvcd__sub3(at->place[s], centre, y);
   nsvcd__add_scaled3(tau, chord, y);
-  const float least = 1e-3f * nsvcd__length3(y) * nsvcd__length3(chord), dot = fabsf(nsvcd__dot3(y, chord));
+  const float least = 1e-3f * nsvcd__length3(y) * nsvcd__length3(chord);
+  const float dot = fabsf(nsvcd__dot3(y, chord));
   if (!(least > 0)) return;
   const float rate = (l == 0 ? length : -length) * by_time / (dot > least ? dot : least);
-  for (size_t k = 0; k < 3; k++) before[k] = (1 - tau) * rate * y[k], after[k] = tau * rate * y[k];
+  for (size_t k = 0; k < 3; k++) {
+    before[k] = (1 - tau) * rate * y[k];
+    after[k] = tau * rate * y[k];
+  }
   nsvcd__by_instant(ask, at, s, before, NULL, gradients);
   nsvcd__by_instant(ask, at, s + 1, after, NULL, gradients);
 }
 
-// The derivative of the decisive logit by the poses, added to the gradients. time: of the segments' ends.
-static void nsvcd__gradient(const nsvcd__task *ask, const nsvcd__decisive *decisive, const float *time,
-                            const nsvcd__gradients *gradients) {
-  nsvcd__candidate candidate = decisive->candidate, *one = &candidate;
+// The derivative of the decisive logit by the poses, added to the gradients. time: of the segments'
+// ends.
+static void nsvcd__gradient(const nsvcd__task *ask, const nsvcd__decisive *decisive,
+                            const float *time, const nsvcd__gradients *gradients) {
+  nsvcd__candidate candidate = decisive->candidate;
+  nsvcd__candidate *one = &candidate;
   nsvcd__pairs pairs;
   nsvcd__by_pair by;
   nsvcd__instants at;
@@ -11473,32 +12764,43 @@ static void nsvcd__gradient(const nsvcd__task *ask, const nsvcd__decisive *decis
   nsvcd__head_gradient(decisive->head, x, by_x);
   nsvcd__by_invariants(&pairs, x, by_x, &by);
   nsvcd__instants_of(ask, &candidate, time, &at);
-  nsvcd__first_lanes(pairs.w, 3, w), nsvcd__first_lanes(pairs.p2, 3, centre);
+  nsvcd__first_lanes(pairs.w, 3, w);
+  nsvcd__first_lanes(pairs.p2, 3, centre);
 
-  // The adjoint of nsvcd__pairs_of. v = w x arm + (x1 - x0) / 2, where arm goes from the moving centre half way to the
-  // other; w is half the rotation vector of R1 R0^-1, which small rotations of R0 and R1 turn as nsvcd__by_samples
-  // says.
-  float enter[3], leave[3], across[3] = {0}, torque0[3] = {0}, torque1[3] = {0};
+  // The adjoint of nsvcd__pairs_of. v = w x arm + (x1 - x0) / 2, where arm goes from the moving
+  // centre half way to the other; w is half the rotation vector of R1 R0^-1, which small rotations
+  // of R0 and R1 turn as nsvcd__by_samples says.
+  float enter[3];
+  float leave[3];
+  float across[3] = {0};
+  float torque0[3] = {0};
+  float torque1[3] = {0};
   for (size_t k = 0; k < 3; k++) {
-    enter[k] = -0.5f * by.v[k], leave[k] = 0.5f * by.v[k], arm[k] = 0.5f * (centre[k] - at.place[2][k]);
+    enter[k] = -0.5f * by.v[k];
+    leave[k] = 0.5f * by.v[k];
+    arm[k] = 0.5f * (centre[k] - at.place[2][k]);
   }
   nsvcd__add_cross3(arm, by.v, by.w);
   nsvcd__add_cross3(by.v, w, across);
   nsvcd__add_scaled3(-0.5f, across, by.p1);
-  const float h = nsvcd__length3(w), half = 0.5f * (h > 1e-3f ? h / sinf(h) : 1);
+  const float h = nsvcd__length3(w);
+  const float half = 0.5f * (h > 1e-3f ? h / sinf(h) : 1);
   for (size_t k = 0; k < 3; k++) n[k] = h > 0 ? w[k] / h : 0;
   nsvcd__add_turned3(by.w, n, -0.5f, -half, -h, torque0);
   nsvcd__add_turned3(by.w, n, 0.5f, half, h, torque1);
 
   const float by_middle = nsvcd__by_instant(ask, &at, 2, by.p1, by.rotation, gradients);
-  const float by_enter = 0.5f * by_middle + nsvcd__by_instant(ask, &at, 0, enter, torque0, gradients);
-  const float by_exit = 0.5f * by_middle + nsvcd__by_instant(ask, &at, 1, leave, torque1, gradients);
+  const float by_enter =
+      0.5f * by_middle + nsvcd__by_instant(ask, &at, 0, enter, torque0, gradients);
+  const float by_exit =
+      0.5f * by_middle + nsvcd__by_instant(ask, &at, 1, leave, torque1, gradients);
   if (at.enters) nsvcd__by_contact(ask, &at, 0, centre, by_enter, gradients);
   if (at.leaves) nsvcd__by_contact(ask, &at, 1, centre, by_exit, gradients);
 }
 
-NSVCDDEF nsvcd_result nsvcd_sweep_gradient(const nsvcd_question *question, void *workspace, size_t workspace_size,
-                                           nsvcd_answer *answer, float *gradient_a, float *gradient_b) {
+NSVCDDEF nsvcd_result nsvcd_sweep_gradient(const nsvcd_question *question, void *workspace,
+                                           size_t workspace_size, nsvcd_answer *answer,
+                                           float *gradient_a, float *gradient_b) {
   if (!question || !answer || (!gradient_a && !gradient_b)) return NSVCD_ERROR_ARGUMENT;
   if (question->options.method == NSVCD_METHOD_PROOF) return NSVCD_ERROR_ARGUMENT;
   nsvcd_question by_network = *question;
@@ -11511,7 +12813,8 @@ NSVCDDEF nsvcd_result nsvcd_sweep_gradient(const nsvcd_question *question, void 
   nsvcd__decisive decisive;
   ask->decisive = &decisive;
   nsvcd__answer_task(ask, query, NULL, answer);
-  const nsvcd__gradients out = {ask->swapped ? gradient_b : gradient_a, ask->swapped ? gradient_a : gradient_b};
+  const nsvcd__gradients out = {ask->swapped ? gradient_b : gradient_a,
+                                ask->swapped ? gradient_a : gradient_b};
   if (out.moving) memset(out.moving, 0, 6 * ask->motion.moving.count * sizeof(float));
   if (out.fixed) memset(out.fixed, 0, 6 * ask->motion.fixed.count * sizeof(float));
   if (answer->status == NSVCD_STATUS_OK || answer->status == NSVCD_STATUS_LIMIT) {
@@ -11522,15 +12825,18 @@ NSVCDDEF nsvcd_result nsvcd_sweep_gradient(const nsvcd_question *question, void 
 #endif  // NSVCD_NO_GRADIENT
 
 #ifndef NSVCD_NO_OPTIMIZER
-// ------------------------------------------------------------------------------------------------------ spline
-// Control points -> positions and derivatives. All is linear in the control points: the weights of one moment are (M +
-// 2), the means of squares over the whole motion are quadratic forms (M + 2, M + 2), the same for each joint.
+// ------------------------------------------------------------------------------------------ spline
+// Control points -> positions and derivatives. All is linear in the control points: the weights of
+// one moment are (M + 2), the means of squares over the whole motion are quadratic forms (M + 2, M
+// + 2), the same for each joint.
 
 // The weights of the control points in the joints' derivative of the given order by t.
 static void nsvcd__spline_weights(size_t via, double t, size_t derivative, double *weights) {
-  // Polynomials of u in [0,1]: of the position, velocity and acceleration at its left end, then at its right.
-  static const double basis[6][6] = {{1, 0, 0, -10, 15, -6}, {0, 1, 0, -6, 8, -3}, {0, 0, 0.5, -1.5, 1.5, -0.5},
-                                     {0, 0, 0, 10, -15, 6},  {0, 0, 0, -4, 7, -3}, {0, 0, 0, 0.5, -1, 0.5}};
+  // Polynomials of u in [0,1]: of the position, velocity and acceleration at its left end, then at
+  // its right.
+  static const double basis[6][6] = {{1, 0, 0, -10, 15, -6},       {0, 1, 0, -6, 8, -3},
+                                     {0, 0, 0.5, -1.5, 1.5, -0.5}, {0, 0, 0, 10, -15, 6},
+                                     {0, 0, 0, -4, 7, -3},         {0, 0, 0, 0.5, -1, 0.5}};
   const size_t last = via + 1;
   const double at = (t > 0 ? (t < 1 ? t : 1) : 0) * (double)last;
   const size_t left = (size_t)at < last ? (size_t)at : last - 1;
@@ -11552,13 +12858,14 @@ static void nsvcd__spline_weights(size_t via, double t, size_t derivative, doubl
     }
     weights[point] += value[0];
     if (point == 0 || point == last) continue;  // at rest
-    weights[point + 1] += 0.5 * value[1] + value[2], weights[point - 1] += value[2] - 0.5 * value[1];
+    weights[point + 1] += 0.5 * value[1] + value[2];
+    weights[point - 1] += value[2] - 0.5 * value[1];
     weights[point] -= 2 * value[2];
   }
 }
 
-NSVCDDEF void nsvcd_spline(const float *control, size_t via_points, size_t joints, float t, size_t derivative,
-                           float *out) {
+NSVCDDEF void nsvcd_spline(const float *control, size_t via_points, size_t joints, float t,
+                           size_t derivative, float *out) {
   double weights[NSVCD_MAX_VIA_POINTS + 2];
   if (via_points > NSVCD_MAX_VIA_POINTS) return;
   nsvcd__spline_weights(via_points, (double)t, derivative, weights);
@@ -11569,12 +12876,13 @@ NSVCDDEF void nsvcd_spline(const float *control, size_t via_points, size_t joint
   }
 }
 
-// Adds weight * mean over t of the derivative's square to the form (M + 2, M + 2). Five points of Gauss and Legendre
-// per piece: exact, as the squares are of degree 8 at most.
+// Adds weight * mean over t of the derivative's square to the form (M + 2, M + 2). Five points of
+// Gauss and Legendre per piece: exact, as the squares are of degree 8 at most.
 static void nsvcd__add_mean_square(size_t via, size_t derivative, double weight, double *form) {
-  static const double nodes[5] = {0.046910077030668, 0.230765344947158, 0.5, 0.769234655052842, 0.953089922969332};
-  static const double shares[5] = {0.118463442528095, 0.239314335249683, 0.284444444444444, 0.239314335249683,
-                                   0.118463442528095};
+  static const double nodes[5] = {0.046910077030668, 0.230765344947158, 0.5, 0.769234655052842,
+                                  0.953089922969332};
+  static const double shares[5] = {0.118463442528095, 0.239314335249683, 0.284444444444444,
+                                   0.239314335249683, 0.118463442528095};
   const size_t count = via + 2;
   double w[NSVCD_MAX_VIA_POINTS + 2];
   for (size_t piece = 0; piece < via + 1; piece++) {
@@ -11588,7 +12896,8 @@ static void nsvcd__add_mean_square(size_t via, size_t derivative, double weight,
   }
 }
 
-// L L^T = a, lower; a, l: (n, n). Of a symmetric positive definite a; what rounding makes of it is kept positive.
+// L L^T = a, lower; a, l: (n, n). Of a symmetric positive definite a; what rounding makes of it is
+// kept positive.
 static void nsvcd__cholesky(const double *a, size_t n, double *l) {
   for (size_t i = 0; i < n; i++) {
     for (size_t j = 0; j < n; j++) {
@@ -11613,22 +12922,25 @@ static void nsvcd__solve_upper(const double *l, size_t n, double *x) {  // x = L
   }
 }
 
-// --------------------------------------------------------------------------------------------------- optimizer
+// --------------------------------------------------------------------------------------- optimizer
 // In: a problem. Out: control points. Top to bottom:
 //
 //   memory      everything in the caller's workspace
 //   collision   poses along a trajectory -> cost, and its derivative by the poses (wrenches)
-//   cost        control points -> smoothness + limits + collision, and the derivative by the control points
+//   cost        control points -> smoothness + limits + collision, and the derivative by the
+//               control points
 //   explore     MPPI: smooth random changes of a mean, weighted by exp(-cost / temperature)
 //   refine      L-BFGS with bundled gradients, in the metric of the smoothness
 //   plan        start and goal, several seeds, and the last check
 
-#define NSVCD__LIMIT_COST 1e5f      // per radian^2 or metre^2, mean over the samples: joints out of their limits,
-#define NSVCD__LIMIT_MARGIN 0.005f  // of which this share of the range is kept free where start and goal allow it
-#define NSVCD__RUN 8                // segments asked about at once, at first
-#define NSVCD__HISTORY 8            // L-BFGS: steps remembered
-#define NSVCD__STEPS 5              // step lengths tried
-#define NSVCD__PUSHES 3             // refinements more, where the proof finds a hit
+// per radian^2 or metre^2, mean over the samples: joints out of their limits,
+#define NSVCD__LIMIT_COST 1e5f
+// of which this share of the range is kept free where start and goal allow it
+#define NSVCD__LIMIT_MARGIN 0.005f
+#define NSVCD__RUN 8      // segments asked about at once, at first
+#define NSVCD__HISTORY 8  // L-BFGS: steps remembered
+#define NSVCD__STEPS 5    // step lengths tried
+#define NSVCD__PUSHES 3   // refinements more, where the proof finds a hit
 
 // What culling knows of a body at each sample: TRACK arrays of (samples).
 enum { NSVCD__CENTRE = 0, NSVCD__ORIGIN = 3, NSVCD__AXES = 6, NSVCD__BEND = 15, NSVCD__TRACK = 16 };
@@ -11651,11 +12963,12 @@ typedef struct nsvcd__planner {
   uint64_t random;
   nsvcd_result error;  // the first that a query or a pose gave
   size_t trajectories, sweeps;
-  float *path;                                                       // (samples, F)
-  nsvcd_pose *poses;                                                 // (samples, B)
-  nsvcd_pose *moved;                                                 // (B)
-  float *tracks;                                                     // (B, TRACK, samples)
-  float *boxes;                                                      // (B, 6): of a body, in its own axes, low and high
+  float *path;        // (samples, F)
+  nsvcd_pose *poses;  // (samples, B)
+  nsvcd_pose *moved;  // (B)
+  float *tracks;      // (B, TRACK, samples)
+  // (B, 6): of a body, in its own axes, low and high
+  float *boxes;
   float *seen;                                                       // (4, samples)
   uint32_t *order;                                                   // (P): of the pairs
   unsigned char *meets;                                              // (samples)
@@ -11675,19 +12988,23 @@ typedef struct nsvcd__cost {
   int collides;  // in segments looked at
   size_t joint;  // that leaves its limits, or NSVCD_NONE
 } nsvcd__cost;
-static int nsvcd__is_free(const nsvcd__cost *cost) { return !cost->collides && cost->joint == NSVCD_NONE; }
+static int nsvcd__is_free(const nsvcd__cost *cost) {
+  return !cost->collides && cost->joint == NSVCD_NONE;
+}
 
 // ---- memory
 
-static int nsvcd__stage_of(const nsvcd_plan_stage *given, size_t via, size_t segments, size_t iterations, size_t count,
-                           nsvcd__stage *stage) {
+static int nsvcd__stage_of(const nsvcd_plan_stage *given, size_t via, size_t segments,
+                           size_t iterations, size_t count, nsvcd__stage *stage) {
   stage->via = given->via_points ? given->via_points : via;
   const size_t pieces = given->segments ? given->segments : segments;
   stage->samples = pieces + 1;
-  stage->iterations = given->iterations == NSVCD_NONE ? 0 : given->iterations ? given->iterations : iterations;
+  stage->iterations = given->iterations == NSVCD_NONE ? 0
+                      : given->iterations             ? given->iterations
+                                                      : iterations;
   stage->count = given->samples ? given->samples : count;
-  return stage->via <= NSVCD_MAX_VIA_POINTS && pieces <= NSVCD_MAX_SEGMENTS && stage->count <= 10000 &&
-         stage->iterations <= 100000;
+  return stage->via <= NSVCD_MAX_VIA_POINTS && pieces <= NSVCD_MAX_SEGMENTS &&
+         stage->count <= 10000 && stage->iterations <= 100000;
 }
 
 static float nsvcd__default(float given, float otherwise) {  // negative: none
@@ -11695,15 +13012,19 @@ static float nsvcd__default(float given, float otherwise) {  // negative: none
 }
 
 // Fills in the defaults. Returns 0 for what cannot be.
-static int nsvcd__planner_settings(const nsvcd_plan_problem *problem, const nsvcd_plan_options *options,
-                                   nsvcd__planner *p) {
+static int nsvcd__planner_settings(const nsvcd_plan_problem *problem,
+                                   const nsvcd_plan_options *options, nsvcd__planner *p) {
   memset(p, 0, sizeof *p);
-  if (!problem || problem->joints - 1 >= NSVCD_MAX_JOINTS || problem->body_count > 65536 || !problem->place) return 0;
+  if (!problem || problem->joints - 1 >= NSVCD_MAX_JOINTS || problem->body_count > 65536 ||
+      !problem->place)
+    return 0;
   if (!problem->low || !problem->high || !problem->start || !problem->goal) return 0;
-  if (problem->pair_count > 0 && (!problem->pairs || (!problem->bodies && !problem->collision))) return 0;
+  if (problem->pair_count > 0 && (!problem->pairs || (!problem->bodies && !problem->collision)))
+    return 0;
   for (size_t k = 0; k < problem->pair_count; k++) {
     const nsvcd_body_pair *pair = &problem->pairs[k];
-    if (pair->a >= problem->body_count || pair->b >= problem->body_count || pair->a == pair->b) return 0;
+    if (pair->a >= problem->body_count || pair->b >= problem->body_count || pair->a == pair->b)
+      return 0;
     if (!problem->collision && (!problem->bodies[pair->a] || !problem->bodies[pair->b])) return 0;
   }
   p->problem = problem;
@@ -11720,30 +13041,37 @@ static int nsvcd__planner_settings(const nsvcd_plan_problem *problem, const nsvc
   if (!nsvcd__stage_of(&o->refine, 10, 22, 10, 10, &p->refine)) return 0;
   if (o->refine.iterations == NSVCD_NONE) p->refine.via = p->explore.via;
   o->seeds = o->seeds ? o->seeds : 6;
-  o->velocity = nsvcd__default(o->velocity, 10), o->acceleration = nsvcd__default(o->acceleration, 2);
-  o->jerk = nsvcd__default(o->jerk, 10), o->collision = nsvcd__default(o->collision, 20);
-  if (!(o->velocity > 0 || o->acceleration > 0 || o->jerk > 0)) o->velocity = 1e-3f;  // something must be least
+  o->velocity = nsvcd__default(o->velocity, 10);
+  o->acceleration = nsvcd__default(o->acceleration, 2);
+  o->jerk = nsvcd__default(o->jerk, 10);
+  o->collision = nsvcd__default(o->collision, 20);
+  // something must be least
+  if (!(o->velocity > 0 || o->acceleration > 0 || o->jerk > 0)) o->velocity = 1e-3f;
   o->duration = o->duration > 0 ? o->duration : 20;
-  o->margin = nsvcd__default(o->margin, 2), o->spread = nsvcd__default(o->spread, 0.3f);
+  o->margin = nsvcd__default(o->margin, 2);
+  o->spread = nsvcd__default(o->spread, 0.3f);
   o->bundle = nsvcd__default(o->bundle, 0.01f);
   p->check = p->refine;
-  const size_t finest = p->explore.samples > p->refine.samples ? p->explore.samples : p->refine.samples;
+  const size_t finest =
+      p->explore.samples > p->refine.samples ? p->explore.samples : p->refine.samples;
   o->check = o->check ? o->check : 4 * (finest - 1);
   p->check.samples = o->check + 1;
   return o->check <= 4 * NSVCD_MAX_SEGMENTS && o->seeds <= 1000;
 }
 
 static void nsvcd__stage_memory(nsvcd__stage *stage, char *base, uint64_t *used) {
-  const size_t via = stage->via, all = via + 2;
+  const size_t via = stage->via;
+  const size_t all = via + 2;
   stage->form = (double *)nsvcd__take(base, used, all * all, sizeof(double));
   stage->factor = (double *)nsvcd__take(base, used, via * via, sizeof(double));
   stage->weights = (float *)nsvcd__take(base, used, stage->samples * all, sizeof(float));
 }
 
-// Lays the planner's memory out in base, or, where that is NULL, only measures. Returns the bytes; 0 if they are more than
-// can be counted.
+// Lays the planner's memory out in base, or, where that is NULL, only measures. Returns the bytes;
+// 0 if they are more than can be counted.
 static size_t nsvcd__planner_memory(nsvcd__planner *p, char *base) {
-  const size_t f = p->problem->joints, b = p->problem->body_count;
+  const size_t f = p->problem->joints;
+  const size_t b = p->problem->body_count;
   const size_t via = p->explore.via > p->refine.via ? p->explore.via : p->refine.via;
   const size_t count = p->explore.count > p->refine.count ? p->explore.count : p->refine.count;
   size_t samples = p->check.samples;
@@ -11769,9 +13097,12 @@ static size_t nsvcd__planner_memory(nsvcd__planner *p, char *base) {
   p->jacobian = (float *)nsvcd__take(base, &used, b, 6 * f * sizeof(float));
   p->by_path = (float *)nsvcd__take(base, &used, f, sizeof(float));
   p->result = (float *)nsvcd__take(base, &used, 1, point);
-  p->control = (float *)nsvcd__take(base, &used, 1, point), p->best = (float *)nsvcd__take(base, &used, 1, point);
-  p->trial = (float *)nsvcd__take(base, &used, 1, point), p->gradient = (float *)nsvcd__take(base, &used, 1, point);
-  p->sum = (float *)nsvcd__take(base, &used, 1, point), p->offset = (float *)nsvcd__take(base, &used, 1, point);
+  p->control = (float *)nsvcd__take(base, &used, 1, point);
+  p->best = (float *)nsvcd__take(base, &used, 1, point);
+  p->trial = (float *)nsvcd__take(base, &used, 1, point);
+  p->gradient = (float *)nsvcd__take(base, &used, 1, point);
+  p->sum = (float *)nsvcd__take(base, &used, 1, point);
+  p->offset = (float *)nsvcd__take(base, &used, 1, point);
   p->tries = (float *)nsvcd__take(base, &used, count, point);
   p->costs = (float *)nsvcd__take(base, &used, count, sizeof(float));
   p->steps = (float *)nsvcd__take(base, &used, NSVCD__HISTORY, point);
@@ -11782,12 +13113,15 @@ static size_t nsvcd__planner_memory(nsvcd__planner *p, char *base) {
 
 // The boxes of all bodies' patches.
 static void nsvcd__find_boxes(nsvcd__planner *p) {
-  for (size_t b = 0; !p->problem->collision && p->problem->bodies && b < p->problem->body_count; b++) {
+  for (size_t b = 0; !p->problem->collision && p->problem->bodies && b < p->problem->body_count;
+       b++) {
     const nsvcd_body *body = p->problem->bodies[b];
     float *box = p->boxes + 6 * b;
     for (size_t k = 0; body && k < 3; k++) {
-      const float *x = nsvcd__body_floats(body, k * body->padded), *r = nsvcd__body_r(body);
-      box[k] = INFINITY, box[3 + k] = -INFINITY;
+      const float *x = nsvcd__body_floats(body, k * body->padded);
+      const float *r = nsvcd__body_r(body);
+      box[k] = INFINITY;
+      box[3 + k] = -INFINITY;
       for (size_t i = 0; i < body->points; i++) {
         box[k] = x[i] - r[i] < box[k] ? x[i] - r[i] : box[k];
         box[3 + k] = x[i] + r[i] > box[3 + k] ? x[i] + r[i] : box[3 + k];
@@ -11797,18 +13131,22 @@ static void nsvcd__find_boxes(nsvcd__planner *p) {
 }
 
 static void nsvcd__stage_init(const nsvcd_plan_options *o, nsvcd__stage *stage) {
-  const size_t via = stage->via, all = via + 2;
+  const size_t via = stage->via;
+  const size_t all = via + 2;
   const double weights[3] = {(double)o->velocity, (double)o->acceleration, (double)o->jerk};
-  double rate = 1, w[NSVCD_MAX_VIA_POINTS + 2];
+  double rate = 1;
+  double w[NSVCD_MAX_VIA_POINTS + 2];
   for (size_t k = 0; k < all * all; k++) stage->form[k] = 0;
   for (size_t d = 1; d <= 3; d++) {
     rate /= (double)o->duration * (double)o->duration;
     nsvcd__add_mean_square(via, d, rate * weights[d - 1], stage->form);
   }
   for (size_t i = 0; i < via; i++) {
-    for (size_t j = 0; j < via; j++) stage->factor[i * via + j] = stage->form[(i + 1) * all + j + 1];
+    for (size_t j = 0; j < via; j++)
+      stage->factor[i * via + j] = stage->form[(i + 1) * all + j + 1];
   }
-  nsvcd__cholesky(stage->factor, via, stage->factor);  // in place: row i is read before it is written
+  // in place: row i is read before it is written
+  nsvcd__cholesky(stage->factor, via, stage->factor);
   stage->deviation = 0;
   for (size_t k = 0; k < via; k++) {  // the variance of via point k is |L^-1 e_k|^2
     double square = 0;
@@ -11818,7 +13156,8 @@ static void nsvcd__stage_init(const nsvcd_plan_options *o, nsvcd__stage *stage) 
     stage->deviation = sqrt(square) > stage->deviation ? sqrt(square) : stage->deviation;
   }
   for (size_t s = 0; s < stage->samples; s++) {
-    nsvcd__spline_weights(via, stage->samples > 1 ? (double)s / (double)(stage->samples - 1) : 0, 0, w);
+    nsvcd__spline_weights(via, stage->samples > 1 ? (double)s / (double)(stage->samples - 1) : 0, 0,
+                          w);
     for (size_t k = 0; k < all; k++) stage->weights[s * all + k] = (float)w[k];
   }
 }
@@ -11827,18 +13166,21 @@ static void nsvcd__stage_init(const nsvcd_plan_options *o, nsvcd__stage *stage) 
 
 // a as seen from b.
 static void nsvcd__relative_pose(const nsvcd_pose *a, const nsvcd_pose *b, nsvcd_pose *out) {
-  const float *p = a->rotation, *q = b->rotation;
+  const float *p = a->rotation;
+  const float *q = b->rotation;
   float m[9], back[9], d[3];
-  nsvcd__quat_to_matrix(q, m), nsvcd__transpose33(m, back);
-  nsvcd__sub3(a->position, b->position, d), nsvcd__mul33_vec(back, d, out->position);
+  nsvcd__quat_to_matrix(q, m);
+  nsvcd__transpose33(m, back);
+  nsvcd__sub3(a->position, b->position, d);
+  nsvcd__mul33_vec(back, d, out->position);
   out->rotation[0] = q[3] * p[0] - q[0] * p[3] - (q[1] * p[2] - q[2] * p[1]);
   out->rotation[1] = q[3] * p[1] - q[1] * p[3] - (q[2] * p[0] - q[0] * p[2]);
   out->rotation[2] = q[3] * p[2] - q[2] * p[3] - (q[0] * p[1] - q[1] * p[0]);
   out->rotation[3] = q[3] * p[3] + q[0] * p[0] + q[1] * p[1] + q[2] * p[2];
 }
 
-// Tracks of all bodies: from the origin to the bounding sphere's centre, the pose as origin and matrix, and how much
-// the way to the next sample bends: the root of 1 - cos of half the angle.
+// Tracks of all bodies: from the origin to the bounding sphere's centre, the pose as origin and
+// matrix, and how much the way to the next sample bends: the root of 1 - cos of half the angle.
 static void nsvcd__track_bodies(nsvcd__planner *p, size_t samples) {
   const size_t bodies = p->problem->body_count;
   for (size_t b = 0; p->problem->bodies && b < bodies; b++) {
@@ -11846,10 +13188,13 @@ static void nsvcd__track_bodies(nsvcd__planner *p, size_t samples) {
     float *track = p->tracks + NSVCD__TRACK * samples * b;
     if (!body) continue;
     for (size_t s = 0; s < samples; s++) {
-      const nsvcd_pose *pose = &p->poses[s * bodies + b], *next = s + 1 < samples ? pose + bodies : pose;
-      const float *q = pose->rotation, *r = next->rotation;
+      const nsvcd_pose *pose = &p->poses[s * bodies + b];
+      const nsvcd_pose *next = s + 1 < samples ? pose + bodies : pose;
+      const float *q = pose->rotation;
+      const float *r = next->rotation;
       float m[9], turned[3];
-      nsvcd__quat_to_matrix(q, m), nsvcd__mul33_vec(m, body->centre, turned);
+      nsvcd__quat_to_matrix(q, m);
+      nsvcd__mul33_vec(m, body->centre, turned);
       for (size_t k = 0; k < 3; k++) {
         track[(NSVCD__CENTRE + k) * samples + s] = turned[k];
         track[(NSVCD__ORIGIN + k) * samples + s] = pose->position[k];
@@ -11861,43 +13206,51 @@ static void nsvcd__track_bodies(nsvcd__planner *p, size_t samples) {
   }
 }
 
-// Clears p->meets for the segments (stride 1) or samples (0) in which a's bounding sphere stays away from b's box, by the
-// clearance. The
-// motion is the query's, in which one of them rests: a's origin goes straight as seen from it, and a turns by an angle
-// c relative to it. If that is b, a's centre leaves its chord by no more than its arm * (1 - cos(c / 2)). If it is a
-// itself (`resting`), a's centre v as b sees it turns while it goes: by no more than c^2 |v| / 8 + c |dv| / 4, where dv
-// is what it goes in its own axes, itself no more than in b's axes + c |v|.
-static void nsvcd__meet_box(nsvcd__planner *p, size_t a, size_t b, int resting, size_t samples, size_t stride) {
+// Clears p->meets for the segments (stride 1) or samples (0) in which a's bounding sphere stays
+// away from b's box, by the clearance. The
+// motion is the query's, in which one of them rests: a's origin goes straight as seen from it, and
+// a turns by an angle c relative to it. If that is b, a's centre leaves its chord by no more than
+// its arm * (1 - cos(c / 2)). If it is a itself (`resting`), a's centre v as b sees it turns while
+// it goes: by no more than c^2 |v| / 8 + c |dv| / 4, where dv is what it goes in its own axes,
+// itself no more than in b's axes + c |v|.
+static void nsvcd__meet_box(nsvcd__planner *p, size_t a, size_t b, int resting, size_t samples,
+                            size_t stride) {
   const nsvcd_body *body = p->problem->bodies[a];
-  const float *from = p->tracks + NSVCD__TRACK * samples * a, *to = p->tracks + NSVCD__TRACK * samples * b;
-  const float *box = p->boxes + 6 * b, *axes = to + NSVCD__AXES * samples;
-  const float arm = nsvcd__length3(body->centre), radius = 1.00001f * body->radius;
+  const float *from = p->tracks + NSVCD__TRACK * samples * a;
+  const float *to = p->tracks + NSVCD__TRACK * samples * b;
+  const float *box = p->boxes + 6 * b;
+  const float *axes = to + NSVCD__AXES * samples;
+  const float arm = nsvcd__length3(body->centre);
+  const float radius = 1.00001f * body->radius;
   float *x = p->seen;  // (4, samples): a's centre as b sees it, and its distance from b's origin
   for (size_t s = 0; s < samples; s++) {
-    float d[3], square = 0;
+    float d[3];
+    float square = 0;
     for (size_t k = 0; k < 3; k++) {
       d[k] = from[(NSVCD__ORIGIN + k) * samples + s] - to[(NSVCD__ORIGIN + k) * samples + s] +
              from[(NSVCD__CENTRE + k) * samples + s];
       square += d[k] * d[k];
     }
     for (size_t k = 0; k < 3; k++) {
-      x[k * samples + s] =
-          axes[k * samples + s] * d[0] + axes[(3 + k) * samples + s] * d[1] + axes[(6 + k) * samples + s] * d[2];
+      x[k * samples + s] = axes[k * samples + s] * d[0] + axes[(3 + k) * samples + s] * d[1] +
+                           axes[(6 + k) * samples + s] * d[2];
     }
     x[3 * samples + s] = sqrtf(square);
   }
   for (size_t s = 0; s + stride < samples; s++) {
-    // The roots of 1 - cos of half an angle: that of the sum of two angles is no more than their sum, and c < 3.15
-    // bend.
+    // The roots of 1 - cos of half an angle: that of the sum of two angles is no more than their
+    // sum, and c < 3.15 bend.
     const float bend = from[NSVCD__BEND * samples + s] + to[NSVCD__BEND * samples + s];
     float way = 0;
     for (size_t k = 0; k < 3; k++) way += fabsf(x[k * samples + s + stride] - x[k * samples + s]);
     const float reaches = x[3 * samples + s] + x[3 * samples + s + stride];
     const float leaves = resting ? (3.75f * bend * reaches + 0.8f * way) * bend : arm * bend * bend;
-    const float reach = radius + p->options.sweep.clearance + (float)stride * leaves + NSVCD__ROUNDING * reaches;
+    const float reach =
+        radius + p->options.sweep.clearance + (float)stride * leaves + NSVCD__ROUNDING * reaches;
     int apart = 0;
     for (size_t k = 0; k < 3; k++) {
-      const float u = x[k * samples + s], v = x[k * samples + s + stride];
+      const float u = x[k * samples + s];
+      const float v = x[k * samples + s + stride];
       apart |= ((u < v ? u : v) > box[3 + k] + reach) | ((u < v ? v : u) < box[k] - reach);
     }
     p->meets[s] &= (unsigned char)!apart;
@@ -11905,29 +13258,39 @@ static void nsvcd__meet_box(nsvcd__planner *p, size_t a, size_t b, int resting, 
 }
 
 // Marks the segments, or with stride 0 the samples, in which a pair may meet.
-static void nsvcd__find_meetings(nsvcd__planner *p, const nsvcd_body_pair *pair, size_t samples, size_t stride) {
+static void nsvcd__find_meetings(nsvcd__planner *p, const nsvcd_body_pair *pair, size_t samples,
+                                 size_t stride) {
   memset(p->meets, 1, samples);
   nsvcd__meet_box(p, pair->a, pair->b, 0, samples, stride);
   nsvcd__meet_box(p, pair->b, pair->a, 1, samples, stride);
 }
 
-// What a logit costs: nothing far below zero, its excess over -margin above; and the derivative by the logit.
+// What a logit costs: nothing far below zero, its excess over -margin above; and the derivative by
+// the logit.
 static float nsvcd__cost_of_logit(float logit, float margin, float *slope) {
-  const float x = logit + margin, soft = 2;
+  const float x = logit + margin;
+  const float soft = 2;
   *slope = x <= 0 ? 0 : x < soft ? x / soft : 1;
   return x <= 0 ? 0 : x < soft ? 0.5f * x * x / soft : x - 0.5f * soft;
 }
 
-// A force and a torque in b's axes on a, and what they do to b, in the world: poses (B), wrenches (B, 6).
-static void nsvcd__add_wrench(const nsvcd_body_pair *pair, const nsvcd_pose *poses, float scale, const float *wrench,
-                              float *wrenches) {
-  float m[9], force[3], torque[3], arm[3], moment[3] = {0, 0, 0};
+// A force and a torque in b's axes on a, and what they do to b, in the world: poses (B), wrenches
+// (B, 6).
+static void nsvcd__add_wrench(const nsvcd_body_pair *pair, const nsvcd_pose *poses, float scale,
+                              const float *wrench, float *wrenches) {
+  float m[9];
+  float force[3];
+  float torque[3];
+  float arm[3];
+  float moment[3] = {0, 0, 0};
   nsvcd__quat_to_matrix(poses[pair->b].rotation, m);
-  nsvcd__mul33_vec(m, wrench, force), nsvcd__mul33_vec(m, wrench + 3, torque);
+  nsvcd__mul33_vec(m, wrench, force);
+  nsvcd__mul33_vec(m, wrench + 3, torque);
   nsvcd__sub3(poses[pair->a].position, poses[pair->b].position, arm);
   nsvcd__add_cross3(arm, force, moment);
   for (size_t k = 0; k < 3; k++) {
-    wrenches[6 * pair->a + k] += scale * force[k], wrenches[6 * pair->a + 3 + k] += scale * torque[k];
+    wrenches[6 * pair->a + k] += scale * force[k];
+    wrenches[6 * pair->a + 3 + k] += scale * torque[k];
     wrenches[6 * pair->b + k] -= scale * force[k];
     wrenches[6 * pair->b + 3 + k] -= scale * (torque[k] + moment[k]);
   }
@@ -11940,12 +13303,13 @@ typedef struct nsvcd__worst {
   int proven;  // a proof has found it
 } nsvcd__worst;
 
-// What is to be said of pair k from sample `first` on, over `segments` of them: by the network, or, at the end, by the
-// method of the options. gradient: (segments + 1, 6), or NULL.
-static nsvcd_answer nsvcd__ask(nsvcd__planner *p, uint32_t k, size_t first, size_t segments, int at_end,
-                               float *gradient) {
+// What is to be said of pair k from sample `first` on, over `segments` of them: by the network, or,
+// at the end, by the method of the options. gradient: (segments + 1, 6), or NULL.
+static nsvcd_answer nsvcd__ask(nsvcd__planner *p, uint32_t k, size_t first, size_t segments,
+                               int at_end, float *gradient) {
   const nsvcd_body_pair *pair = &p->problem->pairs[k];
-  const nsvcd_body *a = p->problem->bodies[pair->a], *b = p->problem->bodies[pair->b];
+  const nsvcd_body *a = p->problem->bodies[pair->a];
+  const nsvcd_body *b = p->problem->bodies[pair->b];
   nsvcd_pose motion[NSVCD__RUN + 1];
   nsvcd_question question;
   nsvcd_answer answer;
@@ -11962,7 +13326,8 @@ static nsvcd_answer nsvcd__ask(nsvcd__planner *p, uint32_t k, size_t first, size
   question.options = p->options.sweep;
   if (!at_end) {
     question.options.method = NSVCD_METHOD_NETWORK;
-    question.options.clearance = question.options.measure = question.options.first = question.options.skin = 0;
+    question.options.clearance = question.options.measure = question.options.first =
+        question.options.skin = 0;
   }
   const nsvcd_result error =
       gradient ? nsvcd_sweep_gradient(&question, p->query, p->query_size, &answer, gradient, NULL)
@@ -11972,11 +13337,12 @@ static nsvcd_answer nsvcd__ask(nsvcd__planner *p, uint32_t k, size_t first, size
   return answer;
 }
 
-// The network's cost of the poses (samples, B), up to the first sum above `limit`; adds to wrenches (samples, B, 6)
-// unless that is NULL. worst: NULL but for the last check, which wants to know it.
-static float nsvcd__network_cost(nsvcd__planner *p, size_t samples, float limit, int *collides, float *wrenches,
-                                 nsvcd__worst *worst) {
-  const size_t bodies = p->problem->body_count, stride = !p->options.discrete && samples > 1;
+// The network's cost of the poses (samples, B), up to the first sum above `limit`; adds to wrenches
+// (samples, B, 6) unless that is NULL. worst: NULL but for the last check, which wants to know it.
+static float nsvcd__network_cost(nsvcd__planner *p, size_t samples, float limit, int *collides,
+                                 float *wrenches, nsvcd__worst *worst) {
+  const size_t bodies = p->problem->body_count;
+  const size_t stride = !p->options.discrete && samples > 1;
   float sum = 0;
   nsvcd__track_bodies(p, samples);
   for (size_t n = 0; n < p->problem->pair_count && sum <= limit; n++) {
@@ -11986,7 +13352,8 @@ static float nsvcd__network_cost(nsvcd__planner *p, size_t samples, float limit,
     for (size_t s = 0, checked = 0; s + stride < samples && sum <= limit && !p->error; s++) {
       float gradient[12], slope;
       if (!p->meets[s]) continue;
-      // Several segments at once: if they are far from a collision, that is all. The last check looks closer.
+      // Several segments at once: if they are far from a collision, that is all. The last check
+      // looks closer.
       if (stride && !worst && s >= checked) {
         size_t run = 1;
         while (run < NSVCD__RUN && s + run + 1 < samples && p->meets[s + run]) run++;
@@ -11996,20 +13363,26 @@ static float nsvcd__network_cost(nsvcd__planner *p, size_t samples, float limit,
           continue;
         }
       }
-      const nsvcd_answer answer = nsvcd__ask(p, k, s, stride, worst != NULL, wrenches ? gradient : NULL);
+      const nsvcd_answer answer =
+          nsvcd__ask(p, k, s, stride, worst != NULL, wrenches ? gradient : NULL);
       if (worst && answer.logit > worst->logit) {
-        worst->logit = answer.logit, worst->pair = k;
+        worst->logit = answer.logit;
+        worst->pair = k;
         worst->proven = answer.collides && answer.status >= NSVCD_STATUS_WITNESS;
-        worst->time = samples > 1 ? ((float)s + (float)stride * answer.contact_time) / (float)(samples - 1) : 0;
+        worst->time = samples > 1
+                          ? ((float)s + (float)stride * answer.contact_time) / (float)(samples - 1)
+                          : 0;
       }
       *collides |= answer.collides;
       sum += nsvcd__cost_of_logit(answer.logit, p->options.margin, &slope);
       for (size_t i = 0; wrenches && slope > 0 && i <= stride; i++) {
         const size_t row = (s + i) * bodies;
-        nsvcd__add_wrench(&p->problem->pairs[k], p->poses + row, slope, gradient + 6 * i, wrenches + 6 * row);
+        nsvcd__add_wrench(&p->problem->pairs[k], p->poses + row, slope, gradient + 6 * i,
+                          wrenches + 6 * row);
       }
     }
-    if (n > 0 && sum > before) {  // what costs comes earlier next time, so that bad trajectories end early
+    // what costs comes earlier next time, so that bad trajectories end early
+    if (n > 0 && sum > before) {
       p->order[n] = p->order[n - 1];
       p->order[n - 1] = k;
     }
@@ -12019,11 +13392,13 @@ static float nsvcd__network_cost(nsvcd__planner *p, size_t samples, float limit,
 
 // ---- cost
 
-// The derivative of the cost by the joints of one sample, from the wrenches (B, 6) there. Returns 0 if there are none.
-static int nsvcd__by_joints(nsvcd__planner *p, const float *joints, const nsvcd_pose *poses, const float *wrenches,
-                            float *by_joints) {
+// The derivative of the cost by the joints of one sample, from the wrenches (B, 6) there. Returns 0
+// if there are none.
+static int nsvcd__by_joints(nsvcd__planner *p, const float *joints, const nsvcd_pose *poses,
+                            const float *wrenches, float *by_joints) {
   const nsvcd_plan_problem *problem = p->problem;
-  const size_t f = problem->joints, bodies = problem->body_count;
+  const size_t f = problem->joints;
+  const size_t bodies = problem->body_count;
   float moved[NSVCD_MAX_JOINTS];
   size_t k = 0;
   while (k < 6 * bodies && !(wrenches[k] < 0 || wrenches[k] > 0)) k++;
@@ -12046,20 +13421,23 @@ static int nsvcd__by_joints(nsvcd__planner *p, const float *joints, const nsvcd_
         continue;
       }
       const float *q = poses[b].rotation;
-      float *r = p->moved[b].rotation, sign = 2, turn[3] = {0, 0, 0};
+      float *r = p->moved[b].rotation;
+      float sign = 2;
+      float turn[3] = {0, 0, 0};
       if (q[0] * r[0] + q[1] * r[1] + q[2] * r[2] + q[3] * r[3] < 0) sign = -2;
       for (size_t i = 0; i < 3; i++) turn[i] = q[3] * r[i] - r[3] * q[i];
       nsvcd__add_cross3(q, r, turn);  // the vector of r q^-1
       for (size_t i = 0; i < 3; i++) {
-        by_joints[j] +=
-            w[i] * (p->moved[b].position[i] - poses[b].position[i]) / step + w[3 + i] * sign * turn[i] / step;
+        by_joints[j] += w[i] * (p->moved[b].position[i] - poses[b].position[i]) / step +
+                        w[3 + i] * sign * turn[i] / step;
       }
     }
   }
   return 1;
 }
 
-// The poses of all bodies (samples, B), their quaternions made of unit length, from the joints (samples, F).
+// The poses of all bodies (samples, B), their quaternions made of unit length, from the joints
+// (samples, F).
 static void nsvcd__place(nsvcd__planner *p, const float *joints, size_t samples) {
   const nsvcd_plan_problem *problem = p->problem;
   const size_t bodies = problem->body_count;
@@ -12070,14 +13448,20 @@ static void nsvcd__place(nsvcd__planner *p, const float *joints, size_t samples)
     p->error = NSVCD_ERROR_POSE;
     return;
   }
-  for (size_t k = 0; k < samples * bodies; k++) nsvcd__quat_normalize(p->poses[k].rotation, p->poses[k].rotation);
+  for (size_t k = 0; k < samples * bodies; k++)
+    nsvcd__quat_normalize(p->poses[k].rotation, p->poses[k].rotation);
 }
 
-// What the trajectory costs, up to `limit`: a sum beyond it is not finished. gradient: (M + 2, F), written, or NULL.
-static nsvcd__cost nsvcd__cost_of(nsvcd__planner *p, const nsvcd__stage *stage, const float *control, float limit,
-                                  float *gradient, nsvcd__worst *worst) {
+// What the trajectory costs, up to `limit`: a sum beyond it is not finished. gradient: (M + 2, F),
+// written, or NULL.
+static nsvcd__cost nsvcd__cost_of(nsvcd__planner *p, const nsvcd__stage *stage,
+                                  const float *control, float limit, float *gradient,
+                                  nsvcd__worst *worst) {
   const nsvcd_plan_problem *problem = p->problem;
-  const size_t f = problem->joints, all = stage->via + 2, samples = stage->samples, bodies = problem->body_count;
+  const size_t f = problem->joints;
+  const size_t all = stage->via + 2;
+  const size_t samples = stage->samples;
+  const size_t bodies = problem->body_count;
   nsvcd__cost cost = {0, 0, 0, 0, NSVCD_NONE};
   double smoothness = 0;
   p->trajectories++;
@@ -12097,8 +13481,12 @@ static nsvcd__cost nsvcd__cost_of(nsvcd__planner *p, const nsvcd__stage *stage, 
     for (size_t j = 0; j < f; j++) {
       float sum = 0;
       for (size_t k = 0; k < all; k++) sum += w[k] * control[k * f + j];
-      const float low = problem->low[j], high = problem->high[j], inner = NSVCD__LIMIT_MARGIN * (high - low);
-      const float out = sum < low + inner ? sum - low - inner : sum > high - inner ? sum - high + inner : 0;
+      const float low = problem->low[j];
+      const float high = problem->high[j];
+      const float inner = NSVCD__LIMIT_MARGIN * (high - low);
+      const float out = sum < low + inner    ? sum - low - inner
+                        : sum > high - inner ? sum - high + inner
+                                             : 0;
       joints[j] = sum;
       cost.total += share * out * out;
       const float rounding = 1e-5f + 1e-6f * fabsf(sum);
@@ -12115,7 +13503,8 @@ static nsvcd__cost nsvcd__cost_of(nsvcd__planner *p, const nsvcd__stage *stage, 
   const float left = weight > 0 ? (limit - cost.total) / weight : INFINITY;
   NSVCD__TALLY(collision, 0);  // begins
   if (problem->collision) {
-    cost.collision = problem->collision(problem->user, p->poses, samples, left, &cost.collides, wrenches);
+    cost.collision =
+        problem->collision(problem->user, p->poses, samples, left, &cost.collides, wrenches);
     if (worst) worst->logit = cost.collision;
   } else {
     cost.collision = nsvcd__network_cost(p, samples, left, &cost.collides, wrenches, worst);
@@ -12124,9 +13513,11 @@ static nsvcd__cost nsvcd__cost_of(nsvcd__planner *p, const nsvcd__stage *stage, 
   cost.total += weight * cost.collision;
   for (size_t s = 0; gradient && s < samples; s++) {
     const size_t row = s * bodies;
-    if (!nsvcd__by_joints(p, p->path + s * f, p->poses + row, wrenches + 6 * row, p->by_path)) continue;
+    if (!nsvcd__by_joints(p, p->path + s * f, p->poses + row, wrenches + 6 * row, p->by_path))
+      continue;
     for (size_t k = 0; k < all; k++) {
-      for (size_t j = 0; j < f; j++) gradient[k * f + j] += weight * stage->weights[s * all + k] * p->by_path[j];
+      for (size_t j = 0; j < f; j++)
+        gradient[k * f + j] += weight * stage->weights[s * all + k] * p->by_path[j];
     }
   }
   if (!nsvcd__is_finite(cost.total)) p->error = NSVCD_ERROR_NUMBER;
@@ -12146,10 +13537,12 @@ static double nsvcd__normal(nsvcd__planner *p) {  // Box and Muller
   return radius * cos(6.283185307179586 * nsvcd__uniform(p));
 }
 
-// A smooth random change of the via points, (M, F), zero at the ends: its inverse covariance is the form of the
-// smoothness, scaled so that the greatest deviation of a joint is deviations (F).
-static void nsvcd__smooth_noise(nsvcd__planner *p, const nsvcd__stage *stage, const float *deviations, float *out) {
-  const size_t f = p->problem->joints, via = stage->via;
+// A smooth random change of the via points, (M, F), zero at the ends: its inverse covariance is the
+// form of the smoothness, scaled so that the greatest deviation of a joint is deviations (F).
+static void nsvcd__smooth_noise(nsvcd__planner *p, const nsvcd__stage *stage,
+                                const float *deviations, float *out) {
+  const size_t f = p->problem->joints;
+  const size_t via = stage->via;
   for (size_t j = 0; j < f; j++) {
     for (size_t k = 0; k < via; k++) p->vector[k] = nsvcd__normal(p);
     nsvcd__solve_upper(stage->factor, via, p->vector);
@@ -12159,20 +13552,23 @@ static void nsvcd__smooth_noise(nsvcd__planner *p, const nsvcd__stage *stage, co
 }
 
 // control + offset (M, F), with via points taken into the limits.
-static void nsvcd__change(const nsvcd__planner *p, size_t via, const float *control, const float *offset, float scale,
-                          float *out) {
+static void nsvcd__change(const nsvcd__planner *p, size_t via, const float *control,
+                          const float *offset, float scale, float *out) {
   const size_t f = p->problem->joints;
   memcpy(out, control, (via + 2) * f * sizeof *out);
   for (size_t k = 0; k < via * f; k++) {
-    const float x = control[f + k] + scale * offset[k], low = p->problem->low[k % f], high = p->problem->high[k % f];
+    const float x = control[f + k] + scale * offset[k];
+    const float low = p->problem->low[k % f];
+    const float high = p->problem->high[k % f];
     out[f + k] = x < low ? low : x < high ? x : high;  // high where x is not a number
   }
 }
 
-static int nsvcd__report(nsvcd__planner *p, size_t seed, size_t iteration, const nsvcd__stage *stage, int refining,
-                         const nsvcd__cost *cost) {
-  const nsvcd_plan_progress progress = {seed,        iteration,       stage->iterations, refining,
-                                        cost->total, cost->collision, p->best,           stage->via};
+static int nsvcd__report(nsvcd__planner *p, size_t seed, size_t iteration,
+                         const nsvcd__stage *stage, int refining, const nsvcd__cost *cost) {
+  const nsvcd_plan_progress progress = {seed,     iteration,   stage->iterations,
+                                        refining, cost->total, cost->collision,
+                                        p->best,  stage->via};
   return p->problem->progress && p->problem->progress(p->problem->user, &progress);
 }
 
@@ -12180,14 +13576,19 @@ static int nsvcd__report(nsvcd__planner *p, size_t seed, size_t iteration, const
 static float nsvcd__kth_cost(const float *costs, size_t count, size_t k) {
   float least = 0;
   for (size_t i = 0; i < count; i++) {
-    size_t below = 0, same = 0;
-    for (size_t n = 0; n < count; n++) below += costs[n] < costs[i], same += costs[n] <= costs[i];
+    size_t below = 0;
+    size_t same = 0;
+    for (size_t n = 0; n < count; n++) {
+      below += costs[n] < costs[i];
+      same += costs[n] <= costs[i];
+    }
     if (below <= k && k < same) least = costs[i];
   }
   return least;
 }
 
-#define NSVCD__PATIENCE 3  // iterations without a gain of 1 %, once the best is free, before MPPI ends
+// iterations without a gain of 1 %, once the best is free, before MPPI ends
+#define NSVCD__PATIENCE 3
 
 // The deviations (F) of a wide change: no more than a quarter of a joint's range.
 static void nsvcd__spread(const nsvcd__planner *p, float *deviations) {
@@ -12197,18 +13598,28 @@ static void nsvcd__spread(const nsvcd__planner *p, float *deviations) {
   }
 }
 
-// MPPI from p->control, the mean, on; leaves the best trajectory in p->best. *cancelled: by the progress callback.
-static void nsvcd__explore(nsvcd__planner *p, size_t seed, nsvcd_plan_answer *answer, int *cancelled) {
+// MPPI from p->control, the mean, on; leaves the best trajectory in p->best. *cancelled: by the
+// progress callback.
+static void nsvcd__explore(nsvcd__planner *p, size_t seed, nsvcd_plan_answer *answer,
+                           int *cancelled) {
   const nsvcd__stage *stage = &p->explore;
-  const size_t f = p->problem->joints, via = stage->via, numbers = via * f, elite = stage->count / 10;
-  float deviations[NSVCD_MAX_JOINTS], first[NSVCD_MAX_JOINTS], temperature = 0;
+  const size_t f = p->problem->joints;
+  const size_t via = stage->via;
+  const size_t numbers = via * f;
+  const size_t elite = stage->count / 10;
+  float deviations[NSVCD_MAX_JOINTS];
+  float first[NSVCD_MAX_JOINTS];
+  float temperature = 0;
   nsvcd__cost best = nsvcd__cost_of(p, stage, p->control, INFINITY, NULL, NULL);
   memcpy(p->best, p->control, (via + 2) * f * sizeof *p->best);
-  nsvcd__spread(p, first), nsvcd__spread(p, deviations);
+  nsvcd__spread(p, first);
+  nsvcd__spread(p, deviations);
   float before = best.total;
   size_t waited = 0;
-  for (size_t i = 0; i < stage->iterations && !*cancelled && !p->error && waited < NSVCD__PATIENCE; i++) {
-    float least = INFINITY, total = 0;
+  for (size_t i = 0; i < stage->iterations && !*cancelled && !p->error && waited < NSVCD__PATIENCE;
+       i++) {
+    float least = INFINITY;
+    float total = 0;
     for (size_t n = 0; n < stage->count; n++) {
       float *offset = p->tries + n * numbers;
       if (n > 0) nsvcd__smooth_noise(p, stage, deviations, offset);
@@ -12218,7 +13629,8 @@ static void nsvcd__explore(nsvcd__planner *p, size_t seed, nsvcd_plan_answer *an
       }
       nsvcd__change(p, via, p->control, offset, 1, p->trial);
       for (size_t k = 0; k < numbers; k++) offset[k] = p->trial[f + k] - p->control[f + k];
-      // What is 10 temperatures worse than another weighs nothing: its cost need not be known exactly.
+      // What is 10 temperatures worse than another weighs nothing: its cost need not be known
+      // exactly.
       const float limit = i > 0 ? least + 10 * temperature : INFINITY;
       const nsvcd__cost cost = nsvcd__cost_of(p, stage, p->trial, limit, NULL, NULL);
       p->costs[n] = cost.total;
@@ -12228,7 +13640,8 @@ static void nsvcd__explore(nsvcd__planner *p, size_t seed, nsvcd_plan_answer *an
       memcpy(p->best, p->trial, (via + 2) * f * sizeof *p->best);
     }
     if (p->error) break;
-    temperature = 0.5f * (nsvcd__kth_cost(p->costs, stage->count, elite) - least) + 1e-6f * (1 + least);
+    temperature =
+        0.5f * (nsvcd__kth_cost(p->costs, stage->count, elite) - least) + 1e-6f * (1 + least);
     memset(p->sum, 0, numbers * sizeof *p->sum);
     for (size_t n = 0; n < stage->count; n++) {
       p->costs[n] = expf((least - p->costs[n]) / temperature);
@@ -12236,7 +13649,8 @@ static void nsvcd__explore(nsvcd__planner *p, size_t seed, nsvcd_plan_answer *an
     }
     for (size_t n = 0; n < stage->count; n++) {
       const float weight = p->costs[n] / total;
-      for (size_t k = 0; weight > 1e-9f && k < numbers; k++) p->sum[k] += weight * p->tries[n * numbers + k];
+      for (size_t k = 0; weight > 1e-9f && k < numbers; k++)
+        p->sum[k] += weight * p->tries[n * numbers + k];
     }
     for (size_t j = 0; j < f; j++) {  // the spread of the good ones about their mean, slowly
       float square = 0;
@@ -12247,7 +13661,8 @@ static void nsvcd__explore(nsvcd__planner *p, size_t seed, nsvcd_plan_answer *an
           square += weight * d * d / (float)via;
         }
       }
-      const float variance = 0.9f * deviations[j] * deviations[j] + 0.1f * 2 * square, floor = 1e-3f * first[j];
+      const float variance = 0.9f * deviations[j] * deviations[j] + 0.1f * 2 * square;
+      const float floor = 1e-3f * first[j];
       deviations[j] = variance > floor * first[j] ? sqrtf(variance) : sqrtf(floor * first[j]);
     }
     nsvcd__change(p, via, p->control, p->sum, 0.9f, p->trial);
@@ -12269,7 +13684,8 @@ static double nsvcd__dot(const float *a, const float *b, size_t count) {
 
 // x (M, F) times the inverse of the smoothness' form, in place.
 static void nsvcd__by_metric(nsvcd__planner *p, const nsvcd__stage *stage, float *x) {
-  const size_t f = p->problem->joints, via = stage->via;
+  const size_t f = p->problem->joints;
+  const size_t via = stage->via;
   for (size_t j = 0; j < f; j++) {
     for (size_t k = 0; k < via; k++) p->vector[k] = (double)x[k * f + j];
     nsvcd__solve_lower(stage->factor, via, p->vector);
@@ -12278,9 +13694,12 @@ static void nsvcd__by_metric(nsvcd__planner *p, const nsvcd__stage *stage, float
   }
 }
 
-// The mean of the gradients at control + each of the bundle's offsets (in p->tries), (M, F) -> p->sum.
-static void nsvcd__bundled_gradient(nsvcd__planner *p, const nsvcd__stage *stage, const float *control) {
-  const size_t f = p->problem->joints, numbers = stage->via * f;
+// The mean of the gradients at control + each of the bundle's offsets (in p->tries), (M, F) ->
+// p->sum.
+static void nsvcd__bundled_gradient(nsvcd__planner *p, const nsvcd__stage *stage,
+                                    const float *control) {
+  const size_t f = p->problem->joints;
+  const size_t numbers = stage->via * f;
   memset(p->sum, 0, numbers * sizeof *p->sum);
   for (size_t n = 0; n < stage->count && !p->error; n++) {
     nsvcd__change(p, stage->via, control, p->tries + n * numbers, 1, p->trial);
@@ -12294,9 +13713,11 @@ static float *nsvcd__remembered(float *history, size_t n, size_t numbers) {
   return history + n % NSVCD__HISTORY * numbers;
 }
 
-// L-BFGS's direction for the gradient in p->sum -> p->offset, (M, F), from the `kept` steps before step `next`. It
-// starts from half the inverse of the smoothness' form, which is exact where nothing collides.
-static void nsvcd__direction(nsvcd__planner *p, const nsvcd__stage *stage, size_t kept, size_t next) {
+// L-BFGS's direction for the gradient in p->sum -> p->offset, (M, F), from the `kept` steps before
+// step `next`. It starts from half the inverse of the smoothness' form, which is exact where
+// nothing collides.
+static void nsvcd__direction(nsvcd__planner *p, const nsvcd__stage *stage, size_t kept,
+                             size_t next) {
   const size_t numbers = stage->via * p->problem->joints;
   double alpha[NSVCD__HISTORY];
   float *d = p->offset;
@@ -12317,18 +13738,25 @@ static void nsvcd__direction(nsvcd__planner *p, const nsvcd__stage *stage, size_
   }
 }
 
-// L-BFGS from p->best on, which it improves. Ends early where not even the first direction leads down.
-static void nsvcd__refine(nsvcd__planner *p, size_t seed, nsvcd_plan_answer *answer, int *cancelled) {
+// L-BFGS from p->best on, which it improves. Ends early where not even the first direction leads
+// down.
+static void nsvcd__refine(nsvcd__planner *p, size_t seed, nsvcd_plan_answer *answer,
+                          int *cancelled) {
   static const float lengths[NSVCD__STEPS] = {1, 0.5f, 0.2f, 0.05f, 0.01f};
   const nsvcd__stage *stage = &p->refine;
-  const size_t f = p->problem->joints, numbers = stage->via * f, point = (stage->via + 2) * f * sizeof(float);
+  const size_t f = p->problem->joints;
+  const size_t numbers = stage->via * f;
+  const size_t point = (stage->via + 2) * f * sizeof(float);
   float deviations[NSVCD_MAX_JOINTS];
-  size_t kept = 0, next = 0;
+  size_t kept = 0;
+  size_t next = 0;
   int stuck = 0;
   nsvcd__cost best = nsvcd__cost_of(p, stage, p->best, INFINITY, NULL, NULL);
   for (size_t j = 0; j < f; j++) deviations[j] = p->options.bundle;
-  // The same offsets at each iteration: the mean is then a function, and its gradients differ by where they are taken.
-  for (size_t n = 0; n < stage->count; n++) nsvcd__smooth_noise(p, stage, deviations, p->tries + n * numbers);
+  // The same offsets at each iteration: the mean is then a function, and its gradients differ by
+  // where they are taken.
+  for (size_t n = 0; n < stage->count; n++)
+    nsvcd__smooth_noise(p, stage, deviations, p->tries + n * numbers);
   for (size_t i = 0; i < stage->iterations && !stuck && !*cancelled && !p->error; i++) {
     const float before = best.total;
     memcpy(p->control, p->best, point);
@@ -12336,7 +13764,10 @@ static void nsvcd__refine(nsvcd__planner *p, size_t seed, nsvcd_plan_answer *ans
     if (kept > 0) {  // the last change is known as minus the gradient before it
       float *change = nsvcd__remembered(p->changes, next - 1, numbers);
       for (size_t k = 0; k < numbers; k++) change[k] += p->sum[k];
-      if (!(nsvcd__dot(nsvcd__remembered(p->steps, next - 1, numbers), change, numbers) > 1e-12)) next--, kept--;
+      if (!(nsvcd__dot(nsvcd__remembered(p->steps, next - 1, numbers), change, numbers) > 1e-12)) {
+        next--;
+        kept--;
+      }
     }
     nsvcd__direction(p, stage, kept, next);
     for (size_t n = 0; n < NSVCD__STEPS && !p->error; n++) {
@@ -12347,11 +13778,17 @@ static void nsvcd__refine(nsvcd__planner *p, size_t seed, nsvcd_plan_answer *ans
       memcpy(p->best, p->trial, point);
     }
     if (best.total < before) {
-      float *step = nsvcd__remembered(p->steps, next, numbers), *change = nsvcd__remembered(p->changes, next, numbers);
-      for (size_t k = 0; k < numbers; k++) step[k] = p->best[f + k] - p->control[f + k], change[k] = -p->sum[k];
-      next++, kept = kept < NSVCD__HISTORY ? kept + 1 : kept;
+      float *step = nsvcd__remembered(p->steps, next, numbers);
+      float *change = nsvcd__remembered(p->changes, next, numbers);
+      for (size_t k = 0; k < numbers; k++) {
+        step[k] = p->best[f + k] - p->control[f + k];
+        change[k] = -p->sum[k];
+      }
+      next++;
+      kept = kept < NSVCD__HISTORY ? kept + 1 : kept;
     } else {
-      stuck = kept == 0, kept = 0;
+      stuck = kept == 0;
+      kept = 0;
     }
     answer->iterations++;
     *cancelled = nsvcd__report(p, seed, i, stage, 1, &best);
@@ -12362,9 +13799,12 @@ static void nsvcd__refine(nsvcd__planner *p, size_t seed, nsvcd_plan_answer *ans
 
 // The smoothest control points from start to goal, (M + 2, F): where the form's derivative is zero.
 static void nsvcd__smoothest(nsvcd__planner *p, const nsvcd__stage *stage, float *control) {
-  const size_t f = p->problem->joints, via = stage->via, all = via + 2;
+  const size_t f = p->problem->joints;
+  const size_t via = stage->via;
+  const size_t all = via + 2;
   for (size_t j = 0; j < f; j++) {
-    const double start = (double)p->problem->start[j], goal = (double)p->problem->goal[j];
+    const double start = (double)p->problem->start[j];
+    const double goal = (double)p->problem->goal[j];
     for (size_t k = 0; k < via; k++) {
       const double *row = stage->form + (k + 1) * all;
       p->vector[k] = -row[0] * start - row[all - 1] * goal;
@@ -12394,7 +13834,8 @@ static int nsvcd__is_good(nsvcd__planner *p, const float *joints, nsvcd_plan_ans
   for (size_t j = 0; j < problem->joints; j++) {
     if (joints[j] < problem->low[j] || joints[j] > problem->high[j]) answer->joint = j;
   }
-  answer->logit = 0, answer->pair = NSVCD_NONE;
+  answer->logit = 0;
+  answer->pair = NSVCD_NONE;
   if (answer->joint != NSVCD_NONE) return 0;
   nsvcd__place(p, joints, 1);
   if (p->error) return 0;
@@ -12403,7 +13844,8 @@ static int nsvcd__is_good(nsvcd__planner *p, const float *joints, nsvcd_plan_ans
   } else {
     nsvcd__network_cost(p, 1, INFINITY, &answer->collides, NULL, &worst);
   }
-  answer->logit = worst.logit, answer->pair = worst.pair;
+  answer->logit = worst.logit;
+  answer->pair = worst.pair;
   return !answer->collides;
 }
 
@@ -12424,30 +13866,41 @@ NSVCDDEF const char *nsvcd_plan_status_string(nsvcd_plan_status status) {
   }
 }
 
-NSVCDDEF size_t nsvcd_plan_workspace_size(const nsvcd_plan_problem *problem, const nsvcd_plan_options *options) {
+NSVCDDEF size_t nsvcd_plan_workspace_size(const nsvcd_plan_problem *problem,
+                                          const nsvcd_plan_options *options) {
   nsvcd__planner planner;
-  return nsvcd__planner_settings(problem, options, &planner) ? nsvcd__planner_memory(&planner, NULL) : 0;
+  return nsvcd__planner_settings(problem, options, &planner) ? nsvcd__planner_memory(&planner, NULL)
+                                                             : 0;
 }
 
-NSVCDDEF nsvcd_result nsvcd_plan(const nsvcd_plan_problem *problem, const nsvcd_plan_options *options, void *workspace,
+NSVCDDEF nsvcd_result nsvcd_plan(const nsvcd_plan_problem *problem,
+                                 const nsvcd_plan_options *options, void *workspace,
                                  size_t workspace_size, float *control, nsvcd_plan_answer *answer) {
-  nsvcd__planner planner, *p = &planner;
-  nsvcd_plan_answer found = {NSVCD_PLAN_CONVERGED, 0, NSVCD_NONE, NSVCD_NONE, 0, 0, 0, 0, 0, 0, 0, 0, 0};
+  nsvcd__planner planner;
+  nsvcd__planner *p = &planner;
+  nsvcd_plan_answer found = {
+      NSVCD_PLAN_CONVERGED, 0, NSVCD_NONE, NSVCD_NONE, 0, 0, 0, 0, 0, 0, 0, 0, 0};
   int cancelled = 0;
-  if (!nsvcd__planner_settings(problem, options, p) || !control || !answer) return NSVCD_ERROR_ARGUMENT;
+  if (!nsvcd__planner_settings(problem, options, p) || !control || !answer)
+    return NSVCD_ERROR_ARGUMENT;
   const size_t needed = nsvcd__planner_memory(p, NULL);
   if (needed == 0) return NSVCD_ERROR_TOO_LARGE;
-  if (!workspace || !nsvcd__is_aligned(workspace) || workspace_size < needed) return NSVCD_ERROR_WORKSPACE;
+  if (!workspace || !nsvcd__is_aligned(workspace) || workspace_size < needed)
+    return NSVCD_ERROR_WORKSPACE;
   (void)nsvcd__planner_memory(p, (char *)workspace);
-  const size_t f = problem->joints, point = (p->refine.via + 2) * f * sizeof(float);
+  const size_t f = problem->joints;
+  const size_t point = (p->refine.via + 2) * f * sizeof(float);
   for (size_t j = 0; j < f; j++) {
-    const float numbers[4] = {problem->low[j], problem->high[j], problem->start[j], problem->goal[j]};
+    const float numbers[4] = {problem->low[j], problem->high[j], problem->start[j],
+                              problem->goal[j]};
     for (size_t k = 0; k < 4; k++) {
-      if (nsvcd__magnitude(numbers[k]) > nsvcd__magnitude(NSVCD_MAX_COORDINATE)) return NSVCD_ERROR_NUMBER;
+      if (nsvcd__magnitude(numbers[k]) > nsvcd__magnitude(NSVCD_MAX_COORDINATE))
+        return NSVCD_ERROR_NUMBER;
     }
     if (problem->low[j] > problem->high[j]) return NSVCD_ERROR_ARGUMENT;
   }
-  nsvcd__stage_init(&p->options, &p->explore), nsvcd__stage_init(&p->options, &p->refine);
+  nsvcd__stage_init(&p->options, &p->explore);
+  nsvcd__stage_init(&p->options, &p->refine);
   nsvcd__stage_init(&p->options, &p->check);
   nsvcd__find_boxes(p);
   for (size_t k = 0; k < problem->pair_count; k++) p->order[k] = (uint32_t)k;
@@ -12456,7 +13909,8 @@ NSVCDDEF nsvcd_result nsvcd_plan(const nsvcd_plan_problem *problem, const nsvcd_
   if (!nsvcd__is_good(p, problem->start, &found)) {
     found.status = NSVCD_PLAN_START;
   } else if (!nsvcd__is_good(p, problem->goal, &found)) {
-    found.status = NSVCD_PLAN_GOAL, found.time = 1;
+    found.status = NSVCD_PLAN_GOAL;
+    found.time = 1;
   }
   nsvcd__smoothest(p, &p->refine, p->best);
   for (int more = found.status == NSVCD_PLAN_CONVERGED; more && !p->error;) {
@@ -12486,17 +13940,24 @@ NSVCDDEF nsvcd_result nsvcd_plan(const nsvcd_plan_problem *problem, const nsvcd_
     p->options.margin = margin;
     if (found.seeds == 0 || good || cost.total < found.cost) {
       memcpy(p->result, p->best, point);
-      found.cost = cost.total, found.smoothness = cost.smoothness;
-      found.collides = cost.collides, found.joint = cost.joint;
-      found.logit = worst.logit, found.time = worst.time, found.pair = worst.pair;
+      found.cost = cost.total;
+      found.smoothness = cost.smoothness;
+      found.collides = cost.collides;
+      found.joint = cost.joint;
+      found.logit = worst.logit;
+      found.time = worst.time;
+      found.pair = worst.pair;
     }
     found.seeds++;
     more = !good && !cancelled && found.seeds < p->options.seeds;
-    found.status = cancelled ? NSVCD_PLAN_CANCELLED : good ? NSVCD_PLAN_CONVERGED : NSVCD_PLAN_LIMIT;
+    found.status = cancelled ? NSVCD_PLAN_CANCELLED
+                   : good    ? NSVCD_PLAN_CONVERGED
+                             : NSVCD_PLAN_LIMIT;
   }
   if (p->error) return p->error;
   memcpy(control, found.seeds ? p->result : p->best, point);
-  found.trajectories = p->trajectories, found.sweeps = p->sweeps;
+  found.trajectories = p->trajectories;
+  found.sweeps = p->sweeps;
   *answer = found;
   return NSVCD_OK;
 }
@@ -12508,18 +13969,20 @@ NSVCDDEF nsvcd_result nsvcd_plan(const nsvcd_plan_problem *problem, const nsvcd_
 //
 // Copyright (c) 2026 the neuralsvcd.h authors
 //
-// The trained weights in weights.h (and the golden vectors in tests/data) are part of the software and covered by this
-// licence. They were trained on procedural shapes made by this project only.
+// The trained weights in weights.h (and the golden vectors in tests/data) are part of the software
+// and covered by this licence. They were trained on procedural shapes made by this project only.
 //
-// Permission is hereby granted, free of charge, to any person obtaining a copy of this software and associated
-// documentation files (the "Software"), to deal in the Software without restriction, including without limitation the
-// rights to use, copy, modify, merge, publish, distribute, sublicense, and/or sell copies of the Software, and to
-// permit persons to whom the Software is furnished to do so, subject to the following conditions:
+// Permission is hereby granted, free of charge, to any person obtaining a copy of this software and
+// associated documentation files (the "Software"), to deal in the Software without restriction,
+// including without limitation the rights to use, copy, modify, merge, publish, distribute,
+// sublicense, and/or sell copies of the Software, and to permit persons to whom the Software is
+// furnished to do so, subject to the following conditions:
 //
-// The above copyright notice and this permission notice shall be included in all copies or substantial portions of the
-// Software.
+// The above copyright notice and this permission notice shall be included in all copies or
+// substantial portions of the Software.
 //
-// THE SOFTWARE IS PROVIDED "AS IS", WITHOUT WARRANTY OF ANY KIND, EXPRESS OR IMPLIED, INCLUDING BUT NOT LIMITED TO THE
-// WARRANTIES OF MERCHANTABILITY, FITNESS FOR A PARTICULAR PURPOSE AND NONINFRINGEMENT. IN NO EVENT SHALL THE AUTHORS OR
-// COPYRIGHT HOLDERS BE LIABLE FOR ANY CLAIM, DAMAGES OR OTHER LIABILITY, WHETHER IN AN ACTION OF CONTRACT, TORT OR
-// OTHERWISE, ARISING FROM, OUT OF OR IN CONNECTION WITH THE SOFTWARE OR THE USE OR OTHER DEALINGS IN THE SOFTWARE.
+// THE SOFTWARE IS PROVIDED "AS IS", WITHOUT WARRANTY OF ANY KIND, EXPRESS OR IMPLIED, INCLUDING BUT
+// NOT LIMITED TO THE WARRANTIES OF MERCHANTABILITY, FITNESS FOR A PARTICULAR PURPOSE AND
+// NONINFRINGEMENT. IN NO EVENT SHALL THE AUTHORS OR COPYRIGHT HOLDERS BE LIABLE FOR ANY CLAIM,
+// DAMAGES OR OTHER LIABILITY, WHETHER IN AN ACTION OF CONTRACT, TORT OR OTHERWISE, ARISING FROM,
+// OUT OF OR IN CONNECTION WITH THE SOFTWARE OR THE USE OR OTHER DEALINGS IN THE SOFTWARE.

@@ -1,21 +1,27 @@
-// bimanual_insertion.c - two arms, twelve joints: the left hand puts a peg into the hole of a block that the right hand
-// holds. Both move.
+// bimanual_insertion.c - two arms, twelve joints: the left hand puts a peg into the hole of a block
+// that the right hand holds. Both move.
 //
-//   build/bimanual_insertion [SEED] [PICTURE.svg]     ends with 0 if the exact oracle finds the motion free
+//   build/bimanual_insertion [SEED] [PICTURE.svg]     ends with 0 if the exact oracle finds the
+//                                                     motion free
 //
-// Peg and block are bodies like the arms' own: only planner_place knows that they are held (planner_plan in
-// task_planner.h is the code to copy).
+// Peg and block are bodies like the arms' own: only planner_place knows that they are held
+// (planner_plan in task_planner.h is the code to copy).
 #define _POSIX_C_SOURCE 199309L  // clock_gettime
 #define NEURALSVCD_IMPLEMENTATION
 #include "task_planner.h"
 
-// Left: both arms at the start and, in between, where the peg and the block come along. Right: the same way as seen
-// from the block.
+// Left: both arms at the start and, in between, where the peg and the block come along. Right: the
+// same way as seen from the block.
 static void draw_motion(FILE *svg, const task_scene *scene, const planner_motion *motion) {
-  const int peg = scene->held[0], block = scene->held[1], hand = 3, ghosts = 6;
-  const float *start = scene->problems[0].start, *goal = scene->problems[0].goal;
+  const int peg = scene->held[0];
+  const int block = scene->held[1];
+  const int hand = 3;
+  const int ghosts = 6;
+  const float *start = scene->problems[0].start;
+  const float *goal = scene->problems[0].goal;
   const double m = TASK_PI / 2;
-  draw_view view = {0.35, 0.4, {0.22, 0, 0.72}, 650, 640, 520, 0.03}, near = {0, 0.3, {0, 0, 0}, 650, 640, 520, 0.02};
+  draw_view view = {0.35, 0.4, {0.22, 0, 0.72}, 650, 640, 520, 0.03};
+  draw_view near = {0, 0.3, {0, 0, 0}, 650, 640, 520, 0.02};
   draw_list list = {&view, NULL, 0, 0, 0};
   draw_panel(svg, 24, 84, &view);
   draw_still(&list, scene);
@@ -30,7 +36,8 @@ static void draw_motion(FILE *svg, const task_scene *scene, const planner_motion
   planner_ways(svg, &view, scene, motion, peg, -1);
   planner_label(svg, &view, scene, start, peg, -1, 0, -8, "start");
   planner_label(svg, &view, scene, goal, block, -1, -30, 36, "goal");
-  draw_panel_end(svg, &view, motion->good ? "one hand brings the peg, the other the block" : "NOT FREE");
+  draw_panel_end(svg, &view,
+                 motion->good ? "one hand brings the peg, the other the block" : "NOT FREE");
 
   // Looks across the way from the start to the hole's axis.
   oracle_pose from = planner_pose(scene, start, peg, block);
@@ -39,7 +46,8 @@ static void draw_motion(FILE *svg, const task_scene *scene, const planner_motion
   list.view = &near;
   draw_panel(svg, 24 + 670, 84, &near);
   for (int i = 0; i <= 8; i++)
-    planner_ghost(&list, scene, planner_joints_at(scene, motion, i / 8.0), peg, block, &draw_orange, i % 8 ? 0.3 : 0.9);
+    planner_ghost(&list, scene, planner_joints_at(scene, motion, i / 8.0), peg, block, &draw_orange,
+                  i % 8 ? 0.3 : 0.9);
   planner_ghost(&list, scene, start, hand, block, &planner_pale, 0.5);
   planner_ghost(&list, scene, goal, hand, block, &planner_pale, 0.9);
   planner_ghost(&list, scene, goal, block, block, &draw_wood, 0.55);
@@ -59,14 +67,16 @@ int main(int argc, char **argv) {
   uint64_t seed = 2;
   const char *picture = "build/bimanual_insertion.svg";
   if (!planner_arguments(argc, argv, &seed, &picture, NULL)) return 2;
-  if (!task_bimanual_episode(&scene, seed)) return fprintf(stderr, "no scene comes of this seed: try another\n"), 1;
+  if (!task_bimanual_episode(&scene, seed))
+    return fprintf(stderr, "no scene comes of this seed: try another\n"), 1;
 
-  FILE *svg = draw_open(picture, 24 + 2 * 670 + 4, 520 + 108, "Two arms put a peg into a hole", PLANNER_LEGEND);
+  FILE *svg = draw_open(picture, 24 + 2 * 670 + 4, 520 + 108, "Two arms put a peg into a hole",
+                        PLANNER_LEGEND);
   if (!svg) return 1;
   double begin = planner_seconds();
   if (!planner_encode(&scene, bodies)) return 1;
-  printf("%s, seed %llu: %d bodies encoded in %.2f s, %d pairs that can meet\n", scene.name, (unsigned long long)seed,
-         scene.body_count, planner_seconds() - begin, scene.pair_count);
+  printf("%s, seed %llu: %d bodies encoded in %.2f s, %d pairs that can meet\n", scene.name,
+         (unsigned long long)seed, scene.body_count, planner_seconds() - begin, scene.pair_count);
 
   if (!planner_plan(&user, bodies, NULL, NULL, &motion)) return 1;  // NULL: the defaults will do
   planner_judge(&scene, &motion);
@@ -75,6 +85,7 @@ int main(int argc, char **argv) {
   draw_motion(svg, &scene, &motion);
   if (!draw_close(svg)) return 1;
   printf("see %s\n", picture);
-  planner_free(&scene, bodies), task_free(&scene);
+  planner_free(&scene, bodies);
+  task_free(&scene);
   return !motion.good;
 }

@@ -1,8 +1,9 @@
-// draw.h - draws scenes of tasks.h as SVG: what stands still, the robot at any number of configurations, solid or as
-// ghosts, lines that things move along, panels side by side, frames one after the other.
+// draw.h - draws scenes of tasks.h as SVG: what stands still, the robot at any number of
+// configurations, solid or as ghosts, lines that things move along, panels side by side, frames one
+// after the other.
 //
-// A parallel projection, nearer triangles over farther ones; long triangles are cut up, as otherwise a wall would have
-// only one depth. One panel:
+// A parallel projection, nearer triangles over farther ones; long triangles are cut up, as
+// otherwise a wall would have only one depth. One panel:
 //
 //   FILE *svg = draw_open("scene.svg", 800, 600, "title", "what is to be seen");
 //   draw_panel(svg, 20, 84, &view);
@@ -20,7 +21,7 @@
 #define DRAW_DEF SHAPES_DEF
 #define DRAW_INK "#1b2430"
 
-// ------------------------------------------------------------------------------------------------------- projection
+// -------------------------------------------------------------------------------------- projection
 
 typedef struct draw_view {
   double azimuth, elevation;  // radians: where the camera stands, seen from what it looks at
@@ -61,14 +62,18 @@ typedef struct draw_list {
 
 // World to the panel: x to the right and y down in pixels, z towards the viewer in metres.
 DRAW_DEF void draw_project(const draw_view *view, const double *world, double *out) {
-  double ca = cos(view->azimuth), sa = sin(view->azimuth), ce = cos(view->elevation), se = sin(view->elevation), p[3];
+  double ca = cos(view->azimuth);
+  double sa = sin(view->azimuth);
+  double ce = cos(view->elevation);
+  double se = sin(view->elevation);
+  double p[3];
   oracle_sub(world, view->look_at, p);
   out[0] = view->width / 2.0 + view->scale * (-sa * p[0] + ca * p[1]);
   out[1] = view->height / 2.0 - view->scale * (-se * (ca * p[0] + sa * p[1]) + ce * p[2]);
   out[2] = ce * (ca * p[0] + sa * p[1]) + se * p[2];
 }
 
-// --------------------------------------------------------------------------------------------------------- triangles
+// --------------------------------------------------------------------------------------- triangles
 
 DRAW_DEF void draw_push(draw_list *list, const draw_triangle *triangle) {
   if (list->count == list->capacity) {
@@ -78,39 +83,50 @@ DRAW_DEF void draw_push(draw_list *list, const draw_triangle *triangle) {
       list->failed = 1;
       return;
     }
-    list->triangles = grown, list->capacity = capacity;
+    list->triangles = grown;
+    list->capacity = capacity;
   }
   list->triangles[list->count++] = *triangle;
 }
 // Halves the longest edge until none is longer than view->cut.
 DRAW_DEF void draw_split(draw_list *list, const double (*world)[3], draw_triangle *triangle) {
-  double longest = 0, d[3], depth = 0;
+  double longest = 0;
+  double d[3];
+  double depth = 0;
   int edge = 0;
   for (int i = 0; i < 3; i++) {
     oracle_sub(world[(i + 1) % 3], world[i], d);
-    if (oracle_length(d) > longest) longest = oracle_length(d), edge = i;
+    if (oracle_length(d) > longest) {
+      longest = oracle_length(d);
+      edge = i;
+    }
   }
   if (longest > list->view->cut) {
     double a[3][3], b[3][3];
-    memcpy(a, world, sizeof a), memcpy(b, world, sizeof b);
-    for (int k = 0; k < 3; k++) a[edge][k] = b[(edge + 1) % 3][k] = (world[edge][k] + world[(edge + 1) % 3][k]) / 2;
-    draw_split(list, (const double(*)[3])a, triangle), draw_split(list, (const double(*)[3])b, triangle);
+    memcpy(a, world, sizeof a);
+    memcpy(b, world, sizeof b);
+    for (int k = 0; k < 3; k++)
+      a[edge][k] = b[(edge + 1) % 3][k] = (world[edge][k] + world[(edge + 1) % 3][k]) / 2;
+    draw_split(list, (const double(*)[3])a, triangle);
+    draw_split(list, (const double(*)[3])b, triangle);
     return;
   }
   for (int i = 0; i < 3; i++) {
     double p[3];
     draw_project(list->view, world[i], p);
-    triangle->corners[i][0] = p[0], triangle->corners[i][1] = p[1], depth += p[2] / 3;
+    triangle->corners[i][0] = p[0];
+    triangle->corners[i][1] = p[1];
+    depth += p[2] / 3;
   }
   triangle->depth = depth;
   draw_push(list, triangle);
 }
-DRAW_DEF void draw_body(draw_list *list, const task_body *body, const oracle_pose *pose, const draw_colour *colour,
-                        double opacity) {
+DRAW_DEF void draw_body(draw_list *list, const task_body *body, const oracle_pose *pose,
+                        const draw_colour *colour, double opacity) {
   const double to_light[3] = {0.35, -0.45, 0.82};
   const draw_view *view = list->view;
-  const double to_viewer[3] = {cos(view->elevation) * cos(view->azimuth), cos(view->elevation) * sin(view->azimuth),
-                               sin(view->elevation)};
+  const double to_viewer[3] = {cos(view->elevation) * cos(view->azimuth),
+                               cos(view->elevation) * sin(view->azimuth), sin(view->elevation)};
   for (size_t i = 0; i < body->exact.triangle_count; i++) {
     const oracle_triangle *t = &body->exact.triangles[i];
     draw_triangle triangle = {{{0, 0}, {0, 0}, {0, 0}}, 0, 0, opacity, colour};
@@ -132,7 +148,8 @@ DRAW_DEF void draw_floor(draw_list *list, const task_scene *scene) {
     if (scene->bodies[i].kind == TASK_FLOOR)
       draw_body(list, &scene->bodies[i], &scene->bodies[i].offset, &draw_cream, 1);
 }
-// What stands still on it; rock towards the viewer is left out, as it would hide what goes on behind it.
+// What stands still on it; rock towards the viewer is left out, as it would hide what goes on
+// behind it.
 DRAW_DEF void draw_still(draw_list *list, const task_scene *scene) {
   for (int i = 0; i < scene->body_count; i++) {
     const task_body *body = &scene->bodies[i];
@@ -142,7 +159,8 @@ DRAW_DEF void draw_still(draw_list *list, const task_scene *scene) {
     if (draw_is_fixed(scene, body)) draw_body(list, body, &body->offset, &draw_steel, 1);
     if (body->kind != TASK_SCENE) continue;
     if (rock && center[1] * sin(list->view->azimuth) > 0) continue;
-    int wood = strstr(body->name, "beam") || strstr(body->name, "frame") || strstr(body->name, "prop");
+    int wood =
+        strstr(body->name, "beam") || strstr(body->name, "frame") || strstr(body->name, "prop");
     int dark = rock || strstr(body->name, "coal") || strstr(body->name, "heap");
     const draw_colour *colour = wood                          ? &draw_wood
                                 : dark                        ? &draw_rock
@@ -153,8 +171,8 @@ DRAW_DEF void draw_still(draw_list *list, const task_scene *scene) {
   }
 }
 // The robot and what it holds. Opacity below 1 makes a ghost.
-DRAW_DEF void draw_robot(draw_list *list, const task_scene *scene, const float *joints, const draw_colour *robot,
-                         const draw_colour *held, double opacity) {
+DRAW_DEF void draw_robot(draw_list *list, const task_scene *scene, const float *joints,
+                         const draw_colour *robot, const draw_colour *held, double opacity) {
   double q[TASK_MAX_JOINTS];
   oracle_pose links[TASK_MAX_JOINTS + 1];
   for (int j = 0; j < scene->joint_count; j++) q[j] = (double)joints[j];
@@ -163,12 +181,15 @@ DRAW_DEF void draw_robot(draw_list *list, const task_scene *scene, const float *
     oracle_pose pose = task_body_pose(scene, i, links);
     const task_body *body = &scene->bodies[i];
     if (!task_moves(body) || draw_is_fixed(scene, body)) continue;
-    const draw_colour *colour = body->kind == TASK_ROBOT ? robot : strcmp(body->name, "block") ? held : &draw_wood;
+    const draw_colour *colour = body->kind == TASK_ROBOT      ? robot
+                                : strcmp(body->name, "block") ? held
+                                                              : &draw_wood;
     draw_body(list, body, &pose, colour, opacity);
   }
 }
 DRAW_DEF int draw_compare(const void *a, const void *b) {
-  double x = ((const draw_triangle *)a)->depth, y = ((const draw_triangle *)b)->depth;
+  double x = ((const draw_triangle *)a)->depth;
+  double y = ((const draw_triangle *)b)->depth;
   return (x > y) - (x < y);
 }
 // Draws the list, the farthest first, and empties it.
@@ -178,9 +199,11 @@ DRAW_DEF void draw_flush(FILE *svg, draw_list *list) {
   for (size_t i = 0; i < list->count; i++) {
     const draw_triangle *t = &list->triangles[i];
     unsigned fill = (unsigned)(100 * t->opacity) << 24;
-    double light = floor(32 * t->light) / 32;  // steps that the eye does not see: neighbours become one path
+    // steps that the eye does not see: neighbours become one path
+    double light = floor(32 * t->light) / 32;
     for (int k = 0; k < 3; k++)
-      fill |= (unsigned)(t->colour->dark[k] + light * (t->colour->bright[k] - t->colour->dark[k])) << (16 - 8 * k);
+      fill |= (unsigned)(t->colour->dark[k] + light * (t->colour->bright[k] - t->colour->dark[k]))
+              << (16 - 8 * k);
     if (fill != before) {
       fprintf(svg, "%s<path fill=\"#%06x\"", i ? "\"/>\n" : "", fill & 0xffffffu);
       if (t->opacity < 1)
@@ -189,17 +212,20 @@ DRAW_DEF void draw_flush(FILE *svg, draw_list *list) {
         fprintf(svg, " stroke-width=\".6\" stroke=\"#%06x\" d=\"", fill & 0xffffffu);
     }
     before = fill;
-    fprintf(svg, "M%.1f %.1fL%.1f %.1fL%.1f %.1fZ", t->corners[0][0], t->corners[0][1], t->corners[1][0],
-            t->corners[1][1], t->corners[2][0], t->corners[2][1]);
+    fprintf(svg, "M%.1f %.1fL%.1f %.1fL%.1f %.1fZ", t->corners[0][0], t->corners[0][1],
+            t->corners[1][0], t->corners[1][1], t->corners[2][0], t->corners[2][1]);
   }
   if (list->count) fprintf(svg, "\"/>\n");
   free(list->triangles);
-  list->triangles = NULL, list->count = list->capacity = 0;
+  list->triangles = NULL;
+  list->count = list->capacity = 0;
 }
 // The line along which the origin of `body` moves. joints: (samples, joint_count).
-DRAW_DEF void draw_trace(FILE *svg, const draw_view *view, const task_scene *scene, int body, const float *joints,
-                         int samples, const char *ink) {
-  fprintf(svg, "<path fill=\"none\" stroke=\"%s\" stroke-width=\"2.5\" stroke-linejoin=\"round\" d=\"", ink);
+DRAW_DEF void draw_trace(FILE *svg, const draw_view *view, const task_scene *scene, int body,
+                         const float *joints, int samples, const char *ink) {
+  fprintf(svg,
+          "<path fill=\"none\" stroke=\"%s\" stroke-width=\"2.5\" stroke-linejoin=\"round\" d=\"",
+          ink);
   for (int s = 0; s < samples; s++) {
     double q[TASK_MAX_JOINTS], p[3];
     oracle_pose links[TASK_MAX_JOINTS + 1];
@@ -211,20 +237,26 @@ DRAW_DEF void draw_trace(FILE *svg, const draw_view *view, const task_scene *sce
   fprintf(svg, "\"/>\n");
 }
 
-// ------------------------------------------------------------------------------------------------------------- pages
+// ------------------------------------------------------------------------------------------- pages
 
 // Returns NULL after a message if the file cannot be written.
-DRAW_DEF FILE *draw_open(const char *path, int width, int height, const char *title, const char *subtitle) {
+DRAW_DEF FILE *draw_open(const char *path, int width, int height, const char *title,
+                         const char *subtitle) {
   FILE *svg = fopen(path, "w");
   if (!svg) {
     fprintf(stderr, "%s: cannot be written\n", path);
     return NULL;
   }
+  fprintf(
+      svg,
+      "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"%d\" height=\"%d\" viewBox=\"0 0 %d %d\" "
+      "font-family=\"Helvetica, Arial, sans-serif\">\n<rect width=\"%d\" height=\"%d\" "
+      "fill=\"#f6f7f9\"/>\n",
+      width, height, width, height, width, height);
   fprintf(svg,
-          "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"%d\" height=\"%d\" viewBox=\"0 0 %d %d\" "
-          "font-family=\"Helvetica, Arial, sans-serif\">\n<rect width=\"%d\" height=\"%d\" fill=\"#f6f7f9\"/>\n",
-          width, height, width, height, width, height);
-  fprintf(svg, "<text x=\"24\" y=\"38\" font-size=\"24\" font-weight=\"700\" fill=\"" DRAW_INK "\">%s</text>\n", title);
+          "<text x=\"24\" y=\"38\" font-size=\"24\" font-weight=\"700\" fill=\"" DRAW_INK
+          "\">%s</text>\n",
+          title);
   fprintf(svg, "<text x=\"24\" y=\"64\" font-size=\"15\" fill=\"#5a6675\">%s</text>\n", subtitle);
   return svg;
 }
@@ -238,25 +270,30 @@ DRAW_DEF int draw_close(FILE *svg) {
 // What follows is drawn in this panel, cut off at its edges, until draw_panel_end.
 DRAW_DEF void draw_panel(FILE *svg, int x, int y, const draw_view *view) {
   fprintf(svg,
-          "<g transform=\"translate(%d %d)\"><clipPath id=\"panel%d-%d\"><rect width=\"%d\" height=\"%d\" rx=\"10\"/>"
-          "</clipPath>\n<g clip-path=\"url(#panel%d-%d)\"><rect width=\"%d\" height=\"%d\" fill=\"#fff\"/>\n",
+          "<g transform=\"translate(%d %d)\"><clipPath id=\"panel%d-%d\"><rect width=\"%d\" "
+          "height=\"%d\" rx=\"10\"/>"
+          "</clipPath>\n<g clip-path=\"url(#panel%d-%d)\"><rect width=\"%d\" height=\"%d\" "
+          "fill=\"#fff\"/>\n",
           x, y, x, y, view->width, view->height, x, y, view->width, view->height);
 }
 DRAW_DEF void draw_panel_end(FILE *svg, const draw_view *view, const char *caption) {
-  fprintf(svg, "</g><rect width=\"%d\" height=\"%d\" rx=\"10\" fill=\"none\" stroke=\"#d5dae1\"/>\n", view->width,
-          view->height);
+  fprintf(svg,
+          "</g><rect width=\"%d\" height=\"%d\" rx=\"10\" fill=\"none\" stroke=\"#d5dae1\"/>\n",
+          view->width, view->height);
   fprintf(svg,
           "<text x=\"16\" y=\"28\" font-size=\"16\" font-weight=\"600\" fill=\"" DRAW_INK
-          "\" stroke=\"#fff\" stroke-width=\"4\" stroke-linejoin=\"round\" paint-order=\"stroke\">%s</text></g>\n",
+          "\" stroke=\"#fff\" stroke-width=\"4\" stroke-linejoin=\"round\" "
+          "paint-order=\"stroke\">%s</text></g>\n",
           caption);
 }
-// Frame `index` of `count` of a film that repeats every `seconds`; ends with draw_frame_end. Viewers that do not
-// animate show the first one.
+// Frame `index` of `count` of a film that repeats every `seconds`; ends with draw_frame_end.
+// Viewers that do not animate show the first one.
 DRAW_DEF void draw_frame(FILE *svg, int index, int count, double seconds) {
-  fprintf(svg,
-          "<g visibility=\"%s\"><animate attributeName=\"visibility\" values=\"hidden;visible;hidden\" "
-          "keyTimes=\"0;%.4f;%.4f\" calcMode=\"discrete\" dur=\"%gs\" repeatCount=\"indefinite\"/>\n",
-          index ? "hidden" : "visible", (double)index / count, (index + 1.0) / count, seconds);
+  fprintf(
+      svg,
+      "<g visibility=\"%s\"><animate attributeName=\"visibility\" values=\"hidden;visible;hidden\" "
+      "keyTimes=\"0;%.4f;%.4f\" calcMode=\"discrete\" dur=\"%gs\" repeatCount=\"indefinite\"/>\n",
+      index ? "hidden" : "visible", (double)index / count, (index + 1.0) / count, seconds);
 }
 DRAW_DEF void draw_frame_end(FILE *svg) { fprintf(svg, "</g>\n"); }
 

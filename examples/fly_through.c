@@ -1,7 +1,7 @@
-// fly_through.c - a level as one body: 20 m of hills, walls, arches and boulders, 200,000 triangles, and a drone of 0.3 m
-// that flies through it at 60 Hz. Every frame it looks a third of a second ahead: is that way free, with some room to
-// spare? If not, it tries others, and takes the first that is proven free. Prints what that costs; draws
-// build/fly_through.svg.
+// fly_through.c - a level as one body: 20 m of hills, walls, arches and boulders, 200,000
+// triangles, and a drone of 0.3 m that flies through it at 60 Hz. Every frame it looks a third of a
+// second ahead: is that way free, with some room to spare? If not, it tries others, and takes the
+// first that is proven free. Prints what that costs; draws build/fly_through.svg.
 //
 //   build/fly_through [TRIANGLES]
 #define _POSIX_C_SOURCE 200112L
@@ -27,7 +27,7 @@ static const float corners[4][3] = {{-8, 8, 0.9f}, {8, 8, 1.2f}, {-8, -8, 0.9f},
 
 typedef struct flight {
   nsvcd_pose at;
-  size_t corner;      // where it is going
+  size_t corner;  // where it is going
   nsvcd_pose path[FRAMES];
   size_t frames, questions, turned, stuck;
   double microseconds, worst;
@@ -56,12 +56,14 @@ static void make_drone(shapes_mesh *mesh) {
   }
 }
 
-// The pose after a way of `metres` along a direction, turned towards it about the vertical, by no more than a little.
+// The pose after a way of `metres` along a direction, turned towards it about the vertical, by no
+// more than a little.
 static nsvcd_pose pose_after(const nsvcd_pose *from, const float *direction, float metres) {
   nsvcd_pose to = *from;
   for (int k = 0; k < 3; k++) to.position[k] += metres * direction[k];
   const float half = 0.05f * metres;
-  const float z = from->rotation[2], w = from->rotation[3];
+  const float z = from->rotation[2];
+  const float w = from->rotation[3];
   to.rotation[2] = z * cosf(half) + w * sinf(half);
   to.rotation[3] = w * cosf(half) - z * sinf(half);
   const float length = sqrtf(to.rotation[2] * to.rotation[2] + to.rotation[3] * to.rotation[3]);
@@ -85,8 +87,10 @@ static void turned_way(const float *towards, int n, float *out) {
 }
 
 // Flies one frame. 0 if a question was refused.
-static int fly(flight *f, const nsvcd_body *drone, const nsvcd_body *level, void *workspace, size_t size) {
-  float towards[3], length = 0;
+static int fly(flight *f, const nsvcd_body *drone, const nsvcd_body *level, void *workspace,
+               size_t size) {
+  float towards[3];
+  float length = 0;
   for (int k = 0; k < 3; k++) towards[k] = corners[f->corner][k] - f->at.position[k];
   for (int k = 0; k < 3; k++) length += towards[k] * towards[k];
   length = sqrtf(length);
@@ -121,18 +125,22 @@ static int fly(flight *f, const nsvcd_body *drone, const nsvcd_body *level, void
   return 1;
 }
 
-static void draw_shape(draw_list *list, const shapes_mesh *shape, const nsvcd_pose *at, const draw_colour *colour) {
+static void draw_shape(draw_list *list, const shapes_mesh *shape, const nsvcd_pose *at,
+                       const draw_colour *colour) {
   task_body body;
   oracle_pose pose;
   memset(&body, 0, sizeof body);
   for (int k = 0; k < 3; k++) pose.position[k] = (double)at->position[k];
   for (int k = 0; k < 4; k++) pose.rotation[k] = (double)at->rotation[k];
-  if (!oracle_mesh_init(&body.exact, shape->positions, shape->vertices, shape->indices, shape->triangles, 1)) return;
+  if (!oracle_mesh_init(&body.exact, shape->positions, shape->vertices, shape->indices,
+                        shape->triangles, 1))
+    return;
   draw_body(list, &body, &pose, colour, 1);
   oracle_mesh_free(&body.exact);
 }
 
-// How near to the level the flight came, all of it, by the exact oracle: metres; negative without memory.
+// How near to the level the flight came, all of it, by the exact oracle: metres; negative without
+// memory.
 static double oracle_says(const flight *f, const shapes_mesh *drone, const shapes_mesh *level) {
   oracle_mesh moving, fixed;
   const oracle_pose origin = {{0, 0, 0}, {0, 0, 0, 1}};
@@ -143,8 +151,12 @@ static double oracle_says(const flight *f, const shapes_mesh *drone, const shape
     for (int k = 0; k < 4; k++) poses[n].rotation[k] = (double)f->path[n].rotation[k];
     oracle_quat_normalize(poses[n].rotation);
   }
-  if (!oracle_mesh_init(&moving, drone->positions, drone->vertices, drone->indices, drone->triangles, 1)) return -1;
-  if (!oracle_mesh_init(&fixed, level->positions, level->vertices, level->indices, level->triangles, 1)) return -1;
+  if (!oracle_mesh_init(&moving, drone->positions, drone->vertices, drone->indices,
+                        drone->triangles, 1))
+    return -1;
+  if (!oracle_mesh_init(&fixed, level->positions, level->vertices, level->indices, level->triangles,
+                        1))
+    return -1;
   const oracle_result result = oracle_sweep(&moving, poses, f->frames, &fixed, &origin, &options);
   oracle_mesh_free(&moving);
   oracle_mesh_free(&fixed);
@@ -169,7 +181,8 @@ static int draw(const flight *f, const shapes_mesh *drone) {
   draw_shape(&list, &ground, &origin, &draw_cream);
   draw_flush(svg, &list);
   draw_shape(&list, &things, &origin, &draw_steel);
-  for (size_t n = 0; n < f->frames; n += GHOSTS) draw_shape(&list, drone, &f->path[n], &draw_orange);
+  for (size_t n = 0; n < f->frames; n += GHOSTS)
+    draw_shape(&list, drone, &f->path[n], &draw_orange);
   draw_flush(svg, &list);
   fprintf(svg, "<path fill=\"none\" stroke=\"#1454a0\" stroke-width=\"2\" d=\"");
   for (size_t n = 0; n < f->frames; n++) {
@@ -206,12 +219,14 @@ int main(int argc, char **argv) {
 
   options.patch_radius = 0.15f;  // half the drone
   const double start = seconds();
-  if (nsvcd_encode(&level_mesh, &options, NULL, NULL, 0, &level)) return complain("the level was refused"), REFUSED;
+  if (nsvcd_encode(&level_mesh, &options, NULL, NULL, 0, &level))
+    return complain("the level was refused"), REFUSED;
   const double took = seconds() - start;
-  if (nsvcd_encode(&drone_mesh, NULL, NULL, NULL, 0, &drone)) return complain("the drone was refused"), REFUSED;
+  if (nsvcd_encode(&drone_mesh, NULL, NULL, NULL, 0, &drone))
+    return complain("the drone was refused"), REFUSED;
   const nsvcd_body_facts facts = nsvcd_body_describe(level);
-  printf("a level of %zu triangles: %zu patches, %.1f MB, encoded in %.1f s\n", facts.triangles, facts.points,
-         1e-6 * (double)facts.size, took);
+  printf("a level of %zu triangles: %zu patches, %.1f MB, encoded in %.1f s\n", facts.triangles,
+         facts.points, 1e-6 * (double)facts.size, took);
 
   const size_t size = nsvcd_sweep_workspace_size(NULL);
   void *workspace = allocate(size);
@@ -220,11 +235,14 @@ int main(int argc, char **argv) {
   while (f.frames < FRAMES) {
     if (!fly(&f, drone, level, workspace, size)) return complain("a question was refused"), REFUSED;
   }
-  printf("%zu frames, %zu questions: %.1f us each, at most %.0f us; in %zu frames it turned aside, in %zu it waited\n",
-         f.frames, f.questions, f.microseconds / (double)f.questions, f.worst, f.turned, f.stuck);
+  printf(
+      "%zu frames, %zu questions: %.1f us each, at most %.0f us; in %zu frames it turned aside, in "
+      "%zu it waited\n",
+      f.frames, f.questions, f.microseconds / (double)f.questions, f.worst, f.turned, f.stuck);
   const double distance = oracle_says(&f, &drone_shape, &level_shape);
   const int kept = distance > (double)ROOM - 1e-4;
-  printf("the oracle: never nearer than %.1f mm%s\n", 1e3 * distance, kept ? "" : ", which is too near");
+  printf("the oracle: never nearer than %.1f mm%s\n", 1e3 * distance,
+         kept ? "" : ", which is too near");
   if (!draw(&f, &drone_shape)) return complain("build/fly_through.svg cannot be written"), REFUSED;
   printf("see build/fly_through.svg\n");
   free(workspace);

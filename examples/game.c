@@ -1,8 +1,10 @@
-// game.c - a room at 60 Hz, without a screen: 50 things of 8 meshes at 4 sizes fall, fly and tumble among 30 that stand
-// still, and on a floor. Every frame asks about every near pair, both moving: when do they touch first, if they do? Things
-// move as far as that is proven free, bounce, slide and come to rest. Prints what a frame costs; draws build/game.svg.
+// game.c - a room at 60 Hz, without a screen: 50 things of 8 meshes at 4 sizes fall, fly and tumble
+// among 30 that stand still, and on a floor. Every frame asks about every near pair, both moving:
+// when do they touch first, if they do? Things move as far as that is proven free, bounce, slide
+// and come to rest. Prints what a frame costs; draws build/game.svg.
 //
-//   build/game [--frames N] [--problems FOLDER]   the latter writes the pairs asked about as a problem file
+//   build/game [--frames N] [--problems FOLDER]   the latter writes the pairs asked about as a
+//                                                 problem file
 #define _POSIX_C_SOURCE 200112L
 #define NEURALSVCD_IMPLEMENTATION
 #include "../neuralsvcd.h"
@@ -18,10 +20,11 @@
 #define MOST_PAIRS 4096
 
 #define FRAME (1.0f / 60)
-#define GAP 0.002f       // metres: as near as this is a contact,
-#define SKIN 0.001f      // and what is nearer by this at the start does not stop a thing
-#define FIRST 0.02f      // of a frame: to which contacts are timed
-#define ROUNDS 4         // of asking, moving and bouncing in a frame, at most; what is left of it then is lost
+#define GAP 0.002f   // metres: as near as this is a contact,
+#define SKIN 0.001f  // and what is nearer by this at the start does not stop a thing
+#define FIRST 0.02f  // of a frame: to which contacts are timed
+// of asking, moving and bouncing in a frame, at most; what is left of it then is lost
+#define ROUNDS 4
 #define RESTITUTION 0.3f
 #define FRICTION 0.5f
 
@@ -73,7 +76,7 @@ typedef struct world {
   void *workspace;
 } world;
 
-// ------------------------------------------------------------------------------------------------------------ making
+// ------------------------------------------------------------------------------------------ making
 
 static int encode(shapes_mesh *shape, const nsvcd_body **body) {
   float *positions = (float *)malloc(3 * shape->vertices * sizeof(float));
@@ -101,7 +104,8 @@ static int make_meshes(world *w) {
   return 1;
 }
 
-static void place(world *w, size_t i, size_t mesh, float scale, float x, float y, float z, const double *q) {
+static void place(world *w, size_t i, size_t mesh, float scale, float x, float y, float z,
+                  const double *q) {
   thing *t = &w->things[i];
   const nsvcd_body_facts facts = nsvcd_body_describe(w->bodies[mesh]);
   memset(t, 0, sizeof *t);
@@ -123,7 +127,8 @@ static void fill_room(world *w) {
   for (size_t i = 0; i < MOVERS; i++) {  // in the air, in layers
     double q[4];
     shapes_quaternion(&rng, q);
-    const float x = -1.6f + 0.8f * (float)(i % 5), y = -1.6f + 0.8f * (float)(i / 5 % 5);
+    const float x = -1.6f + 0.8f * (float)(i % 5);
+    const float y = -1.6f + 0.8f * (float)(i / 5 % 5);
     const size_t mesh = (size_t)shapes_pick(&rng, MESHES);
     const float scale = scales[shapes_pick(&rng, 4)];
     place(w, i, mesh, scale, x, y, 1.4f + 1.1f * (float)(i / 25), q);
@@ -132,15 +137,18 @@ static void fill_room(world *w) {
     t->velocity = vec_of((float)shapes_uniform(&rng, -2, 2), (float)shapes_uniform(&rng, -2, 2), 0);
     t->spin = vec_of((float)shapes_uniform(&rng, -4, 4), (float)shapes_uniform(&rng, -4, 4), 0);
   }
-  for (size_t i = MOVERS; i < FLOOR; i++) {  // on the floor, and sunk into it a little: they do not ask each other
-    const size_t k = i - MOVERS, mesh = k % 2 ? 3 : 4 + 3 * (k % 4 == 0);
-    const float x = -2 + 0.8f * (float)(k % 6), y = -1.6f + 0.8f * (float)(k / 6);
+  // on the floor, and sunk into it a little: they do not ask each other
+  for (size_t i = MOVERS; i < FLOOR; i++) {
+    const size_t k = i - MOVERS;
+    const size_t mesh = k % 2 ? 3 : 4 + 3 * (k % 4 == 0);
+    const float x = -2 + 0.8f * (float)(k % 6);
+    const float y = -1.6f + 0.8f * (float)(k / 6);
     place(w, i, mesh, 1 + 0.3f * (float)(k % 4), x, y, mesh == 3 ? 0.1f : 0.02f, upright);
   }
   place(w, FLOOR, MESHES, 1, 0, 0, -0.1f, upright);
 }
 
-// -------------------------------------------------------------------------------------------------------- broad phase
+// ------------------------------------------------------------------------------------- broad phase
 
 static int moves(const thing *t) { return t->inverse_mass > 0 && !t->asleep && t->left > 0; }
 
@@ -150,7 +158,8 @@ typedef struct box {
 } box;
 
 static int compare_boxes(const void *a, const void *b) {
-  const float x = ((const box *)a)->low[0], y = ((const box *)b)->low[0];
+  const float x = ((const box *)a)->low[0];
+  const float y = ((const box *)b)->low[0];
   return (x > y) - (x < y);
 }
 
@@ -159,8 +168,10 @@ static void find_pairs(world *w) {
   box boxes[THINGS];
   for (size_t i = 0; i < THINGS; i++) {
     const thing *t = &w->things[i];
-    const float reach = i == FLOOR ? 0 : t->radius + vec_length(t->centre) + GAP;  // the sphere, wherever it turns to
-    const float *p = t->poses[0].position, *q = t->poses[1].position;
+    // the sphere, wherever it turns to
+    const float reach = i == FLOOR ? 0 : t->radius + vec_length(t->centre) + GAP;
+    const float *p = t->poses[0].position;
+    const float *q = t->poses[1].position;
     for (int k = 0; k < 3; k++) {
       boxes[i].low[k] = fminf(p[k], q[k]) - reach;
       boxes[i].high[k] = fmaxf(p[k], q[k]) + reach;
@@ -175,8 +186,10 @@ static void find_pairs(world *w) {
   w->pair_count = 0;
   for (size_t i = 0; i < THINGS; i++) {
     for (size_t j = i + 1; j < THINGS && boxes[j].low[0] <= boxes[i].high[0]; j++) {
-      const box *a = &boxes[i], *b = &boxes[j];
-      const int apart = a->low[1] > b->high[1] || b->low[1] > a->high[1] || a->low[2] > b->high[2] || b->low[2] > a->high[2];
+      const box *a = &boxes[i];
+      const box *b = &boxes[j];
+      const int apart = a->low[1] > b->high[1] || b->low[1] > a->high[1] ||
+                        a->low[2] > b->high[2] || b->low[2] > a->high[2];
       if (apart || (!moves(&w->things[a->thing]) && !moves(&w->things[b->thing]))) continue;
       if (w->pair_count == MOST_PAIRS) return;
       w->pairs[w->pair_count].a = a->thing;
@@ -185,7 +198,7 @@ static void find_pairs(world *w) {
   }
 }
 
-// -------------------------------------------------------------------------------------------------------------- asking
+// ------------------------------------------------------------------------------------------ asking
 
 static nsvcd_mover mover_of(const world *w, const thing *t) {
   nsvcd_mover mover;
@@ -198,29 +211,36 @@ static nsvcd_mover mover_of(const world *w, const thing *t) {
 
 static nsvcd_result ask(world *w) {
   for (size_t k = 0; k < w->pair_count; k++) {
-    const thing *a = &w->things[w->pairs[k].a], *b = &w->things[w->pairs[k].b];
+    const thing *a = &w->things[w->pairs[k].a];
+    const thing *b = &w->things[w->pairs[k].b];
     nsvcd_question *q = &w->questions[k];
     memset(q, 0, sizeof *q);
     q->a = mover_of(w, a);
     q->b = mover_of(w, b);
     q->options.first = FIRST;
     q->options.clearance = GAP;
-    q->options.tolerance = 0.05f * GAP;  // finer than that nobody sees: what is left undecided counts as a contact
+    // finer than that nobody sees: what is left undecided counts as a contact
+    q->options.tolerance = 0.05f * GAP;
     q->options.skin = a->pressed || b->pressed ? 0.95f * GAP : SKIN;
   }
-  return nsvcd_sweep_batch(w->questions, w->pair_count, w->workspace, nsvcd_sweep_workspace_size(NULL), w->answers);
+  return nsvcd_sweep_batch(w->questions, w->pair_count, w->workspace,
+                           nsvcd_sweep_workspace_size(NULL), w->answers);
 }
 
-// -------------------------------------------------------------------------------------------------------------- moving
+// ------------------------------------------------------------------------------------------ moving
 
 static nsvcd_pose pose_after(const thing *t, float seconds) {
   nsvcd_pose out = t->poses[0];
   const float angle = vec_length(t->spin) * seconds;
   const vec axis = angle > 0 ? vec_scale(t->spin, seconds / angle) : vec_of(0, 0, 0);
-  const float s = sinf(angle / 2), c = cosf(angle / 2), *q = t->poses[0].rotation;
-  const vec u = vec_scale(axis, s), v = vec_of(q[0], q[1], q[2]);
+  const float s = sinf(angle / 2);
+  const float c = cosf(angle / 2);
+  const float *q = t->poses[0].rotation;
+  const vec u = vec_scale(axis, s);
+  const vec v = vec_of(q[0], q[1], q[2]);
   const vec turned = vec_add(vec_cross(u, v), vec_add(vec_scale(v, c), vec_scale(u, q[3])));
-  const float w = c * q[3] - vec_dot(u, v), length = sqrtf(vec_dot(turned, turned) + w * w);
+  const float w = c * q[3] - vec_dot(u, v);
+  const float length = sqrtf(vec_dot(turned, turned) + w * w);
   out.position[0] += seconds * t->velocity.x;
   out.position[1] += seconds * t->velocity.y;
   out.position[2] += seconds * t->velocity.z;
@@ -239,7 +259,8 @@ static void begin_frame(world *w) {
     t->left = 1;
     if (!moves(t)) continue;
     if (t->supported > 0) {
-      const float into = fminf(vec_dot(gravity, t->support), 0), speed = fminf(vec_dot(t->velocity, t->support), 0);
+      const float into = fminf(vec_dot(gravity, t->support), 0);
+      const float speed = fminf(vec_dot(t->velocity, t->support), 0);
       gravity = vec_sub(gravity, vec_scale(t->support, into));
       t->velocity = vec_scale(vec_sub(t->velocity, vec_scale(t->support, speed)), 0.95f);
       t->spin = vec_scale(t->spin, 0.9f);
@@ -263,9 +284,13 @@ static size_t aim(world *w) {
 // Slerp and line, as the question had it.
 static nsvcd_pose pose_between(const nsvcd_pose *a, const nsvcd_pose *b, float u) {
   nsvcd_pose out;
-  float dot = 0, square = 0, wa = 1 - u, wb = u;
+  float dot = 0;
+  float square = 0;
+  float wa = 1 - u;
+  float wb = u;
   for (int k = 0; k < 4; k++) dot += a->rotation[k] * b->rotation[k];
-  const float sign = dot < 0 ? -1.0f : 1.0f, angle = acosf(fminf(fabsf(dot), 1));
+  const float sign = dot < 0 ? -1.0f : 1.0f;
+  const float angle = acosf(fminf(fabsf(dot), 1));
   if (angle > 1e-3f) {
     wa = sinf((1 - u) * angle);
     wb = sinf(u * angle);
@@ -273,7 +298,8 @@ static nsvcd_pose pose_between(const nsvcd_pose *a, const nsvcd_pose *b, float u
   for (int k = 0; k < 4; k++) out.rotation[k] = wa * a->rotation[k] + wb * sign * b->rotation[k];
   for (int k = 0; k < 4; k++) square += out.rotation[k] * out.rotation[k];
   for (int k = 0; k < 4; k++) out.rotation[k] /= sqrtf(square);
-  for (int k = 0; k < 3; k++) out.position[k] = a->position[k] + u * (b->position[k] - a->position[k]);
+  for (int k = 0; k < 3; k++)
+    out.position[k] = a->position[k] + u * (b->position[k] - a->position[k]);
   return out;
 }
 
@@ -282,8 +308,8 @@ static size_t root_of(size_t *parents, size_t i) {
   return i;
 }
 
-// Moves everything as far as it is proven free. What is near each other moves for the same share of the frame, for only so
-// is what was proven about both what they do.
+// Moves everything as far as it is proven free. What is near each other moves for the same share of
+// the frame, for only so is what was proven about both what they do.
 static void advance(world *w) {
   size_t parents[THINGS];
   float shares[THINGS];
@@ -293,35 +319,41 @@ static void advance(world *w) {
   }
   for (size_t k = 0; k < w->pair_count; k++) {
     const pair *p = &w->pairs[k];
-    if (moves(&w->things[p->a]) && moves(&w->things[p->b])) parents[root_of(parents, p->a)] = root_of(parents, p->b);
+    if (moves(&w->things[p->a]) && moves(&w->things[p->b]))
+      parents[root_of(parents, p->a)] = root_of(parents, p->b);
   }
   for (size_t k = 0; k < w->pair_count; k++) {
     const nsvcd_answer *answer = &w->answers[k];
     const size_t mover = moves(&w->things[w->pairs[k].a]) ? w->pairs[k].a : w->pairs[k].b;
     const size_t root = root_of(parents, mover);
-    const int was_touching = vec_length(vec_from(answer->lift)) > 0;  // then it stays, and only its speed changes
+    // then it stays, and only its speed changes
+    const int was_touching = vec_length(vec_from(answer->lift)) > 0;
     if (answer->collides) shares[root] = fminf(shares[root], was_touching ? 0 : answer->free_until);
   }
   for (size_t i = 0; i < MOVERS; i++) {
     thing *t = &w->things[i];
     const float share = shares[root_of(parents, i)];
     if (!moves(t)) continue;
-    if (share > 0) t->poses[0] = share < 1 ? pose_between(&t->poses[0], &t->poses[1], share) : t->poses[1];
+    if (share > 0)
+      t->poses[0] = share < 1 ? pose_between(&t->poses[0], &t->poses[1], share) : t->poses[1];
     t->left = share < 1 ? t->left * (1 - share) : 0;
   }
 }
 
-// Things sink by up to a skin into what carries them: some of the lift, less than half of the gap, brings them back.
+// Things sink by up to a skin into what carries them: some of the lift, less than half of the gap,
+// brings them back.
 static void recover(world *w) {
   for (size_t k = 0; k < w->pair_count; k++) {
-    thing *a = &w->things[w->pairs[k].a], *b = &w->things[w->pairs[k].b];
+    thing *a = &w->things[w->pairs[k].a];
+    thing *b = &w->things[w->pairs[k].b];
     const vec lift = vec_from(w->answers[k].lift);
     a->recovery = vec_add(a->recovery, vec_scale(lift, 0.2f));
     b->recovery = vec_sub(b->recovery, vec_scale(lift, 0.2f));
   }
   for (size_t i = 0; i < MOVERS; i++) {
     thing *t = &w->things[i];
-    const float length = vec_length(t->recovery), most = 0.2f * GAP;
+    const float length = vec_length(t->recovery);
+    const float most = 0.2f * GAP;
     const vec step = vec_scale(t->recovery, length > most ? most / length : 1);
     t->recovery = vec_of(0, 0, 0);
     if (t->asleep) continue;
@@ -331,7 +363,9 @@ static void recover(world *w) {
   }
 }
 
-static vec velocity_at(const thing *t, vec arm) { return vec_add(t->velocity, vec_cross(t->spin, arm)); }
+static vec velocity_at(const thing *t, vec arm) {
+  return vec_add(t->velocity, vec_cross(t->spin, arm));
+}
 
 static void push(thing *t, vec arm, vec impulse) {
   const float inertia = 0.4f * t->radius * t->radius;  // of a ball
@@ -348,16 +382,22 @@ static void rest_on(thing *t, vec normal) {
 // What a contact does to speeds: an impulse along its normal, and friction across.
 static void respond(world *w, size_t k) {
   const nsvcd_answer *answer = &w->answers[k];
-  thing *a = &w->things[w->pairs[k].a], *b = &w->things[w->pairs[k].b];
-  const vec normal = vec_from(answer->normal), point = vec_from(answer->point);
+  thing *a = &w->things[w->pairs[k].a];
+  thing *b = &w->things[w->pairs[k].b];
+  const vec normal = vec_from(answer->normal);
+  const vec point = vec_from(answer->point);
   if (!answer->collides || !(vec_length(normal) > 0.5f)) return;
-  const vec arm_a = vec_sub(point, vec_from(a->poses[0].position)), arm_b = vec_sub(point, vec_from(b->poses[0].position));
+  const vec arm_a = vec_sub(point, vec_from(a->poses[0].position));
+  const vec arm_b = vec_sub(point, vec_from(b->poses[0].position));
   const vec relative = vec_sub(velocity_at(a, arm_a), velocity_at(b, arm_b));
   const float speed = vec_dot(relative, normal);
   if (speed < 0) {
-    const vec turn_a = vec_cross(arm_a, normal), turn_b = vec_cross(arm_b, normal);
-    const float give_a = a->inverse_mass * (1 + vec_dot(turn_a, turn_a) / (0.4f * a->radius * a->radius));
-    const float give_b = b->inverse_mass * (1 + vec_dot(turn_b, turn_b) / (0.4f * b->radius * b->radius));
+    const vec turn_a = vec_cross(arm_a, normal);
+    const vec turn_b = vec_cross(arm_b, normal);
+    const float give_a =
+        a->inverse_mass * (1 + vec_dot(turn_a, turn_a) / (0.4f * a->radius * a->radius));
+    const float give_b =
+        b->inverse_mass * (1 + vec_dot(turn_b, turn_b) / (0.4f * b->radius * b->radius));
     const float bounce = speed < -0.5f ? 1 + RESTITUTION : 1;
     const float impulse = -bounce * speed / (give_a + give_b);
     const vec slide = vec_sub(relative, vec_scale(normal, speed));
@@ -382,7 +422,7 @@ static void fall_asleep(world *w) {
   }
 }
 
-// ------------------------------------------------------------------------------------------------------------ reporting
+// --------------------------------------------------------------------------------------- reporting
 
 typedef struct report {
   double *frame_ms, *find_ms;
@@ -391,13 +431,15 @@ typedef struct report {
 } report;
 
 static int compare_doubles(const void *a, const void *b) {
-  const double x = *(const double *)a, y = *(const double *)b;
+  const double x = *(const double *)a;
+  const double y = *(const double *)b;
   return (x > y) - (x < y);
 }
 
 static void print_report(const world *w, report *r) {
   size_t asleep = 0;
-  double sum = 0, find = 0;
+  double sum = 0;
+  double find = 0;
   for (size_t i = 0; i < MOVERS; i++) asleep += w->things[i].asleep != 0;
   for (size_t k = 0; k < r->frames; k++) {
     sum += r->frame_ms[k];
@@ -405,11 +447,14 @@ static void print_report(const world *w, report *r) {
   }
   qsort(r->frame_ms, r->frames, sizeof(double), compare_doubles);
   printf("%zu frames, %.1f rounds each: %.0f near pairs a frame, found in %.3f ms\n", r->frames,
-         (double)r->rounds / (double)r->frames, (double)r->pairs / (double)r->frames, find / (double)r->frames);
-  printf("asking about them: median %.2f, mean %.2f, worst %.2f ms; %.2f us a pair\n", r->frame_ms[r->frames / 2],
-         sum / (double)r->frames, r->frame_ms[r->frames - 1], 1e3 * sum / (double)r->pairs);
-  printf("%zu contacts, %zu of them pressed in, %zu undecided; %zu of %d things asleep at the end\n", r->contacts, r->stuck,
-         r->undecided, asleep, MOVERS);
+         (double)r->rounds / (double)r->frames, (double)r->pairs / (double)r->frames,
+         find / (double)r->frames);
+  printf("asking about them: median %.2f, mean %.2f, worst %.2f ms; %.2f us a pair\n",
+         r->frame_ms[r->frames / 2], sum / (double)r->frames, r->frame_ms[r->frames - 1],
+         1e3 * sum / (double)r->pairs);
+  printf(
+      "%zu contacts, %zu of them pressed in, %zu undecided; %zu of %d things asleep at the end\n",
+      r->contacts, r->stuck, r->undecided, asleep, MOVERS);
 }
 
 static int draw(const world *w) {
@@ -427,13 +472,17 @@ static int draw(const world *w) {
     task_body body;
     oracle_pose pose;
     memset(&body, 0, sizeof body);
-    if (!oracle_mesh_init(&body.exact, shape->positions, shape->vertices, shape->indices, shape->triangles,
-                          (double)t->scale)) {
+    if (!oracle_mesh_init(&body.exact, shape->positions, shape->vertices, shape->indices,
+                          shape->triangles, (double)t->scale)) {
       return 0;
     }
     for (int k = 0; k < 3; k++) pose.position[k] = (double)t->poses[0].position[k];
     for (int k = 0; k < 4; k++) pose.rotation[k] = (double)t->poses[0].rotation[k];
-    draw_body(&list, &body, &pose, i == FLOOR ? &draw_cream : i < MOVERS ? colours[i % 3] : &draw_steel, 1);
+    draw_body(&list, &body, &pose,
+              i == FLOOR   ? &draw_cream
+              : i < MOVERS ? colours[i % 3]
+                           : &draw_steel,
+              1);
     if (i == FLOOR) draw_flush(svg, &list);
     oracle_mesh_free(&body.exact);
   }
@@ -442,11 +491,12 @@ static int draw(const world *w) {
   return draw_close(svg);
 }
 
-// -------------------------------------------------------------------------------------------------------------- problems
+// ---------------------------------------------------------------------------------------- problems
 
 static void write_pose(FILE *file, const nsvcd_pose *pose, const float *offset) {
   for (int k = 0; k < 3; k++) fprintf(file, "%.9g ", (double)(pose->position[k] + offset[k]));
-  for (int k = 0; k < 4; k++) fprintf(file, "%.9g%c", (double)pose->rotation[k], k < 3 ? ' ' : '\n');
+  for (int k = 0; k < 4; k++)
+    fprintf(file, "%.9g%c", (double)pose->rotation[k], k < 3 ? ' ' : '\n');
 }
 
 static FILE *open_problems(const world *w, const char *folder) {
@@ -463,26 +513,30 @@ static FILE *open_problems(const world *w, const char *folder) {
   return file;
 }
 
-// Some of the questions, lifted as their answers say: what is left of the question is a clearance of GAP. One body must
-// rest where there was a lift, as it turns with the other.
+// Some of the questions, lifted as their answers say: what is left of the question is a clearance
+// of GAP. One body must rest where there was a lift, as it turns with the other.
 static void write_problems(FILE *file, const world *w, size_t frame) {
   const float none[3] = {0, 0, 0};
   for (size_t k = frame % 7; k < w->pair_count; k += 7) {
-    const thing *a = &w->things[w->pairs[k].a], *b = &w->things[w->pairs[k].b];
+    const thing *a = &w->things[w->pairs[k].a];
+    const thing *b = &w->things[w->pairs[k].b];
     const nsvcd_answer *answer = &w->answers[k];
     const int lifted = vec_length(vec_from(answer->lift)) > 0;
     float back[3];
     for (int i = 0; i < 3; i++) back[i] = -answer->lift[i];
     if (lifted && moves(a) && moves(b)) continue;
-    const nsvcd_mover of_a = mover_of(w, a), of_b = mover_of(w, b);
-    fprintf(file, "problem f%zu.%zu.%d %zu %.9g %zu %.9g 0 0 0 0 0 0 1 -1 nan %zu %zu\n", frame, k, answer->collides, a->mesh,
-            (double)a->scale, b->mesh, (double)b->scale, of_a.count, of_b.count);
-    for (size_t i = 0; i < of_a.count; i++) write_pose(file, &a->poses[i], moves(a) ? answer->lift : none);
+    const nsvcd_mover of_a = mover_of(w, a);
+    const nsvcd_mover of_b = mover_of(w, b);
+    fprintf(file, "problem f%zu.%zu.%d %zu %.9g %zu %.9g 0 0 0 0 0 0 1 -1 nan %zu %zu\n", frame, k,
+            answer->collides, a->mesh, (double)a->scale, b->mesh, (double)b->scale, of_a.count,
+            of_b.count);
+    for (size_t i = 0; i < of_a.count; i++)
+      write_pose(file, &a->poses[i], moves(a) ? answer->lift : none);
     for (size_t i = 0; i < of_b.count; i++) write_pose(file, &b->poses[i], moves(a) ? none : back);
   }
 }
 
-// ------------------------------------------------------------------------------------------------------------------ main
+// -------------------------------------------------------------------------------------------- main
 
 // Asks about everything that is near, moves it as far as it is free, and lets what touches bounce.
 static nsvcd_result play_round(world *w, report *r, size_t frame) {
@@ -533,8 +587,10 @@ int main(int argc, char **argv) {
   w.workspace = allocate(nsvcd_sweep_workspace_size(NULL));
   if (!make_meshes(&w)) return complain("out of memory"), REFUSED;
   for (int i = 1; i + 1 < argc; i += 2) {
-    if (strcmp(argv[i], "--frames") == 0 && parse_count(argv[i + 1], 1, 100000, &r.frames)) continue;
-    if (strcmp(argv[i], "--problems") == 0 && (r.problems = open_problems(&w, argv[i + 1])) != NULL) continue;
+    if (strcmp(argv[i], "--frames") == 0 && parse_count(argv[i + 1], 1, 100000, &r.frames))
+      continue;
+    if (strcmp(argv[i], "--problems") == 0 && (r.problems = open_problems(&w, argv[i + 1])) != NULL)
+      continue;
     return complain("%s %s: what is that?", argv[i], argv[i + 1]), USAGE;
   }
   r.frame_ms = (double *)allocate(r.frames * sizeof(double));

@@ -1,6 +1,6 @@
-// level.h - a level of a game made by a few lines of code: hilly ground, and on it walls with doors, pillars, boulders,
-// crates, arches and basins, each a closed part. For the demo, the tests and the benchmark of large bodies.
-// Deterministic: the same arguments give the same mesh.
+// level.h - a level of a game made by a few lines of code: hilly ground, and on it walls with
+// doors, pillars, boulders, crates, arches and basins, each a closed part. For the demo, the tests
+// and the benchmark of large bodies. Deterministic: the same arguments give the same mesh.
 #ifndef LEVEL_H
 #define LEVEL_H
 
@@ -39,7 +39,8 @@ SHAPES_DEF void level_ground(shapes_mesh *mesh, double side, uint32_t cells) {
                                   {cells * row + i + 1, cells * row + i},
                                   {(i + 1) * row, i * row}};
     for (size_t k = 0; k < 4; k++) {
-      shapes_quad(mesh, bottom + edges[k][0], bottom + edges[k][1], top + edges[k][1], top + edges[k][0]);
+      shapes_quad(mesh, bottom + edges[k][0], bottom + edges[k][1], top + edges[k][1],
+                  top + edges[k][0]);
     }
   }
 }
@@ -57,7 +58,8 @@ SHAPES_DEF void level_boulder(shapes_mesh *mesh, double radius, int rings, doubl
   shapes_lathe(mesh, (const double(*)[2])profile, rings + 1, 2 * rings, 0);
   for (size_t v = first; v < mesh->vertices; v++) {
     double *p = mesh->positions + 3 * v;
-    const double bump = 0.12 * sin(4 * p[0] / radius + phase) * sin(3 * p[1] / radius) * cos(4 * p[2] / radius + phase);
+    const double bump = 0.12 * sin(4 * p[0] / radius + phase) * sin(3 * p[1] / radius) *
+                        cos(4 * p[2] / radius + phase);
     for (size_t k = 0; k < 3; k++) p[k] *= 1 + bump;
   }
 }
@@ -87,7 +89,8 @@ SHAPES_DEF void level_arch(shapes_mesh *mesh, double radius, double thickness, i
     path[i][1] = 0;
     path[i][2] = radius * sin(angle);
   }
-  shapes_tube(mesh, (const double(*)[3])path, cells + 1, thickness, cells / 2 > 3 ? cells / 2 : 3, 0);
+  shapes_tube(mesh, (const double(*)[3])path, cells + 1, thickness, cells / 2 > 3 ? cells / 2 : 3,
+              0);
 }
 
 // A thing of about this many triangles, standing on the ground at the origin.
@@ -112,8 +115,13 @@ SHAPES_DEF void level_thing(shapes_mesh *mesh, int kind, size_t triangles, shape
     case 4:  // a wall with a door: two posts and a lintel
       for (int part = 0; part < 3; part++) {
         const size_t own = mesh->vertices;
-        shapes_box(mesh, part == 2 ? 1 : 0.6, 0.15, part == 2 ? 0.4 : 2, (int)fmax(1, sqrt(n / 36)));
-        shapes_place(mesh, own, NULL, part == 2 ? 0 : part == 0 ? -0.75 : 0.75, 0, part == 2 ? 1.75 : 0.95);
+        shapes_box(mesh, part == 2 ? 1 : 0.6, 0.15, part == 2 ? 0.4 : 2,
+                   (int)fmax(1, sqrt(n / 36)));
+        shapes_place(mesh, own, NULL,
+                     part == 2   ? 0
+                     : part == 0 ? -0.75
+                                 : 0.75,
+                     0, part == 2 ? 1.75 : 0.95);
       }
       break;
     default:  // a basin
@@ -140,8 +148,8 @@ SHAPES_DEF void level_things(shapes_mesh *mesh, double side, size_t triangles, u
   }
 }
 
-// A level of side x side metres and about so many triangles, half of them ground, half things. With other numbers of
-// triangles the same things stand in the same places.
+// A level of side x side metres and about so many triangles, half of them ground, half things. With
+// other numbers of triangles the same things stand in the same places.
 SHAPES_DEF void level_make(shapes_mesh *mesh, double side, size_t triangles, uint64_t seed) {
   level_ground(mesh, side, (uint32_t)fmax(1, sqrt((double)triangles / 8)));
   level_things(mesh, side, triangles / 2, seed);

@@ -1,6 +1,8 @@
-// quickstart.c - a mug is carried into a dish rack, once too low and once high enough. Which of the two motions hits?
+// quickstart.c - a mug is carried into a dish rack, once too low and once high enough. Which of the
+// two motions hits?
 //
-// Two OBJ files, two encoded bodies, two motions, two answers, and a picture of them (`make demo`: build/demo.svg).
+// Two OBJ files, two encoded bodies, two motions, two answers, and a picture of them (`make demo`:
+// build/demo.svg).
 #define _POSIX_C_SOURCE 199309L  // clock_gettime
 #include <math.h>
 #include <stdio.h>
@@ -29,24 +31,34 @@ static const nsvcd_body *load(const char *path, nsvcd_mesh *mesh) {
   if (!result) result = nsvcd_encode(mesh, NULL, NULL, NULL, 0, &body);
   if (result) return fprintf(stderr, "%s:%zu: %s\n", path, line, nsvcd_result_string(result)), NULL;
   nsvcd_body_facts facts = nsvcd_body_describe(body);
-  printf("%-29s %zu triangles -> %zu patches, %zu bytes, in %.1f ms\n", path, mesh->triangle_count, facts.points,
-         facts.size, 1e-3 * (microseconds() - start));
+  printf("%-29s %zu triangles -> %zu patches, %zu bytes, in %.1f ms\n", path, mesh->triangle_count,
+         facts.points, facts.size, 1e-3 * (microseconds() - start));
   return body;
 }
 
-// A cubic Bezier curve through the air, `height` metres high; the mug, at first tilted, comes upright on the way.
+// A cubic Bezier curve through the air, `height` metres high; the mug, at first tilted, comes
+// upright on the way.
 static void carry(float height, nsvcd_pose *poses) {
-  const float control[4][3] = {{0.04f, -0.46f, 0.03f}, {0, -0.36f, height}, {0, -0.01f, height}, {0, 0, 0.02f}};
+  const float control[4][3] = {
+      {0.04f, -0.46f, 0.03f}, {0, -0.36f, height}, {0, -0.01f, height}, {0, 0, 0.02f}};
   for (size_t i = 0; i < POSES; i++) {
-    float t = (float)i / (POSES - 1), s = 1 - t, yaw = -1.5708f + 0.5f * s, tilt = 0.9f * s * s;
+    float t = (float)i / (POSES - 1);
+    float s = 1 - t;
+    float yaw = -1.5708f + 0.5f * s;
+    float tilt = 0.9f * s * s;
     float weights[4] = {s * s * s, 3 * s * s * t, 3 * s * t * t, t * t * t};
     for (size_t k = 0; k < 3; k++) {
       poses[i].position[k] = 0;
       for (size_t c = 0; c < 4; c++) poses[i].position[k] += weights[c] * control[c][k];
     }
-    float cy = cosf(yaw / 2), sy = sinf(yaw / 2), ct = cosf(tilt / 2), st = sinf(tilt / 2);
-    poses[i].rotation[0] = st * cy, poses[i].rotation[1] = -st * sy;  // about z by yaw, then about x by tilt
-    poses[i].rotation[2] = ct * sy, poses[i].rotation[3] = ct * cy;
+    float cy = cosf(yaw / 2);
+    float sy = sinf(yaw / 2);
+    float ct = cosf(tilt / 2);
+    float st = sinf(tilt / 2);
+    poses[i].rotation[0] = st * cy;
+    poses[i].rotation[1] = -st * sy;  // about z by yaw, then about x by tilt
+    poses[i].rotation[2] = ct * sy;
+    poses[i].rotation[3] = ct * cy;
   }
 }
 
@@ -69,7 +81,8 @@ int main(void) {
     nsvcd_answer answer;
     carry(heights[i], motion);
 
-    // Once per question: zero is the default of everything but the bodies, and so the rack rests at the origin.
+    // Once per question: zero is the default of everything but the bodies, and so the rack rests at
+    // the origin.
     nsvcd_question question = {0};
     question.a.body = mug;
     question.a.poses = motion;
@@ -87,9 +100,11 @@ int main(void) {
     printf("%-12s -> %s (%s; %.0f us)", names[i], answer.collides ? "HITS" : "clears",
            nsvcd_status_string(answer.status), least);
     if (answer.collides) {
-      const float *p = answer.point, *n = answer.normal;
-      printf(" at t = %.2f, (%.3f, %.3f, %.3f), normal (%.2f, %.2f, %.2f)", (double)answer.contact_time, (double)p[0],
-             (double)p[1], (double)p[2], (double)n[0], (double)n[1], (double)n[2]);
+      const float *p = answer.point;
+      const float *n = answer.normal;
+      printf(" at t = %.2f, (%.3f, %.3f, %.3f), normal (%.2f, %.2f, %.2f)",
+             (double)answer.contact_time, (double)p[0], (double)p[1], (double)p[2], (double)n[0],
+             (double)n[1], (double)n[2]);
     }
     printf("\n");
     picture_take(&panels[i], names[i], motion, POSES, &answer, least);
@@ -98,7 +113,9 @@ int main(void) {
   printf("see build/demo.svg\n");
 
   free(workspace);
-  nsvcd_body_free(mug, NULL), nsvcd_body_free(rack, NULL);
-  nsvcd_mesh_free(&mug_mesh, NULL), nsvcd_mesh_free(&rack_mesh, NULL);
+  nsvcd_body_free(mug, NULL);
+  nsvcd_body_free(rack, NULL);
+  nsvcd_mesh_free(&mug_mesh, NULL);
+  nsvcd_mesh_free(&rack_mesh, NULL);
   return 0;
 }

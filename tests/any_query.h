@@ -1,5 +1,5 @@
-// any_query.h - memory for any question, laid out, for tests that look at what a query does in between. After the
-// implementation.
+// any_query.h - memory for any question, laid out, for tests that look at what a query does in
+// between. After the implementation.
 #ifndef ANY_QUERY_H
 #define ANY_QUERY_H
 

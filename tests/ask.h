@@ -1,4 +1,5 @@
-// ask.h - a question about one body that moves and one that rests, as most tests and benchmarks have it.
+// ask.h - a question about one body that moves and one that rests, as most tests and benchmarks
+// have it.
 #ifndef NSVCD_TESTS_ASK_H
 #define NSVCD_TESTS_ASK_H
 
@@ -7,8 +8,9 @@
 #include "../neuralsvcd.h"
 
 // fixed_pose: NULL for the origin; options: NULL for the defaults.
-static inline nsvcd_question question_of(const nsvcd_body *moving, const nsvcd_pose *poses, size_t count,
-                                         const nsvcd_body *fixed, const nsvcd_pose *fixed_pose,
+static inline nsvcd_question question_of(const nsvcd_body *moving, const nsvcd_pose *poses,
+                                         size_t count, const nsvcd_body *fixed,
+                                         const nsvcd_pose *fixed_pose,
                                          const nsvcd_sweep_options *options) {
   nsvcd_question question;
   memset(&question, 0, sizeof question);
@@ -22,8 +24,9 @@ static inline nsvcd_question question_of(const nsvcd_body *moving, const nsvcd_p
   return question;
 }
 
-static inline nsvcd_result ask(const nsvcd_body *moving, const nsvcd_pose *poses, size_t count, const nsvcd_body *fixed,
-                               const nsvcd_pose *fixed_pose, const nsvcd_sweep_options *options, void *workspace,
+static inline nsvcd_result ask(const nsvcd_body *moving, const nsvcd_pose *poses, size_t count,
+                               const nsvcd_body *fixed, const nsvcd_pose *fixed_pose,
+                               const nsvcd_sweep_options *options, void *workspace,
                                size_t workspace_size, nsvcd_answer *answer) {
   const nsvcd_question question = question_of(moving, poses, count, fixed, fixed_pose, options);
   return nsvcd_sweep(&question, workspace, workspace_size, answer);

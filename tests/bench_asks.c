@@ -1,6 +1,7 @@
-// bench_asks.c - what more than yes or no costs: first contacts, clearances, the least distance and skins, beside the plain
-// question, on the problems of files. Each problem is asked in all ways in turn, and the shortest of some times counts, so
-// that what else the machine does troubles all alike.
+// bench_asks.c - what more than yes or no costs: first contacts, clearances, the least distance and
+// skins, beside the plain question, on the problems of files. Each problem is asked in all ways in
+// turn, and the shortest of some times counts, so that what else the machine does troubles all
+// alike.
 //
 //   build/bench_asks FILE [CLEARANCE]    CLEARANCE, metres: of all questions of a file
 #define _POSIX_C_SOURCE 200112L
@@ -19,7 +20,8 @@ typedef struct way {
 } way;
 
 static int compare_doubles(const void *a, const void *b) {
-  const double x = *(const double *)a, y = *(const double *)b;
+  const double x = *(const double *)a;
+  const double y = *(const double *)b;
   return (x > y) - (x < y);
 }
 
@@ -27,17 +29,22 @@ static void print_way(way *w, size_t count, double plain) {
   double sum = 0;
   for (size_t i = 0; i < count; i++) sum += w->microseconds[i];
   qsort(w->microseconds, count, sizeof(double), compare_doubles);
-  printf("  %-26s median %6.1f  mean %6.1f  99 %% %6.0f  worst %6.0f us;  x %.2f;  %4.1f %% collide, %zu undecided\n", w->name,
-         w->microseconds[count / 2], sum / (double)count, w->microseconds[(size_t)(0.99 * (double)count)],
-         w->microseconds[count - 1], sum / plain, 100 * (double)w->collide / (double)count, w->undecided);
+  printf(
+      "  %-26s median %6.1f  mean %6.1f  99 %% %6.0f  worst %6.0f us;  x %.2f;  %4.1f %% collide, "
+      "%zu undecided\n",
+      w->name, w->microseconds[count / 2], sum / (double)count,
+      w->microseconds[(size_t)(0.99 * (double)count)], w->microseconds[count - 1], sum / plain,
+      100 * (double)w->collide / (double)count, w->undecided);
 }
 
 int main(int argc, char **argv) {
   way ways[8];
   problem_file file;
-  if (argc < 2 || argc > 3 || !read_problems(argv[1], &file)) return complain("FILE [CLEARANCE]"), USAGE;
-  static const char *const names[8] = {"plain",         "first, to 0.1",   "first, to 0.01",      "first, to 0.001",
-                                       "clearance +1 mm", "clearance +10 mm", "least distance to 1 mm", "skin of 1 mm"};
+  if (argc < 2 || argc > 3 || !read_problems(argv[1], &file))
+    return complain("FILE [CLEARANCE]"), USAGE;
+  static const char *const names[8] = {
+      "plain",           "first, to 0.1",    "first, to 0.01",         "first, to 0.001",
+      "clearance +1 mm", "clearance +10 mm", "least distance to 1 mm", "skin of 1 mm"};
   const float clearance = argc > 2 ? (float)atof(argv[2]) : 0;
   memset(ways, 0, sizeof ways);
   for (int k = 0; k < 8; k++) {
@@ -78,7 +85,8 @@ int main(int argc, char **argv) {
         double *least = &ways[k].microseconds[i];
         question.options = ways[k].options;
         const double start = seconds();
-        const nsvcd_result result = nsvcd_sweep(&question, workspace, nsvcd_sweep_workspace_size(NULL), &answer);
+        const nsvcd_result result =
+            nsvcd_sweep(&question, workspace, nsvcd_sweep_workspace_size(NULL), &answer);
         const double taken = 1e6 * (seconds() - start);
         if (result) return complain("%s: %s", p->id, nsvcd_result_string(result)), REFUSED;
         *least = run == 0 ? taken : fmin(*least, taken);

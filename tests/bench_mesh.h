@@ -1,21 +1,24 @@
-// bench_mesh.h - two methods of the benchmark: discrete checks of triangle meshes, the whole mesh and a simplified one.
+// bench_mesh.h - two methods of the benchmark: discrete checks of triangle meshes, the whole mesh
+// and a simplified one.
 //
 // In:  a mesh in metres. Out: full_mesh_method, simplified_method (method.h).
-//      "full mesh, BVH": what a user of FCL gets (Pan et al. 2012), written for speed. Reads no `preparation` field.
-//      "simplified mesh, BVH": the same on a mesh whose vertices are clustered on a grid, as Open3D's
-//      simplify_vertex_clustering does with the average contraction. Reads preparation.detail: cells along the largest
-//      extent (the paper's voxel factor, 2..32).
+//      "full mesh, BVH": what a user of FCL gets (Pan et al. 2012), written for speed. Reads no
+//      `preparation` field. "simplified mesh, BVH": the same on a mesh whose vertices are clustered
+//      on a grid, as Open3D's simplify_vertex_clustering does with the average contraction. Reads
+//      preparation.detail: cells along the largest extent (the paper's voxel factor, 2..32).
 //
-// The tree is eight wide: an inner node keeps the boxes of its children side by side, a leaf up to eight triangles, and
-// every test is one loop over eight lanes without branches, which compilers turn into vector code. Boxes are aligned
-// with their own body, so that one relative rotation serves every pair of boxes (Gottschalk et al. 1996, the fifteen
-// separating axes). Triangles: planes first (Moller 1997), then the signs of the volumes that edges span (Guigue and
-// Devillers 2003). Coplanar pairs are settled by distance; touching counts, to rounding (some 1e-7 of the bodies'
-// size).
+// The tree is eight wide: an inner node keeps the boxes of its children side by side, a leaf up to
+// eight triangles, and every test is one loop over eight lanes without branches, which compilers
+// turn into vector code. Boxes are aligned with their own body, so that one relative rotation
+// serves every pair of boxes (Gottschalk et al. 1996, the fifteen separating axes). Triangles:
+// planes first (Moller 1997), then the signs of the volumes that edges span (Guigue and Devillers
+// 2003). Coplanar pairs are settled by distance; touching counts, to rounding (some 1e-7 of the
+// bodies' size).
 //
-// activation > 0 asks for distance: boxes grow by it, triangles are measured. activation < 0 is treated as 0: surfaces
-// have no depth. A body wholly inside another is not seen, as in FCL. No start from the previous placement: a query
-// ends at its first hit, and successive placements lie far apart; nothing there was worth remembering.
+// activation > 0 asks for distance: boxes grow by it, triangles are measured. activation < 0 is
+// treated as 0: surfaces have no depth. A body wholly inside another is not seen, as in FCL. No
+// start from the previous placement: a query ends at its first hit, and successive placements lie
+// far apart; nothing there was worth remembering.
 #ifndef NSVCD_TESTS_BENCH_MESH_H
 #define NSVCD_TESTS_BENCH_MESH_H
 
@@ -43,15 +46,17 @@ typedef struct mesh_bvh_box {
 } mesh_bvh_box;
 
 typedef struct mesh_bvh_node {
-  float centre[3][MESH_BVH_WIDTH], half[3][MESH_BVH_WIDTH];  // of the children; an unused lane never overlaps anything
+  // of the children; an unused lane never overlaps anything
+  float centre[3][MESH_BVH_WIDTH], half[3][MESH_BVH_WIDTH];
   uint32_t child[MESH_BVH_WIDTH];
   mesh_bvh_box box;
   uint32_t padding[2];  // 256 bytes: whole cache lines
 } mesh_bvh_node;
 
 typedef struct mesh_bvh_leaf {
-  float corner[3][3][MESH_BVH_WIDTH];  // (corner, axis, lane); unused lanes repeat the first triangle
-  float normal[3][MESH_BVH_WIDTH];     // unit
+  // (corner, axis, lane); unused lanes repeat the first triangle
+  float corner[3][3][MESH_BVH_WIDTH];
+  float normal[3][MESH_BVH_WIDTH];  // unit
   mesh_bvh_box box;
   uint32_t count, padding;  // 416 bytes
 } mesh_bvh_leaf;
@@ -64,7 +69,7 @@ typedef struct mesh_bvh {
   size_t node_count, leaf_count, size;
 } mesh_bvh;
 
-// ----------------------------------------------------------------------------------------------------------- helpers
+// ----------------------------------------------------------------------------------------- helpers
 
 static inline float mesh_bvh_min(float a, float b) { return a < b ? a : b; }
 static inline float mesh_bvh_max(float a, float b) { return a > b ? a : b; }
@@ -77,7 +82,8 @@ static inline float mesh_bvh_dot3(const float *a, const float *b) {
 }
 static inline void mesh_bvh_cross(const float *a, const float *b, float *out) {
   for (int i = 0; i < 3; i++) {
-    int u = (i + 1) % 3, v = (i + 2) % 3;
+    int u = (i + 1) % 3;
+    int v = (i + 2) % 3;
     out[i] = a[u] * b[v] - a[v] * b[u];
   }
 }
@@ -90,11 +96,13 @@ static inline unsigned mesh_bvh_mask(const float *value, float limit) {
 static inline const mesh_bvh_box *mesh_bvh_box_of(const mesh_bvh *tree, uint32_t at) {
   return at & MESH_BVH_LEAF ? &tree->leaves[at & ~MESH_BVH_LEAF].box : &tree->nodes[at].box;
 }
-static inline uint32_t mesh_bvh_root(const mesh_bvh *tree) { return tree->node_count ? 0 : MESH_BVH_LEAF; }
+static inline uint32_t mesh_bvh_root(const mesh_bvh *tree) {
+  return tree->node_count ? 0 : MESH_BVH_LEAF;
+}
 
-// ------------------------------------------------------------------------------------------------------------- build
-// Splits by surface area (Wald 2007), counted in leaves of eight; a node takes the widest of its ranges apart until it
-// has eight.
+// ------------------------------------------------------------------------------------------- build
+// Splits by surface area (Wald 2007), counted in leaves of eight; a node takes the widest of its
+// ranges apart until it has eight.
 
 typedef struct mesh_bvh_triangle {
   float corner[3][3], low[3], high[3], middle[3];
@@ -120,21 +128,31 @@ typedef struct mesh_bvh_range {
 } mesh_bvh_range;
 
 static int mesh_bvh_compare(const void *pa, const void *pb) {
-  const mesh_bvh_key *a = (const mesh_bvh_key *)pa, *b = (const mesh_bvh_key *)pb;
+  const mesh_bvh_key *a = (const mesh_bvh_key *)pa;
+  const mesh_bvh_key *b = (const mesh_bvh_key *)pb;
   if (a->value < b->value || a->value > b->value) return a->value < b->value ? -1 : 1;
   return (a->triangle > b->triangle) - (a->triangle < b->triangle);
 }
 static void mesh_bvh_grow(float *low, float *high, const mesh_bvh_triangle *t) {
-  for (int i = 0; i < 3; i++) low[i] = mesh_bvh_min(low[i], t->low[i]), high[i] = mesh_bvh_max(high[i], t->high[i]);
+  for (int i = 0; i < 3; i++) {
+    low[i] = mesh_bvh_min(low[i], t->low[i]);
+    high[i] = mesh_bvh_max(high[i], t->high[i]);
+  }
 }
 static void mesh_bvh_empty(float *low, float *high) {
-  for (int i = 0; i < 3; i++) low[i] = FLT_MAX, high[i] = -FLT_MAX;
+  for (int i = 0; i < 3; i++) {
+    low[i] = FLT_MAX;
+    high[i] = -FLT_MAX;
+  }
 }
 static float mesh_bvh_area(const float *low, const float *high) {
-  float x = high[0] - low[0], y = high[1] - low[1], z = high[2] - low[2];
+  float x = high[0] - low[0];
+  float y = high[1] - low[1];
+  float z = high[2] - low[2];
   return x * y + y * z + z * x;
 }
-static void mesh_bvh_bounds(const mesh_bvh_builder *b, size_t begin, size_t end, float *low, float *high) {
+static void mesh_bvh_bounds(const mesh_bvh_builder *b, size_t begin, size_t end, float *low,
+                            float *high) {
   mesh_bvh_empty(low, high);
   for (size_t i = begin; i < end; i++) mesh_bvh_grow(low, high, &b->triangles[b->keys[i].triangle]);
 }
@@ -146,10 +164,13 @@ static mesh_bvh_range mesh_bvh_make_range(const mesh_bvh_builder *b, size_t begi
   return range;
 }
 static void mesh_bvh_sort(mesh_bvh_builder *b, size_t begin, size_t end, int axis) {
-  for (size_t i = begin; i < end; i++) b->keys[i].value = b->triangles[b->keys[i].triangle].middle[axis];
+  for (size_t i = begin; i < end; i++)
+    b->keys[i].value = b->triangles[b->keys[i].triangle].middle[axis];
   qsort(b->keys + begin, end - begin, sizeof *b->keys, mesh_bvh_compare);
 }
-static float mesh_bvh_leaves(size_t triangles) { return (float)((triangles + MESH_BVH_WIDTH - 1) / MESH_BVH_WIDTH); }
+static float mesh_bvh_leaves(size_t triangles) {
+  return (float)((triangles + MESH_BVH_WIDTH - 1) / MESH_BVH_WIDTH);
+}
 
 // The cheapest place to split the range, sorted along `axis`, if it costs less than *cost.
 static size_t mesh_bvh_sweep(mesh_bvh_builder *b, size_t begin, size_t end, float *cost) {
@@ -163,13 +184,17 @@ static size_t mesh_bvh_sweep(mesh_bvh_builder *b, size_t begin, size_t end, floa
   mesh_bvh_empty(low, high);
   for (size_t i = begin; i + 1 < end; i++) {
     mesh_bvh_grow(low, high, &b->triangles[b->keys[i].triangle]);
-    float c =
-        mesh_bvh_area(low, high) * mesh_bvh_leaves(i + 1 - begin) + b->areas[i + 1] * mesh_bvh_leaves(end - i - 1);
-    if (c < *cost) *cost = c, best = i + 1;
+    float c = mesh_bvh_area(low, high) * mesh_bvh_leaves(i + 1 - begin) +
+              b->areas[i + 1] * mesh_bvh_leaves(end - i - 1);
+    if (c < *cost) {
+      *cost = c;
+      best = i + 1;
+    }
   }
   return best;
 }
-// Orders the range and returns where to cut it. Deep down it halves, which bounds the depth whatever the mesh.
+// Orders the range and returns where to cut it. Deep down it halves, which bounds the depth
+// whatever the mesh.
 static size_t mesh_bvh_split(mesh_bvh_builder *b, size_t begin, size_t end, int depth) {
   size_t best = 0;
   int best_axis = 0;
@@ -177,15 +202,22 @@ static size_t mesh_bvh_split(mesh_bvh_builder *b, size_t begin, size_t end, int 
   for (int axis = 0; axis < 3; axis++) {
     mesh_bvh_sort(b, begin, end, axis);
     size_t at = mesh_bvh_sweep(b, begin, end, &cost);
-    if (at) best = at, best_axis = axis;
+    if (at) {
+      best = at;
+      best_axis = axis;
+    }
   }
   mesh_bvh_sort(b, begin, end, best_axis);
   return best && depth < MESH_BVH_DEEP ? best : (begin + end) / 2;
 }
-static void mesh_bvh_set_box(const mesh_bvh_builder *b, size_t begin, size_t end, mesh_bvh_box *box) {
+static void mesh_bvh_set_box(const mesh_bvh_builder *b, size_t begin, size_t end,
+                             mesh_bvh_box *box) {
   float low[3], high[3];
   mesh_bvh_bounds(b, begin, end, low, high);
-  for (int i = 0; i < 3; i++) box->centre[i] = (low[i] + high[i]) / 2, box->half[i] = (high[i] - low[i]) / 2 + b->slack;
+  for (int i = 0; i < 3; i++) {
+    box->centre[i] = (low[i] + high[i]) / 2;
+    box->half[i] = (high[i] - low[i]) / 2 + b->slack;
+  }
 }
 static uint32_t mesh_bvh_add_leaf(mesh_bvh_builder *b, size_t begin, size_t end) {
   mesh_bvh_leaf *leaf = &b->tree.leaves[b->tree.leaf_count];
@@ -193,11 +225,15 @@ static uint32_t mesh_bvh_add_leaf(mesh_bvh_builder *b, size_t begin, size_t end)
   leaf->count = (uint32_t)(end - begin);
   mesh_bvh_set_box(b, begin, end, &leaf->box);
   MESH_BVH_EACH(k) {
-    const mesh_bvh_triangle *t = &b->triangles[b->keys[k < end - begin ? begin + k : begin].triangle];
-    double u[3], v[3], n[3], length = 0;
+    const mesh_bvh_triangle *t =
+        &b->triangles[b->keys[k < end - begin ? begin + k : begin].triangle];
+    double u[3];
+    double v[3];
+    double n[3];
+    double length = 0;
     for (int i = 0; i < 3; i++) {
       for (int c = 0; c < 3; c++) leaf->corner[c][i][k] = t->corner[c][i];
-      u[i] = (double)t->corner[1][i] - (double)t->corner[0][i],
+      u[i] = (double)t->corner[1][i] - (double)t->corner[0][i];
       v[i] = (double)t->corner[2][i] - (double)t->corner[0][i];
     }
     for (int i = 0; i < 3; i++) {
@@ -220,7 +256,8 @@ static size_t mesh_bvh_widest(const mesh_bvh_range *ranges, size_t count) {
 static uint32_t mesh_bvh_build(mesh_bvh_builder *b, size_t begin, size_t end, int depth) {
   if (end - begin <= MESH_BVH_WIDTH) return mesh_bvh_add_leaf(b, begin, end);
   mesh_bvh_range ranges[MESH_BVH_WIDTH] = {{0, 0, 0}};
-  size_t count = 1, widest;
+  size_t count = 1;
+  size_t widest;
   ranges[0] = mesh_bvh_make_range(b, begin, end);
   while (count < MESH_BVH_WIDTH && (widest = mesh_bvh_widest(ranges, count)) < count) {
     mesh_bvh_range *r = &ranges[widest];
@@ -235,22 +272,29 @@ static uint32_t mesh_bvh_build(mesh_bvh_builder *b, size_t begin, size_t end, in
   MESH_BVH_EACH(k) {
     mesh_bvh_box box = {{0, 0, 0}, {-1e30f, -1e30f, -1e30f}};
     if (k < count) mesh_bvh_set_box(b, ranges[k].begin, ranges[k].end, &box);
-    for (int i = 0; i < 3; i++) node->centre[i][k] = box.centre[i], node->half[i][k] = box.half[i];
+    for (int i = 0; i < 3; i++) {
+      node->centre[i][k] = box.centre[i];
+      node->half[i][k] = box.half[i];
+    }
   }
-  for (size_t k = 0; k < count; k++) node->child[k] = mesh_bvh_build(b, ranges[k].begin, ranges[k].end, depth + 1);
+  for (size_t k = 0; k < count; k++)
+    node->child[k] = mesh_bvh_build(b, ranges[k].begin, ranges[k].end, depth + 1);
   return index;
 }
 // One block: the struct, the nodes, the leaves, both on cache lines.
 static mesh_bvh *mesh_bvh_copy(const mesh_bvh *from) {
-  size_t nodes = from->node_count * sizeof *from->nodes, leaves = from->leaf_count * sizeof *from->leaves;
+  size_t nodes = from->node_count * sizeof *from->nodes;
+  size_t leaves = from->leaf_count * sizeof *from->leaves;
   size_t size = sizeof(mesh_bvh) + 64 + nodes + leaves;
   mesh_bvh *to = (mesh_bvh *)malloc(size);
   if (!to) return NULL;
   *to = *from;
   char *start = (char *)(to + 1);
   start += (64 - (uintptr_t)start % 64) % 64;
-  to->nodes = (mesh_bvh_node *)(void *)start, to->leaves = (mesh_bvh_leaf *)(void *)(start + nodes);
-  memcpy(to->nodes, from->nodes, nodes), memcpy(to->leaves, from->leaves, leaves);
+  to->nodes = (mesh_bvh_node *)(void *)start;
+  to->leaves = (mesh_bvh_leaf *)(void *)(start + nodes);
+  memcpy(to->nodes, from->nodes, nodes);
+  memcpy(to->leaves, from->leaves, leaves);
   to->size = size;
   return to;
 }
@@ -260,9 +304,11 @@ static void mesh_bvh_take(mesh_bvh_builder *b, const nsvcd_mesh *mesh) {
     mesh_bvh_triangle *t = &b->triangles[b->count];
     float u[3], v[3], n[3];
     for (int c = 0; c < 3; c++)
-      memcpy(t->corner[c], mesh->positions + 3 * (size_t)mesh->indices[3 * i + (size_t)c], 3 * sizeof(float));
+      memcpy(t->corner[c], mesh->positions + 3 * (size_t)mesh->indices[3 * i + (size_t)c],
+             3 * sizeof(float));
     for (int k = 0; k < 3; k++) {
-      u[k] = t->corner[1][k] - t->corner[0][k], v[k] = t->corner[2][k] - t->corner[0][k];
+      u[k] = t->corner[1][k] - t->corner[0][k];
+      v[k] = t->corner[2][k] - t->corner[0][k];
       t->low[k] = mesh_bvh_min(mesh_bvh_min(t->corner[0][k], t->corner[1][k]), t->corner[2][k]);
       t->high[k] = mesh_bvh_max(mesh_bvh_max(t->corner[0][k], t->corner[1][k]), t->corner[2][k]);
       t->middle[k] = (t->low[k] + t->high[k]) / 2;
@@ -305,7 +351,11 @@ static void *mesh_bvh_prepare(const nsvcd_mesh *mesh, const preparation *how) {
     mesh_bvh_build(&b, 0, b.count, 0);
     out = mesh_bvh_copy(&b.tree);
   }
-  free(b.triangles), free(b.keys), free(b.areas), free(b.tree.nodes), free(b.tree.leaves);
+  free(b.triangles);
+  free(b.keys);
+  free(b.areas);
+  free(b.tree.nodes);
+  free(b.tree.leaves);
   return out;
 }
 static void mesh_bvh_release(void *body) { free(body); }
@@ -330,32 +380,39 @@ static void *mesh_bvh_scaled(const void *body, float scale) {
   return tree;
 }
 
-// --------------------------------------------------------------------------------------------------- eight box tests
+// --------------------------------------------------------------------------------- eight box tests
 
 typedef struct mesh_bvh_frame {  // body Y as seen from body X: x = r y + p
   float r[9], p[3];
   float m[9];  // |r|, and a little more: parallel edges span no axis, only rounding
 } mesh_bvh_frame;
 
-// gap[k] > 0: child k of a node of Y is apart from a box of X. Fifteen axes, those of edge pairs not normalised.
-static inline void mesh_bvh_gaps(const mesh_bvh_frame *f, const mesh_bvh_box *one, const mesh_bvh_node *many,
-                                 float *gap) {
-  const float *r = f->r, *m = f->m, *h = one->half;
+// gap[k] > 0: child k of a node of Y is apart from a box of X. Fifteen axes, those of edge pairs
+// not normalised.
+static inline void mesh_bvh_gaps(const mesh_bvh_frame *f, const mesh_bvh_box *one,
+                                 const mesh_bvh_node *many, float *gap) {
+  const float *r = f->r;
+  const float *m = f->m;
+  const float *h = one->half;
   float base[3], along[3], across[9];
   for (int i = 0; i < 3; i++) base[i] = f->p[i] - one->centre[i];
   for (int i = 0; i < 3; i++) {
     along[i] = m[i] * h[0] + m[3 + i] * h[1] + m[6 + i] * h[2];
     for (int j = 0; j < 3; j++)
-      across[3 * i + j] = h[(i + 1) % 3] * m[(i + 2) % 3 * 3 + j] + h[(i + 2) % 3] * m[(i + 1) % 3 * 3 + j];
+      across[3 * i + j] =
+          h[(i + 1) % 3] * m[(i + 2) % 3 * 3 + j] + h[(i + 2) % 3] * m[(i + 1) % 3 * 3 + j];
   }
   float d[3][MESH_BVH_WIDTH];
   const float(*b)[MESH_BVH_WIDTH] = many->half;
   MESH_BVH_EACH(k) gap[k] = -FLT_MAX;
   for (int i = 0; i < 3; i++) {
     MESH_BVH_EACH(k) {
-      float c0 = many->centre[0][k], c1 = many->centre[1][k], c2 = many->centre[2][k];
+      float c0 = many->centre[0][k];
+      float c1 = many->centre[1][k];
+      float c2 = many->centre[2][k];
       d[i][k] = base[i] + mesh_bvh_dot(r[3 * i], r[3 * i + 1], r[3 * i + 2], c0, c1, c2);
-      float reach = h[i] + mesh_bvh_dot(m[3 * i], m[3 * i + 1], m[3 * i + 2], b[0][k], b[1][k], b[2][k]);
+      float reach =
+          h[i] + mesh_bvh_dot(m[3 * i], m[3 * i + 1], m[3 * i + 2], b[0][k], b[1][k], b[2][k]);
       gap[k] = mesh_bvh_max(gap[k], fabsf(d[i][k]) - reach);
     }
   }
@@ -367,8 +424,15 @@ static inline void mesh_bvh_gaps(const mesh_bvh_frame *f, const mesh_bvh_box *on
   }
   for (int i = 0; i < 3; i++)
     for (int j = 0; j < 3; j++) {
-      int i1 = (i + 1) % 3, i2 = (i + 2) % 3, j1 = (j + 1) % 3, j2 = (j + 2) % 3;
-      float r1 = r[3 * i1 + j], r2 = r[3 * i2 + j], m1 = m[3 * i + j1], m2 = m[3 * i + j2], own = across[3 * i + j];
+      int i1 = (i + 1) % 3;
+      int i2 = (i + 2) % 3;
+      int j1 = (j + 1) % 3;
+      int j2 = (j + 2) % 3;
+      float r1 = r[3 * i1 + j];
+      float r2 = r[3 * i2 + j];
+      float m1 = m[3 * i + j1];
+      float m2 = m[3 * i + j2];
+      float own = across[3 * i + j];
       MESH_BVH_EACH(k) {
         float reach = MESH_BVH_FMA(b[j1][k], m2, MESH_BVH_FMA(b[j2][k], m1, own));
         gap[k] = mesh_bvh_max(gap[k], fabsf(MESH_BVH_FMA(d[i2][k], r1, -d[i1][k] * r2)) - reach);
@@ -376,7 +440,7 @@ static inline void mesh_bvh_gaps(const mesh_bvh_frame *f, const mesh_bvh_box *on
     }
 }
 
-// ---------------------------------------------------------------------------- one triangle against those of a leaf
+// ------------------------------------------------------------ one triangle against those of a leaf
 
 // A triangle in the frame of the leaf, with its unit normal.
 typedef struct mesh_bvh_probe {
@@ -384,45 +448,61 @@ typedef struct mesh_bvh_probe {
 } mesh_bvh_probe;
 
 typedef struct mesh_bvh_heights {
-  float of_leaf[3][MESH_BVH_WIDTH];   // corners of the leaf's triangles over the plane of the probe
-  float of_probe[3][MESH_BVH_WIDTH];  // corners of the probe over the planes of the leaf's triangles
+  float of_leaf[3][MESH_BVH_WIDTH];  // corners of the leaf's triangles over the plane of the probe
+  // corners of the probe over the planes of the leaf's triangles
+  float of_probe[3][MESH_BVH_WIDTH];
 } mesh_bvh_heights;
 
-// gap[k]: a lower bound on the distance, from the two planes. thickness[k]: how far from coplanar they are.
-static inline void mesh_bvh_planes(const mesh_bvh_probe *probe, const mesh_bvh_leaf *leaf, mesh_bvh_heights *h,
-                                   float *gap, float *thickness) {
-  const float *n = probe->normal, *o = probe->corner[0];
+// gap[k]: a lower bound on the distance, from the two planes. thickness[k]: how far from coplanar
+// they are.
+static inline void mesh_bvh_planes(const mesh_bvh_probe *probe, const mesh_bvh_leaf *leaf,
+                                   mesh_bvh_heights *h, float *gap, float *thickness) {
+  const float *n = probe->normal;
+  const float *o = probe->corner[0];
   const float(*m)[MESH_BVH_WIDTH] = leaf->normal, (*q)[MESH_BVH_WIDTH] = leaf->corner[0];
   for (int c = 0; c < 3; c++) {
     const float *p = probe->corner[c];
     const float(*x)[MESH_BVH_WIDTH] = leaf->corner[c];
     MESH_BVH_EACH(k) {
-      h->of_leaf[c][k] = mesh_bvh_dot(n[0], n[1], n[2], x[0][k] - o[0], x[1][k] - o[1], x[2][k] - o[2]);
-      h->of_probe[c][k] = mesh_bvh_dot(m[0][k], m[1][k], m[2][k], p[0] - q[0][k], p[1] - q[1][k], p[2] - q[2][k]);
+      h->of_leaf[c][k] =
+          mesh_bvh_dot(n[0], n[1], n[2], x[0][k] - o[0], x[1][k] - o[1], x[2][k] - o[2]);
+      h->of_probe[c][k] =
+          mesh_bvh_dot(m[0][k], m[1][k], m[2][k], p[0] - q[0][k], p[1] - q[1][k], p[2] - q[2][k]);
     }
   }
   MESH_BVH_EACH(k) {
-    float a0 = h->of_leaf[0][k], a1 = h->of_leaf[1][k], a2 = h->of_leaf[2][k];
-    float b0 = h->of_probe[0][k], b1 = h->of_probe[1][k], b2 = h->of_probe[2][k];
-    float low_a = mesh_bvh_min(mesh_bvh_min(a0, a1), a2), high_a = mesh_bvh_max(mesh_bvh_max(a0, a1), a2);
-    float low_b = mesh_bvh_min(mesh_bvh_min(b0, b1), b2), high_b = mesh_bvh_max(mesh_bvh_max(b0, b1), b2);
+    float a0 = h->of_leaf[0][k];
+    float a1 = h->of_leaf[1][k];
+    float a2 = h->of_leaf[2][k];
+    float b0 = h->of_probe[0][k];
+    float b1 = h->of_probe[1][k];
+    float b2 = h->of_probe[2][k];
+    float low_a = mesh_bvh_min(mesh_bvh_min(a0, a1), a2);
+    float high_a = mesh_bvh_max(mesh_bvh_max(a0, a1), a2);
+    float low_b = mesh_bvh_min(mesh_bvh_min(b0, b1), b2);
+    float high_b = mesh_bvh_max(mesh_bvh_max(b0, b1), b2);
     gap[k] = mesh_bvh_max(mesh_bvh_max(low_a, -high_a), mesh_bvh_max(low_b, -high_b));
     thickness[k] = mesh_bvh_min(mesh_bvh_max(-low_a, high_a), mesh_bvh_max(-low_b, high_b));
   }
 }
-// An edge between two heights pierces the triangle whose edges it passes with volumes v: >= 0 if so.
+// An edge between two heights pierces the triangle whose edges it passes with volumes v: >= 0 if
+// so.
 static inline float mesh_bvh_pierces(float height0, float height1, float v0, float v1, float v2) {
-  float low = mesh_bvh_min(mesh_bvh_min(v0, v1), v2), high = mesh_bvh_max(mesh_bvh_max(v0, v1), v2);
+  float low = mesh_bvh_min(mesh_bvh_min(v0, v1), v2);
+  float high = mesh_bvh_max(mesh_bvh_max(v0, v1), v2);
   float opposite = mesh_bvh_max(fabsf(height0), fabsf(height1)) > 0 ? -height0 * height1 : -1;
   return mesh_bvh_min(mesh_bvh_max(low, -high), opposite);
 }
-// apart[k] <= 0: an edge of one pierces the other. The volumes are products of the edges' Pluecker coordinates about
-// the probe's first corner, where two of its edges have no moment.
-static inline void mesh_bvh_edges(const mesh_bvh_probe *probe, const mesh_bvh_leaf *leaf, const mesh_bvh_heights *h,
-                                  float *apart) {
+// apart[k] <= 0: an edge of one pierces the other. The volumes are products of the edges' Pluecker
+// coordinates about the probe's first corner, where two of its edges have no moment.
+static inline void mesh_bvh_edges(const mesh_bvh_probe *probe, const mesh_bvh_leaf *leaf,
+                                  const mesh_bvh_heights *h, float *apart) {
   float a[3], b[3], n[3];
   const float *origin = probe->corner[0];
-  for (int i = 0; i < 3; i++) a[i] = probe->corner[1][i] - origin[i], b[i] = probe->corner[2][i] - origin[i];
+  for (int i = 0; i < 3; i++) {
+    a[i] = probe->corner[1][i] - origin[i];
+    b[i] = probe->corner[2][i] - origin[i];
+  }
   mesh_bvh_cross(a, b, n);
   float q[3][3][MESH_BVH_WIDTH], v[3][3][MESH_BVH_WIDTH];
   for (int c = 0; c < 3; c++)
@@ -432,17 +512,24 @@ static inline void mesh_bvh_edges(const mesh_bvh_probe *probe, const mesh_bvh_le
   for (int j = 0; j < 3; j++) {
     float(*s)[MESH_BVH_WIDTH] = q[j], (*e)[MESH_BVH_WIDTH] = q[(j + 1) % 3];
     MESH_BVH_EACH(k) {
-      float mx = s[1][k] * e[2][k] - s[2][k] * e[1][k], my = s[2][k] * e[0][k] - s[0][k] * e[2][k];
-      float mz = s[0][k] * e[1][k] - s[1][k] * e[0][k], va = mesh_bvh_dot(a[0], a[1], a[2], mx, my, mz);
+      float mx = s[1][k] * e[2][k] - s[2][k] * e[1][k];
+      float my = s[2][k] * e[0][k] - s[0][k] * e[2][k];
+      float mz = s[0][k] * e[1][k] - s[1][k] * e[0][k];
+      float va = mesh_bvh_dot(a[0], a[1], a[2], mx, my, mz);
       float vb = -mesh_bvh_dot(b[0], b[1], b[2], mx, my, mz);
-      float turn = mesh_bvh_dot(n[0], n[1], n[2], e[0][k] - s[0][k], e[1][k] - s[1][k], e[2][k] - s[2][k]);
-      v[0][j][k] = va, v[1][j][k] = turn - va - vb, v[2][j][k] = vb;
+      float turn =
+          mesh_bvh_dot(n[0], n[1], n[2], e[0][k] - s[0][k], e[1][k] - s[1][k], e[2][k] - s[2][k]);
+      v[0][j][k] = va;
+      v[1][j][k] = turn - va - vb;
+      v[2][j][k] = vb;
     }
   }
   MESH_BVH_EACH(k) apart[k] = 1;
   for (int i = 0; i < 3; i++) {
-    const float *p0 = h->of_probe[i], *p1 = h->of_probe[(i + 1) % 3];
-    const float *l0 = h->of_leaf[i], *l1 = h->of_leaf[(i + 1) % 3];
+    const float *p0 = h->of_probe[i];
+    const float *p1 = h->of_probe[(i + 1) % 3];
+    const float *l0 = h->of_leaf[i];
+    const float *l1 = h->of_leaf[(i + 1) % 3];
     MESH_BVH_EACH(k) {
       float by_probe = mesh_bvh_pierces(p0[k], p1[k], v[i][0][k], v[i][1][k], v[i][2][k]);
       float by_leaf = mesh_bvh_pierces(l0[k], l1[k], v[0][i][k], v[1][i][k], v[2][i][k]);
@@ -450,29 +537,41 @@ static inline void mesh_bvh_edges(const mesh_bvh_probe *probe, const mesh_bvh_le
     }
   }
 }
-// Squared distance of the segments p + s u, q + t v, by coordinates so that lanes stay lanes (Ericson 2005, 5.1.9).
-static inline float mesh_bvh_segments(const float *p, const float *u, float uu, const float *q, const float *v) {
-  float r0 = p[0] - q[0], r1 = p[1] - q[1], r2 = p[2] - q[2];
-  float vv = mesh_bvh_dot3(v, v), uv = mesh_bvh_dot3(u, v);
-  float ur = mesh_bvh_dot(u[0], u[1], u[2], r0, r1, r2), vr = mesh_bvh_dot(v[0], v[1], v[2], r0, r1, r2);
+// Squared distance of the segments p + s u, q + t v, by coordinates so that lanes stay lanes
+// (Ericson 2005, 5.1.9).
+static inline float mesh_bvh_segments(const float *p, const float *u, float uu, const float *q,
+                                      const float *v) {
+  float r0 = p[0] - q[0];
+  float r1 = p[1] - q[1];
+  float r2 = p[2] - q[2];
+  float vv = mesh_bvh_dot3(v, v);
+  float uv = mesh_bvh_dot3(u, v);
+  float ur = mesh_bvh_dot(u[0], u[1], u[2], r0, r1, r2);
+  float vr = mesh_bvh_dot(v[0], v[1], v[2], r0, r1, r2);
   float s = mesh_bvh_clamp01((uv * vr - ur * vv) / mesh_bvh_max(uu * vv - uv * uv, FLT_MIN));
   float t = mesh_bvh_clamp01((uv * s + vr) / vv);
-  s = mesh_bvh_clamp01((uv * t - ur) / uu);  // best for this t: also where t was cut off, or the two are parallel
-  float x = r0 + s * u[0] - t * v[0], y = r1 + s * u[1] - t * v[1], z = r2 + s * u[2] - t * v[2];
+  // best for this t: also where t was cut off, or the two are parallel
+  s = mesh_bvh_clamp01((uv * t - ur) / uu);
+  float x = r0 + s * u[0] - t * v[0];
+  float y = r1 + s * u[1] - t * v[1];
+  float z = r2 + s * u[2] - t * v[2];
   return mesh_bvh_dot(x, y, z, x, y, z);
 }
 // >= 0: x lies on the inner side of the edge u that starts at s, in a triangle with normal n.
 static inline float mesh_bvh_side(const float *x, const float *s, const float *u, const float *n) {
-  float w0 = x[0] - s[0], w1 = x[1] - s[1], w2 = x[2] - s[2];
-  return mesh_bvh_dot(n[0], n[1], n[2], u[1] * w2 - u[2] * w1, u[2] * w0 - u[0] * w2, u[0] * w1 - u[1] * w0);
+  float w0 = x[0] - s[0];
+  float w1 = x[1] - s[1];
+  float w2 = x[2] - s[2];
+  return mesh_bvh_dot(n[0], n[1], n[2], u[1] * w2 - u[2] * w1, u[2] * w0 - u[0] * w2,
+                      u[0] * w1 - u[1] * w0);
 }
 typedef struct mesh_bvh_over {  // is a corner over the face of the other triangle? >= 0 if so
   float leaf[3][MESH_BVH_WIDTH], probe[3][MESH_BVH_WIDTH];
 } mesh_bvh_over;
 
 // Squared distances of triangles that do not intersect: edge to edge, and corners over faces.
-static void mesh_bvh_distances(const mesh_bvh_probe *probe, const mesh_bvh_leaf *leaf, const mesh_bvh_heights *h,
-                               float *out) {
+static void mesh_bvh_distances(const mesh_bvh_probe *probe, const mesh_bvh_leaf *leaf,
+                               const mesh_bvh_heights *h, float *out) {
   mesh_bvh_over over;
   MESH_BVH_EACH(k) out[k] = FLT_MAX;
   for (int i = 0; i < 3; i++) {
@@ -480,11 +579,15 @@ static void mesh_bvh_distances(const mesh_bvh_probe *probe, const mesh_bvh_leaf 
   }
   for (int i = 0; i < 3; i++)
     for (int j = 0; j < 3; j++) {  // edge i of the probe, edge j of the leaf's triangles
-      const float *p = probe->corner[i], *end = probe->corner[(i + 1) % 3];
-      const float(*s)[MESH_BVH_WIDTH] = leaf->corner[j], (*e)[MESH_BVH_WIDTH] = leaf->corner[(j + 1) % 3];
-      float u[3] = {end[0] - p[0], end[1] - p[1], end[2] - p[2]}, uu = mesh_bvh_dot3(u, u);
+      const float *p = probe->corner[i];
+      const float *end = probe->corner[(i + 1) % 3];
+      const float(*s)[MESH_BVH_WIDTH] = leaf->corner[j],
+            (*e)[MESH_BVH_WIDTH] = leaf->corner[(j + 1) % 3];
+      float u[3] = {end[0] - p[0], end[1] - p[1], end[2] - p[2]};
+      float uu = mesh_bvh_dot3(u, u);
       MESH_BVH_EACH(k) {
-        float q[3] = {s[0][k], s[1][k], s[2][k]}, v[3] = {e[0][k] - q[0], e[1][k] - q[1], e[2][k] - q[2]};
+        float q[3] = {s[0][k], s[1][k], s[2][k]};
+        float v[3] = {e[0][k] - q[0], e[1][k] - q[1], e[2][k] - q[2]};
         float n[3] = {leaf->normal[0][k], leaf->normal[1][k], leaf->normal[2][k]};
         out[k] = mesh_bvh_min(out[k], mesh_bvh_segments(p, u, uu, q, v));
         over.probe[i][k] = mesh_bvh_min(over.probe[i][k], mesh_bvh_side(p, q, v, n));
@@ -493,14 +596,16 @@ static void mesh_bvh_distances(const mesh_bvh_probe *probe, const mesh_bvh_leaf 
     }
   for (int i = 0; i < 3; i++) {
     MESH_BVH_EACH(k) {
-      float a = h->of_probe[i][k], b = h->of_leaf[i][k];
+      float a = h->of_probe[i][k];
+      float b = h->of_leaf[i][k];
       out[k] = mesh_bvh_min(out[k], over.probe[i][k] >= 0 ? a * a : FLT_MAX);
       out[k] = mesh_bvh_min(out[k], over.leaf[i][k] >= 0 ? b * b : FLT_MAX);
     }
   }
 }
 // Is a triangle of the leaf nearer than `activation`, or touching to `rounding`?
-static int mesh_bvh_meets(const mesh_bvh_probe *probe, const mesh_bvh_leaf *leaf, float activation, float rounding) {
+static int mesh_bvh_meets(const mesh_bvh_probe *probe, const mesh_bvh_leaf *leaf, float activation,
+                          float rounding) {
   float gap[MESH_BVH_WIDTH], thickness[MESH_BVH_WIDTH], value[MESH_BVH_WIDTH];
   float limit = mesh_bvh_max(activation, rounding);
   mesh_bvh_heights h;
@@ -516,7 +621,7 @@ static int mesh_bvh_meets(const mesh_bvh_probe *probe, const mesh_bvh_leaf *leaf
   return (near & mesh_bvh_mask(value, limit * limit)) != 0;
 }
 
-// ----------------------------------------------------------------------------------------------------------- queries
+// ----------------------------------------------------------------------------------------- queries
 
 typedef struct mesh_bvh_query {
   const mesh_bvh *moving, *fixed;
@@ -528,20 +633,27 @@ static void mesh_bvh_set_frame(mesh_bvh_frame *f) {
   for (int i = 0; i < 9; i++) f->m[i] = fabsf(f->r[i]) + 1e-6f;
 }
 static void mesh_bvh_place(mesh_bvh_query *q, const placement *at) {
-  mesh_bvh_frame *f = &q->moving_in_fixed, *g = &q->fixed_in_moving;
-  memcpy(f->r, at->rotation, sizeof f->r), memcpy(f->p, at->position, sizeof f->p);
+  mesh_bvh_frame *f = &q->moving_in_fixed;
+  mesh_bvh_frame *g = &q->fixed_in_moving;
+  memcpy(f->r, at->rotation, sizeof f->r);
+  memcpy(f->p, at->position, sizeof f->p);
   for (int i = 0; i < 3; i++) {
     for (int j = 0; j < 3; j++) g->r[3 * i + j] = f->r[3 * j + i];
     g->p[i] = -(f->r[i] * f->p[0] + f->r[3 + i] * f->p[1] + f->r[6 + i] * f->p[2]);
   }
-  mesh_bvh_set_frame(f), mesh_bvh_set_frame(g);
+  mesh_bvh_set_frame(f);
+  mesh_bvh_set_frame(g);
 }
-// gap[k] > 0: triangle k, in the frame of the box, is apart from it, by the box's axes and its own plane.
-static inline void mesh_bvh_box_gaps(const mesh_bvh_leaf *triangles, const mesh_bvh_box *box, float *gap) {
+// gap[k] > 0: triangle k, in the frame of the box, is apart from it, by the box's axes and its own
+// plane.
+static inline void mesh_bvh_box_gaps(const mesh_bvh_leaf *triangles, const mesh_bvh_box *box,
+                                     float *gap) {
   const float(*t)[3][MESH_BVH_WIDTH] = triangles->corner, (*n)[MESH_BVH_WIDTH] = triangles->normal;
-  const float *c = box->centre, *h = box->half;
+  const float *c = box->centre;
+  const float *h = box->half;
   MESH_BVH_EACH(k) {
-    float height = mesh_bvh_dot(n[0][k], n[1][k], n[2][k], c[0] - t[0][0][k], c[1] - t[0][1][k], c[2] - t[0][2][k]);
+    float height = mesh_bvh_dot(n[0][k], n[1][k], n[2][k], c[0] - t[0][0][k], c[1] - t[0][1][k],
+                                c[2] - t[0][2][k]);
     float reach = mesh_bvh_dot(fabsf(n[0][k]), fabsf(n[1][k]), fabsf(n[2][k]), h[0], h[1], h[2]);
     gap[k] = fabsf(height) - reach;
   }
@@ -553,9 +665,13 @@ static inline void mesh_bvh_box_gaps(const mesh_bvh_leaf *triangles, const mesh_
     }
   }
 }
-static inline void mesh_bvh_move(const mesh_bvh_frame *f, const mesh_bvh_leaf *leaf, mesh_bvh_leaf *out) {
+static inline void mesh_bvh_move(const mesh_bvh_frame *f, const mesh_bvh_leaf *leaf,
+                                 mesh_bvh_leaf *out) {
   for (int i = 0; i < 3; i++) {
-    float x = f->r[3 * i], y = f->r[3 * i + 1], z = f->r[3 * i + 2], p = f->p[i];
+    float x = f->r[3 * i];
+    float y = f->r[3 * i + 1];
+    float z = f->r[3 * i + 2];
+    float p = f->p[i];
     for (int c = 0; c < 3; c++) {
       const float(*v)[MESH_BVH_WIDTH] = leaf->corner[c];
       MESH_BVH_EACH(k) out->corner[c][i][k] = p + mesh_bvh_dot(x, y, z, v[0][k], v[1][k], v[2][k]);
@@ -564,11 +680,14 @@ static inline void mesh_bvh_move(const mesh_bvh_frame *f, const mesh_bvh_leaf *l
     MESH_BVH_EACH(k) out->normal[i][k] = mesh_bvh_dot(x, y, z, n[0][k], n[1][k], n[2][k]);
   }
 }
-// Brings the triangles of the wider leaf into the frame of the other, drops those that miss its box, and tests the rest
-// one by one against its eight.
-static int mesh_bvh_leaf_pair(const mesh_bvh_query *q, const mesh_bvh_leaf *fixed, const mesh_bvh_leaf *moving) {
-  int move_fixed = mesh_bvh_dot3(fixed->box.half, fixed->box.half) > mesh_bvh_dot3(moving->box.half, moving->box.half);
-  const mesh_bvh_leaf *wide = move_fixed ? fixed : moving, *other = move_fixed ? moving : fixed;
+// Brings the triangles of the wider leaf into the frame of the other, drops those that miss its
+// box, and tests the rest one by one against its eight.
+static int mesh_bvh_leaf_pair(const mesh_bvh_query *q, const mesh_bvh_leaf *fixed,
+                              const mesh_bvh_leaf *moving) {
+  int move_fixed = mesh_bvh_dot3(fixed->box.half, fixed->box.half) >
+                   mesh_bvh_dot3(moving->box.half, moving->box.half);
+  const mesh_bvh_leaf *wide = move_fixed ? fixed : moving;
+  const mesh_bvh_leaf *other = move_fixed ? moving : fixed;
   mesh_bvh_leaf moved;
   float gap[MESH_BVH_WIDTH];
   mesh_bvh_move(move_fixed ? &q->fixed_in_moving : &q->moving_in_fixed, wide, &moved);
@@ -590,14 +709,20 @@ typedef struct mesh_bvh_pair {
   uint32_t moving, fixed;
 } mesh_bvh_pair;
 
-// Opens the larger of two boxes and puts its children that meet the other box on the stack, the deepest on top.
-static size_t mesh_bvh_open(const mesh_bvh_query *q, mesh_bvh_pair pair, mesh_bvh_pair *stack, size_t count) {
-  const mesh_bvh_box *m = mesh_bvh_box_of(q->moving, pair.moving), *f = mesh_bvh_box_of(q->fixed, pair.fixed);
+// Opens the larger of two boxes and puts its children that meet the other box on the stack, the
+// deepest on top.
+static size_t mesh_bvh_open(const mesh_bvh_query *q, mesh_bvh_pair pair, mesh_bvh_pair *stack,
+                            size_t count) {
+  const mesh_bvh_box *m = mesh_bvh_box_of(q->moving, pair.moving);
+  const mesh_bvh_box *f = mesh_bvh_box_of(q->fixed, pair.fixed);
   int open_fixed = !(pair.fixed & MESH_BVH_LEAF) &&
-                   (pair.moving & MESH_BVH_LEAF || mesh_bvh_dot3(f->half, f->half) > mesh_bvh_dot3(m->half, m->half));
-  const mesh_bvh_node *node = open_fixed ? &q->fixed->nodes[pair.fixed] : &q->moving->nodes[pair.moving];
+                   (pair.moving & MESH_BVH_LEAF ||
+                    mesh_bvh_dot3(f->half, f->half) > mesh_bvh_dot3(m->half, m->half));
+  const mesh_bvh_node *node =
+      open_fixed ? &q->fixed->nodes[pair.fixed] : &q->moving->nodes[pair.moving];
   mesh_bvh_box grown = open_fixed ? *m : *f;
-  float gap[MESH_BVH_WIDTH], deepest = FLT_MAX;
+  float gap[MESH_BVH_WIDTH];
+  float deepest = FLT_MAX;
   for (int i = 0; i < 3; i++) grown.half[i] += q->activation;
   mesh_bvh_gaps(open_fixed ? &q->fixed_in_moving : &q->moving_in_fixed, &grown, node, gap);
   unsigned mask = mesh_bvh_mask(gap, 0);
@@ -609,18 +734,20 @@ static size_t mesh_bvh_open(const mesh_bvh_query *q, mesh_bvh_pair pair, mesh_bv
     if (gap[k] < deepest) {
       deepest = gap[k];
     } else {
-      stack[count] = stack[count - 1], stack[count - 1] = next;
+      stack[count] = stack[count - 1];
+      stack[count - 1] = next;
     }
     count++;
   }
   return count;
 }
-// Depth first. A tree is at most MESH_BVH_DEEP + 28 nodes deep (2^31 triangles, at least halved at every level), and
-// every level leaves seven pairs behind: 2 * 40 * 7 + 1 fit the stack.
+// Depth first. A tree is at most MESH_BVH_DEEP + 28 nodes deep (2^31 triangles, at least halved at
+// every level), and every level leaves seven pairs behind: 2 * 40 * 7 + 1 fit the stack.
 static int mesh_bvh_collide(const mesh_bvh_query *q) {
   mesh_bvh_pair stack[MESH_BVH_STACK];
   size_t count = 1;
-  stack[0].moving = mesh_bvh_root(q->moving), stack[0].fixed = mesh_bvh_root(q->fixed);
+  stack[0].moving = mesh_bvh_root(q->moving);
+  stack[0].fixed = mesh_bvh_root(q->fixed);
   while (count) {
     mesh_bvh_pair pair = stack[--count];
     if (!(pair.moving & pair.fixed & MESH_BVH_LEAF)) {
@@ -633,18 +760,24 @@ static int mesh_bvh_collide(const mesh_bvh_query *q) {
   return 0;
 }
 // Do the bounding spheres stay apart?
-static int mesh_bvh_far(const mesh_bvh *moving, const mesh_bvh *fixed, const placement *at, float activation) {
-  float reach = moving->radius + fixed->radius + activation, sum = 0;
+static int mesh_bvh_far(const mesh_bvh *moving, const mesh_bvh *fixed, const placement *at,
+                        float activation) {
+  float reach = moving->radius + fixed->radius + activation;
+  float sum = 0;
   for (int i = 0; i < 3; i++) {
-    float d = mesh_bvh_dot3(at->rotation + 3 * i, moving->box.centre) + at->position[i] - fixed->box.centre[i];
+    float d = mesh_bvh_dot3(at->rotation + 3 * i, moving->box.centre) + at->position[i] -
+              fixed->box.centre[i];
     sum += d * d;
   }
   return sum > reach * reach;
 }
-static int mesh_bvh_hits(const void *moving, const void *fixed, const placement *at, size_t count, float activation) {
+static int mesh_bvh_hits(const void *moving, const void *fixed, const placement *at, size_t count,
+                         float activation) {
   mesh_bvh_query q;
-  q.moving = (const mesh_bvh *)moving, q.fixed = (const mesh_bvh *)fixed;
-  q.activation = mesh_bvh_max(activation, 0), q.rounding = 2e-7f * (q.moving->radius + q.fixed->radius);
+  q.moving = (const mesh_bvh *)moving;
+  q.fixed = (const mesh_bvh *)fixed;
+  q.activation = mesh_bvh_max(activation, 0);
+  q.rounding = 2e-7f * (q.moving->radius + q.fixed->radius);
   for (size_t i = 0; i < count; i++) {
     if (mesh_bvh_far(q.moving, q.fixed, &at[i], q.activation)) continue;
     mesh_bvh_place(&q, &at[i]);
@@ -653,7 +786,7 @@ static int mesh_bvh_hits(const void *moving, const void *fixed, const placement 
   return 0;
 }
 
-// ---------------------------------------------------------------------------------------------------- simplification
+// ---------------------------------------------------------------------------------- simplification
 
 typedef struct mesh_bvh_cell {
   uint64_t cell;
@@ -661,12 +794,14 @@ typedef struct mesh_bvh_cell {
 } mesh_bvh_cell;
 
 static int mesh_bvh_compare_cells(const void *pa, const void *pb) {
-  const mesh_bvh_cell *a = (const mesh_bvh_cell *)pa, *b = (const mesh_bvh_cell *)pb;
+  const mesh_bvh_cell *a = (const mesh_bvh_cell *)pa;
+  const mesh_bvh_cell *b = (const mesh_bvh_cell *)pb;
   if (a->cell != b->cell) return a->cell < b->cell ? -1 : 1;
   return (a->vertex > b->vertex) - (a->vertex < b->vertex);
 }
 static int mesh_bvh_compare_corners(const void *pa, const void *pb) {
-  const uint32_t *a = (const uint32_t *)pa, *b = (const uint32_t *)pb;
+  const uint32_t *a = (const uint32_t *)pa;
+  const uint32_t *b = (const uint32_t *)pb;
   for (int i = 0; i < 3; i++)
     if (a[i] != b[i]) return a[i] < b[i] ? -1 : 1;
   return 0;
@@ -675,47 +810,62 @@ static void mesh_bvh_mesh_bounds(const nsvcd_mesh *mesh, float *low, float *high
   mesh_bvh_empty(low, high);
   for (size_t i = 0; i < 3 * mesh->triangle_count; i++) {
     const float *x = mesh->positions + 3 * (size_t)mesh->indices[i];
-    for (int k = 0; k < 3; k++) low[k] = mesh_bvh_min(low[k], x[k]), high[k] = mesh_bvh_max(high[k], x[k]);
+    for (int k = 0; k < 3; k++) {
+      low[k] = mesh_bvh_min(low[k], x[k]);
+      high[k] = mesh_bvh_max(high[k], x[k]);
+    }
   }
 }
 // The cell of each vertex; Open3D's grid starts half a cell below the bounds.
 static void mesh_bvh_set_cells(const nsvcd_mesh *mesh, float factor, mesh_bvh_cell *cells) {
-  float low[3], high[3], extent = 0;
+  float low[3];
+  float high[3];
+  float extent = 0;
   mesh_bvh_mesh_bounds(mesh, low, high);
   for (int k = 0; k < 3; k++) extent = mesh_bvh_max(extent, high[k] - low[k]);
   double size = (double)extent / (double)factor;
   for (size_t i = 0; i < mesh->vertex_count; i++) {
-    cells[i].cell = 0, cells[i].vertex = (uint32_t)i;
+    cells[i].cell = 0;
+    cells[i].vertex = (uint32_t)i;
     for (size_t k = 0; k < 3; k++) {
       double at = floor(((double)mesh->positions[3 * i + k] - (double)low[k]) / size + 0.5);
-      cells[i].cell =
-          cells[i].cell << 20 | (uint64_t)fmin(fmax(at + 1, 0), 1048575);  // unused vertices may lie outside
+      // unused vertices may lie outside
+      cells[i].cell = cells[i].cell << 20 | (uint64_t)fmin(fmax(at + 1, 0), 1048575);
     }
   }
   qsort(cells, mesh->vertex_count, sizeof *cells, mesh_bvh_compare_cells);
 }
 // One vertex per cell, the average; renamed[i] is that of vertex i.
-static void mesh_bvh_average(const nsvcd_mesh *mesh, const mesh_bvh_cell *cells, uint32_t *renamed, nsvcd_mesh *out) {
+static void mesh_bvh_average(const nsvcd_mesh *mesh, const mesh_bvh_cell *cells, uint32_t *renamed,
+                             nsvcd_mesh *out) {
   for (size_t i = 0, end; i < mesh->vertex_count; i = end) {
     double sum[3] = {0, 0, 0};
     for (end = i; end < mesh->vertex_count && cells[end].cell == cells[i].cell; end++) {
       renamed[cells[end].vertex] = (uint32_t)out->vertex_count;
-      for (size_t k = 0; k < 3; k++) sum[k] += (double)mesh->positions[3 * (size_t)cells[end].vertex + k];
+      for (size_t k = 0; k < 3; k++)
+        sum[k] += (double)mesh->positions[3 * (size_t)cells[end].vertex + k];
     }
-    for (size_t k = 0; k < 3; k++) out->positions[3 * out->vertex_count + k] = (float)(sum[k] / (double)(end - i));
+    for (size_t k = 0; k < 3; k++)
+      out->positions[3 * out->vertex_count + k] = (float)(sum[k] / (double)(end - i));
     out->vertex_count++;
   }
 }
-// Keeps triangles with three different corners, once each. Open3D keeps the same triangle wound the other way; for a
-// test of surfaces it would be work without an effect, so corners are sorted and the winding is lost.
+// Keeps triangles with three different corners, once each. Open3D keeps the same triangle wound the
+// other way; for a test of surfaces it would be work without an effect, so corners are sorted and
+// the winding is lost.
 static void mesh_bvh_reduce(const nsvcd_mesh *mesh, const uint32_t *renamed, nsvcd_mesh *out) {
   size_t kept = 0;
   for (size_t i = 0; i < mesh->triangle_count; i++) {
-    uint32_t a = renamed[mesh->indices[3 * i]], b = renamed[mesh->indices[3 * i + 1]];
-    uint32_t c = renamed[mesh->indices[3 * i + 2]], *t = out->indices + 3 * out->triangle_count;
+    uint32_t a = renamed[mesh->indices[3 * i]];
+    uint32_t b = renamed[mesh->indices[3 * i + 1]];
+    uint32_t c = renamed[mesh->indices[3 * i + 2]];
+    uint32_t *t = out->indices + 3 * out->triangle_count;
     if (a == b || b == c || c == a) continue;
-    uint32_t low = a < b ? (a < c ? a : c) : (b < c ? b : c), high = a > b ? (a > c ? a : c) : (b > c ? b : c);
-    t[0] = low, t[1] = a ^ b ^ c ^ low ^ high, t[2] = high;
+    uint32_t low = a < b ? (a < c ? a : c) : (b < c ? b : c);
+    uint32_t high = a > b ? (a > c ? a : c) : (b > c ? b : c);
+    t[0] = low;
+    t[1] = a ^ b ^ c ^ low ^ high;
+    t[2] = high;
     out->triangle_count++;
   }
   qsort(out->indices, out->triangle_count, 3 * sizeof(uint32_t), mesh_bvh_compare_corners);
@@ -737,7 +887,10 @@ static void *mesh_bvh_prepare_box(const nsvcd_mesh *mesh) {
   for (int i = 0; i < 24; i++) positions[i] = (i / 3 >> i % 3) & 1 ? high[i % 3] : low[i % 3];
   memcpy(indices, faces, sizeof indices);
   memset(&box, 0, sizeof box);
-  box.positions = positions, box.indices = indices, box.vertex_count = 8, box.triangle_count = 12;
+  box.positions = positions;
+  box.indices = indices;
+  box.vertex_count = 8;
+  box.triangle_count = 12;
   return mesh_bvh_prepare(&box, NULL);
 }
 static void *mesh_bvh_prepare_simplified(const nsvcd_mesh *mesh, const preparation *how) {
@@ -757,7 +910,10 @@ static void *mesh_bvh_prepare_simplified(const nsvcd_mesh *mesh, const preparati
     body = out.triangle_count ? mesh_bvh_prepare(&out, NULL) : NULL;
     if (!body) body = mesh_bvh_prepare_box(mesh);
   }
-  free(cells), free(renamed), free(out.positions), free(out.indices);
+  free(cells);
+  free(renamed);
+  free(out.positions);
+  free(out.indices);
   return body;
 }
 

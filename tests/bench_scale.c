@@ -1,11 +1,10 @@
-// bench_scale.c - what a scene costs before it is written: bytes, encoding and queries against triangles, from 12 to a
-// million, and against N. Table on standard output, build/scale.svg.
+// bench_scale.c - what a scene costs before it is written: bytes, encoding and queries against
+// triangles, from 12 to a million, and against N. Table on standard output, build/scale.svg.
 //
 //   build/bench_scale [TRIANGLES]    at most so many; 1,000,000
 #define _POSIX_C_SOURCE 200112L
 #define NEURALSVCD_IMPLEMENTATION
 #include "../neuralsvcd.h"
-
 
 #include "level_bench.h"
 #include "level_scene.h"
@@ -17,7 +16,8 @@
 // ---- a row of the table
 
 typedef enum kind { THING, LEVEL, BY_POINTS, KINDS } kind;
-static const char *const kind_names[KINDS] = {"a thing of 0.3 m", "a level of 20 m", "that level, by N"};
+static const char *const kind_names[KINDS] = {"a thing of 0.3 m", "a level of 20 m",
+                                              "that level, by N"};
 
 typedef struct row {
   kind kind;
@@ -26,7 +26,8 @@ typedef struct row {
   double query;   // microseconds, mean
 } row;
 
-// Motions of `mover` near the surface of `body`, as frames have them, whose mean counts: the shortest of three runs each.
+// Motions of `mover` near the surface of `body`, as frames have them, whose mean counts: the
+// shortest of three runs each.
 static double mean_query(const level_solid *mover, const level_solid *body, int is_level) {
   shapes_rng rng = {9};
   const size_t size = nsvcd_sweep_workspace_size(NULL);
@@ -81,7 +82,8 @@ static void make_shape(kind kind, size_t triangles, shapes_mesh *shape) {
   }
 }
 
-// points: 0 for the default; of a level, below that many triangles, patches half as large as what moves in it.
+// points: 0 for the default; of a level, below that many triangles, patches half as large as what
+// moves in it.
 static row measure(kind kind, size_t triangles, size_t points, const level_solid *mover) {
   row out;
   level_solid solid;
@@ -96,7 +98,8 @@ static row measure(kind kind, size_t triangles, size_t points, const level_solid
   make_shape(kind, triangles, &shape);
   level_solid_init(&solid, &shape, kind == THING ? 0.3 : 0);
   const double start = seconds();
-  if (nsvcd_encode(&solid.mesh, &options, &allocator, NULL, 0, &solid.body)) level_fail("a body was refused");
+  if (nsvcd_encode(&solid.mesh, &options, &allocator, NULL, 0, &solid.body))
+    level_fail("a body was refused");
   out.encode = 1e3 * (seconds() - start);
   const nsvcd_body_facts facts = nsvcd_body_describe(solid.body);
   out.kind = kind;
@@ -105,8 +108,8 @@ static row measure(kind kind, size_t triangles, size_t points, const level_solid
   out.bytes = facts.size;
   out.peak = h.most;
   out.query = mean_query(mover, &solid, kind != THING);
-  printf("%-18s %8zu %7zu %10.1f %8.1f %9.1f %8.1f %8.2f\n", kind_names[kind], out.triangles, out.points,
-         1e-3 * (double)out.bytes, (double)out.bytes / (double)out.triangles,
+  printf("%-18s %8zu %7zu %10.1f %8.1f %9.1f %8.1f %8.2f\n", kind_names[kind], out.triangles,
+         out.points, 1e-3 * (double)out.bytes, (double)out.bytes / (double)out.triangles,
          (double)out.peak / (double)out.triangles, out.encode, out.query);
   fflush(stdout);
   nsvcd_body_free(solid.body, &allocator);
@@ -133,20 +136,28 @@ static double value_of(const row *r, int value) {
 
 static void draw_panel_of(FILE *svg, const panel *p, double left, const row *rows, size_t count) {
   static const char *const colours[KINDS] = {"#d55e00", "#0072b2", "#009e73"};
-  const double top = 50, bottom = top + PANEL_HEIGHT;
-  const double per_x = PANEL_WIDTH / (p->high - p->low), per_y = PANEL_HEIGHT / (p->most - p->least);
-  fprintf(svg, "<text x='%.0f' y='34' font-size='16' font-weight='bold'>%s</text>\n", left, p->title);
+  const double top = 50;
+  const double bottom = top + PANEL_HEIGHT;
+  const double per_x = PANEL_WIDTH / (p->high - p->low);
+  const double per_y = PANEL_HEIGHT / (p->most - p->least);
+  fprintf(svg, "<text x='%.0f' y='34' font-size='16' font-weight='bold'>%s</text>\n", left,
+          p->title);
   for (double d = ceil(p->low); d <= p->high; d++) {
     const double x = left + (d - p->low) * per_x;
-    fprintf(svg, "<path d='M%.1f %.1fV%.1f' stroke='#ddd'/><text x='%.1f' y='%.1f' text-anchor='middle'>%g</text>\n", x, top,
-            bottom, x, bottom + 18, pow(10, d));
+    fprintf(svg,
+            "<path d='M%.1f %.1fV%.1f' stroke='#ddd'/><text x='%.1f' y='%.1f' "
+            "text-anchor='middle'>%g</text>\n",
+            x, top, bottom, x, bottom + 18, pow(10, d));
   }
   for (double d = ceil(p->least); d <= p->most; d++) {
     const double y = bottom - (d - p->least) * per_y;
-    fprintf(svg, "<path d='M%.1f %.1fH%.1f' stroke='#ddd'/><text x='%.1f' y='%.1f' text-anchor='end'>%g</text>\n", left, y,
-            left + PANEL_WIDTH, left - 6, y + 5, pow(10, d));
+    fprintf(svg,
+            "<path d='M%.1f %.1fH%.1f' stroke='#ddd'/><text x='%.1f' y='%.1f' "
+            "text-anchor='end'>%g</text>\n",
+            left, y, left + PANEL_WIDTH, left - 6, y + 5, pow(10, d));
   }
-  fprintf(svg, "<text x='%.0f' y='%.0f' text-anchor='middle'>%s</text>\n", left + PANEL_WIDTH / 2, bottom + 40, p->across);
+  fprintf(svg, "<text x='%.0f' y='%.0f' text-anchor='middle'>%s</text>\n", left + PANEL_WIDTH / 2,
+          bottom + 40, p->across);
   for (int k = 0; k < KINDS; k++) {
     char letter = 'M';
     if ((k == BY_POINTS) != p->by_points) continue;
@@ -155,7 +166,8 @@ static void draw_panel_of(FILE *svg, const panel *p, double left, const row *row
       if ((int)rows[i].kind != k) continue;
       const double at = log10((double)(p->by_points ? rows[i].points : rows[i].triangles));
       const double y = log10(value_of(&rows[i], p->value));
-      fprintf(svg, "%c%.1f %.1f", letter, left + (at - p->low) * per_x, bottom - (y - p->least) * per_y);
+      fprintf(svg, "%c%.1f %.1f", letter, left + (at - p->low) * per_x,
+              bottom - (y - p->least) * per_y);
       letter = 'L';
     }
     fprintf(svg, "'/>\n");
@@ -163,17 +175,22 @@ static void draw_panel_of(FILE *svg, const panel *p, double left, const row *row
 }
 
 static int draw(const char *path, const row *rows, size_t count) {
-  static const panel panels[4] = {{"bytes of a body", "triangles", 1, 6, 3, 8, 0, 0},
-                                  {"encoding, milliseconds", "triangles", 1, 6, 0, 4, 0, 1},
-                                  {"a query, microseconds", "triangles", 1, 6, 0, 2, 0, 2},
-                                  {"a query, microseconds", "N, of the level of 200,000", 2, 5, 0, 3, 1, 2}};
+  static const panel panels[4] = {
+      {"bytes of a body", "triangles", 1, 6, 3, 8, 0, 0},
+      {"encoding, milliseconds", "triangles", 1, 6, 0, 4, 0, 1},
+      {"a query, microseconds", "triangles", 1, 6, 0, 2, 0, 2},
+      {"a query, microseconds", "N, of the level of 200,000", 2, 5, 0, 3, 1, 2}};
   FILE *svg = fopen(path, "w");
   if (!svg) return 0;
-  fprintf(svg, "<svg xmlns='http://www.w3.org/2000/svg' viewBox='0 0 1660 430' font-family='sans-serif' font-size='13'>\n"
-               "<rect width='100%%' height='100%%' fill='white'/>\n");
-  for (size_t k = 0; k < 4; k++) draw_panel_of(svg, &panels[k], 70 + 405.0 * (double)k, rows, count);
-  fprintf(svg, "<g font-size='15'><text x='70' y='420' fill='#d55e00'>a thing of 0.3 m</text>"
-               "<text x='240' y='420' fill='#0072b2'>a level of 20 m</text></g>\n</svg>\n");
+  fprintf(svg,
+          "<svg xmlns='http://www.w3.org/2000/svg' viewBox='0 0 1660 430' font-family='sans-serif' "
+          "font-size='13'>\n"
+          "<rect width='100%%' height='100%%' fill='white'/>\n");
+  for (size_t k = 0; k < 4; k++)
+    draw_panel_of(svg, &panels[k], 70 + 405.0 * (double)k, rows, count);
+  fprintf(svg,
+          "<g font-size='15'><text x='70' y='420' fill='#d55e00'>a thing of 0.3 m</text>"
+          "<text x='240' y='420' fill='#0072b2'>a level of 20 m</text></g>\n</svg>\n");
   const int good = !ferror(svg);
   return fclose(svg) == 0 && good;
 }
@@ -186,7 +203,8 @@ int main(int argc, char **argv) {
   static level_solid bodies[LEVEL_BODIES];
   size_t count = 0;
   level_make_bodies(bodies);
-  printf("%-18s %8s %7s %10s %8s %9s %8s %8s\n", "", "T", "N", "KB", "bytes/T", "peak/T", "encode", "query");
+  printf("%-18s %8s %7s %10s %8s %9s %8s %8s\n", "", "T", "N", "KB", "bytes/T", "peak/T", "encode",
+         "query");
   printf("%-18s %8s %7s %10s %8s %9s %8s %8s\n", "", "", "", "", "", "", "ms", "us");
   for (int k = 0; k < 10; k++) {
     if (sizes[k] <= most) rows[count++] = measure(THING, sizes[k], 0, &bodies[2]);
@@ -194,6 +212,7 @@ int main(int argc, char **argv) {
   for (int k = 4; k < 10; k++) {
     if (sizes[k] <= most) rows[count++] = measure(LEVEL, sizes[k], 0, &bodies[2]);
   }
-  for (int k = 0; k < 8 && most >= 200000; k++) rows[count++] = measure(BY_POINTS, 200000, points[k], &bodies[2]);
+  for (int k = 0; k < 8 && most >= 200000; k++)
+    rows[count++] = measure(BY_POINTS, 200000, points[k], &bodies[2]);
   return draw("build/scale.svg", rows, count) ? 0 : 1;
 }

@@ -1,10 +1,11 @@
-// check_motions.c - holds what the proof says of the problems of a file, both bodies moving or one, against conservative
-// advancement in double: do they come closer than a clearance, and when first?
+// check_motions.c - holds what the proof says of the problems of a file, both bodies moving or one,
+// against conservative advancement in double: do they come closer than a clearance, and when first?
 //
 //   build/check_motions FILE [CLEARANCE [FIRST]]     metres, share of the motion
 //
-// Exit status 1 if there is a false stop or a miss, or a contact at another time. Problems whose least distance is within
-// 0.1 mm of the clearance are not counted, but for what is said of them being false beyond doubt.
+// Exit status 1 if there is a false stop or a miss, or a contact at another time. Problems whose
+// least distance is within 0.1 mm of the clearance are not counted, but for what is said of them
+// being false beyond doubt.
 #define _POSIX_C_SOURCE 200112L
 #define NEURALSVCD_IMPLEMENTATION
 #include "../neuralsvcd.h"
@@ -13,8 +14,8 @@
 #include "oracle.h"
 #include "poses.h"
 
-#define HAIR 1e-6       // metres: nearer than this to the clearance, advancement stops
-#define MARGIN 1e-4     // metres
+#define HAIR 1e-6    // metres: nearer than this to the clearance, advancement stops
+#define MARGIN 1e-4  // metres
 #define MOST_POSES 256
 
 typedef struct track {
@@ -72,12 +73,16 @@ typedef struct tally {
   double worst;
 } tally;
 
-// One problem, asked and followed. quanta: what stored triangles may be off by; a contact is one to within some of that.
-static void check_one(const problem *p, const nsvcd_answer *answer, const scene *s, double clearance, double first,
-                      double quanta, tally *sum) {
-  const int one_inside = oracle_inside(s->meshes[0], &s->tracks[0].poses[0], s->meshes[1], &s->tracks[1].poses[0]) > 0.5 ||
-                         oracle_inside(s->meshes[1], &s->tracks[1].poses[0], s->meshes[0], &s->tracks[0].poses[0]) > 0.5;
-  const double sure = one_inside ? 0 : first_approach(s, clearance - MARGIN);      // 2: they do not come that close
+// One problem, asked and followed. quanta: what stored triangles may be off by; a contact is one to
+// within some of that.
+static void check_one(const problem *p, const nsvcd_answer *answer, const scene *s,
+                      double clearance, double first, double quanta, tally *sum) {
+  const int one_inside = oracle_inside(s->meshes[0], &s->tracks[0].poses[0], s->meshes[1],
+                                       &s->tracks[1].poses[0]) > 0.5 ||
+                         oracle_inside(s->meshes[1], &s->tracks[1].poses[0], s->meshes[0],
+                                       &s->tracks[0].poses[0]) > 0.5;
+  // 2: they do not come that close
+  const double sure = one_inside ? 0 : first_approach(s, clearance - MARGIN);
   const double maybe = one_inside ? 0 : first_approach(s, clearance + MARGIN);  // 2: not even that
   const int hits = clearance > MARGIN ? sure <= 1 : one_inside || first_approach(s, 0) <= 1;
   const int is_free = maybe > 1;
@@ -88,20 +93,27 @@ static void check_one(const problem *p, const nsvcd_answer *answer, const scene 
   sum->undecided += answer->status == NSVCD_STATUS_UNDECIDED;
   if (is_free && answer->collides) sum->stops++;
   if (clearance > MARGIN && hits && !answer->collides) sum->misses++;
-  if (is_free && answer->collides) printf("%s: stopped at %g, but free\n", p->id, (double)answer->contact_time);
-  if (clearance > MARGIN && hits && !answer->collides) printf("%s: hits at %g, missed\n", p->id, sure);
+  if (is_free && answer->collides)
+    printf("%s: stopped at %g, but free\n", p->id, (double)answer->contact_time);
+  if (clearance > MARGIN && hits && !answer->collides)
+    printf("%s: hits at %g, missed\n", p->id, sure);
   if (!(first > 0) || answer->status == NSVCD_STATUS_INSIDE || one_inside) return;
-  // Before free_until nothing is closer than the clearance; at contact_time something is, soon after.
-  const double until = (double)answer->free_until, when = (double)answer->contact_time;
+  // Before free_until nothing is closer than the clearance; at contact_time something is, soon
+  // after.
+  const double until = (double)answer->free_until;
+  const double when = (double)answer->contact_time;
   const double early = first_approach(s, fmax(clearance - 2 * HAIR, 0));
   int wrong = early < until - 1e-6 && distance_at(s, early) < clearance - 3 * HAIR;
   if (answer->status == NSVCD_STATUS_WITNESS) {
     sum->worst = fmax(sum->worst, (when - until) / first);
     const double high = (double)answer->clearance_high;
-    wrong |= when - until > first * 1.0001 + 1e-6 || distance_at(s, when) > high + HAIR || high > clearance + 4 * quanta;
+    wrong |= when - until > first * 1.0001 + 1e-6 || distance_at(s, when) > high + HAIR ||
+             high > clearance + 4 * quanta;
   }
   sum->late += wrong != 0;
-  if (wrong) printf("%s: first contact %g, proven free until %g, but near at %g\n", p->id, when, until, early);
+  if (wrong)
+    printf("%s: first contact %g, proven free until %g, but near at %g\n", p->id, when, until,
+           early);
 }
 
 int main(int argc, char **argv) {
@@ -109,7 +121,8 @@ int main(int argc, char **argv) {
   tally sum;
   memset(&sum, 0, sizeof sum);
   if (argc < 2 || argc > 4) return complain("FILE [CLEARANCE [FIRST]]"), USAGE;
-  const double clearance = argc > 2 ? atof(argv[2]) : 0, first = argc > 3 ? atof(argv[3]) : 0;
+  const double clearance = argc > 2 ? atof(argv[2]) : 0;
+  const double first = argc > 3 ? atof(argv[3]) : 0;
   if (!read_problems(argv[1], &file)) return REFUSED;
   nsvcd_mesh *meshes = (nsvcd_mesh *)allocate(file.mesh_count * sizeof *meshes);
   const nsvcd_body **bodies = (const nsvcd_body **)allocate(file.mesh_count * sizeof *bodies);
@@ -133,7 +146,8 @@ int main(int argc, char **argv) {
     question.b.body = bodies[p->fixed];
     question.options.clearance = (float)clearance;
     question.options.first = (float)first;
-    const nsvcd_result result = nsvcd_sweep(&question, workspace, nsvcd_sweep_workspace_size(NULL), &answer);
+    const nsvcd_result result =
+        nsvcd_sweep(&question, workspace, nsvcd_sweep_workspace_size(NULL), &answer);
     if (result) return complain("%s: %s", p->id, nsvcd_result_string(result)), REFUSED;
     for (int side = 0; side < 2; side++) {
       const nsvcd_mesh *mesh = &meshes[side ? p->fixed : p->moving];
@@ -141,8 +155,8 @@ int main(int argc, char **argv) {
       double *positions = (double *)allocate(3 * mesh->vertex_count * sizeof *positions);
       for (size_t k = 0; k < 3 * mesh->vertex_count; k++) positions[k] = (double)mesh->positions[k];
       s.meshes[side] = (oracle_mesh *)allocate(sizeof *s.meshes[side]);
-      if (!oracle_mesh_init(s.meshes[side], positions, mesh->vertex_count, mesh->indices, mesh->triangle_count,
-                            (double)mover->scale)) {
+      if (!oracle_mesh_init(s.meshes[side], positions, mesh->vertex_count, mesh->indices,
+                            mesh->triangle_count, (double)mover->scale)) {
         return complain("out of memory"), REFUSED;
       }
       free(positions);
@@ -156,10 +170,14 @@ int main(int argc, char **argv) {
       free(s.meshes[side]);
     }
   }
-  printf("%zu problems: %zu come closer than %g m, %zu do not, %zu too close to call; %zu false stops, %zu misses, "
-         "%zu undecided",
-         sum.problems, sum.hits, clearance, sum.free, sum.close, sum.stops, sum.misses, sum.undecided);
-  if (first > 0) printf("; %zu contacts at another time, late by %.3f of the tolerance at most", sum.late, sum.worst);
+  printf(
+      "%zu problems: %zu come closer than %g m, %zu do not, %zu too close to call; %zu false "
+      "stops, %zu misses, "
+      "%zu undecided",
+      sum.problems, sum.hits, clearance, sum.free, sum.close, sum.stops, sum.misses, sum.undecided);
+  if (first > 0)
+    printf("; %zu contacts at another time, late by %.3f of the tolerance at most", sum.late,
+           sum.worst);
   printf("\n");
   for (size_t i = 0; i < file.mesh_count; i++) {
     nsvcd_body_free(bodies[i], NULL);

@@ -1,8 +1,9 @@
-// The logit of one pair of patches as a function of the moving body's poses, in double, written anew from the
-// conventions in neuralsvcd.h and not from its code: what nsvcd_sweep_gradient differentiates, by its contract. The
-// pair, the segments in which its spheres meet and part, the head, the spheres' allowance and the unit of length are
-// those of a query in float; contact, instants, invariants and head follow the poses. Include after neuralsvcd.h with
-// its implementation.
+// The logit of one pair of patches as a function of the moving body's poses, in double, written
+// anew from the conventions in neuralsvcd.h and not from its code: what nsvcd_sweep_gradient
+// differentiates, by its contract. The pair, the segments in which its spheres meet and part, the
+// head, the spheres' allowance and the unit of length are those of a query in float; contact,
+// instants, invariants and head follow the poses. Include after neuralsvcd.h with its
+// implementation.
 #ifndef GRADIENT_REFERENCE_H
 #define GRADIENT_REFERENCE_H
 
@@ -19,22 +20,28 @@ typedef struct reference_pair {
   double c1[3], c2[3], r1, r2, unit;  // centres, each in its body's axes; radii
   double z1[NSVCD__LATENT], z2[NSVCD__LATENT];
   double to_fixed[9];
-  double segment[2][2], reach[2];  // in which the spheres meet, and part: from, to; the distance at which they do
+  // in which the spheres meet, and part: from, to; the distance at which they do
+  double segment[2][2], reach[2];
   const nsvcd__head *head;
   size_t count;
 } reference_pair;
 
-static double reference_dot(const double *a, const double *b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
+static double reference_dot(const double *a, const double *b) {
+  return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+}
 static double reference_length(const double *a) { return sqrt(reference_dot(a, a)); }
 static void reference_cross(const double *a, const double *b, double *out) {
-  out[0] = a[1] * b[2] - a[2] * b[1], out[1] = a[2] * b[0] - a[0] * b[2], out[2] = a[0] * b[1] - a[1] * b[0];
+  out[0] = a[1] * b[2] - a[2] * b[1];
+  out[1] = a[2] * b[0] - a[0] * b[2];
+  out[2] = a[0] * b[1] - a[1] * b[0];
 }
 static void reference_mul(const double *m, const double *x, double *out) {  // (3, 3) (3)
   for (int i = 0; i < 3; i++) out[i] = reference_dot(m + 3 * i, x);
 }
 static void reference_mul33(const double *a, const double *b, double *out) {
   for (int i = 0; i < 3; i++) {
-    for (int j = 0; j < 3; j++) out[3 * i + j] = a[3 * i] * b[j] + a[3 * i + 1] * b[3 + j] + a[3 * i + 2] * b[6 + j];
+    for (int j = 0; j < 3; j++)
+      out[3 * i + j] = a[3 * i] * b[j] + a[3 * i + 1] * b[3 + j] + a[3 * i + 2] * b[6 + j];
   }
 }
 static void reference_quat_mul(const double *a, const double *b, double *out) {
@@ -47,15 +54,21 @@ static void reference_quat_mul(const double *a, const double *b, double *out) {
 static void reference_matrix(const double *q, double *m) {  // q: of any length
   const double s = 2 / (reference_dot(q, q) + q[3] * q[3]);
   for (int i = 0; i < 3; i++) {
-    for (int j = 0; j < 3; j++) m[3 * i + j] = (i == j ? 1 - s * reference_dot(q, q) : 0) + s * q[i] * q[j];
+    for (int j = 0; j < 3; j++)
+      m[3 * i + j] = (i == j ? 1 - s * reference_dot(q, q) : 0) + s * q[i] * q[j];
   }
-  m[1] -= s * q[3] * q[2], m[2] += s * q[3] * q[1], m[3] += s * q[3] * q[2];
-  m[5] -= s * q[3] * q[0], m[6] -= s * q[3] * q[1], m[7] += s * q[3] * q[0];
+  m[1] -= s * q[3] * q[2];
+  m[2] += s * q[3] * q[1];
+  m[3] += s * q[3] * q[2];
+  m[5] -= s * q[3] * q[0];
+  m[6] -= s * q[3] * q[1];
+  m[7] += s * q[3] * q[0];
 }
 
 // exp of half the rotation vector, then q.
 static void reference_turn(const double *by, const double *q, double *out) {
-  const double angle = reference_length(by), ratio = angle > 0 ? sin(angle / 2) / angle : 0.5;
+  const double angle = reference_length(by);
+  const double ratio = angle > 0 ? sin(angle / 2) / angle : 0.5;
   const double step[4] = {ratio * by[0], ratio * by[1], ratio * by[2], cos(angle / 2)};
   double turned[4];
   reference_quat_mul(step, q, turned);
@@ -63,15 +76,23 @@ static void reference_turn(const double *by, const double *q, double *out) {
 }
 
 // The moving body at time t: rotation (3, 3), quaternion, position; the fixed body's axes.
-static void reference_at(const reference_pair *pair, const reference_pose *poses, double t, double *q, double *m,
-                         double *p) {
+static void reference_at(const reference_pair *pair, const reference_pose *poses, double t,
+                         double *q, double *m, double *p) {
   const size_t arcs = pair->count - 1;
-  const size_t k = arcs == 0 ? 0 : t * (double)arcs < (double)arcs - 1 ? (size_t)(t * (double)arcs) : arcs - 1;
+  const size_t k = arcs == 0                             ? 0
+                   : t * (double)arcs < (double)arcs - 1 ? (size_t)(t * (double)arcs)
+                                                         : arcs - 1;
   const double u = t * (double)arcs - (double)k;
-  const reference_pose *a = &poses[k], *b = arcs ? a + 1 : a;
-  double step[4], inverse[4] = {-a->rotation[0], -a->rotation[1], -a->rotation[2], a->rotation[3]}, along[3], world[9];
+  const reference_pose *a = &poses[k];
+  const reference_pose *b = arcs ? a + 1 : a;
+  double step[4];
+  double inverse[4] = {-a->rotation[0], -a->rotation[1], -a->rotation[2], a->rotation[3]};
+  double along[3];
+  double world[9];
   reference_quat_mul(b->rotation, inverse, step);
-  const double sine = reference_length(step), sign = step[3] < 0 ? -1 : 1, angle = 2 * atan2(sine, sign * step[3]);
+  const double sine = reference_length(step);
+  const double sign = step[3] < 0 ? -1 : 1;
+  const double angle = 2 * atan2(sine, sign * step[3]);
   for (int i = 0; i < 3; i++) along[i] = sine > 0 ? u * angle * sign * step[i] / sine : 0;
   reference_turn(along, a->rotation, q);
   reference_matrix(q, world);
@@ -83,22 +104,32 @@ static void reference_at(const reference_pair *pair, const reference_pose *poses
 }
 
 // Where the moving patch's centre is at time t.
-static void reference_place(const reference_pair *pair, const reference_pose *poses, double t, double *place) {
+static void reference_place(const reference_pair *pair, const reference_pose *poses, double t,
+                            double *place) {
   double q[4], m[9], p[3];
   reference_at(pair, poses, t, q, m, p);
   reference_mul(m, pair->c1, place);
   for (int k = 0; k < 3; k++) place[k] += p[k];
 }
 
-// When the spheres meet (end 0) or part (end 1): centres on a chord over a segment, within it. graze: the cosine
-// between the chord and the line of the centres then, or 1 where the time is an end of the segment.
-static double reference_contact(const reference_pair *pair, const reference_pose *poses, int end, double *graze) {
-  const double from = pair->segment[end][0], to = pair->segment[end][1], reach = pair->reach[end];
+// When the spheres meet (end 0) or part (end 1): centres on a chord over a segment, within it.
+// graze: the cosine between the chord and the line of the centres then, or 1 where the time is an
+// end of the segment.
+static double reference_contact(const reference_pair *pair, const reference_pose *poses, int end,
+                                double *graze) {
+  const double from = pair->segment[end][0];
+  const double to = pair->segment[end][1];
+  const double reach = pair->reach[end];
   double a[3], v[3], y[3];
   reference_place(pair, poses, from, a);
   reference_place(pair, poses, to, v);
-  for (int k = 0; k < 3; k++) v[k] -= a[k], a[k] -= pair->c2[k];
-  const double vv = reference_dot(v, v), av = reference_dot(a, v), aa = reference_dot(a, a) - reach * reach;
+  for (int k = 0; k < 3; k++) {
+    v[k] -= a[k];
+    a[k] -= pair->c2[k];
+  }
+  const double vv = reference_dot(v, v);
+  const double av = reference_dot(a, v);
+  const double aa = reference_dot(a, a) - reach * reach;
   const double root = sqrt(fmax(av * av - vv * aa, 0));
   double tau = vv > 0 ? (end ? -av + root : -av - root) / vv : end;
   *graze = 1;
@@ -110,8 +141,8 @@ static double reference_contact(const reference_pair *pair, const reference_pose
   return from + tau * (to - from);
 }
 
-// A latent's vectors seen in a frame (rows: its axes), times k: degree 1 as a vector, degree 2 as the symmetric matrix
-// without trace whose quadratic form it is.
+// A latent's vectors seen in a frame (rows: its axes), times k: degree 1 as a vector, degree 2 as
+// the symmetric matrix without trace whose quadratic form it is.
 static void reference_latent(const double *z, const double *frame, double k, double *out) {
   const double third = sqrt(3);
   for (size_t c = 0; c < NSVCD_W_CHANNELS; c++) {
@@ -119,8 +150,12 @@ static void reference_latent(const double *z, const double *frame, double k, dou
     for (size_t i = 0; i < 8; i++) a[i] = z[NSVCD_W_CHANNELS * i + c];
     reference_mul(frame, a, x);
     const double *q = a + 3;
-    m[1] = m[3] = q[0] / third, m[5] = m[7] = q[1] / third, m[2] = m[6] = q[3] / third, m[8] = 2 * q[2] / 3;
-    m[0] = q[4] / third - m[8] / 2, m[4] = -q[4] / third - m[8] / 2;
+    m[1] = m[3] = q[0] / third;
+    m[5] = m[7] = q[1] / third;
+    m[2] = m[6] = q[3] / third;
+    m[8] = 2 * q[2] / 3;
+    m[0] = q[4] / third - m[8] / 2;
+    m[4] = -q[4] / third - m[8] / 2;
     for (int i = 0; i < 9; i++) transposed[i] = frame[i % 3 * 3 + i / 3];
     reference_mul33(frame, m, left);
     reference_mul33(left, transposed, turned);
@@ -146,44 +181,68 @@ static double reference_weight(size_t weights, size_t output, size_t outputs, si
 }
 
 static double reference_head(const nsvcd__head *head, const double *x) {
-  double in[256] = {0}, out[256];
-  size_t weights = head->weights, output = head->outputs;
+  double in[256] = {0};
+  double out[256];
+  size_t weights = head->weights;
+  size_t output = head->outputs;
   memcpy(in, x, NSVCD__INPUTS * sizeof *in);
   for (size_t l = 0; l < head->layers; l++) {
-    const size_t inputs = head->sizes[l], outputs = head->sizes[l + 1];
+    const size_t inputs = head->sizes[l];
+    const size_t outputs = head->sizes[l + 1];
     for (size_t o = 0; o < outputs; o++) out[o] = (double)nsvcd_w_decoder_bias[output + o];
     for (size_t i = 0; i < inputs; i++) {
       if (!(in[i] < 0 || in[i] > 0)) continue;
-      for (size_t o = 0; o < outputs; o++) out[o] += in[i] * reference_weight(weights, output, outputs, i, o);
+      for (size_t o = 0; o < outputs; o++)
+        out[o] += in[i] * reference_weight(weights, output, outputs, i, o);
     }
     for (size_t o = 0; o < outputs; o++) in[o] = l + 1 < head->layers ? fmax(out[o], 0) : out[o];
-    weights += inputs * outputs, output += outputs;
+    weights += inputs * outputs;
+    output += outputs;
   }
   return in[0];
 }
 
-// The decoder's inputs. v, w: half displacement and half rotation vector; p1: the moving centre; m: its body's axes.
-static void reference_inputs(const reference_pair *pair, const double *p1, const double *v1, const double *w1,
-                             const double *m, double *x) {
-  const double unit = pair->unit, k1 = pair->r1 / unit, k2 = pair->r2 / unit, order = pair->r1 >= pair->r2 ? 1 : -1;
-  double d[3], v[3], w[3], lean[3], frame[9], frame1[9], *e1 = frame, *e2 = frame + 3, *e3 = frame + 6;
+// The decoder's inputs. v, w: half displacement and half rotation vector; p1: the moving centre; m:
+// its body's axes.
+static void reference_inputs(const reference_pair *pair, const double *p1, const double *v1,
+                             const double *w1, const double *m, double *x) {
+  const double unit = pair->unit;
+  const double k1 = pair->r1 / unit;
+  const double k2 = pair->r2 / unit;
+  const double order = pair->r1 >= pair->r2 ? 1 : -1;
+  double d[3];
+  double v[3];
+  double w[3];
+  double lean[3];
+  double frame[9];
+  double frame1[9];
+  double *e1 = frame;
+  double *e2 = frame + 3;
+  double *e3 = frame + 6;
   double mean[3], lean_across[3], v_across[3], ref[3], closest[3];
   for (int k = 0; k < 3; k++) mean[k] = pair->z1[NSVCD_W_CHANNELS * k];
   reference_mul(m, mean, lean);
   for (int k = 0; k < 3; k++) {
     lean[k] = order * (k1 * lean[k] - k2 * pair->z2[NSVCD_W_CHANNELS * k]);
-    d[k] = order * (pair->c2[k] - p1[k]) / unit, v[k] = v1[k] / unit, w[k] = w1[k];
+    d[k] = order * (pair->c2[k] - p1[k]) / unit;
+    v[k] = v1[k] / unit;
+    w[k] = w1[k];
   }
-  const double line[3] = {lean[0] + 1e-6, lean[1], lean[2]}, length = reference_length(d);
+  const double line[3] = {lean[0] + 1e-6, lean[1], lean[2]};
+  const double length = reference_length(d);
   for (int k = 0; k < 3; k++) {
-    e1[k] = length > 1e-5 ? d[k] / length : reference_length(line) > 1e-9 ? line[k] / reference_length(line) : k == 0;
+    e1[k] = length > 1e-5                   ? d[k] / length
+            : reference_length(line) > 1e-9 ? line[k] / reference_length(line)
+                                            : k == 0;
   }
   for (int k = 0; k < 3; k++) {
-    lean_across[k] = lean[k] - reference_dot(lean, e1) * e1[k], v_across[k] = v[k] - reference_dot(v, e1) * e1[k];
+    lean_across[k] = lean[k] - reference_dot(lean, e1) * e1[k];
+    v_across[k] = v[k] - reference_dot(v, e1) * e1[k];
   }
   const double time = reference_dot(lean_across, v_across) < 0 ? -1 : 1;
   for (int k = 0; k < 3; k++) {
-    v[k] *= time, w[k] *= time;
+    v[k] *= time;
+    w[k] *= time;
     ref[k] = (double)NSVCD__LEAN * lean_across[k] + time * v_across[k];
   }
   if (reference_length(ref) <= 1e-7) {
@@ -196,29 +255,42 @@ static void reference_inputs(const reference_pair *pair, const double *p1, const
   const double side = reference_dot(lean, e3) < -(double)NSVCD__SIDE ? -1 : 1;
   for (int k = 0; k < 3; k++) e3[k] *= side;
   reference_mul33(frame, m, frame1);
-  const size_t first = order > 0 ? 0 : 1, second = 1 - first;
-  double *scalars = x + 2 * NSVCD__VECTORS, *facts = scalars + 2 * NSVCD_W_SCALARS;
+  const size_t first = order > 0 ? 0 : 1;
+  const size_t second = 1 - first;
+  double *scalars = x + 2 * NSVCD__VECTORS;
+  double *facts = scalars + 2 * NSVCD_W_SCALARS;
   reference_latent(pair->z1, frame1, k1, x + NSVCD__VECTORS * first);
   reference_latent(pair->z2, frame, k2, x + NSVCD__VECTORS * second);
   memcpy(scalars + NSVCD_W_SCALARS * first, pair->z1 + NSVCD__VECTORS, NSVCD_W_SCALARS * sizeof *x);
-  memcpy(scalars + NSVCD_W_SCALARS * second, pair->z2 + NSVCD__VECTORS, NSVCD_W_SCALARS * sizeof *x);
+  memcpy(scalars + NSVCD_W_SCALARS * second, pair->z2 + NSVCD__VECTORS,
+         NSVCD_W_SCALARS * sizeof *x);
   const double tau = fmin(fmax(reference_dot(d, v) / (reference_dot(v, v) + 1e-6), -1), 1);
   for (int k = 0; k < 3; k++) closest[k] = d[k] - tau * v[k];
-  facts[0] = length, facts[1] = fmax(k1, k2), facts[2] = reference_length(closest), facts[3] = tau;
+  facts[0] = length;
+  facts[1] = fmax(k1, k2);
+  facts[2] = reference_length(closest);
+  facts[3] = tau;
   for (int k = 0; k < 3; k++) {
-    facts[4 + k] = reference_dot(frame + 3 * k, v), facts[7 + k] = side * reference_dot(frame + 3 * k, w);
+    facts[4 + k] = reference_dot(frame + 3 * k, v);
+    facts[7 + k] = side * reference_dot(frame + 3 * k, w);
   }
-  facts[10] = reference_length(v), facts[11] = reference_length(w);
+  facts[10] = reference_length(v);
+  facts[11] = reference_length(w);
 }
 
-// The logit before its threshold. times: NULL, or (2) when the spheres meet and part. graze: NULL, or the lesser of the
-// two cosines of reference_contact.
-static double reference_logit(const reference_pair *pair, const reference_pose *poses, double *times, double *graze) {
-  double q[3][4], m[3][9], p[3][3], place[3][3], t[3], cosine[2], turn[4], w[3], v[3], arm[3], x[NSVCD__INPUTS];
+// The logit before its threshold. times: NULL, or (2) when the spheres meet and part. graze: NULL,
+// or the lesser of the two cosines of reference_contact.
+static double reference_logit(const reference_pair *pair, const reference_pose *poses,
+                              double *times, double *graze) {
+  double q[3][4], m[3][9], p[3][3], place[3][3], t[3], cosine[2], turn[4], w[3], v[3], arm[3],
+      x[NSVCD__INPUTS];
   t[0] = reference_contact(pair, poses, 0, &cosine[0]);
   t[1] = reference_contact(pair, poses, 1, &cosine[1]);
   t[2] = 0.5 * (t[0] + t[1]);
-  if (times) times[0] = t[0], times[1] = t[1];
+  if (times) {
+    times[0] = t[0];
+    times[1] = t[1];
+  }
   if (graze) *graze = fmin(cosine[0], cosine[1]);
   for (int i = 0; i < 3; i++) {
     reference_at(pair, poses, t[i], q[i], m[i], p[i]);
@@ -227,7 +299,9 @@ static double reference_logit(const reference_pair *pair, const reference_pose *
   }
   const double back[4] = {-q[0][0], -q[0][1], -q[0][2], q[0][3]};
   reference_quat_mul(q[1], back, turn);
-  const double sine = reference_length(turn), sign = turn[3] < 0 ? -1 : 1, angle = atan2(sine, sign * turn[3]);
+  const double sine = reference_length(turn);
+  const double sign = turn[3] < 0 ? -1 : 1;
+  const double angle = atan2(sine, sign * turn[3]);
   double fixed_turn[3];
   for (int k = 0; k < 3; k++) fixed_turn[k] = sine > 0 ? sign * angle * turn[k] / sine : 0;
   reference_mul(pair->to_fixed, fixed_turn, w);  // reference_at's quaternions are in world axes
@@ -238,19 +312,21 @@ static double reference_logit(const reference_pair *pair, const reference_pose *
   return reference_head(pair->head, x);
 }
 
-// Column k of pose n: 0 .. 2 moves it by `step` metres along an axis, 3 .. 5 turns it by `step` radians.
+// Column k of pose n: 0 .. 2 moves it by `step` metres along an axis, 3 .. 5 turns it by `step`
+// radians.
 static void reference_displace(reference_pose *pose, size_t k, double step) {
   double by[3] = {0, 0, 0};
   if (k < 3) {
     pose->position[k] += step;
   } else {
-    by[k - 3] = step, reference_turn(by, pose->rotation, pose->rotation);
+    by[k - 3] = step;
+    reference_turn(by, pose->rotation, pose->rotation);
   }
 }
 
 // Central differences: (count, 6). metres, radians: the steps.
-static void reference_gradient(const reference_pair *pair, const reference_pose *poses, double metres, double radians,
-                               double *gradient) {
+static void reference_gradient(const reference_pair *pair, const reference_pose *poses,
+                               double metres, double radians, double *gradient) {
   reference_pose moved[REFERENCE_POSES];
   for (size_t i = 0; i < 6 * pair->count; i++) {
     const double step = i % 6 < 3 ? metres : radians;
@@ -265,13 +341,15 @@ static void reference_gradient(const reference_pair *pair, const reference_pose 
 }
 
 // What a query in float decided, for the reference, and its poses. work: as that query left it.
-static void reference_open(const nsvcd_body *moving, const nsvcd_pose *poses, size_t count, const nsvcd_body *fixed,
-                           const nsvcd_pose *fixed_pose, const nsvcd__workspace *work,
-                           const nsvcd__candidate *candidate, const nsvcd__head *head, reference_pair *pair,
-                           reference_pose *exact) {
-  const size_t i = candidate->moving, j = candidate->fixed;
+static void reference_open(const nsvcd_body *moving, const nsvcd_pose *poses, size_t count,
+                           const nsvcd_body *fixed, const nsvcd_pose *fixed_pose,
+                           const nsvcd__workspace *work, const nsvcd__candidate *candidate,
+                           const nsvcd__head *head, reference_pair *pair, reference_pose *exact) {
+  const size_t i = candidate->moving;
+  const size_t j = candidate->fixed;
   double q[4], m[9];
-  pair->head = head, pair->count = count;
+  pair->head = head;
+  pair->count = count;
   for (size_t n = 0; n < count; n++) {
     for (int k = 0; k < 3; k++) {
       exact[n].position[k] = (double)poses[n].position[k] - (double)fixed_pose->position[k];
@@ -282,7 +360,8 @@ static void reference_open(const nsvcd_body *moving, const nsvcd_pose *poses, si
     pair->c1[k] = (double)nsvcd__body_floats(moving, k * moving->padded)[i];
     pair->c2[k] = (double)nsvcd__body_floats(fixed, k * fixed->padded)[j];
   }
-  pair->r1 = (double)nsvcd__body_r(moving)[i], pair->r2 = (double)nsvcd__body_r(fixed)[j];
+  pair->r1 = (double)nsvcd__body_r(moving)[i];
+  pair->r2 = (double)nsvcd__body_r(fixed)[j];
   pair->unit = pair->r1 + pair->r2;
   for (size_t k = 0; k < NSVCD__LATENT; k++) {
     pair->z1[k] = nsvcd__body_latents(moving)[NSVCD__LATENT * i + k] / 127.0;
@@ -291,7 +370,8 @@ static void reference_open(const nsvcd_body *moving, const nsvcd_pose *poses, si
   for (size_t k = 0; k < 4; k++) q[k] = (double)fixed_pose->rotation[k];
   reference_matrix(q, m);
   for (size_t k = 0; k < 9; k++) pair->to_fixed[k] = m[k % 3 * 3 + k / 3];
-  // The allowance for the motion within a segment is that of the farthest point of the patch's group.
+  // The allowance for the motion within a segment is that of the farthest point of the patch's
+  // group.
   const size_t g = i / NSVCD__GROUP;
   double group[3];
   for (size_t k = 0; k < 3; k++) group[k] = (double)nsvcd__body_group(moving, k)[g];
@@ -302,7 +382,8 @@ static void reference_open(const nsvcd_body *moving, const nsvcd_pose *poses, si
   for (int end = 0; end < 2; end++) {
     const nsvcd__segments *block = &work->blocks[s[end] / NSVCD__LANES];
     const size_t l = s[end] % NSVCD__LANES;
-    pair->segment[end][0] = (double)work->time[s[end]], pair->segment[end][1] = (double)work->time[s[end] + 1];
+    pair->segment[end][0] = (double)work->time[s[end]];
+    pair->segment[end][1] = (double)work->time[s[end] + 1];
     pair->reach[end] = pair->unit + (double)block->spread[l] + (double)block->bulge[l] * far;
   }
 }

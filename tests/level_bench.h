@@ -1,4 +1,5 @@
-// level_bench.h - a clock, and an allocator that counts, for the benchmarks of large bodies and their test.
+// level_bench.h - a clock, and an allocator that counts, for the benchmarks of large bodies and
+// their test.
 #ifndef LEVEL_BENCH_H
 #define LEVEL_BENCH_H
 

@@ -1,5 +1,5 @@
-// level_scene.h - a level, bodies of 0.3 m, and motions of some frames near its surface: what the test and the benchmark
-// of large bodies share. The oracle sees the same meshes.
+// level_scene.h - a level, bodies of 0.3 m, and motions of some frames near its surface: what the
+// test and the benchmark of large bodies share. The oracle sees the same meshes.
 #ifndef LEVEL_SCENE_H
 #define LEVEL_SCENE_H
 
@@ -10,7 +10,8 @@
 #include "oracle.h"
 #include "poses.h"
 
-#define LEVEL_REACH 0.05  // metres by which the local piece is larger than what the motion can reach
+// metres by which the local piece is larger than what the motion can reach
+#define LEVEL_REACH 0.05
 #define LEVEL_BODIES 6
 
 enum { LEVEL_NEAR, LEVEL_SLIDE, LEVEL_DASH, LEVEL_SETS };
@@ -29,7 +30,8 @@ typedef struct level_solid {
   double radius;  // from the origin
 } level_solid;
 
-// Takes the shape. Positions are rounded to float first, so that library and oracle see the same mesh.
+// Takes the shape. Positions are rounded to float first, so that library and oracle see the same
+// mesh.
 static void level_solid_init(level_solid *s, shapes_mesh *shape, double extent) {
   if (extent > 0) shapes_fit(shape, extent);
   memset(s, 0, sizeof *s);
@@ -42,8 +44,10 @@ static void level_solid_init(level_solid *s, shapes_mesh *shape, double extent) 
     s->mesh.positions[i] = (float)shape->positions[i];
     shape->positions[i] = (double)s->mesh.positions[i];
   }
-  for (size_t v = 0; v < shape->vertices; v++) s->radius = fmax(s->radius, oracle_length(shape->positions + 3 * v));
-  if (!oracle_mesh_init(&s->oracle, shape->positions, shape->vertices, shape->indices, shape->triangles, 1)) {
+  for (size_t v = 0; v < shape->vertices; v++)
+    s->radius = fmax(s->radius, oracle_length(shape->positions + 3 * v));
+  if (!oracle_mesh_init(&s->oracle, shape->positions, shape->vertices, shape->indices,
+                        shape->triangles, 1)) {
     level_fail("no memory");
   }
   free(shape->positions);
@@ -60,26 +64,37 @@ static void level_make_bodies(level_solid *bodies) {
     if (k == 4) level_arch(&shape, 0.12, 0.03, 24);
     if (k == 5) shapes_plate(&shape, 0.15, 0.03, 0.01, 48);
     level_solid_init(&bodies[k], &shape, 0.3);
-    if (nsvcd_encode(&bodies[k].mesh, NULL, NULL, NULL, 0, &bodies[k].body)) level_fail("a body was refused");
+    if (nsvcd_encode(&bodies[k].mesh, NULL, NULL, NULL, 0, &bodies[k].body))
+      level_fail("a body was refused");
   }
 }
 
 // ---- motions
 
 // The least distance of a motion from the level, stopping early.
-static double level_gap(const level_solid *body, const level_solid *level, const oracle_pose *poses) {
+static double level_gap(const level_solid *body, const level_solid *level,
+                        const oracle_pose *poses) {
   const oracle_pose origin = {{0, 0, 0}, {0, 0, 0, 1}};
   oracle_options options = {1e-5, 0.1, 0, 1};
   return oracle_sweep(&body->oracle, poses, 2, &level->oracle, &origin, &options).distance;
 }
 
 // Two poses about a place above the level's surface. Returns 0 if the draw is of no use.
-static int level_motion(shapes_rng *rng, int set, const level_solid *body, const level_solid *level, oracle_pose *poses) {
-  const oracle_triangle *t = &level->oracle.triangles[shapes_next(rng) % level->oracle.triangle_count];
+static int level_motion(shapes_rng *rng, int set, const level_solid *body, const level_solid *level,
+                        oracle_pose *poses) {
+  const oracle_triangle *t =
+      &level->oracle.triangles[shapes_next(rng) % level->oracle.triangle_count];
   const double way = set == LEVEL_NEAR ? 0.1 : set == LEVEL_SLIDE ? 0.05 : 1;
   const double turn = shapes_uniform(rng, 0, set == LEVEL_SLIDE ? 0 : set == LEVEL_NEAR ? 0.15 : 1);
-  double axis[3], direction[3], spin[4], u = shapes_uniform(rng, 0, 1), v = shapes_uniform(rng, 0, 1);
-  if (u + v > 1) u = 1 - u, v = 1 - v;
+  double axis[3];
+  double direction[3];
+  double spin[4];
+  double u = shapes_uniform(rng, 0, 1);
+  double v = shapes_uniform(rng, 0, 1);
+  if (u + v > 1) {
+    u = 1 - u;
+    v = 1 - v;
+  }
   shapes_quaternion(rng, poses[0].rotation);
   shapes_direction(rng, axis);
   shapes_direction(rng, direction);
@@ -94,7 +109,8 @@ static int level_motion(shapes_rng *rng, int set, const level_solid *body, const
     poses[0].position[k] = place + out * t->normal[k];
     poses[1].position[k] = poses[0].position[k] + length * direction[k];
   }
-  if (!(poses[0].position[2] > -0.5)) return 0;  // below the ground, or by a triangle without a normal
+  // below the ground, or by a triangle without a normal
+  if (!(poses[0].position[2] > -0.5)) return 0;
   if (set != LEVEL_SLIDE) return 1;
   // Let down until it slides at the gap that is wanted, by the oracle.
   const double wanted = 1e-4 * pow(10, shapes_uniform(rng, 0.3, 2));
@@ -110,7 +126,8 @@ static int level_motion(shapes_rng *rng, int set, const level_solid *body, const
 }
 
 // The piece of the level that a motion can reach.
-static const nsvcd_body *level_piece(const level_solid *level, const level_solid *body, const nsvcd_pose *poses) {
+static const nsvcd_body *level_piece(const level_solid *level, const level_solid *body,
+                                     const nsvcd_pose *poses) {
   float low[3], high[3];
   nsvcd_mesh part;
   const nsvcd_body *piece;
@@ -144,7 +161,8 @@ typedef struct level_way {
 } level_way;
 
 // A motion of a set; the draw is repeated until one is of use.
-static level_way level_draw(shapes_rng *rng, int set, const level_solid *bodies, const level_solid *level) {
+static level_way level_draw(shapes_rng *rng, int set, const level_solid *bodies,
+                            const level_solid *level) {
   level_way way;
   do {
     way.body = &bodies[shapes_pick(rng, LEVEL_BODIES)];

@@ -1,8 +1,9 @@
 // method.h - what the benchmark asks of a method that checks a moving body against a fixed one.
 //
-// A method prepares a body once per mesh (not timed within the query; its time and bytes are reported) and answers for
-// the motion at discrete times. Float32, single thread, no allocation in a query: as a user of the method would write
-// it for speed. All methods stop at the first placement that collides, and visit placements in the same order.
+// A method prepares a body once per mesh (not timed within the query; its time and bytes are
+// reported) and answers for the motion at discrete times. Float32, single thread, no allocation in
+// a query: as a user of the method would write it for speed. All methods stop at the first
+// placement that collides, and visit placements in the same order.
 #ifndef NSVCD_TESTS_METHOD_H
 #define NSVCD_TESTS_METHOD_H
 
@@ -30,9 +31,10 @@ typedef struct method {
   void *(*scaled)(const void *body, float scale);
   void (*release)(void *body);  // NULL allowed
   size_t (*bytes)(const void *body);
-  // 1 at the first of the `count` placements at which the bodies are nearer than `activation` metres (negative: where
-  // they overlap by more than that), else 0.
-  int (*hits)(const void *moving, const void *fixed, const placement *at, size_t count, float activation);
+  // 1 at the first of the `count` placements at which the bodies are nearer than `activation`
+  // metres (negative: where they overlap by more than that), else 0.
+  int (*hits)(const void *moving, const void *fixed, const placement *at, size_t count,
+              float activation);
 } method;
 
 #endif  // NSVCD_TESTS_METHOD_H

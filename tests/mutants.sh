@@ -28,11 +28,11 @@ lanes without bulge|return nsvcd__v_fma(turn, nsvcd__v_set(reach), nsvcd__v_min(
 lanes without drift|return nsvcd__v_fma(turn, nsvcd__v_set(reach), nsvcd__v_min(by_axis, by_way));|return nsvcd__v_mul(turn, nsvcd__v_set(reach));
 disc without across|nsvcd__v_mul(radius_across, across);|nsvcd__v_mul(nsvcd__v_set(0), nsvcd__v_mul(radius_across, across));
 group of eight|for (size_t i = first; i < first + NSVCD__GROUP \&\& i < f->body->points; i++) {\n    const size_t all|for (size_t i = first; i < first + 8 \&\& i < f->body->points; i++) {\n    const size_t all
-group's disc at the start only|const nsvcd__v3 at_end = nsvcd__v3_add(at_start, nsvcd__v3_turned_back(block->turned, l, fixed->normal));|const nsvcd__v3 at_end = at_start;
+group's disc at the start only|nsvcd__v3_add(at_start, nsvcd__v3_turned_back(block->turned, l, fixed->normal));|at_start;
 held plane without deviation|lowest - slack - nsvcd__deviation(span, p->held, nsvcd__patch_reach(\&p->moving, i));|lowest - slack;
 held plane without slack|highest + p->fixed.slacks[j] * nsvcd__f3_length(p->held);|highest;
 heights over another plane|if (known->plane == p->plane \&\& known->key == key) return|if (known->key == key) return
-pair without quanta|pair.slack = p->arc.scale * (double)p->moving.quanta[i] + (double)p->fixed.quanta[j] + pair.rounding;|pair.slack = pair.rounding;
+pair without quanta|p->arc.scale * (double)p->moving.quanta[i] + (double)p->fixed.quanta[j] + pair.rounding;|pair.rounding;
 pair without bulge|(arc->bulge * pair->reach * off_axis + arc->drift);|(0 * off_axis + arc->drift);
 pair without drift|(arc->bulge * pair->reach * off_axis + arc->drift);|(arc->bulge * pair->reach * off_axis);
 pair without clearance|> p->clearance + pair->slack + deviation;|> pair->slack + deviation;
@@ -51,7 +51,7 @@ bounds of half a window's block|nsvcd__f3_of(nsvcd__least_lane(block->low[0]),|n
 half of the box|slice \&= nsvcd__v_le(at[k], nsvcd__v_set(outer->box[3 + k] + rounding));|slice \&= nsvcd__v_le(at[k], nsvcd__v_set(0.5f * outer->box[k] + 0.5f * outer->box[3 + k]));
 rays past half the groups|while (!*unclear \&\& nsvcd__walk_next(\&walk, \&g)) {\n    uint32_t patches|while (!*unclear \&\& nsvcd__walk_next(\&walk, \&g)) {\n    if (g % 2) continue;\n    uint32_t patches
 block's boxes at the start only|nsvcd__block_box(p, 2);|nsvcd__block_box(p, 1);
-last triangle skipped|const size_t moving_end = p->moving.first_triangle[i + 1], fixed_end = p->fixed.first_triangle[j + 1];\n  const float reach|const size_t moving_end = p->moving.first_triangle[i + 1] - 1, fixed_end = p->fixed.first_triangle[j + 1];\n  const float reach
+last triangle skipped|size_t patience) {\n  const size_t moving_end = p->moving.first_triangle[i + 1];|size_t patience) {\n  const size_t moving_end = p->moving.first_triangle[i + 1] - 1;
 containment one way|if (outer->open) return 0;\n  if (e->inner->components|if (outer->open + !e->inner_moves) return 0;\n  if (e->inner->components
 first arc only|at < end \&\& (double)at < p->end;) {|at < end \&\& at == work->begin[item->segment];) {
 a segment dropped|        p->met = nsvcd__group_against_members(work, fixed, h, wanted, p->met_in);\n|        p->met = nsvcd__group_against_members(work, fixed, h, wanted, p->met_in);\n        for (size_t l = 0; l < NSVCD__GROUP; l++) {\n          if (p->met_in[l] \& (p->met_in[l] - 1)) p->met_in[l] \&= p->met_in[l] - 1;\n        }\n

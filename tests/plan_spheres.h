@@ -1,32 +1,39 @@
-// plan_spheres.h - the collision cost of a sphere planner (as cuRobo's) for nsvcd_plan: the peer of the benchmark.
+// plan_spheres.h - the collision cost of a sphere planner (as cuRobo's) for nsvcd_plan: the peer of
+// the benchmark.
 //
-// In:  a scene of examples/tasks.h, numbers of spheres, the activation distance. Out: plan_spheres_cost, to be called
-//      from nsvcd_plan_problem.collision: the cost of poses (samples, bodies), the verdict, the derivative.
+// In:  a scene of examples/tasks.h, numbers of spheres, the activation distance. Out:
+// plan_spheres_cost, to be called
+//      from nsvcd_plan_problem.collision: the cost of poses (samples, bodies), the verdict, the
+//      derivative.
 // Sources: cuRobo (Sundaralingam et al. 2023) and appendices B and D of the NeuralSVCD paper.
 //
 //   plan_spheres s;
 //   if (!plan_spheres_init(&s, &scene, 397, 400, 0.04f, 1, 0)) ...     // once per scene
 //   if (!plan_spheres_select(&s, &scene)) ...                         // after each task_select
-//   cost = plan_spheres_cost(&s, poses, samples, limit, &collides, gradient);  // allocates nothing; one thread per
+//   cost = plan_spheres_cost(&s, poses, samples, limit, &collides, gradient);  // allocates
+//                                                                              nothing; one thread
+//                                                                              per
 //   struct plan_spheres_free(&s);
 //
-// Cost. Per pair, sample and sphere, with d = the signed distance of its centre from the other body's mesh, less its
-// radius: 0 from the activation distance e on, (e - d)^2 / 2e nearer than that, e/2 - d in contact: cuRobo's. The
-// verdict is d < 0 anywhere. Of two moving bodies the one with more spheres per area is the one made of spheres.
+// Cost. Per pair, sample and sphere, with d = the signed distance of its centre from the other
+// body's mesh, less its radius: 0 from the activation distance e on, (e - d)^2 / 2e nearer than
+// that, e/2 - d in contact: cuRobo's. The verdict is d < 0 anywhere. Of two moving bodies the one
+// with more spheres per area is the one made of spheres.
 //
-// Spheres. A robot's are shared out by area over those of its bodies that a pair measures with spheres. Interior ones
-// by voxels (bench_spheres.h: all of such a sphere is inside, and those that others contain are dropped); the rest, at
-// least a quarter, as cuRobo's default, are points of 2 mm radius on the surface, each put where the surface is
-// farthest from all spheres so far. Of all voxel edges the one whose spheres leave the least of such a distance is
-// taken.
+// Spheres. A robot's are shared out by area over those of its bodies that a pair measures with
+// spheres. Interior ones by voxels (bench_spheres.h: all of such a sphere is inside, and those that
+// others contain are dropped); the rest, at least a quarter, as cuRobo's default, are points of 2
+// mm radius on the surface, each put where the surface is farthest from all spheres so far. Of all
+// voxel edges the one whose spheres leave the least of such a distance is taken.
 //
-// Distance. A grid of signed distances, interpolated trilinearly, as far out as it matters. Where a cell's centre says
-// that interpolation is off by more than PLAN_SPHERES_ERROR (edges, thin walls) the mesh's tree is asked: exact, 0.3
-// us. With `exact` it always is, and the grid only tells what is too far away to matter. The sign is the winding
-// number's.
+// Distance. A grid of signed distances, interpolated trilinearly, as far out as it matters. Where a
+// cell's centre says that interpolation is off by more than PLAN_SPHERES_ERROR (edges, thin walls)
+// the mesh's tree is asked: exact, 0.3 us. With `exact` it always is, and the grid only tells what
+// is too far away to matter. The sign is the winding number's.
 //
-// Culling. The box of a body's whole way against the other's, if that stands still; then per sample the body's sphere
-// against the other's box; then eight spheres of eight spheres each at a time against the grid; then eight spheres.
+// Culling. The box of a body's whole way against the other's, if that stands still; then per sample
+// the body's sphere against the other's box; then eight spheres of eight spheres each at a time
+// against the grid; then eight spheres.
 #ifndef NSVCD_TESTS_PLAN_SPHERES_H
 #define NSVCD_TESTS_PLAN_SPHERES_H
 
@@ -36,7 +43,8 @@
 #include "bench_spheres.h"
 
 #define PLAN_SPHERES_DEF static __attribute__((unused))
-#define PLAN_SPHERES_ERROR 2.5e-4f  // metres: a cell is interpolated in if its centre is this near the truth
+// metres: a cell is interpolated in if its centre is this near the truth
+#define PLAN_SPHERES_ERROR 2.5e-4f
 // gcc unrolls such short loops before it makes vectors of them, and then finds fewer.
 #if defined(__GNUC__) && !defined(__clang__) && __GNUC__ >= 8
 #define PLAN_SPHERES_EACH(k) _Pragma("GCC unroll 1") for (int k = 0; k < 8; k++)
@@ -50,11 +58,14 @@ typedef struct plan_spheres_eight {
 } plan_spheres_eight;
 
 typedef struct plan_spheres_grid {
-  float low[3], cell[3], inverse[3], last[3];  // last: the greatest coordinate in cells, just within the last one
-  int size[3];                                 // nodes
-  float bound;                                 // interpolation is never off by more
-  float *value;                                // (size[2], size[1], size[0]); farther than what matters: a lower bound
-  unsigned char *rough;                        // a bit per node: interpolation is not good enough in the cell above it
+  // last: the greatest coordinate in cells, just within the last one
+  float low[3], cell[3], inverse[3], last[3];
+  int size[3];  // nodes
+  float bound;  // interpolation is never off by more
+  // (size[2], size[1], size[0]); farther than what matters: a lower bound
+  float *value;
+  // a bit per node: interpolation is not good enough in the cell above it
+  unsigned char *rough;
 } plan_spheres_grid;
 
 typedef struct plan_spheres_body {
@@ -92,13 +103,17 @@ static double plan_spheres_now(void) {
 #endif
 }
 
-// ---------------------------------------------------------------------------------------------------------- distance
+// ---------------------------------------------------------------------------------------- distance
 
 static float plan_spheres_dot(const float *a, const float *b) { return mesh_bvh_dot3(a, b); }
 
 // The point of triangle k of the leaf that is nearest to x.
-static void plan_spheres_on_triangle(const mesh_bvh_leaf *leaf, size_t k, const float *x, float *out) {
-  float p[3][3], n[3], best = FLT_MAX, height = 0;
+static void plan_spheres_on_triangle(const mesh_bvh_leaf *leaf, size_t k, const float *x,
+                                     float *out) {
+  float p[3][3];
+  float n[3];
+  float best = FLT_MAX;
+  float height = 0;
   int over = 1;
   for (int i = 0; i < 3; i++) {
     n[i] = leaf->normal[i][k];
@@ -106,18 +121,31 @@ static void plan_spheres_on_triangle(const mesh_bvh_leaf *leaf, size_t k, const 
     height += n[i] * (x[i] - p[0][i]);
   }
   for (int c = 0; c < 3; c++) {
-    float u[3], w[3], at[3], square = 0;
-    for (int i = 0; i < 3; i++) u[i] = p[(c + 1) % 3][i] - p[c][i], w[i] = x[i] - p[c][i];
+    float u[3];
+    float w[3];
+    float at[3];
+    float square = 0;
+    for (int i = 0; i < 3; i++) {
+      u[i] = p[(c + 1) % 3][i] - p[c][i];
+      w[i] = x[i] - p[c][i];
+    }
     float t = mesh_bvh_clamp01(plan_spheres_dot(w, u) / plan_spheres_dot(u, u));
-    for (int i = 0; i < 3; i++) at[i] = p[c][i] + t * u[i], square += (x[i] - at[i]) * (x[i] - at[i]);
+    for (int i = 0; i < 3; i++) {
+      at[i] = p[c][i] + t * u[i];
+      square += (x[i] - at[i]) * (x[i] - at[i]);
+    }
     if (mesh_bvh_side(x, p[c], u, n) < 0) over = 0;
-    if (square < best) best = square, memcpy(out, at, sizeof at);
+    if (square < best) {
+      best = square;
+      memcpy(out, at, sizeof at);
+    }
   }
   for (int i = 0; over && i < 3; i++) out[i] = x[i] - height * n[i];
 }
-// As spheres_nearest, and where that is: the squared distance if below `limit`, else `limit`; `point` and `normal` of
-// the nearest triangle are written only if below.
-static float plan_spheres_nearest(const mesh_bvh *tree, const float *x, float limit, float *point, float *normal) {
+// As spheres_nearest, and where that is: the squared distance if below `limit`, else `limit`;
+// `point` and `normal` of the nearest triangle are written only if below.
+static float plan_spheres_nearest(const mesh_bvh *tree, const float *x, float limit, float *point,
+                                  float *normal) {
   spheres_triangle found;
   const float best = spheres_nearest(tree, x, limit, 0, &found);
   if (!(best < limit)) return limit;
@@ -125,32 +153,40 @@ static float plan_spheres_nearest(const mesh_bvh *tree, const float *x, float li
   for (int i = 0; i < 3; i++) normal[i] = found.leaf->normal[i][found.lane];
   return best;
 }
-// The exact signed distance if below `reach`, else `reach`, and its gradient. `sign`: 1, -1, or 0: not known.
-static float plan_spheres_measure(const plan_spheres_body *b, const float *x, float reach, float sign,
-                                  float *gradient) {
-  float point[3], normal[3] = {0, 0, 1}, limit = reach > 0 && sign > 0 ? reach * reach : FLT_MAX;
+// The exact signed distance if below `reach`, else `reach`, and its gradient. `sign`: 1, -1, or 0:
+// not known.
+static float plan_spheres_measure(const plan_spheres_body *b, const float *x, float reach,
+                                  float sign, float *gradient) {
+  float point[3];
+  float normal[3] = {0, 0, 1};
+  float limit = reach > 0 && sign > 0 ? reach * reach : FLT_MAX;
   float square = plan_spheres_nearest(b->fit->tree, x, limit, point, normal);
   if (!(square < limit)) return reach;
   if (sign >= 0 && sign <= 0) sign = spheres_inside(b->fit->tree, x) ? -1.0f : 1.0f;
   float distance = sqrtf(square);
   if (sign > 0 && distance >= reach) return reach;
   // At the surface the direction would be rounding: the normal is right unless the body is open.
-  for (int i = 0; i < 3; i++) gradient[i] = distance > 1e-6f ? sign * (x[i] - point[i]) / distance : normal[i];
+  for (int i = 0; i < 3; i++)
+    gradient[i] = distance > 1e-6f ? sign * (x[i] - point[i]) / distance : normal[i];
   return sign * distance;
 }
 
-// -------------------------------------------------------------------------------------------------------------- grid
+// -------------------------------------------------------------------------------------------- grid
 
-// Interpolates at eight points of b: distances, the node each cell begins at, and the gradients, unless NULL. Points
-// outside are taken to the border, which lowers the distance: all of the border is farther than what matters.
-static inline void plan_spheres_look(const plan_spheres_grid *g, const float (*x)[8], float *value, int *node,
-                                     float (*gradient)[8]) {
+// Interpolates at eight points of b: distances, the node each cell begins at, and the gradients,
+// unless NULL. Points outside are taken to the border, which lowers the distance: all of the border
+// is farther than what matters.
+static inline void plan_spheres_look(const plan_spheres_grid *g, const float (*x)[8], float *value,
+                                     int *node, float (*gradient)[8]) {
   float f[3][8];
   int at[3][8];
   const float *v = g->value;
-  const int row = g->size[0], layer = g->size[0] * g->size[1];
+  const int row = g->size[0];
+  const int layer = g->size[0] * g->size[1];
   for (int i = 0; i < 3; i++) {
-    const float low = g->low[i], inverse = g->inverse[i], last = g->last[i];
+    const float low = g->low[i];
+    const float inverse = g->inverse[i];
+    const float last = g->last[i];
     PLAN_SPHERES_EACH(k) {
       float u = (x[i][k] - low) * inverse;
       u = u < 0 ? 0 : u;
@@ -163,34 +199,60 @@ static inline void plan_spheres_look(const plan_spheres_grid *g, const float (*x
   float c[8][8];
   PLAN_SPHERES_EACH(k) {
     const float *p = v + node[k];
-    c[0][k] = p[0], c[1][k] = p[1], c[2][k] = p[row], c[3][k] = p[row + 1];
+    c[0][k] = p[0];
+    c[1][k] = p[1];
+    c[2][k] = p[row];
+    c[3][k] = p[row + 1];
     p += layer;
-    c[4][k] = p[0], c[5][k] = p[1], c[6][k] = p[row], c[7][k] = p[row + 1];
+    c[4][k] = p[0];
+    c[5][k] = p[1];
+    c[6][k] = p[row];
+    c[7][k] = p[row + 1];
   }
   PLAN_SPHERES_EACH(k) {
-    float fx = f[0][k], fy = f[1][k], fz = f[2][k];
-    float d0 = c[1][k] - c[0][k], d1 = c[3][k] - c[2][k], d2 = c[5][k] - c[4][k], d3 = c[7][k] - c[6][k];
-    float a0 = c[0][k] + fx * d0, a1 = c[2][k] + fx * d1, a2 = c[4][k] + fx * d2, a3 = c[6][k] + fx * d3;
-    float b0 = a0 + fy * (a1 - a0), b1 = a2 + fy * (a3 - a2);
+    float fx = f[0][k];
+    float fy = f[1][k];
+    float fz = f[2][k];
+    float d0 = c[1][k] - c[0][k];
+    float d1 = c[3][k] - c[2][k];
+    float d2 = c[5][k] - c[4][k];
+    float d3 = c[7][k] - c[6][k];
+    float a0 = c[0][k] + fx * d0;
+    float a1 = c[2][k] + fx * d1;
+    float a2 = c[4][k] + fx * d2;
+    float a3 = c[6][k] + fx * d3;
+    float b0 = a0 + fy * (a1 - a0);
+    float b1 = a2 + fy * (a3 - a2);
     value[k] = b0 + fz * (b1 - b0);
     if (!gradient) continue;
-    float e0 = d0 + fy * (d1 - d0), e1 = d2 + fy * (d3 - d2);
+    float e0 = d0 + fy * (d1 - d0);
+    float e1 = d2 + fy * (d3 - d2);
     gradient[0][k] = (e0 + fz * (e1 - e0)) * g->inverse[0];
     gradient[1][k] = (a1 - a0 + fz * (a3 - a2 - a1 + a0)) * g->inverse[1];
     gradient[2][k] = (b1 - b0) * g->inverse[2];
   }
 }
-static int plan_spheres_is_rough(const plan_spheres_grid *g, int node) { return g->rough[node >> 3] >> (node & 7) & 1; }
+static int plan_spheres_is_rough(const plan_spheres_grid *g, int node) {
+  return g->rough[node >> 3] >> (node & 7) & 1;
+}
 static void plan_spheres_node(const plan_spheres_grid *g, size_t i, float shift, float *x) {
-  size_t at[3], nx = (size_t)g->size[0], ny = (size_t)g->size[1];
-  at[0] = i % nx, at[1] = i / nx % ny, at[2] = i / (nx * ny);
+  size_t at[3];
+  size_t nx = (size_t)g->size[0];
+  size_t ny = (size_t)g->size[1];
+  at[0] = i % nx;
+  at[1] = i / nx % ny;
+  at[2] = i / (nx * ny);
   for (int k = 0; k < 3; k++) x[k] = g->low[k] + ((float)at[k] + shift) * g->cell[k];
 }
 // Signed distances out to `reach`. Each node begins with what is known from the one before it.
 static int plan_spheres_make_grid(plan_spheres_body *b, float reach) {
   plan_spheres_grid *g = &b->grid;
   const mesh_bvh *tree = b->fit->tree;
-  float extent = 0, known = 0, x[3], point[3], normal[3];
+  float extent = 0;
+  float known = 0;
+  float x[3];
+  float point[3];
+  float normal[3];
   size_t total;
   for (int i = 0; i < 3; i++) extent = fmaxf(extent, 2 * tree->box.half[i]);
   // 1/64 of the body, but 1/16 of its thickness, and 2 mm at least.
@@ -204,13 +266,15 @@ static int plan_spheres_make_grid(plan_spheres_body *b, float reach) {
       float pad = reach + g->cell[i];
       g->size[i] = (int)ceilf(2 * (tree->box.half[i] + pad) / g->cell[i]) + 1;
       g->low[i] = tree->box.centre[i] - 0.5f * (float)(g->size[i] - 1) * g->cell[i];
-      g->inverse[i] = 1 / g->cell[i], g->last[i] = (float)(g->size[i] - 1) * 0.999999f;
+      g->inverse[i] = 1 / g->cell[i];
+      g->last[i] = (float)(g->size[i] - 1) * 0.999999f;
       total *= (size_t)g->size[i];
     }
     if (total <= PLAN_SPHERES_NODES) break;
     for (int i = 0; i < 3; i++) g->cell[i] *= 1.05f;
   }
-  g->value = (float *)malloc(total * sizeof(float)), g->rough = (unsigned char *)calloc(total / 8 + 1, 1);
+  g->value = (float *)malloc(total * sizeof(float));
+  g->rough = (unsigned char *)calloc(total / 8 + 1, 1);
   if (!g->value || !g->rough) return 0;
   const float far = reach + 2 * g->bound;
   for (size_t i = 0; i < total; i++) {
@@ -227,10 +291,12 @@ static int plan_spheres_make_grid(plan_spheres_body *b, float reach) {
     g->value[i] = known = inside ? -d : d;
   }
   // The centres of cells.
-  const size_t nx = (size_t)g->size[0], layer = nx * (size_t)g->size[1];
+  const size_t nx = (size_t)g->size[0];
+  const size_t layer = nx * (size_t)g->size[1];
   for (size_t i = 0; i + layer + nx + 1 < total; i++) {
     const size_t corners[8] = {0, 1, nx, nx + 1, layer, layer + 1, layer + nx, layer + nx + 1};
-    float mean = 0, least = FLT_MAX;
+    float mean = 0;
+    float least = FLT_MAX;
     for (int k = 0; k < 8; k++) {
       mean += g->value[i + corners[k]] / 8;
       least = fminf(least, g->value[i + corners[k]]);
@@ -238,7 +304,8 @@ static int plan_spheres_make_grid(plan_spheres_body *b, float reach) {
     if (least > reach) continue;
     plan_spheres_node(g, i, 0.5f, x);
     // Nearer than what would do, farther than that, or of the other sign?
-    float most = fabsf(mean) + PLAN_SPHERES_ERROR, d = sqrtf(plan_spheres_nearest(tree, x, most * most, point, normal));
+    float most = fabsf(mean) + PLAN_SPHERES_ERROR;
+    float d = sqrtf(plan_spheres_nearest(tree, x, most * most, point, normal));
     int rough = d >= most || d < fabsf(mean) - PLAN_SPHERES_ERROR;
     if (!rough && fabsf(mean) <= g->bound && fabsf(mean) > PLAN_SPHERES_ERROR)
       rough = spheres_inside(tree, x) != (mean < 0);
@@ -247,7 +314,7 @@ static int plan_spheres_make_grid(plan_spheres_body *b, float reach) {
   return 1;
 }
 
-// ----------------------------------------------------------------------------------------------------------- spheres
+// ----------------------------------------------------------------------------------------- spheres
 
 static float plan_spheres_area(const nsvcd_mesh *mesh) {
   double total = 0;
@@ -255,23 +322,29 @@ static float plan_spheres_area(const nsvcd_mesh *mesh) {
     const float *p[3];
     float u[3], v[3], c[3];
     for (size_t k = 0; k < 3; k++) p[k] = mesh->positions + 3 * (size_t)mesh->indices[3 * t + k];
-    for (int k = 0; k < 3; k++) u[k] = p[1][k] - p[0][k], v[k] = p[2][k] - p[0][k];
+    for (int k = 0; k < 3; k++) {
+      u[k] = p[1][k] - p[0][k];
+      v[k] = p[2][k] - p[0][k];
+    }
     mesh_bvh_cross(u, v, c);
     total += 0.5 * (double)sqrtf(plan_spheres_dot(c, c));
   }
   return (float)total;
 }
-// Adds surface points until there are n spheres, each the candidate that is farthest from all spheres so far. Returns
-// the greatest distance of a candidate that is left. gaps: (count).
-static float plan_spheres_spread(spheres_body *b, const spheres_ball *candidates, size_t count, size_t n, float *gaps) {
-  size_t done = 0, farthest;
+// Adds surface points until there are n spheres, each the candidate that is farthest from all
+// spheres so far. Returns the greatest distance of a candidate that is left. gaps: (count).
+static float plan_spheres_spread(spheres_body *b, const spheres_ball *candidates, size_t count,
+                                 size_t n, float *gaps) {
+  size_t done = 0;
+  size_t farthest;
   for (size_t i = 0; i < count; i++) gaps[i] = FLT_MAX;
   for (;;) {
     for (; done < b->ball_count; done++) {
       const spheres_ball ball = b->balls[done];
       for (size_t i = 0; i < count; i++) {
-        float x = candidates[i].centre[0] - ball.centre[0], y = candidates[i].centre[1] - ball.centre[1],
-              z = candidates[i].centre[2] - ball.centre[2];
+        float x = candidates[i].centre[0] - ball.centre[0];
+        float y = candidates[i].centre[1] - ball.centre[1];
+        float z = candidates[i].centre[2] - ball.centre[2];
         float gap = sqrtf(x * x + y * y + z * z) - ball.radius;
         gaps[i] = gap < gaps[i] ? gap : gaps[i];
       }
@@ -279,7 +352,8 @@ static float plan_spheres_spread(spheres_body *b, const spheres_ball *candidates
     farthest = 0;
     for (size_t i = 1; i < count; i++)
       if (gaps[i] > gaps[farthest]) farthest = i;
-    if (b->ball_count >= n || !spheres_add(b, candidates[farthest].centre, SPHERES_SURFACE_RADIUS)) break;
+    if (b->ball_count >= n || !spheres_add(b, candidates[farthest].centre, SPHERES_SURFACE_RADIUS))
+      break;
   }
   return gaps[farthest];
 }
@@ -287,11 +361,19 @@ static float plan_spheres_spread(spheres_body *b, const spheres_ball *candidates
 static int plan_spheres_fit(spheres_body *b, const nsvcd_mesh *mesh, size_t n) {
   spheres_body points, best;
   size_t count = 2 * n > 1000 ? 2 * n : 1000;
-  float *gaps = (float *)malloc(count * sizeof *gaps), least = FLT_MAX, extent = 0, volume = 1;
-  memset(&points, 0, sizeof points), memset(&best, 0, sizeof best);
+  float *gaps = (float *)malloc(count * sizeof *gaps);
+  float least = FLT_MAX;
+  float extent = 0;
+  float volume = 1;
+  memset(&points, 0, sizeof points);
+  memset(&best, 0, sizeof best);
   int ok = gaps && spheres_sample(&points, mesh, count);
-  for (int i = 0; i < 3; i++) extent = fmaxf(extent, 2 * b->tree->box.half[i]), volume *= 2 * b->tree->box.half[i];
-  for (float voxel = extent; ok && voxel > 0.001f && volume / (voxel * voxel * voxel) < 5e4f; voxel *= 0.7f) {
+  for (int i = 0; i < 3; i++) {
+    extent = fmaxf(extent, 2 * b->tree->box.half[i]);
+    volume *= 2 * b->tree->box.half[i];
+  }
+  for (float voxel = extent; ok && voxel > 0.001f && volume / (voxel * voxel * voxel) < 5e4f;
+       voxel *= 0.7f) {
     size_t kept = 0;
     b->ball_count = 0;
     ok = spheres_fill(b, voxel);
@@ -304,15 +386,23 @@ static int plan_spheres_fit(spheres_body *b, const nsvcd_mesh *mesh, size_t n) {
     float gap = plan_spheres_spread(b, points.balls, count, n, gaps);
     if (gap >= least) continue;
     spheres_body other = best;
-    least = gap, best = *b;
-    b->balls = other.balls, b->ball_count = other.ball_count, b->ball_capacity = other.ball_capacity;
+    least = gap;
+    best = *b;
+    b->balls = other.balls;
+    b->ball_count = other.ball_count;
+    b->ball_capacity = other.ball_capacity;
   }
-  free(b->balls), free(points.balls), free(gaps);
-  b->balls = best.balls, b->ball_count = best.ball_count, b->ball_capacity = best.ball_capacity;
+  free(b->balls);
+  free(points.balls);
+  free(gaps);
+  b->balls = best.balls;
+  b->ball_count = best.ball_count;
+  b->ball_capacity = best.ball_capacity;
   return ok && b->ball_count == n;
 }
 // Sorts balls so that eights, and eights of eights, are near each other.
-static void plan_spheres_order(spheres_ball *balls, size_t count, mesh_bvh_key *keys, spheres_ball *scratch) {
+static void plan_spheres_order(spheres_ball *balls, size_t count, mesh_bvh_key *keys,
+                               spheres_ball *scratch) {
   float low[3], high[3];
   int axis = 0;
   if (count <= 8) return;
@@ -322,13 +412,17 @@ static void plan_spheres_order(spheres_ball *balls, size_t count, mesh_bvh_key *
       low[k] = fminf(low[k], balls[i].centre[k]), high[k] = fmaxf(high[k], balls[i].centre[k]);
   for (int k = 1; k < 3; k++)
     if (high[k] - low[k] > high[axis] - low[axis]) axis = k;
-  for (size_t i = 0; i < count; i++) keys[i].value = balls[i].centre[axis], keys[i].triangle = (uint32_t)i;
+  for (size_t i = 0; i < count; i++) {
+    keys[i].value = balls[i].centre[axis];
+    keys[i].triangle = (uint32_t)i;
+  }
   qsort(keys, count, sizeof *keys, mesh_bvh_compare);
   memcpy(scratch, balls, count * sizeof *balls);
   for (size_t i = 0; i < count; i++) balls[i] = scratch[keys[i].triangle];
   size_t part = 8;
   while (2 * part < count) part *= 2;  // full eights of eights of ... on the left
-  plan_spheres_order(balls, part, keys, scratch), plan_spheres_order(balls + part, count - part, keys, scratch);
+  plan_spheres_order(balls, part, keys, scratch);
+  plan_spheres_order(balls + part, count - part, keys, scratch);
 }
 static plan_spheres_eight *plan_spheres_pack(const spheres_ball *balls, size_t count) {
   plan_spheres_eight *out = (plan_spheres_eight *)malloc((count + 7) / 8 * sizeof *out);
@@ -342,7 +436,8 @@ static plan_spheres_eight *plan_spheres_pack(const spheres_ball *balls, size_t c
 static int plan_spheres_make_body(plan_spheres_body *b, const nsvcd_mesh *mesh, size_t n) {
   if (!plan_spheres_fit(b->fit, mesh, n)) return 0;
   mesh_bvh_key *keys = (mesh_bvh_key *)malloc(n * sizeof *keys);
-  spheres_ball *scratch = (spheres_ball *)malloc(n * sizeof *scratch), all;
+  spheres_ball *scratch = (spheres_ball *)malloc(n * sizeof *scratch);
+  spheres_ball all;
   size_t eights = b->eight_count = (n + 7) / 8;
   if (keys && scratch) {
     plan_spheres_order(b->fit->balls, n, keys, scratch);
@@ -354,7 +449,8 @@ static int plan_spheres_make_body(plan_spheres_body *b, const nsvcd_mesh *mesh, 
     memcpy(b->centre, all.centre, sizeof all.centre);
     b->radius = all.radius;
   }
-  free(keys), free(scratch);
+  free(keys);
+  free(scratch);
   return b->eights && b->bounds;
 }
 
@@ -362,22 +458,32 @@ PLAN_SPHERES_DEF void plan_spheres_free(plan_spheres *s) {
   for (int i = 0; i < s->body_count; i++) {
     plan_spheres_body *b = &s->bodies[i];
     spheres_release(b->fit);
-    free(b->eights), free(b->bounds), free(b->grid.value), free(b->grid.rough);
+    free(b->eights);
+    free(b->bounds);
+    free(b->grid.value);
+    free(b->grid.rough);
   }
   free(s->placed);
   memset(s, 0, sizeof *s);
 }
 // Spheres of all moving bodies of the scene, grasped ones in all of its problems. 0 without memory.
-PLAN_SPHERES_DEF int plan_spheres_init(plan_spheres *s, const task_scene *scene, size_t robot_spheres,
-                                       size_t held_spheres, float activation, float weight, int exact) {
-  int measured[TASK_MAX_BODIES] = {0}, held[TASK_MAX_BODIES] = {0}, ok = 1;
+PLAN_SPHERES_DEF int plan_spheres_init(plan_spheres *s, const task_scene *scene,
+                                       size_t robot_spheres, size_t held_spheres, float activation,
+                                       float weight, int exact) {
+  int measured[TASK_MAX_BODIES] = {0};
+  int held[TASK_MAX_BODIES] = {0};
+  int ok = 1;
   float area = 0;
   memset(s, 0, sizeof *s);
-  s->activation = activation, s->weight = weight, s->exact = exact, s->body_count = scene->body_count;
+  s->activation = activation;
+  s->weight = weight;
+  s->exact = exact;
+  s->body_count = scene->body_count;
   s->placed = (float *)malloc((size_t)s->body_count * PLAN_SPHERES_CHUNK * 15 * sizeof(float));
   for (int k = 0; k < scene->pair_count; k++) measured[scene->pairs[k][1]] = 1;
   for (int i = 0; i < scene->body_count; i++) held[i] = scene->bodies[i].kind == TASK_HELD;
-  for (int k = 0; scene->problem_count > 1 && k < scene->problem_count; k++) held[scene->held[k]] = 1;
+  for (int k = 0; scene->problem_count > 1 && k < scene->problem_count; k++)
+    held[scene->held[k]] = 1;
   for (int i = 0; i < scene->body_count; i++) {
     s->bodies[i].area = plan_spheres_area(&scene->bodies[i].mesh);
     if (scene->bodies[i].kind == TASK_ROBOT && measured[i]) area += s->bodies[i].area;
@@ -394,7 +500,8 @@ PLAN_SPHERES_DEF int plan_spheres_init(plan_spheres *s, const task_scene *scene,
     ok = b->fit && b->fit->tree && s->placed;
     if (from->kind == TASK_ROBOT && measured[i]) {
       passed += b->area;
-      n = (size_t)((double)robot_spheres * (double)passed / (double)area + 0.5) - given, given += n;
+      n = (size_t)((double)robot_spheres * (double)passed / (double)area + 0.5) - given;
+      given += n;
       n = n ? n : 1;
     }
     if (!ok || !n) continue;
@@ -405,24 +512,30 @@ PLAN_SPHERES_DEF int plan_spheres_init(plan_spheres *s, const task_scene *scene,
   if (!ok) plan_spheres_free(s);
   return ok;
 }
-// The pairs of the selected problem, and the grids that they need. 0 without memory, or if a body that was in no pair
-// when the spheres were made now needs some.
+// The pairs of the selected problem, and the grids that they need. 0 without memory, or if a body
+// that was in no pair when the spheres were made now needs some.
 PLAN_SPHERES_DEF int plan_spheres_select(plan_spheres *s, const task_scene *scene) {
   s->pair_count = scene->pair_count;
   for (int i = 0; i < scene->body_count; i++) s->bodies[i].moves = task_moves(&scene->bodies[i]);
   for (int k = 0; k < scene->pair_count; k++) {
-    int a = scene->pairs[k][1], b = scene->pairs[k][0];
-    const plan_spheres_body *of_a = &s->bodies[a], *of_b = &s->bodies[b];
-    int swap = of_b->moves && (float)of_b->fit->ball_count / of_b->area > (float)of_a->fit->ball_count / of_a->area;
-    s->pairs[k][0] = swap ? b : a, s->pairs[k][1] = swap ? a : b;
-    if (!s->bodies[s->pairs[k][0]].eight_count) return 0;  // a robot's body that was in no pair at first
+    int a = scene->pairs[k][1];
+    int b = scene->pairs[k][0];
+    const plan_spheres_body *of_a = &s->bodies[a];
+    const plan_spheres_body *of_b = &s->bodies[b];
+    int swap = of_b->moves && (float)of_b->fit->ball_count / of_b->area >
+                                  (float)of_a->fit->ball_count / of_a->area;
+    s->pairs[k][0] = swap ? b : a;
+    s->pairs[k][1] = swap ? a : b;
+    // a robot's body that was in no pair at first
+    if (!s->bodies[s->pairs[k][0]].eight_count) return 0;
     plan_spheres_body *fixed = &s->bodies[s->pairs[k][1]];
-    if (!fixed->grid.value && !plan_spheres_make_grid(fixed, s->activation + s->most_radius)) return 0;
+    if (!fixed->grid.value && !plan_spheres_make_grid(fixed, s->activation + s->most_radius))
+      return 0;
   }
   return 1;
 }
 
-// -------------------------------------------------------------------------------------------------------------- cost
+// -------------------------------------------------------------------------------------------- cost
 
 typedef struct plan_spheres_sum {
   float cost, force[3], moment[3];  // in the mesh's frame, about its origin
@@ -430,24 +543,39 @@ typedef struct plan_spheres_sum {
 } plan_spheres_sum;
 
 static void plan_spheres_matrix(const float *q, float *m) {
-  float x = 2 * q[0], y = 2 * q[1], z = 2 * q[2];
-  m[0] = 1 - y * q[1] - z * q[2], m[1] = x * q[1] - z * q[3], m[2] = x * q[2] + y * q[3];
-  m[3] = x * q[1] + z * q[3], m[4] = 1 - x * q[0] - z * q[2], m[5] = y * q[2] - x * q[3];
-  m[6] = x * q[2] - y * q[3], m[7] = y * q[2] + x * q[3], m[8] = 1 - x * q[0] - y * q[1];
+  float x = 2 * q[0];
+  float y = 2 * q[1];
+  float z = 2 * q[2];
+  m[0] = 1 - y * q[1] - z * q[2];
+  m[1] = x * q[1] - z * q[3];
+  m[2] = x * q[2] + y * q[3];
+  m[3] = x * q[1] + z * q[3];
+  m[4] = 1 - x * q[0] - z * q[2];
+  m[5] = y * q[2] - x * q[3];
+  m[6] = x * q[2] - y * q[3];
+  m[7] = y * q[2] + x * q[3];
+  m[8] = 1 - x * q[0] - y * q[1];
 }
-static inline void plan_spheres_move(const placement *at, const plan_spheres_eight *eight, float (*x)[8]) {
+static inline void plan_spheres_move(const placement *at, const plan_spheres_eight *eight,
+                                     float (*x)[8]) {
   for (int i = 0; i < 3; i++) {
-    const float *r = at->rotation + 3 * i, p = at->position[i];
+    const float *r = at->rotation + 3 * i;
+    const float p = at->position[i];
     PLAN_SPHERES_EACH(k)
-    x[i][k] = r[0] * eight->centre[0][k] + r[1] * eight->centre[1][k] + r[2] * eight->centre[2][k] + p;
+    x[i][k] =
+        r[0] * eight->centre[0][k] + r[1] * eight->centre[1][k] + r[2] * eight->centre[2][k] + p;
   }
 }
 // Eight spheres against a mesh.
-static inline void plan_spheres_add(plan_spheres *s, const plan_spheres_body *b, const placement *at,
-                                    const plan_spheres_eight *eight, int derive, plan_spheres_sum *sum) {
+static inline void plan_spheres_add(plan_spheres *s, const plan_spheres_body *b,
+                                    const placement *at, const plan_spheres_eight *eight,
+                                    int derive, plan_spheres_sum *sum) {
   const plan_spheres_grid *g = &b->grid;
   const float e = s->activation;
-  float x[3][8], value[8], gradient[3][8], cost = 0;
+  float x[3][8];
+  float value[8];
+  float gradient[3][8];
+  float cost = 0;
   int node[8];
   unsigned near = 0;
   plan_spheres_move(at, eight, x);
@@ -457,36 +585,50 @@ static inline void plan_spheres_add(plan_spheres *s, const plan_spheres_body *b,
   unsigned left = near;
   for (int k = 0; left; k++, left >>= 1) {
     if (!(left & 1) || (!s->exact && !plan_spheres_is_rough(g, node[k]))) continue;
-    float p[3] = {x[0][k], x[1][k], x[2][k]}, n[3] = {0, 0, 0};
+    float p[3] = {x[0][k], x[1][k], x[2][k]};
+    float n[3] = {0, 0, 0};
     float sign = value[k] > g->bound ? 1.0f : value[k] < -g->bound ? -1.0f : 0.0f;
     value[k] = plan_spheres_measure(b, p, e + eight->radius[k], sign, n);
     for (int i = 0; i < 3; i++) gradient[i][k] = n[i];
     s->asked++;
   }
   if (!near) return;
-  float slope[8], inverse = 1 / e;
+  float slope[8];
+  float inverse = 1 / e;
   int collides = 0;
   PLAN_SPHERES_EACH(k) {
-    float d = value[k] - eight->radius[k], in = e - d;
+    float d = value[k] - eight->radius[k];
+    float in = e - d;
     in = in < 0 ? 0 : in;
     float out = in > e ? in - 0.5f * e : 0.5f * in * in * inverse;
     slope[k] = in > e ? 1 : in * inverse;
     cost += out;
     collides |= d < 0;
   }
-  sum->cost += cost, sum->collides |= collides;
+  sum->cost += cost;
+  sum->collides |= collides;
   if (!derive) return;
   float t[6] = {0, 0, 0, 0, 0, 0};
   PLAN_SPHERES_EACH(k) {
-    float fx = -slope[k] * gradient[0][k], fy = -slope[k] * gradient[1][k], fz = -slope[k] * gradient[2][k];
-    t[0] += fx, t[1] += fy, t[2] += fz;
-    t[3] += x[1][k] * fz - x[2][k] * fy, t[4] += x[2][k] * fx - x[0][k] * fz, t[5] += x[0][k] * fy - x[1][k] * fx;
+    float fx = -slope[k] * gradient[0][k];
+    float fy = -slope[k] * gradient[1][k];
+    float fz = -slope[k] * gradient[2][k];
+    t[0] += fx;
+    t[1] += fy;
+    t[2] += fz;
+    t[3] += x[1][k] * fz - x[2][k] * fy;
+    t[4] += x[2][k] * fx - x[0][k] * fz;
+    t[5] += x[0][k] * fy - x[1][k] * fx;
   }
-  for (int i = 0; i < 3; i++) sum->force[i] += t[i], sum->moment[i] += t[3 + i];
+  for (int i = 0; i < 3; i++) {
+    sum->force[i] += t[i];
+    sum->moment[i] += t[3 + i];
+  }
 }
 // All spheres of a against b, of which a is seen `at`.
-static void plan_spheres_meet(plan_spheres *s, const plan_spheres_body *a, const plan_spheres_body *b,
-                              const placement *at, int derive, plan_spheres_sum *sum) {
+static void plan_spheres_meet(plan_spheres *s, const plan_spheres_body *a,
+                              const plan_spheres_body *b, const placement *at, int derive,
+                              plan_spheres_sum *sum) {
   const plan_spheres_grid *g = &b->grid;
   const mesh_bvh_box *box = &b->fit->tree->box;
   for (size_t i = 0; i < a->eight_count; i += 8) {
@@ -504,10 +646,12 @@ static void plan_spheres_meet(plan_spheres *s, const plan_spheres_body *a, const
         gap[j] = gap[j] < 0 ? 0 : gap[j];
       }
       float reach = bound->radius[k] + s->activation;
-      outside[k] = gap[0] * gap[0] + gap[1] * gap[1] + gap[2] * gap[2] - (reach > 0 ? reach * reach : -1);
+      outside[k] =
+          gap[0] * gap[0] + gap[1] * gap[1] + gap[2] * gap[2] - (reach > 0 ? reach * reach : -1);
     }
     PLAN_SPHERES_EACH(k)
-    near |= (unsigned)((outside[k] < 0) & (value[k] - g->bound < bound->radius[k] + s->activation)) << k;
+    near |= (unsigned)((outside[k] < 0) & (value[k] - g->bound < bound->radius[k] + s->activation))
+            << k;
     for (int k = 0; near; k++, near >>= 1) {
       // Where interpolation is good, it need not be doubted by as much.
       float most = bound->radius[k] + s->activation + 4 * PLAN_SPHERES_ERROR;
@@ -517,12 +661,14 @@ static void plan_spheres_meet(plan_spheres *s, const plan_spheres_body *a, const
   }
 }
 static float *plan_spheres_placed(const plan_spheres *s, int body, size_t sample) {
-  return s->placed + ((size_t)body * PLAN_SPHERES_CHUNK + (s->bodies[body].moves ? sample : 0)) * 15;
+  return s->placed +
+         ((size_t)body * PLAN_SPHERES_CHUNK + (s->bodies[body].moves ? sample : 0)) * 15;
 }
 static void plan_spheres_place(plan_spheres *s, const nsvcd_pose *poses, size_t samples) {
   for (int i = 0; i < s->body_count; i++) {
     const plan_spheres_body *b = &s->bodies[i];
-    for (size_t k = 0; k < (b->moves ? samples : 1); k++) {  // what stands still is where the first sample says
+    // what stands still is where the first sample says
+    for (size_t k = 0; k < (b->moves ? samples : 1); k++) {
       const nsvcd_pose *pose = &poses[k * (size_t)s->body_count + (size_t)i];
       const float *c = b->moves ? b->centre : b->fit->tree->box.centre;
       float *out = plan_spheres_placed(s, i, k);
@@ -535,8 +681,8 @@ static void plan_spheres_place(plan_spheres *s, const nsvcd_pose *poses, size_t 
   }
 }
 // From the mesh's frame to the world, and from b's origin to a's.
-static void plan_spheres_push(const plan_spheres_sum *sum, const float *of_a, const float *of_b, float weight,
-                              float *on_a, float *on_b) {
+static void plan_spheres_push(const plan_spheres_sum *sum, const float *of_a, const float *of_b,
+                              float weight, float *on_a, float *on_b) {
   float f[3], m[3], d[3], c[3];
   for (int i = 0; i < 3; i++) {
     f[i] = weight * plan_spheres_dot(of_b + 3 * i, sum->force);
@@ -545,45 +691,57 @@ static void plan_spheres_push(const plan_spheres_sum *sum, const float *of_a, co
   }
   mesh_bvh_cross(d, f, c);
   for (int i = 0; i < 3; i++) {
-    on_a[i] += f[i], on_a[3 + i] += m[i] + c[i];
-    on_b[i] -= f[i], on_b[3 + i] -= m[i];
+    on_a[i] += f[i];
+    on_a[3 + i] += m[i] + c[i];
+    on_b[i] -= f[i];
+    on_b[3 + i] -= m[i];
   }
 }
 // One pair, up to CHUNK samples that are placed. Returns the cost.
-static float plan_spheres_pair(plan_spheres *s, int ia, int ib, size_t samples, int *collides, float *gradient) {
-  const plan_spheres_body *a = &s->bodies[ia], *b = &s->bodies[ib];
+static float plan_spheres_pair(plan_spheres *s, int ia, int ib, size_t samples, int *collides,
+                               float *gradient) {
+  const plan_spheres_body *a = &s->bodies[ia];
+  const plan_spheres_body *b = &s->bodies[ib];
   const mesh_bvh_box *box = &b->fit->tree->box;
   const float reach = a->radius + s->activation;
-  float low[3] = {-FLT_MAX, -FLT_MAX, -FLT_MAX}, high[3] = {FLT_MAX, FLT_MAX, FLT_MAX}, cost = 0;
+  float low[3] = {-FLT_MAX, -FLT_MAX, -FLT_MAX};
+  float high[3] = {FLT_MAX, FLT_MAX, FLT_MAX};
+  float cost = 0;
   if (!b->moves) {  // its box in the world
     const float *m = plan_spheres_placed(s, ib, 0);
     for (int i = 0; i < 3; i++) {
       float half = reach;
       for (int k = 0; k < 3; k++) half += fabsf(m[3 * i + k]) * box->half[k];
-      low[i] = m[12 + i] - half, high[i] = m[12 + i] + half;
+      low[i] = m[12 + i] - half;
+      high[i] = m[12 + i] + half;
     }
   }
   for (size_t n = 0; n < samples; n++) {
-    const float *p = plan_spheres_placed(s, ia, n), *q = plan_spheres_placed(s, ib, n);
+    const float *p = plan_spheres_placed(s, ia, n);
+    const float *q = plan_spheres_placed(s, ib, n);
     plan_spheres_sum sum = {0, {0, 0, 0}, {0, 0, 0}, 0};
     placement at;
-    float d[3], outside = 0;
-    if ((p[12] < low[0]) | (p[12] > high[0]) | (p[13] < low[1]) | (p[13] > high[1]) | (p[14] < low[2]) |
-        (p[14] > high[2]))
+    float d[3];
+    float outside = 0;
+    if ((p[12] < low[0]) | (p[12] > high[0]) | (p[13] < low[1]) | (p[13] > high[1]) |
+        (p[14] < low[2]) | (p[14] > high[2]))
       continue;
     for (int i = 0; i < 3; i++) d[i] = p[12 + i] - q[9 + i];
     for (int i = 0; i < 3; i++) {
-      float gap = fabsf(q[i] * d[0] + q[3 + i] * d[1] + q[6 + i] * d[2] - box->centre[i]) - box->half[i];
+      float gap =
+          fabsf(q[i] * d[0] + q[3 + i] * d[1] + q[6 + i] * d[2] - box->centre[i]) - box->half[i];
       outside += gap > 0 ? gap * gap : 0;
     }
     if (outside >= reach * reach) continue;
     for (int i = 0; i < 3; i++) d[i] = p[9 + i] - q[9 + i];
     for (int i = 0; i < 3; i++) {
       at.position[i] = q[i] * d[0] + q[3 + i] * d[1] + q[6 + i] * d[2];
-      for (int k = 0; k < 3; k++) at.rotation[3 * i + k] = q[i] * p[k] + q[3 + i] * p[3 + k] + q[6 + i] * p[6 + k];
+      for (int k = 0; k < 3; k++)
+        at.rotation[3 * i + k] = q[i] * p[k] + q[3 + i] * p[3 + k] + q[6 + i] * p[6 + k];
     }
     plan_spheres_meet(s, a, b, &at, gradient != NULL, &sum);
-    cost += sum.cost, *collides |= sum.collides;
+    cost += sum.cost;
+    *collides |= sum.collides;
     if (!gradient || !(sum.cost > 0)) continue;
     float *row = gradient + 6 * n * (size_t)s->body_count;
     plan_spheres_push(&sum, p, q, s->weight, row + 6 * ia, row + 6 * ib);
@@ -591,18 +749,21 @@ static float plan_spheres_pair(plan_spheres *s, int ia, int ib, size_t samples, 
   return cost;
 }
 // nsvcd_plan_problem.collision, but for `user`. collides: set to 1 if so, else left alone.
-PLAN_SPHERES_DEF float plan_spheres_cost(plan_spheres *s, const nsvcd_pose *poses, size_t samples, float limit,
-                                         int *collides, float *gradient) {
-  double begin = plan_spheres_now(), cost = 0;
+PLAN_SPHERES_DEF float plan_spheres_cost(plan_spheres *s, const nsvcd_pose *poses, size_t samples,
+                                         float limit, int *collides, float *gradient) {
+  double begin = plan_spheres_now();
+  double cost = 0;
   for (size_t first = 0; first < samples; first += PLAN_SPHERES_CHUNK) {
-    size_t left = samples - first, count = left < PLAN_SPHERES_CHUNK ? left : (size_t)PLAN_SPHERES_CHUNK;
+    size_t left = samples - first;
+    size_t count = left < PLAN_SPHERES_CHUNK ? left : (size_t)PLAN_SPHERES_CHUNK;
     size_t row = first * (size_t)s->body_count;
     plan_spheres_place(s, poses + row, count);
     for (int k = 0; k < s->pair_count && s->weight * (float)cost <= limit; k++)
       cost += (double)plan_spheres_pair(s, s->pairs[k][0], s->pairs[k][1], count, collides,
                                         gradient ? gradient + 6 * row : NULL);
   }
-  s->calls++, s->seconds += plan_spheres_now() - begin;
+  s->calls++;
+  s->seconds += plan_spheres_now() - begin;
   return s->weight * (float)cost;
 }
 

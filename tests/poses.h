@@ -1,4 +1,5 @@
-// poses.h - poses between the library's float and the oracle's double. After neuralsvcd.h and oracle.h.
+// poses.h - poses between the library's float and the oracle's double. After neuralsvcd.h and
+// oracle.h.
 #ifndef POSES_H
 #define POSES_H
 

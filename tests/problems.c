@@ -1,24 +1,31 @@
-// problems.c - writes labelled problem files (FORMATS.md), exact by tests/oracle.h. See `problems` without arguments.
+// problems.c - writes labelled problem files (FORMATS.md), exact by tests/oracle.h. See `problems`
+// without arguments.
 //
-// What sets there are: the table `sets` below. How a problem comes about (the paper's appendix B, conditioned on the
-// boundary; all sets but `inside` and `far`):
-//   1. two meshes, random sizes; a smooth random motion of one; the other placed at random within reach of it;
-//   2. if they touch or one contains the other, the fixed body marches in a random direction to the first place where
+// What sets there are: the table `sets` below. How a problem comes about (the paper's appendix B,
+// conditioned on the boundary; all sets but `inside` and `far`):
+//   1. two meshes, random sizes; a smooth random motion of one; the other placed at random within
+//   reach of it; 2. if they touch or one contains the other, the fixed body marches in a random
+//   direction to the first place where
 //      they do not, which may well be a concavity; restart if there is none;
-//   3. delta, the shortest vector between the swept and the fixed surface, by the oracle. Moved along delta by its
-//      length, the fixed body just touches the motion, and nothing else touches: separation is 1-Lipschitz in the
-//      offset. Verified: 0.1 mm short of it the bodies are free and less than 0.3 mm apart, else rejected;
-//   4. the fixed body moves on by eps ~ N(0, sigma^2) along delta (positive: deeper), and the oracle relabels;
-//   5. labels within 0.1 mm of contact are thrown away; classes are balanced by rejection: eps is redrawn, at most
+//   3. delta, the shortest vector between the swept and the fixed surface, by the oracle. Moved
+//   along delta by its
+//      length, the fixed body just touches the motion, and nothing else touches: separation is
+//      1-Lipschitz in the offset. Verified: 0.1 mm short of it the bodies are free and less than
+//      0.3 mm apart, else rejected;
+//   4. the fixed body moves on by eps ~ N(0, sigma^2) along delta (positive: deeper), and the
+//   oracle relabels; 5. labels within 0.1 mm of contact are thrown away; classes are balanced by
+//   rejection: eps is redrawn, at most
 //      four times, then the pair is dropped.
-// The millimetres above are for bodies of some 0.1 m; `tiny` and `huge` scale them with everything else.
-// MARGIN: the least separation if free. If colliding: minus the depth, the shortest way back along delta (against the
-// sign of eps) after which the motion is free, found by eight steps and bisection; at most |eps|. It is an upper bound
-// of the true penetration depth, since another direction may be shorter.
-// Set `inside`: one body wholly inside a solid (label 1, nan), against controls in cavities of shells and cups (label
-// 0). Set `far`: label 0, nothing else is asked of it. Set `offset`: the motion is rounded to float32 before anything
-// is measured and the fixed pose before it is labelled, since a reader of floats sees nothing finer than 1 mm there;
-// labels and free margins hold for the rounded poses, depths may be off by that rounding.
+// The millimetres above are for bodies of some 0.1 m; `tiny` and `huge` scale them with everything
+// else. MARGIN: the least separation if free. If colliding: minus the depth, the shortest way back
+// along delta (against the sign of eps) after which the motion is free, found by eight steps and
+// bisection; at most |eps|. It is an upper bound of the true penetration depth, since another
+// direction may be shorter.
+// Set `inside`: one body wholly inside a solid (label 1, nan), against controls in cavities of
+// shells and cups (label 0). Set `far`: label 0, nothing else is asked of it. Set `offset`: the
+// motion is rounded to float32 before anything is measured and the fixed pose before it is
+// labelled, since a reader of floats sees nothing finer than 1 mm there; labels and free margins
+// hold for the rounded poses, depths may be off by that rounding.
 // Set `rest`: a body stands, slides, is set down or lifted at a stated gap above or below (pressed
 // in) the flat surface of a fixed one, in turn over gaps, motions and labels. The margin is the
 // oracle's if free. If colliding it is minus the depth by which the body was pressed in: raised by
@@ -44,13 +51,14 @@
 #include "oracle.h"
 #include "set_shapes.h"
 
-#define TOLERANCE 5e-5  // of the oracle, metres; this and the next three are multiplied by the set's unit
+// of the oracle, metres; this and the next three are multiplied by the set's unit
+#define TOLERANCE 5e-5
 #define UNDECIDED 1e-4  // labels nearer to contact than this are thrown away
 #define TOUCHING 3e-4   // just short of contact, the bodies are nearer than this
 #define CLEARANCE 1e-3  // of what is inside
 #define MAX_SAMPLES 1025
 
-// ------------------------------------------------------------------------------------------------------------ sets
+// -------------------------------------------------------------------------------------------- sets
 
 typedef enum family {  // of procedural meshes; from RESTING on: set_shapes.h
   NONE,
@@ -174,7 +182,7 @@ static const set_info sets[] = {
 // clang-format on
 #define SETS (sizeof sets / sizeof *sets)
 
-// ---------------------------------------------------------------------------------------------------- mesh sources
+// ------------------------------------------------------------------------------------ mesh sources
 
 typedef struct source {
   char name[64];
@@ -247,7 +255,8 @@ static void relative_path(const char *from, const char *target, char *out, size_
     snprintf(out, size, "%s", target);
     return;
   }
-  size_t same = 0, i = 0;
+  size_t same = 0;
+  size_t i = 0;
   for (; a[i] && a[i] == b[i]; i++)
     if (a[i] == '/') same = i;
   if (!a[i] && b[i] == '/') same = i;
@@ -258,11 +267,14 @@ static void relative_path(const char *from, const char *target, char *out, size_
   snprintf(out + used, size - used, "%s", b + same + 1);
 }
 
-static int compare_names(const void *a, const void *b) { return strcmp(*(char *const *)a, *(char *const *)b); }
+static int compare_names(const void *a, const void *b) {
+  return strcmp(*(char *const *)a, *(char *const *)b);
+}
 
 // Names to read: the lines of `list`, or all *.obj of the folder in alphabetical order.
 static size_t list_names(const char *folder, const char *list, char ***names) {
-  size_t count = 0, capacity = 4096;
+  size_t count = 0;
+  size_t capacity = 4096;
   *names = (char **)calloc(capacity, sizeof **names);
   DIR *directory = list ? NULL : opendir(folder);
   FILE *file = list ? fopen(list, "r") : NULL;
@@ -289,9 +301,11 @@ static size_t list_names(const char *folder, const char *list, char ***names) {
 
 typedef enum open_policy { CLOSED_ONLY, OPEN_TOO, OPEN_ONLY } open_policy;
 
-static void load_folder(pool *p, const char *folder, const char *list, open_policy policy, const char *out_folder) {
+static void load_folder(pool *p, const char *folder, const char *list, open_policy policy,
+                        const char *out_folder) {
   char **names;
-  size_t count = list_names(folder, list, &names), refused = 0;
+  size_t count = list_names(folder, list, &names);
+  size_t refused = 0;
   for (size_t i = 0; i < count; i++) {
     source s;
     char path[PATH_MAX];
@@ -299,12 +313,15 @@ static void load_folder(pool *p, const char *folder, const char *list, open_poli
     snprintf(path, sizeof path, "%s/%s", folder, names[i]);
     int good = read_obj(path, &s.mesh);
     if (good) measure(&s);
-    int closed = good && oracle_is_closed(s.mesh.positions, s.mesh.vertices, s.mesh.indices, s.mesh.triangles);
-    if (!good || s.extent <= 0 || (policy == CLOSED_ONLY && !closed) || (policy == OPEN_ONLY && closed)) {
+    int closed = good && oracle_is_closed(s.mesh.positions, s.mesh.vertices, s.mesh.indices,
+                                          s.mesh.triangles);
+    if (!good || s.extent <= 0 || (policy == CLOSED_ONLY && !closed) ||
+        (policy == OPEN_ONLY && closed)) {
       shapes_free(&s.mesh);
       refused++;
     } else {
-      snprintf(s.name, sizeof s.name, "%.*s", (int)(strlen(names[i]) > 67 ? 63 : strlen(names[i]) - 4), names[i]);
+      snprintf(s.name, sizeof s.name, "%.*s",
+               (int)(strlen(names[i]) > 67 ? 63 : strlen(names[i]) - 4), names[i]);
       relative_path(out_folder, path, s.path, sizeof s.path);
       *pool_add(p) = s;
     }
@@ -341,12 +358,14 @@ static void make_special(source *s, shapes_rng *rng, family kind, size_t i) {
       break;
   }
 }
-// Makes `count` meshes of a family and writes them beside the problem file: NAME_meshes/PREFIXnnn.obj.
+// Makes `count` meshes of a family and writes them beside the problem file:
+// NAME_meshes/PREFIXnnn.obj.
 static void make_procedural(pool *p, shapes_rng *rng, family kind, size_t count, const char *prefix,
                             const char *out_path) {
   char base[1024], folder[1100], path[1200];
   snprintf(base, sizeof base, "%s", out_path);
-  char *dot = strrchr(base, '.'), *slash = strrchr(base, '/');
+  char *dot = strrchr(base, '.');
+  char *slash = strrchr(base, '/');
   if (dot && dot > slash) *dot = 0;
   snprintf(folder, sizeof folder, "%s_meshes", base);
   if (mkdir(folder, 0777) != 0 && errno != EEXIST) exit(1);
@@ -361,13 +380,16 @@ static void make_procedural(pool *p, shapes_rng *rng, family kind, size_t count,
     else if (kind == SHELLS && i % 3 == 2)
       shapes_random_hollow(&s->mesh, rng, 0, 0.3);
     else if (kind == SHEETS) {
-      double y = shapes_uniform(rng, 0.3, 1), z = shapes_uniform(rng, 0.005, 0.02);
+      double y = shapes_uniform(rng, 0.3, 1);
+      double z = shapes_uniform(rng, 0.005, 0.02);
       shapes_box(&s->mesh, 1, y, z, 1 + shapes_pick(rng, 4));
       shapes_fit(&s->mesh, 0.3);
     } else {
       // One draw per statement: C leaves the order of a call's arguments open.
       int segments = 24 + 4 * shapes_pick(rng, 4);
-      double wall = shapes_uniform(rng, 0.04, 0.12), z = shapes_uniform(rng, 0.7, 1), y = shapes_uniform(rng, 0.7, 1);
+      double wall = shapes_uniform(rng, 0.04, 0.12);
+      double z = shapes_uniform(rng, 0.7, 1);
+      double y = shapes_uniform(rng, 0.7, 1);
       shapes_shell(&s->mesh, 1, y, z, wall, (int)(kind == SHELLS ? i % 3 : i % 2), segments);
       shapes_fit(&s->mesh, 0.3);
     }
@@ -375,11 +397,12 @@ static void make_procedural(pool *p, shapes_rng *rng, family kind, size_t count,
     snprintf(s->name, sizeof s->name, "%s%03zu", prefix, i);
     snprintf(path, sizeof path, "%s/%s.obj", folder, s->name);
     if (!shapes_write_obj(&s->mesh, path)) exit(1);
-    snprintf(s->path, sizeof s->path, "%s_meshes/%s.obj", slash ? base + (slash - base) + 1 : base, s->name);
+    snprintf(s->path, sizeof s->path, "%s_meshes/%s.obj", slash ? base + (slash - base) + 1 : base,
+             s->name);
   }
 }
 
-// ---------------------------------------------------------------------------------------------------------- motion
+// ------------------------------------------------------------------------------------------ motion
 
 typedef struct problem {
   const set_info *set;
@@ -396,33 +419,46 @@ typedef struct problem {
 
 // A cubic Bezier of arc length `length` from the origin, sampled evenly in its parameter.
 static void random_path(shapes_rng *rng, double length, double (*path)[3], size_t samples) {
-  double control[4][3] = {{0, 0, 0}, {0, 0, 0}, {0, 0, 0}, {0, 0, 0}}, along[3], total = 0,
-         bend = shapes_uniform(rng, 0, 0.5);
+  double control[4][3] = {{0, 0, 0}, {0, 0, 0}, {0, 0, 0}, {0, 0, 0}};
+  double along[3];
+  double total = 0;
+  double bend = shapes_uniform(rng, 0, 0.5);
   shapes_direction(rng, along);
   for (int i = 1; i < 4; i++)
     for (int k = 0; k < 3; k++) control[i][k] = along[k] * i / 3 + bend * shapes_normal(rng);
   for (size_t s = 0; s < samples; s++) {
-    double t = samples > 1 ? (double)s / (double)(samples - 1) : 0, u = 1 - t, d[3];
+    double t = samples > 1 ? (double)s / (double)(samples - 1) : 0;
+    double u = 1 - t;
+    double d[3];
     for (int k = 0; k < 3; k++)
-      path[s][k] = 3 * u * u * t * control[1][k] + 3 * u * t * t * control[2][k] + t * t * t * control[3][k];
-    if (s) oracle_sub(path[s], path[s - 1], d), total += oracle_length(d);
+      path[s][k] =
+          3 * u * u * t * control[1][k] + 3 * u * t * t * control[2][k] + t * t * t * control[3][k];
+    if (s) {
+      oracle_sub(path[s], path[s - 1], d);
+      total += oracle_length(d);
+    }
   }
   for (size_t s = 0; s < samples && total > 0; s++)
     for (int k = 0; k < 3; k++) path[s][k] *= length / total;
 }
-static void set_pose(oracle_pose *pose, const double *center, const double *q, const double *mesh_center) {
+static void set_pose(oracle_pose *pose, const double *center, const double *q,
+                     const double *mesh_center) {
   double m[9], c[3];
   memcpy(pose->rotation, q, sizeof pose->rotation);
   oracle_matrix(q, m);
   oracle_rotate(m, mesh_center, c);
   oracle_sub(center, c, pose->position);
 }
-// The centre of the moving body's bounds follows the path from `start`; it turns about a slowly changing axis.
-static void random_motion(shapes_rng *rng, problem *p, const double *start, double length, double turn) {
+// The centre of the moving body's bounds follows the path from `start`; it turns about a slowly
+// changing axis.
+static void random_motion(shapes_rng *rng, problem *p, const double *start, double length,
+                          double turn) {
   static double path[MAX_SAMPLES][3];
   double q[4], axis[3], drift[3];
   random_path(rng, length, path, p->samples);
-  shapes_quaternion(rng, q), shapes_direction(rng, axis), shapes_direction(rng, drift);
+  shapes_quaternion(rng, q);
+  shapes_direction(rng, axis);
+  shapes_direction(rng, drift);
   for (size_t s = 0; s < p->samples; s++) {
     double center[3], now[3], step[4], next[4], n;
     for (int k = 0; k < 3; k++) {
@@ -440,8 +476,8 @@ static void random_motion(shapes_rng *rng, problem *p, const double *start, doub
     set_pose(&p->motion[s], center, q, p->moving.center);
   }
 }
-// What a reader of floats gets. volatile: where gcc 12.2 vectorizes (double)(float)x (straight-line code, from -O2 on),
-// it drops both conversions.
+// What a reader of floats gets. volatile: where gcc 12.2 vectorizes (double)(float)x (straight-line
+// code, from -O2 on), it drops both conversions.
 static double round_to_float(double x) {
   volatile float rounded = (float)x;
   return (double)rounded;
@@ -450,18 +486,21 @@ static void round_pose(oracle_pose *pose) {
   for (int k = 0; k < 3; k++) pose->position[k] = round_to_float(pose->position[k]);
   for (int k = 0; k < 4; k++) pose->rotation[k] = round_to_float(pose->rotation[k]);
 }
-static double draw(shapes_rng *rng, const double *range) { return shapes_uniform(rng, range[0], range[1]); }
+static double draw(shapes_rng *rng, const double *range) {
+  return shapes_uniform(rng, range[0], range[1]);
+}
 static double draw_turn(shapes_rng *rng, const problem *p) {  // radians
   return shapes_uniform(rng, p->set->turn[0] * SHAPES_PI / 180, p->set->turn[1] * SHAPES_PI / 180);
 }
 static double draw_path(shapes_rng *rng, const problem *p) {
-  return draw(rng, p->set->path) * (p->set->special == PATH_IN_EXTENTS ? p->moving_extent : p->set->unit);
+  return draw(rng, p->set->path) *
+         (p->set->special == PATH_IN_EXTENTS ? p->moving_extent : p->set->unit);
 }
 static void motion_center(const problem *p, size_t s, double *out) {
   oracle_transform(&p->motion[s], p->moving.center, out);
 }
 
-// ---------------------------------------------------------------------------------------------------- the procedure
+// ----------------------------------------------------------------------------------- the procedure
 
 typedef struct counts {
   size_t accepted[2], placed, no_free_place, not_touching, undecided, unbalanced, other;
@@ -510,13 +549,17 @@ static int touch(problem *p, double *direction) {
   for (int k = 0; k < 3; k++) direction[k] /= length;
   oracle_pose just_short = offset_pose(&p->fixed_pose, direction, r.distance - UNDECIDED * unit);
   oracle_result check = ask(p, &just_short, TOUCHING * unit);
-  if ((check.status != ORACLE_FREE && check.status != ORACLE_UNDECIDED) || check.distance > TOUCHING * unit) return 0;
+  if ((check.status != ORACLE_FREE && check.status != ORACLE_UNDECIDED) ||
+      check.distance > TOUCHING * unit)
+    return 0;
   p->fixed_pose = offset_pose(&p->fixed_pose, direction, r.distance);
   return 1;
 }
-// The shortest way back from the offset eps towards 0 along direction after which the motion is free.
+// The shortest way back from the offset eps towards 0 along direction after which the motion is
+// free.
 static double depth(const problem *p, const double *direction, double eps) {
-  double colliding = eps, open = 0;
+  double colliding = eps;
+  double open = 0;
   for (int i = 1; i < 8; i++) {
     double s = eps * (8 - i) / 8;
     oracle_pose here = offset_pose(&p->fixed_pose, direction, s);
@@ -540,7 +583,10 @@ static double depth(const problem *p, const double *direction, double eps) {
 // outer surface is all round, so that the triangles that show their backs fill the sphere; seen
 // from outside they fill less than half of it for the outer surface, still less for the inner one.
 static int surrounds(const oracle_mesh *shell, const oracle_pose *pose, const double *world) {
-  double m[9], away[3], point[3], backs = 0;
+  double m[9];
+  double away[3];
+  double point[3];
+  double backs = 0;
   oracle_sub(world, pose->position, away);
   oracle_matrix(pose->rotation, m);
   oracle_rotate_back(m, away, point);
@@ -563,8 +609,12 @@ static int perturb(shapes_rng *rng, problem *p, const double *direction, double 
   oracle_pose touching = p->fixed_pose;
   for (int attempt = 0; attempt < 4; attempt++) {
     double eps = sigma * shapes_normal(rng);
-    oracle_pose here = offset_pose(&touching, direction, eps), back = touching;
-    if (p->set->special == FAR_FROM_ORIGIN) round_pose(&here), back = offset_pose(&here, direction, -eps);
+    oracle_pose here = offset_pose(&touching, direction, eps);
+    oracle_pose back = touching;
+    if (p->set->special == FAR_FROM_ORIGIN) {
+      round_pose(&here);
+      back = offset_pose(&here, direction, -eps);
+    }
     oracle_result r = ask(p, &here, 0);
     double surely = p->set->special == SURFACES_ONLY ? 1e9 : 0.75;  // inside; 1e9: never
     if (r.status == ORACLE_UNDECIDED || (r.winding > 0.25 && r.winding < surely)) {
@@ -593,25 +643,37 @@ static int perturb(shapes_rng *rng, problem *p, const double *direction, double 
 }
 static int load_body(oracle_mesh *mesh, source *s, double extent, double *scale) {
   *scale = extent / s->extent;
-  return oracle_mesh_init(mesh, s->mesh.positions, s->mesh.vertices, s->mesh.indices, s->mesh.triangles, *scale);
+  return oracle_mesh_init(mesh, s->mesh.positions, s->mesh.vertices, s->mesh.indices,
+                          s->mesh.triangles, *scale);
 }
 static source *any(shapes_rng *rng, pool *p) { return &p->items[shapes_next(rng) % p->count]; }
 
 // Step 1, ACROSS.
 static void place_across(shapes_rng *rng, problem *p) {
-  double low[3], high[3], q[4], center[3], origin[3] = {0, 0, 0};
+  double low[3];
+  double high[3];
+  double q[4];
+  double center[3];
+  double origin[3] = {0, 0, 0};
   if (p->set->special == FAR_FROM_ORIGIN) {
     shapes_direction(rng, origin);
     for (int k = 0; k < 3; k++) origin[k] *= ORIGIN_DISTANCE;
   }
-  double turn = draw_turn(rng, p), length = draw_path(rng, p);
+  double turn = draw_turn(rng, p);
+  double length = draw_path(rng, p);
   random_motion(rng, p, origin, length, turn);
   if (p->set->special == FAR_FROM_ORIGIN)
     for (size_t s = 0; s < p->samples; s++) round_pose(&p->motion[s]);
-  for (int k = 0; k < 3; k++) low[k] = HUGE_VAL, high[k] = -HUGE_VAL;
+  for (int k = 0; k < 3; k++) {
+    low[k] = HUGE_VAL;
+    high[k] = -HUGE_VAL;
+  }
   for (size_t s = 0; s < p->samples; s++) {
     motion_center(p, s, center);
-    for (int k = 0; k < 3; k++) low[k] = fmin(low[k], center[k]), high[k] = fmax(high[k], center[k]);
+    for (int k = 0; k < 3; k++) {
+      low[k] = fmin(low[k], center[k]);
+      high[k] = fmax(high[k], center[k]);
+    }
   }
   double reach = 0.6 * (p->moving.radius + p->fixed.radius);
   for (int k = 0; k < 3; k++) center[k] = shapes_uniform(rng, low[k] - reach, high[k] + reach);
@@ -624,13 +686,17 @@ static void within(shapes_rng *rng, const oracle_mesh *mesh, const oracle_pose *
   for (int k = 0; k < 3; k++) local[k] = shapes_uniform(rng, mesh->low[k], mesh->high[k]);
   oracle_transform(pose, local, out);
 }
-// Step 1, IN_BOUNDS and IN_CAVITY: the moving body starts within the bounds of the fixed one, free there.
+// Step 1, IN_BOUNDS and IN_CAVITY: the moving body starts within the bounds of the fixed one, free
+// there.
 static int place_in_bounds(shapes_rng *rng, problem *p) {
-  double q[4], start[3], origin[3] = {0, 0, 0};
+  double q[4];
+  double start[3];
+  double origin[3] = {0, 0, 0};
   shapes_quaternion(rng, q);
   set_pose(&p->fixed_pose, origin, q, p->fixed.center);
   within(rng, &p->fixed, &p->fixed_pose, start);
-  double turn = draw_turn(rng, p), length = draw_path(rng, p);
+  double turn = draw_turn(rng, p);
+  double length = draw_path(rng, p);
   random_motion(rng, p, start, length, turn);
   size_t samples = p->samples;
   p->samples = 1;  // at t = 0
@@ -640,26 +706,44 @@ static int place_in_bounds(shapes_rng *rng, problem *p) {
 }
 static double triangle_area(const oracle_triangle *t) {
   double e0[3], e1[3], n[3];
-  oracle_sub(t->v[1], t->v[0], e0), oracle_sub(t->v[2], t->v[0], e1), oracle_cross(e0, e1, n);
+  oracle_sub(t->v[1], t->v[0], e0);
+  oracle_sub(t->v[2], t->v[0], e1);
+  oracle_cross(e0, e1, n);
   return oracle_length(n) / 2;
 }
 // A random place on the surface, uniform by area, in the world.
-static void on_surface(shapes_rng *rng, const oracle_mesh *mesh, const oracle_pose *pose, double *out) {
-  double area = 0, local[3], u = shapes_uniform(rng, 0, 1), v = shapes_uniform(rng, 0, 1);
-  const oracle_triangle *t = mesh->triangles, *end = t + mesh->triangle_count;
+static void on_surface(shapes_rng *rng, const oracle_mesh *mesh, const oracle_pose *pose,
+                       double *out) {
+  double area = 0;
+  double local[3];
+  double u = shapes_uniform(rng, 0, 1);
+  double v = shapes_uniform(rng, 0, 1);
+  const oracle_triangle *t = mesh->triangles;
+  const oracle_triangle *end = t + mesh->triangle_count;
   for (; t < end; t++) area += triangle_area(t);
   area = shapes_uniform(rng, 0, area);
   for (t = mesh->triangles; t + 1 < end && area > triangle_area(t); t++) area -= triangle_area(t);
-  if (u + v > 1) u = 1 - u, v = 1 - v;
-  for (int k = 0; k < 3; k++) local[k] = t->v[0][k] + u * (t->v[1][k] - t->v[0][k]) + v * (t->v[2][k] - t->v[0][k]);
+  if (u + v > 1) {
+    u = 1 - u;
+    v = 1 - v;
+  }
+  for (int k = 0; k < 3; k++)
+    local[k] = t->v[0][k] + u * (t->v[1][k] - t->v[0][k]) + v * (t->v[2][k] - t->v[0][k]);
   oracle_transform(pose, local, out);
 }
-// Step 1, ON_SURFACE: at a random time the moving body's centre is within its reach of a random place of the surface.
+// Step 1, ON_SURFACE: at a random time the moving body's centre is within its reach of a random
+// place of the surface.
 static void place_on_surface(shapes_rng *rng, problem *p) {
-  double q[4], origin[3] = {0, 0, 0}, place[3], center[3], away[3];
-  double turn = draw_turn(rng, p), length = draw_path(rng, p);
+  double q[4];
+  double origin[3] = {0, 0, 0};
+  double place[3];
+  double center[3];
+  double away[3];
+  double turn = draw_turn(rng, p);
+  double length = draw_path(rng, p);
   random_motion(rng, p, origin, length, turn);
-  shapes_quaternion(rng, q), shapes_direction(rng, away);
+  shapes_quaternion(rng, q);
+  shapes_direction(rng, away);
   set_pose(&p->fixed_pose, origin, q, p->fixed.center);
   on_surface(rng, &p->fixed, &p->fixed_pose, place);
   motion_center(p, (size_t)shapes_pick(rng, (int)p->samples), center);
@@ -677,7 +761,8 @@ static int passes_through(const problem *p) {
     oracle_sub(center, p->fixed_pose.position, center);
     oracle_rotate_back(m, center, local);
     for (int k = 0; k < 3; k++)
-      within_bounds = within_bounds && fabs(local[k] - p->fixed.center[k]) < 0.6 * (p->fixed.high[k] - p->fixed.low[k]);
+      within_bounds = within_bounds && fabs(local[k] - p->fixed.center[k]) <
+                                           0.6 * (p->fixed.high[k] - p->fixed.low[k]);
     if (within_bounds) return 1;
   }
   return 0;
@@ -701,26 +786,39 @@ static int attempt(shapes_rng *rng, problem *p, double sigma, counts *c) {
   if (!touch(p, direction)) return c->not_touching++, 0;
   return perturb(rng, p, direction, sigma, c);
 }
-// One attempt at `far`: the fixed body is put somewhere beyond the gap, as seen from some place of the motion.
+// One attempt at `far`: the fixed body is put somewhere beyond the gap, as seen from some place of
+// the motion.
 static int attempt_far(shapes_rng *rng, problem *p, counts *c) {
-  double q[4], origin[3] = {0, 0, 0}, center[3], away[3], gap = fmax(p->moving_extent, p->fixed_extent);
-  double turn = draw_turn(rng, p), length = draw_path(rng, p);
+  double q[4];
+  double origin[3] = {0, 0, 0};
+  double center[3];
+  double away[3];
+  double gap = fmax(p->moving_extent, p->fixed_extent);
+  double turn = draw_turn(rng, p);
+  double length = draw_path(rng, p);
   c->placed++;
   random_motion(rng, p, origin, length, turn);
-  shapes_quaternion(rng, q), shapes_direction(rng, away);
+  shapes_quaternion(rng, q);
+  shapes_direction(rng, away);
   motion_center(p, (size_t)shapes_pick(rng, (int)p->samples), center);
   double distance = p->moving.radius + p->fixed.radius + gap * shapes_uniform(rng, 0.5, 3);
   for (int k = 0; k < 3; k++) center[k] += distance * away[k];
   set_pose(&p->fixed_pose, center, q, p->fixed.center);
   oracle_result r = ask(p, &p->fixed_pose, 0);
   if (r.status != ORACLE_FREE || r.lower < gap) return c->other++, 0;
-  p->label = 0, p->margin = r.distance;
+  p->label = 0;
+  p->margin = r.distance;
   return 1;
 }
-// One attempt at `inside`: a small body starts within the bounds of a large one; nothing may touch, with 1 mm to spare.
+// One attempt at `inside`: a small body starts within the bounds of a large one; nothing may touch,
+// with 1 mm to spare.
 static int attempt_inside(shapes_rng *rng, problem *p, int label, int large_moves, counts *c) {
-  double q[4], origin[3] = {0, 0, 0}, start[3];
-  double length = draw_path(rng, p), turn = draw_turn(rng, p), clearance = CLEARANCE * p->set->unit;
+  double q[4];
+  double origin[3] = {0, 0, 0};
+  double start[3];
+  double length = draw_path(rng, p);
+  double turn = draw_turn(rng, p);
+  double clearance = CLEARANCE * p->set->unit;
   c->placed++;
   shapes_quaternion(rng, q);
   if (large_moves) {
@@ -733,7 +831,8 @@ static int attempt_inside(shapes_rng *rng, problem *p, int label, int large_move
     random_motion(rng, p, start, length, turn);
   }
   oracle_result r = ask(p, &p->fixed_pose, label ? clearance : 0);
-  if (r.status != (label ? ORACLE_INSIDE : ORACLE_FREE) || r.distance < clearance) return c->other++, 0;
+  if (r.status != (label ? ORACLE_INSIDE : ORACLE_FREE) || r.distance < clearance)
+    return c->other++, 0;
   p->label = label;
   p->margin = label ? (double)NAN : r.distance;
   return 1;
@@ -1168,24 +1267,29 @@ static int attempt_any(shapes_rng *rng, problem *p, double sigma, counts *c) {
   }
 }
 
-// ---------------------------------------------------------------------------------------------------------- output
+// ------------------------------------------------------------------------------------------ output
 
 static void write_pose(FILE *file, const oracle_pose *pose) {
-  const double *p = pose->position, *q = pose->rotation;
+  const double *p = pose->position;
+  const double *q = pose->rotation;
   fprintf(file, "%.9g %.9g %.9g %.9g %.9g %.9g %.9g", p[0], p[1], p[2], q[0], q[1], q[2], q[3]);
 }
 static void write_problem(FILE *file, const problem *p, size_t id) {
   source *sources[2];
-  sources[0] = p->moving_source, sources[1] = p->fixed_source;
+  sources[0] = p->moving_source;
+  sources[1] = p->fixed_source;
   for (int i = 0; i < 2; i++) {
     if (!sources[i]->used) fprintf(file, "mesh %s %s\n", sources[i]->name, sources[i]->path);
     sources[i]->used = 1;
   }
-  fprintf(file, "problem %zu %s %.9g %s %.9g ", id, sources[0]->name, p->moving_scale, sources[1]->name,
-          p->fixed_scale);
+  fprintf(file, "problem %zu %s %.9g %s %.9g ", id, sources[0]->name, p->moving_scale,
+          sources[1]->name, p->fixed_scale);
   write_pose(file, &p->fixed_pose);
   fprintf(file, " %d %.6g %zu\n", p->label, p->margin, p->samples);
-  for (size_t s = 0; s < p->samples; s++) write_pose(file, &p->motion[s]), fputc('\n', file);
+  for (size_t s = 0; s < p->samples; s++) {
+    write_pose(file, &p->motion[s]);
+    fputc('\n', file);
+  }
 }
 static void tally(counts *c, const problem *p) {
   static const double edges[5] = {1e-3, 2.5e-3, 5e-3, 10e-3, 20e-3};
@@ -1195,11 +1299,15 @@ static void tally(counts *c, const problem *p) {
   if (p->margin < 0 || p->margin > 0) c->histogram[p->label][bin]++;
 }
 static void print_summary(const set_info *set, const counts *c, double seconds) {
-  printf("%zu problems: %zu collide, %zu free; %.1f s, %.1f ms each\n", c->accepted[0] + c->accepted[1], c->accepted[1],
-         c->accepted[0], seconds, 1e3 * seconds / (double)(c->accepted[0] + c->accepted[1]));
-  printf("%zu placements; rejected: %zu no free place, %zu not touching, %zu undecided, %zu for balance, %zu other\n",
-         c->placed, c->no_free_place, c->not_touching, c->undecided, c->unbalanced, c->other);
-  if (set->unit < 1 || set->unit > 1) printf("(below: divided by the unit of the set, %g m)\n", set->unit);
+  printf("%zu problems: %zu collide, %zu free; %.1f s, %.1f ms each\n",
+         c->accepted[0] + c->accepted[1], c->accepted[1], c->accepted[0], seconds,
+         1e3 * seconds / (double)(c->accepted[0] + c->accepted[1]));
+  printf(
+      "%zu placements; rejected: %zu no free place, %zu not touching, %zu undecided, %zu for "
+      "balance, %zu other\n",
+      c->placed, c->no_free_place, c->not_touching, c->undecided, c->unbalanced, c->other);
+  if (set->unit < 1 || set->unit > 1)
+    printf("(below: divided by the unit of the set, %g m)\n", set->unit);
   printf("|margin| mm     0-1   1-2.5   2.5-5    5-10   10-20     >20\n");
   for (int label = 1; label >= 0; label--) {
     printf("%-9s", label ? "collide" : "free");
@@ -1213,15 +1321,17 @@ static int is_procedural_only(const set_info *set) {
   return kind == GROUPS || kind == NEEDLES || kind == SOUP;
 }
 static int usage(void) {
-  fprintf(
-      stderr,
-      "problems --set SET --meshes DIR|procedural [--list FILE] [--open too|only] --count N --seed S\n"
-      "         --out DIR/NAME.txt [--motion-samples M] [--sigma METRES] [--pool MESHES]\n"
-      "  --list: use these file names of DIR only, one per line. --open: also, or only, meshes that are not closed.\n"
-      "  --motion-samples, --sigma: other than the set's own, in brackets below.\n"
-      "  --pool: how many procedural meshes to make (default: a tenth of N, 40 to 400).\n"
-      "SET is one of (DIR replaces the meshes of the moving body, and of the fixed one where both are\n"
-      "alike; not for nested, slivers and soup):\n");
+  fprintf(stderr,
+          "problems --set SET --meshes DIR|procedural [--list FILE] [--open too|only] --count N "
+          "--seed S\n"
+          "         --out DIR/NAME.txt [--motion-samples M] [--sigma METRES] [--pool MESHES]\n"
+          "  --list: use these file names of DIR only, one per line. --open: also, or only, meshes "
+          "that are not closed.\n"
+          "  --motion-samples, --sigma: other than the set's own, in brackets below.\n"
+          "  --pool: how many procedural meshes to make (default: a tenth of N, 40 to 400).\n"
+          "SET is one of (DIR replaces the meshes of the moving body, and of the fixed one where "
+          "both are\n"
+          "alike; not for nested, slivers and soup):\n");
   for (size_t i = 0; i < SETS; i++) {
     fprintf(stderr, "  %-9s %s [%zu", sets[i].name, sets[i].what, sets[i].samples);
     if (uses_sigma(&sets[i])) fprintf(stderr, ", %g", sets[i].sigma * sets[i].unit);
@@ -1231,13 +1341,19 @@ static int usage(void) {
 }
 
 int main(int argc, char **argv) {
-  const char *set = NULL, *meshes = NULL, *list = NULL, *out = NULL;
-  size_t count = 0, samples = 0, pool_size = 0;
+  const char *set = NULL;
+  const char *meshes = NULL;
+  const char *list = NULL;
+  const char *out = NULL;
+  size_t count = 0;
+  size_t samples = 0;
+  size_t pool_size = 0;
   unsigned long long seed = 1;
   double sigma = 0;
   open_policy policy = CLOSED_ONLY;
   for (int i = 1; i + 1 < argc; i += 2) {
-    const char *key = argv[i], *value = argv[i + 1];
+    const char *key = argv[i];
+    const char *value = argv[i + 1];
     if (!strcmp(key, "--set"))
       set = value;
     else if (!strcmp(key, "--meshes"))
@@ -1284,7 +1400,8 @@ int main(int argc, char **argv) {
   if (strcmp(meshes, "procedural") != 0)
     load_folder(&from.small, meshes, list, policy, folder);
   else
-    make_procedural(&from.small, &rng, p.set->moving_family, pool_size, family_names[p.set->moving_family], out);
+    make_procedural(&from.small, &rng, p.set->moving_family, pool_size,
+                    family_names[p.set->moving_family], out);
   size_t fixed_meshes = p.set->fixed_meshes;
   if (p.set->fixed_family == HOLLOWS && fixed_meshes > pool_size) fixed_meshes = pool_size;
   if (p.set->fixed_family)
@@ -1294,7 +1411,8 @@ int main(int argc, char **argv) {
   if (!from.small.count) return fprintf(stderr, "%s: no meshes\n", meshes), 1;
 
   fprintf(file,
-          "nsvcd-problems 1\n# problems --set %s --meshes %s --count %zu --seed %llu --motion-samples %zu sigma %g\n",
+          "nsvcd-problems 1\n# problems --set %s --meshes %s --count %zu --seed %llu "
+          "--motion-samples %zu sigma %g\n",
           set, meshes, count, seed, samples, sigma);
   counts c;
   memset(&c, 0, sizeof c);
@@ -1306,8 +1424,12 @@ int main(int argc, char **argv) {
     if (!load_body(&p.moving, p.moving_source, p.moving_extent, &p.moving_scale)) return 1;
     if (!load_body(&p.fixed, p.fixed_source, p.fixed_extent, &p.fixed_scale)) return 1;
     for (int i = 0; i < p.set->tries && !done; i++) done = attempt_any(&rng, &p, sigma, &c);
-    if (done) tally(&c, &p), write_problem(file, &p, id++);
-    oracle_mesh_free(&p.moving), oracle_mesh_free(&p.fixed);
+    if (done) {
+      tally(&c, &p);
+      write_problem(file, &p, id++);
+    }
+    oracle_mesh_free(&p.moving);
+    oracle_mesh_free(&p.fixed);
   }
   int ok = !ferror(file);
   if (fclose(file) != 0 || !ok) return fprintf(stderr, "%s: write error\n", out), 1;

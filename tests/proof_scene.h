@@ -35,7 +35,10 @@ static int proof_solve(double a[3][3], double *b, int n) {
 
 // The point of the plane through these 1 to 4 points nearest to the origin, if it is between them.
 static int proof_foot(const double (*p)[3], const int *chosen, int count, double *foot) {
-  double edges[3][3], gram[3][3], weights[3], first = 1;
+  double edges[3][3];
+  double gram[3][3];
+  double weights[3];
+  double first = 1;
   for (int i = 0; i + 1 < count; i++) oracle_sub(p[chosen[i + 1]], p[chosen[0]], edges[i]);
   for (int i = 0; i + 1 < count; i++) {
     for (int j = 0; j + 1 < count; j++) gram[i][j] = oracle_dot(edges[i], edges[j]);
@@ -58,7 +61,8 @@ static void proof_reduce(double (*p)[3], int *count, double *nearest) {
   unsigned kept = 1;
   double out[4][3];
   for (unsigned set = 1; set < 1u << *count; set++) {
-    int chosen[4], n = 0;
+    int chosen[4];
+    int n = 0;
     double foot[3];
     for (int i = 0; i < *count; i++) {
       if (set >> i & 1) chosen[n++] = i;
@@ -88,7 +92,8 @@ static void proof_hull_distance(const double (*hull)[3], size_t count, const dou
   *low = 0;
   *high = oracle_length(nearest);
   for (int step = 0; step < 60 && *high > *low * (1 + 1e-10) && *high > 0; step++) {
-    double least = DBL_MAX, support[3] = {0, 0, 0};
+    double least = DBL_MAX;
+    double support[3] = {0, 0, 0};
     for (size_t i = 0; i < count; i++) {
       double d[3];
       oracle_sub(hull[i], x, d);
@@ -183,7 +188,8 @@ static const unsigned char *proof_numbers(const nsvcd__facets *f, size_t i) {
   return f->listings + f->first_byte[i] + (vertices <= 256 ? 3 : 6) * triangles;
 }
 
-// The number of the patch's n-th triangle: the sum of what n + 1 codes say, each in groups of seven bits.
+// The number of the patch's n-th triangle: the sum of what n + 1 codes say, each in groups of seven
+// bits.
 static size_t proof_triangle_number(const nsvcd__facets *f, size_t i, size_t n) {
   const unsigned char *at = proof_numbers(f, i);
   size_t sum = 0;
@@ -265,7 +271,9 @@ static void proof_point_in(shapes_rng *rng, double corners[3][3], double *out) {
 
 // Between a point that is held and one that is not: about the last one that is.
 static void proof_pool_border(proof_patch *p, const double *inside, const double *outside) {
-  double in = 0, out = 1, x[3];
+  double in = 0;
+  double out = 1;
+  double x[3];
   for (int step = 0; step < 24; step++) {
     const double middle = 0.5 * (in + out);
     for (int k = 0; k < 3; k++) x[k] = inside[k] + middle * (outside[k] - inside[k]);
@@ -378,7 +386,8 @@ typedef struct proof_motion {
   proof_track moving, fixed;  // "fixed" is the body in whose frame the library looks at the other
 } proof_motion;
 
-// x -> matrix x + position: from the moving body's frame to the fixed one's, in units of the fixed body's mesh.
+// x -> matrix x + position: from the moving body's frame to the fixed one's, in units of the fixed
+// body's mesh.
 typedef struct proof_place {
   double matrix[9], position[3];
 } proof_place;
@@ -421,9 +430,13 @@ static oracle_pose proof_pose_at(const proof_track *m, double t) {
   const double at = t * (double)(m->count - 1);
   const size_t last = m->count - 2;
   const size_t k = at <= 0 ? 0 : (size_t)at < last ? (size_t)at : last;
-  const oracle_pose *a = &m->poses[k], *b = a + 1;
+  const oracle_pose *a = &m->poses[k];
+  const oracle_pose *b = a + 1;
   const double f = at - (double)k;
-  double product = 0, apart = 0, together = 0, q[4];
+  double product = 0;
+  double apart = 0;
+  double together = 0;
+  double q[4];
   for (int i = 0; i < 4; i++)
     product += (double)m->raw[k].rotation[i] * (double)m->raw[k + 1].rotation[i];
   for (int i = 0; i < 4; i++) {
@@ -469,7 +482,8 @@ typedef struct proof_record {
 static proof_record *proof_sorted(proof_record *items, size_t count);
 
 static int proof_compare(const void *pa, const void *pb) {
-  const proof_record *a = (const proof_record *)pa, *b = (const proof_record *)pb;
+  const proof_record *a = (const proof_record *)pa;
+  const proof_record *b = (const proof_record *)pb;
   if (a->i != b->i) return a->i < b->i ? -1 : 1;
   if (a->j != b->j) return a->j < b->j ? -1 : 1;
   return (a->kind > b->kind) - (a->kind < b->kind);

@@ -1,5 +1,5 @@
-// What the tests of the public API share: memory, meshes, bodies, and a problem with two random solids. Include after
-// neuralsvcd.h with its implementation.
+// What the tests of the public API share: memory, meshes, bodies, and a problem with two random
+// solids. Include after neuralsvcd.h with its implementation.
 #ifndef QUERY_SCENE_H
 #define QUERY_SCENE_H
 
@@ -16,7 +16,8 @@ static const nsvcd_encode_options query_latents = {.no_triangles = 1};
 #define QUERY_POSES 17
 #define QUERY_POINTS 64  // of the bodies of a scene
 
-// Memory with the library's alignment, whatever malloc's is; it lives until the process ends or query_release.
+// Memory with the library's alignment, whatever malloc's is; it lives until the process ends or
+// query_release.
 typedef struct query_memory {
   void *block, *at;
 } query_memory;
@@ -46,9 +47,11 @@ static nsvcd_mesh query_mesh(const shapes_mesh *shape, double scale) {
   mesh.positions = (float *)malloc(3 * shape->vertices * sizeof(float));
   mesh.indices = (uint32_t *)malloc(3 * shape->triangles * sizeof(uint32_t));
   if (!mesh.positions || !mesh.indices) exit(1);
-  for (size_t i = 0; i < 3 * shape->vertices; i++) mesh.positions[i] = (float)(shape->positions[i] * scale);
+  for (size_t i = 0; i < 3 * shape->vertices; i++)
+    mesh.positions[i] = (float)(shape->positions[i] * scale);
   memcpy(mesh.indices, shape->indices, 3 * shape->triangles * sizeof(uint32_t));
-  mesh.vertex_count = shape->vertices, mesh.triangle_count = shape->triangles;
+  mesh.vertex_count = shape->vertices;
+  mesh.triangle_count = shape->triangles;
   return mesh;
 }
 static nsvcd_mesh query_solid(uint64_t seed, double extent) {
@@ -78,12 +81,13 @@ static const nsvcd_body *query_encode(const nsvcd_mesh *mesh, size_t points, que
   CHECK_EQ(nsvcd_encode(mesh, &options, NULL, memory->at, size, &body), NSVCD_OK);
   return body;
 }
-static nsvcd_answer query_ask(const nsvcd_body *moving, const nsvcd_pose *poses, size_t count, const nsvcd_body *fixed,
-                              const nsvcd_pose *fixed_pose, const nsvcd_sweep_options *options) {
+static nsvcd_answer query_ask(const nsvcd_body *moving, const nsvcd_pose *poses, size_t count,
+                              const nsvcd_body *fixed, const nsvcd_pose *fixed_pose,
+                              const nsvcd_sweep_options *options) {
   nsvcd_answer answer;
   memset(&answer, 0, sizeof answer);
   CHECK_EQ(ask(moving, poses, count, fixed, fixed_pose, options, query_workspace(),
-                       nsvcd_sweep_workspace_size(NULL), &answer),
+               nsvcd_sweep_workspace_size(NULL), &answer),
            NSVCD_OK);
   return answer;
 }
@@ -103,7 +107,10 @@ static void query_multiply(const float *r, const float *a, float *out) {
   float x = r[3] * a[0] + r[0] * a[3] + r[1] * a[2] - r[2] * a[1];
   float y = r[3] * a[1] - r[0] * a[2] + r[1] * a[3] + r[2] * a[0];
   float z = r[3] * a[2] + r[0] * a[1] - r[1] * a[0] + r[2] * a[3];
-  out[3] = r[3] * a[3] - r[0] * a[0] - r[1] * a[1] - r[2] * a[2], out[0] = x, out[1] = y, out[2] = z;
+  out[3] = r[3] * a[3] - r[0] * a[0] - r[1] * a[1] - r[2] * a[2];
+  out[0] = x;
+  out[1] = y;
+  out[2] = z;
 }
 // The same pose after everything was moved by `common`.
 static nsvcd_pose query_moved(const nsvcd_pose *common, const nsvcd_pose *pose) {
@@ -119,11 +126,14 @@ static nsvcd_pose query_moved(const nsvcd_pose *common, const nsvcd_pose *pose) 
 static nsvcd_sweep_options query_options(size_t pairs, nsvcd_model model, float recall) {
   nsvcd_sweep_options options;
   memset(&options, 0, sizeof options);
-  options.pairs = pairs, options.model = model, options.recall = recall;
+  options.pairs = pairs;
+  options.model = model;
+  options.recall = recall;
   return options;
 }
 
-// A problem with two random solids that come close: a straight path past the fixed body's centre, turning half around.
+// A problem with two random solids that come close: a straight path past the fixed body's centre,
+// turning half around.
 typedef struct query_scene {
   query_memory memory[2];
   const nsvcd_body *moving, *fixed;
@@ -133,34 +143,42 @@ typedef struct query_scene {
 static void query_scene_motion(query_scene *s, shapes_rng *rng) {
   double start[3], end[3], axis[3];
   nsvcd_pose turn;
-  shapes_direction(rng, start), shapes_direction(rng, end), shapes_direction(rng, axis);
+  shapes_direction(rng, start);
+  shapes_direction(rng, end);
+  shapes_direction(rng, axis);
   query_random_pose(rng, 0.1, &s->fixed_pose);
   query_random_pose(rng, 0, &turn);
   for (int i = 0; i < QUERY_POSES; i++) {
-    double t = (double)i / (QUERY_POSES - 1), angle = 1.5 * t;
-    float step[4] = {(float)(axis[0] * sin(angle)), (float)(axis[1] * sin(angle)), (float)(axis[2] * sin(angle)),
-                     (float)cos(angle)};
+    double t = (double)i / (QUERY_POSES - 1);
+    double angle = 1.5 * t;
+    float step[4] = {(float)(axis[0] * sin(angle)), (float)(axis[1] * sin(angle)),
+                     (float)(axis[2] * sin(angle)), (float)cos(angle)};
     for (int k = 0; k < 3; k++)
-      s->motion[i].position[k] =
-          s->fixed_pose.position[k] + (float)(0.25 * start[k] + t * (0.25 * end[k] - 0.25 * start[k]));
+      s->motion[i].position[k] = s->fixed_pose.position[k] +
+                                 (float)(0.25 * start[k] + t * (0.25 * end[k] - 0.25 * start[k]));
     query_multiply(step, turn.rotation, s->motion[i].rotation);
   }
 }
 static void query_scene_open(query_scene *s, uint64_t seed) {
   shapes_rng rng = {seed};
-  nsvcd_mesh moving = query_solid(2 * seed, 0.2), fixed = query_solid(2 * seed + 1, 0.3);
+  nsvcd_mesh moving = query_solid(2 * seed, 0.2);
+  nsvcd_mesh fixed = query_solid(2 * seed + 1, 0.3);
   s->moving = query_encode(&moving, QUERY_POINTS, &s->memory[0]);
   s->fixed = query_encode(&fixed, QUERY_POINTS, &s->memory[1]);
-  nsvcd_mesh_free(&moving, NULL), nsvcd_mesh_free(&fixed, NULL);
+  nsvcd_mesh_free(&moving, NULL);
+  nsvcd_mesh_free(&fixed, NULL);
   query_scene_motion(s, &rng);
 }
-static void query_scene_close(query_scene *s) { query_release(&s->memory[0]), query_release(&s->memory[1]); }
+static void query_scene_close(query_scene *s) {
+  query_release(&s->memory[0]), query_release(&s->memory[1]);
+}
 
 static nsvcd_answer query_scene_ask(const query_scene *s) {
   return query_ask(s->moving, s->motion, QUERY_POSES, s->fixed, &s->fixed_pose, NULL);
 }
 static int query_same_answer(const nsvcd_answer *a, const nsvcd_answer *b) {  // to the bit
-  return memcmp(&a->logit, &b->logit, sizeof a->logit) == 0 && memcmp(&a->contact_time, &b->contact_time, sizeof a->contact_time) == 0 &&
+  return memcmp(&a->logit, &b->logit, sizeof a->logit) == 0 &&
+         memcmp(&a->contact_time, &b->contact_time, sizeof a->contact_time) == 0 &&
          a->collides == b->collides && a->patch_a == b->patch_a && a->patch_b == b->patch_b &&
          a->status == b->status && a->overlapping == b->overlapping;
 }

@@ -1,4 +1,5 @@
-// Body blobs, the motion, the broad phase and containment. The reference is double precision and written apart.
+// Body blobs, the motion, the broad phase and containment. The reference is double precision and
+// written apart.
 #define NSVCD_STATIC
 #define NEURALSVCD_IMPLEMENTATION
 #include "../neuralsvcd.h"
@@ -11,15 +12,19 @@
 
 void test_broad_phase(void);
 
-// -------------------------------------------------------------------------------------------------- random bodies
+// ----------------------------------------------------------------------------------- random bodies
 
 static uint64_t rng_state = 1;
 static double uniform(double low, double high) {  // splitmix64 (Vigna)
   uint64_t x = (rng_state += 0x9e3779b97f4a7c15u);
-  x = (x ^ (x >> 30)) * 0xbf58476d1ce4e5b9u, x = (x ^ (x >> 27)) * 0x94d049bb133111ebu, x ^= x >> 31;
+  x = (x ^ (x >> 30)) * 0xbf58476d1ce4e5b9u;
+  x = (x ^ (x >> 27)) * 0x94d049bb133111ebu;
+  x ^= x >> 31;
   return low + (high - low) * (double)(x >> 11) / 9007199254740992.0;
 }
-static size_t pick(size_t low, size_t high) { return low + (size_t)uniform(0, (double)(high - low + 1)); }
+static size_t pick(size_t low, size_t high) {
+  return low + (size_t)uniform(0, (double)(high - low + 1));
+}
 
 #define BLOB 65536
 typedef union blob {
@@ -30,7 +35,8 @@ static blob blob_a_memory, blob_b_memory;
 static char *aligned(blob *b) { return b->bytes + (16 - (uintptr_t)b->bytes % 16) % 16; }
 static const size_t blob_capacity = BLOB - 16;
 
-static float centres[3 * NSVCD_SMALL_POINTS], radii[NSVCD_SMALL_POINTS], areas[3 * NSVCD_SMALL_POINTS];
+static float centres[3 * NSVCD_SMALL_POINTS], radii[NSVCD_SMALL_POINTS],
+    areas[3 * NSVCD_SMALL_POINTS];
 static int8_t latents[NSVCD_SMALL_POINTS * NSVCD__LATENT];
 
 static const nsvcd_body *build(size_t points, blob *memory) {
@@ -38,8 +44,9 @@ static const nsvcd_body *build(size_t points, blob *memory) {
   uint16_t order[NSVCD_SMALL_POINTS], spare[NSVCD_SMALL_POINTS];
   for (size_t i = 0; i < points; i++) order[i] = (uint16_t)i;
   nsvcd__body_order(points, centres, order, spare);
-  nsvcd_result result = nsvcd__body_build(points, centres, radii, areas, latents, order, NSVCD_WEIGHTS_ID, 0,
-                                          aligned(memory), blob_capacity, &body);
+  nsvcd_result result =
+      nsvcd__body_build(points, centres, radii, areas, latents, order, NSVCD_WEIGHTS_ID, 0,
+                        aligned(memory), blob_capacity, &body);
   CHECK_EQ(result, NSVCD_OK);
   return body;
 }
@@ -52,19 +59,24 @@ static const nsvcd_body *random_body(size_t points, double size, double offset, 
       areas[3 * i + k] = (float)(uniform(-1, 1) * size * size);
     }
     radii[i] = (float)(size * uniform(0, 1.0 / cbrt((double)points)) * 0.3);
-    for (size_t k = 0; k < NSVCD__LATENT; k++) latents[NSVCD__LATENT * i + k] = (int8_t)pick(0, 200);
+    for (size_t k = 0; k < NSVCD__LATENT; k++)
+      latents[NSVCD__LATENT * i + k] = (int8_t)pick(0, 200);
   }
   return build(points, memory);
 }
 
-// Points spread evenly over a sphere (spiral), as closed patches that cover it; the radius covers the patch.
+// Points spread evenly over a sphere (spiral), as closed patches that cover it; the radius covers
+// the patch.
 static const nsvcd_body *shell_body(size_t points, double radius, blob *memory) {
   double area = 4 * 3.14159265358979 * radius * radius / (double)points;
   for (size_t i = 0; i < points; i++) {
-    double z = 1 - (2.0 * (double)i + 1) / (double)points, s = sqrt(1 - z * z), angle = 2.39996322973 * (double)i;
+    double z = 1 - (2.0 * (double)i + 1) / (double)points;
+    double s = sqrt(1 - z * z);
+    double angle = 2.39996322973 * (double)i;
     double n[3] = {s * cos(angle), s * sin(angle), z};
     for (size_t k = 0; k < 3; k++) {
-      centres[3 * i + k] = (float)(radius * n[k]), areas[3 * i + k] = (float)(area * n[k]);
+      centres[3 * i + k] = (float)(radius * n[k]);
+      areas[3 * i + k] = (float)(area * n[k]);
     }
     radii[i] = (float)(1.3 * sqrt(area / 3.14159265358979));
   }
@@ -74,7 +86,7 @@ static const nsvcd_body *shell_body(size_t points, double radius, blob *memory) 
 
 static size_t body_bytes(const nsvcd_body *body) { return nsvcd_body_size(body->points); }
 
-// ----------------------------------------------------------------------------------------------------- blob tests
+// -------------------------------------------------------------------------------------- blob tests
 
 static void body_round_trip(void) {
   CHECK_EQ(sizeof(struct nsvcd_body), 64);
@@ -82,15 +94,20 @@ static void body_round_trip(void) {
   CHECK_EQ(nsvcd_body_size(NSVCD_MAX_POINTS + 1), 0);
   CHECK_LE(nsvcd_body_size(512), 65535);
   for (size_t points = 1; points <= 512; points += points < 20 ? 1 : 41) {
-    const nsvcd_body *body = random_body(points, 1, 0.3, &blob_a_memory), *loaded = NULL;
+    const nsvcd_body *body = random_body(points, 1, 0.3, &blob_a_memory);
+    const nsvcd_body *loaded = NULL;
     memcpy(aligned(&blob_b_memory), body, body_bytes(body));
     CHECK_EQ(nsvcd_body_load(aligned(&blob_b_memory), body_bytes(body), &loaded), NSVCD_OK);
     CHECK((const void *)loaded == (const void *)aligned(&blob_b_memory));
-    // The same patches, in another order: sums over patches of invariants of (x, r, area, latent) agree.
-    double want = 0, got = 0;
+    // The same patches, in another order: sums over patches of invariants of (x, r, area, latent)
+    // agree.
+    double want = 0;
+    double got = 0;
     for (size_t i = 0; i < points; i++) {
-      want += (double)(centres[3 * i] * areas[3 * i + 2] * radii[i]) * latents[NSVCD__LATENT * (i + 1) - 1];
-      got += (double)(nsvcd__body_x(body)[i] * nsvcd__body_areas(body)[2 * body->padded + i] * nsvcd__body_r(body)[i]) *
+      want += (double)(centres[3 * i] * areas[3 * i + 2] * radii[i]) *
+              latents[NSVCD__LATENT * (i + 1) - 1];
+      got += (double)(nsvcd__body_x(body)[i] * nsvcd__body_areas(body)[2 * body->padded + i] *
+                      nsvcd__body_r(body)[i]) *
              nsvcd__body_latents(body)[NSVCD__LATENT * (i + 1) - 1];
     }
     CHECK_NEAR(want, got, 1e-9 * (fabs(want) + 1));
@@ -98,7 +115,8 @@ static void body_round_trip(void) {
   }
 }
 
-// The order visits every patch once, and neighbours end up together: groups are much smaller than the body.
+// The order visits every patch once, and neighbours end up together: groups are much smaller than
+// the body.
 static void body_order(void) {
   uint16_t order[NSVCD_SMALL_POINTS], spare[NSVCD_SMALL_POINTS];
   for (size_t points = 1; points <= 512; points += 37) {
@@ -124,37 +142,47 @@ static void body_order(void) {
   }
 }
 
-// Whatever one byte becomes, the blob is refused: the checksum's steps are bijections. Cut short: refused.
+// Whatever one byte becomes, the blob is refused: the checksum's steps are bijections. Cut short:
+// refused.
 static void body_corruption(void) {
-  const nsvcd_body *body = random_body(9, 1, 0, &blob_a_memory), *loaded = NULL;
+  const nsvcd_body *body = random_body(9, 1, 0, &blob_a_memory);
+  const nsvcd_body *loaded = NULL;
   size_t size = body_bytes(body);
   char *copy = aligned(&blob_b_memory);
-  size_t tried = 0, refused = 0;
+  size_t tried = 0;
+  size_t refused = 0;
   for (size_t at = 0; at < size; at++) {
     for (int flip = 1; flip < 256; flip++) {
       memcpy(copy, body, size);
       copy[at] = (char)(copy[at] ^ flip);
-      tried++, refused += nsvcd_body_load(copy, size, &loaded) == NSVCD_ERROR_BODY;
+      tried++;
+      refused += nsvcd_body_load(copy, size, &loaded) == NSVCD_ERROR_BODY;
     }
   }
   CHECK_EQ(tried, refused);
   memcpy(copy, body, size);
-  for (size_t cut = 0; cut < size; cut++) CHECK_EQ(nsvcd_body_load(copy, cut, &loaded), NSVCD_ERROR_BODY);
+  for (size_t cut = 0; cut < size; cut++)
+    CHECK_EQ(nsvcd_body_load(copy, cut, &loaded), NSVCD_ERROR_BODY);
   CHECK(loaded == NULL);  // outputs untouched
   memmove(copy + 4, copy, size);
   CHECK_EQ(nsvcd_body_load(copy + 4, size, &loaded), NSVCD_ERROR_BODY);
   CHECK_EQ(nsvcd_body_load(NULL, size, &loaded), NSVCD_ERROR_ARGUMENT);
 }
 
-// With a valid checksum, every float replaced by a harmful one in turn: refused, or harmless (an area vector).
+// With a valid checksum, every float replaced by a harmful one in turn: refused, or harmless (an
+// area vector).
 static void body_malice(void) {
-  const uint32_t bad[4] = {0x7fc00000u, 0x7f800000u, 0xff800000u, 0x7f000000u};  // NaN, inf, -inf, 1.7e38
-  const nsvcd_body *body = random_body(9, 1, 0, &blob_a_memory), *loaded = NULL;
-  size_t size = body_bytes(body), floats_end = size - 9 * NSVCD__LATENT;
+  // NaN, inf, -inf, 1.7e38
+  const uint32_t bad[4] = {0x7fc00000u, 0x7f800000u, 0xff800000u, 0x7f000000u};
+  const nsvcd_body *body = random_body(9, 1, 0, &blob_a_memory);
+  const nsvcd_body *loaded = NULL;
+  size_t size = body_bytes(body);
+  size_t floats_end = size - 9 * NSVCD__LATENT;
   char *copy = aligned(&blob_b_memory);
   for (size_t at = offsetof(struct nsvcd_body, centre); at + 4 <= floats_end; at += 4) {
     if (at >= offsetof(struct nsvcd_body, open) && at < sizeof *body) continue;
-    if (at + 16 > floats_end) continue;  // the zeros at the end shift the latents' start by up to 15 bytes
+    // the zeros at the end shift the latents' start by up to 15 bytes
+    if (at + 16 > floats_end) continue;
     for (size_t n = 0; n < 4; n++) {
       memcpy(copy, body, size);
       memcpy(copy + at, &bad[n], 4);
@@ -165,24 +193,31 @@ static void body_malice(void) {
   }
   memcpy(copy, body, size);  // group and bounding spheres that do not cover
   nsvcd_body *evil = (nsvcd_body *)(void *)copy;
-  float *group_r = (float *)(void *)(copy + ((const char *)nsvcd__body_group(body, 3) - (const char *)body));
-  group_r[0] *= 0.99f, evil->checksum = nsvcd__body_checksum(evil);
+  float *group_r =
+      (float *)(void *)(copy + ((const char *)nsvcd__body_group(body, 3) - (const char *)body));
+  group_r[0] *= 0.99f;
+  evil->checksum = nsvcd__body_checksum(evil);
   CHECK_EQ(nsvcd_body_load(copy, size, &loaded), NSVCD_ERROR_BODY);
   memcpy(copy, body, size);
-  evil->radius *= 0.99f, evil->checksum = nsvcd__body_checksum(evil);
+  evil->radius *= 0.99f;
+  evil->checksum = nsvcd__body_checksum(evil);
   CHECK_EQ(nsvcd_body_load(copy, size, &loaded), NSVCD_ERROR_BODY);
   memcpy(copy, body, size);
-  evil->extent *= 0.99f, evil->checksum = nsvcd__body_checksum(evil);
+  evil->extent *= 0.99f;
+  evil->checksum = nsvcd__body_checksum(evil);
   CHECK_EQ(nsvcd_body_load(copy, size, &loaded), NSVCD_ERROR_BODY);
   memcpy(copy, body, size);
-  evil->weights_id++, evil->checksum = nsvcd__body_checksum(evil);
+  evil->weights_id++;
+  evil->checksum = nsvcd__body_checksum(evil);
   CHECK_EQ(nsvcd_body_load(copy, size, &loaded), NSVCD_ERROR_BODY);
 }
 
 static void body_scale(void) {
   const float scales[5] = {0.25f, 1, 3.7f, 1e-4f, 1e4f};
   for (size_t n = 0; n < 5; n++) {
-    const nsvcd_body *body = random_body(77, 1, 0.5, &blob_a_memory), *scaled = NULL, *loaded = NULL;
+    const nsvcd_body *body = random_body(77, 1, 0.5, &blob_a_memory);
+    const nsvcd_body *scaled = NULL;
+    const nsvcd_body *loaded = NULL;
     char *memory = aligned(&blob_b_memory);
     double s = (double)scales[n];
     CHECK_EQ(nsvcd_body_scale(body, scales[n], memory, blob_capacity, &scaled), NSVCD_OK);
@@ -190,27 +225,31 @@ static void body_scale(void) {
     for (size_t i = 0; i < 77; i++) {
       CHECK_NEAR(nsvcd__body_z(scaled)[i], s * (double)nsvcd__body_z(body)[i], 1e-6 * s);
       CHECK_NEAR(nsvcd__body_r(scaled)[i], s * (double)nsvcd__body_r(body)[i], 1e-6 * s);
-      CHECK_NEAR(nsvcd__body_areas(scaled)[i], s * s * (double)nsvcd__body_areas(body)[i], 1e-6 * s * s);
+      CHECK_NEAR(nsvcd__body_areas(scaled)[i], s * s * (double)nsvcd__body_areas(body)[i],
+                 1e-6 * s * s);
     }
     CHECK(memcmp(nsvcd__body_latents(scaled), nsvcd__body_latents(body), 77 * NSVCD__LATENT) == 0);
     CHECK_NEAR(scaled->radius, s * (double)body->radius, 1e-4 * s);
   }
-  const nsvcd_body *body = random_body(20, 1, 0, &blob_a_memory), *scaled = NULL;
+  const nsvcd_body *body = random_body(20, 1, 0, &blob_a_memory);
+  const nsvcd_body *scaled = NULL;
   char *memory = aligned(&blob_b_memory);
   CHECK_EQ(nsvcd_body_scale(body, 0, memory, blob_capacity, &scaled), NSVCD_ERROR_ARGUMENT);
   CHECK_EQ(nsvcd_body_scale(body, -1, memory, blob_capacity, &scaled), NSVCD_ERROR_ARGUMENT);
-  CHECK_EQ(nsvcd_body_scale(body, (float)NAN, memory, blob_capacity, &scaled), NSVCD_ERROR_ARGUMENT);
+  CHECK_EQ(nsvcd_body_scale(body, (float)NAN, memory, blob_capacity, &scaled),
+           NSVCD_ERROR_ARGUMENT);
   CHECK_EQ(nsvcd_body_scale(body, 1e30f, memory, blob_capacity, &scaled), NSVCD_ERROR_ARGUMENT);
   CHECK_EQ(nsvcd_body_scale(body, 1, memory, body_bytes(body) - 1, &scaled), NSVCD_ERROR_WORKSPACE);
-  CHECK_EQ(nsvcd_body_scale(body, 1, memory + 4, blob_capacity - 4, &scaled), NSVCD_ERROR_WORKSPACE);
+  CHECK_EQ(nsvcd_body_scale(body, 1, memory + 4, blob_capacity - 4, &scaled),
+           NSVCD_ERROR_WORKSPACE);
   CHECK(scaled == NULL);
 }
 
-// ----------------------------------------------------------------------------------------------------- the motion
+// -------------------------------------------------------------------------------------- the motion
 
 // As nsvcd_sweep does; bodies do not matter to it.
-static nsvcd_result motion_init(const nsvcd_pose *samples, size_t count, const nsvcd_pose *fixed_pose,
-                                nsvcd__motion *motion) {
+static nsvcd_result motion_init(const nsvcd_pose *samples, size_t count,
+                                const nsvcd_pose *fixed_pose, nsvcd__motion *motion) {
   static const struct nsvcd_body any = {0};
   const nsvcd_question question = question_of(&any, samples, count, &any, fixed_pose, NULL);
   nsvcd_result result = nsvcd__mover_check(&question.a);
@@ -229,7 +268,8 @@ static int deepest_first(const void *a, const void *b) {
 
 // The whole search: counts all runs, keeps the `limit` deepest in `found`, deepest first.
 static void search(const nsvcd_body *moving, const nsvcd_body *fixed, nsvcd__motion *motion,
-                   nsvcd__workspace *space, nsvcd__candidate *found, size_t limit, nsvcd__candidates *kept) {
+                   nsvcd__workspace *space, nsvcd__candidate *found, size_t limit,
+                   nsvcd__candidates *kept) {
   nsvcd__cut_motion(motion, moving->extent + fixed->extent, space);
   int more = nsvcd__search_begin(moving, fixed, space);
   nsvcd__candidates_start(kept, found, limit);
@@ -244,13 +284,17 @@ typedef struct pose64 {
 static pose64 to_double(const nsvcd_pose *pose) {
   pose64 out;
   double square = 0;
-  for (int k = 0; k < 4; k++) out.q[k] = (double)pose->rotation[k], square += out.q[k] * out.q[k];
+  for (int k = 0; k < 4; k++) {
+    out.q[k] = (double)pose->rotation[k];
+    square += out.q[k] * out.q[k];
+  }
   for (int k = 0; k < 4; k++) out.q[k] /= sqrt(square);
   for (int k = 0; k < 3; k++) out.p[k] = (double)pose->position[k];
   return out;
 }
 
-static void rotate64(const double *q, const double *v, double *out) {  // v + 2 w (u x v) + 2 u x (u x v)
+// v + 2 w (u x v) + 2 u x (u x v)
+static void rotate64(const double *q, const double *v, double *out) {
   double c[3] = {q[1] * v[2] - q[2] * v[1], q[2] * v[0] - q[0] * v[2], q[0] * v[1] - q[1] * v[0]};
   double d[3] = {q[1] * c[2] - q[2] * c[1], q[2] * c[0] - q[0] * c[2], q[0] * c[1] - q[1] * c[0]};
   for (int k = 0; k < 3; k++) out[k] = v[k] + 2 * (q[3] * c[k] + d[k]);
@@ -262,13 +306,25 @@ static pose64 pose_at(const nsvcd_pose *samples, size_t count, double t) {
   double at = t * (double)(count - 1);
   size_t k = (size_t)at;
   if (k > count - 2) k = count - 2;
-  double u = at - (double)k, dot = 0;
-  pose64 a = to_double(&samples[k]), b = to_double(&samples[k + 1]), out;
+  double u = at - (double)k;
+  double dot = 0;
+  pose64 a = to_double(&samples[k]);
+  pose64 b = to_double(&samples[k + 1]);
+  pose64 out;
   for (int i = 0; i < 4; i++) dot += a.q[i] * b.q[i];
   for (int i = 0; i < 4 && dot < 0; i++) b.q[i] = -b.q[i];
-  double angle = acos(fmin(fabs(dot), 1)), wa = 1 - u, wb = u, square = 0;
-  if (angle > 1e-7) wa = sin((1 - u) * angle) / sin(angle), wb = sin(u * angle) / sin(angle);
-  for (int i = 0; i < 4; i++) out.q[i] = wa * a.q[i] + wb * b.q[i], square += out.q[i] * out.q[i];
+  double angle = acos(fmin(fabs(dot), 1));
+  double wa = 1 - u;
+  double wb = u;
+  double square = 0;
+  if (angle > 1e-7) {
+    wa = sin((1 - u) * angle) / sin(angle);
+    wb = sin(u * angle) / sin(angle);
+  }
+  for (int i = 0; i < 4; i++) {
+    out.q[i] = wa * a.q[i] + wb * b.q[i];
+    square += out.q[i] * out.q[i];
+  }
   for (int i = 0; i < 4; i++) out.q[i] /= sqrt(square);
   for (int i = 0; i < 3; i++) out.p[i] = (1 - u) * a.p[i] + u * b.p[i];
   return out;
@@ -276,47 +332,63 @@ static pose64 pose_at(const nsvcd_pose *samples, size_t count, double t) {
 
 // A body-frame point of the moving body at time t, in the fixed body's frame.
 static void place64(const pose64 *at, const pose64 *fixed, const double *point, double *out) {
-  double world[3], back[4] = {-fixed->q[0], -fixed->q[1], -fixed->q[2], fixed->q[3]};
+  double world[3];
+  double back[4] = {-fixed->q[0], -fixed->q[1], -fixed->q[2], fixed->q[3]};
   rotate64(at->q, point, world);
   for (int k = 0; k < 3; k++) world[k] += at->p[k] - fixed->p[k];
   rotate64(back, world, out);
 }
 
 static void random_quat(float *q) {
-  double v[4], square = 0;
+  double v[4];
+  double square = 0;
   do {
     square = 0;
-    for (int k = 0; k < 4; k++) v[k] = uniform(-1, 1), square += v[k] * v[k];
+    for (int k = 0; k < 4; k++) {
+      v[k] = uniform(-1, 1);
+      square += v[k] * v[k];
+    }
   } while (square > 1 || square < 0.01);
   for (int k = 0; k < 4; k++) q[k] = (float)(v[k] / sqrt(square));
 }
 
-// Kinds: 0 smooth, turning by `turn` in all about one axis; 1 smooth with a wobble; 2 jumping at random.
+// Kinds: 0 smooth, turning by `turn` in all about one axis; 1 smooth with a wobble; 2 jumping at
+// random.
 static void random_motion(size_t count, int kind, double turn, double path, const double *middle) {
   double axis[3], along[3], start[4];
   float q[4];
   random_quat(q);
   double length = sqrt((double)(q[0] * q[0] + q[1] * q[1] + q[2] * q[2])) + 1e-9;
-  for (int k = 0; k < 3; k++) axis[k] = (double)q[k] / length, along[k] = uniform(-1, 1) * path;
+  for (int k = 0; k < 3; k++) {
+    axis[k] = (double)q[k] / length;
+    along[k] = uniform(-1, 1) * path;
+  }
   random_quat(q);
   for (int k = 0; k < 4; k++) start[k] = (double)q[k];
   for (size_t n = 0; n < count; n++) {
-    double t = count > 1 ? (double)n / (double)(count - 1) : 0.5, half = 0.5 * turn * t, s = sin(half), c = cos(half);
+    double t = count > 1 ? (double)n / (double)(count - 1) : 0.5;
+    double half = 0.5 * turn * t;
+    double s = sin(half);
+    double c = cos(half);
     double wobble = kind == 1 ? 0.3 * sin(7 * t) : 0;
-    const double *b = start, a[4] = {s * axis[0], s * axis[1], s * axis[2], c};
+    const double *b = start;
+    const double a[4] = {s * axis[0], s * axis[1], s * axis[2], c};
     poses[n].rotation[0] = (float)(a[3] * b[0] + a[0] * b[3] + a[1] * b[2] - a[2] * b[1]);
     poses[n].rotation[1] = (float)(a[3] * b[1] - a[0] * b[2] + a[1] * b[3] + a[2] * b[0]);
     poses[n].rotation[2] = (float)(a[3] * b[2] + a[0] * b[1] - a[1] * b[0] + a[2] * b[3]);
     poses[n].rotation[3] = (float)(a[3] * b[3] - a[0] * b[0] - a[1] * b[1] - a[2] * b[2]);
     for (int k = 0; k < 3; k++) {
-      poses[n].position[k] = (float)(middle[k] + along[k] * (t - 0.5) + (k == 0 ? wobble * path : 0));
+      poses[n].position[k] =
+          (float)(middle[k] + along[k] * (t - 0.5) + (k == 0 ? wobble * path : 0));
     }
     if (kind == 2) {
       random_quat(poses[n].rotation);
       for (int k = 0; k < 3; k++) poses[n].position[k] = (float)(middle[k] + uniform(-1, 1) * path);
     }
-    double sign = uniform(-1, 1) < 0 ? -1 : 1, scale = sign * uniform(1 - 9e-5, 1 + 9e-5);  // still unit to 1e-4
-    for (int k = 0; k < 4; k++) poses[n].rotation[k] = (float)((double)poses[n].rotation[k] * scale);
+    double sign = uniform(-1, 1) < 0 ? -1 : 1;
+    double scale = sign * uniform(1 - 9e-5, 1 + 9e-5);  // still unit to 1e-4
+    for (int k = 0; k < 4; k++)
+      poses[n].rotation[k] = (float)((double)poses[n].rotation[k] * scale);
   }
 }
 
@@ -331,15 +403,20 @@ static void motion_pose_is_slerp(void) {
     nsvcd__motion motion;
     CHECK_EQ(motion_init(poses, count, &fixed, &motion), NSVCD_OK);
     for (int n = 0; n <= 10; n++) {
-      float t = n == 10 ? 1 : (float)uniform(0, 1), rotation[9], position[3], out[3];
+      float t = n == 10 ? 1 : (float)uniform(0, 1);
+      float rotation[9];
+      float position[3];
+      float out[3];
       const float point[3] = {0.3f, -0.2f, 0.9f};
       const double point64[3] = {(double)point[0], (double)point[1], (double)point[2]};
       double want[3];
-      pose64 at = pose_at(poses, count, (double)t), f = to_double(&fixed);
+      pose64 at = pose_at(poses, count, (double)t);
+      pose64 f = to_double(&fixed);
       place64(&at, &f, point64, want);
       nsvcd__motion_pose(&motion, t, rotation, position);
       nsvcd__mul33_vec(rotation, point, out);
-      for (int k = 0; k < 3; k++) worst = fmax(worst, fabs((double)(out[k] + position[k]) - want[k]));
+      for (int k = 0; k < 3; k++)
+        worst = fmax(worst, fabs((double)(out[k] + position[k]) - want[k]));
     }
   }
   CHECK_LE(worst, 3e-5);  // t itself is rounded: 40 samples of speed 6 between them, times 6e-8
@@ -357,7 +434,8 @@ static void poses_at_are_poses(void) {
     random_quat(fixed.rotation);
     random_motion(count, trial % 3, uniform(0, 12), 1, middle);
     CHECK_EQ(motion_init(poses, count, &fixed, &motion), NSVCD_OK);
-    for (size_t l = 0; l < NSVCD__LANES; l++) times[l] = l == 0 ? 0 : l == 1 ? 1 : (float)uniform(0, 1);
+    for (size_t l = 0; l < NSVCD__LANES; l++)
+      times[l] = l == 0 ? 0 : l == 1 ? 1 : (float)uniform(0, 1);
     NSVCD__EACH_SLICE(l) {
       nsvcd__v q[4], p[3], m[9];
       nsvcd__v_poses_at(&motion, times + l, NSVCD__SLICE, q, p);
@@ -369,7 +447,8 @@ static void poses_at_are_poses(void) {
       float rotation[9], position[3];
       nsvcd__motion_pose(&motion, times[l], rotation, position);
       for (size_t k = 0; k < 9; k++) worst = fmax(worst, fabs((double)(lanes[k][l] - rotation[k])));
-      for (size_t k = 0; k < 3; k++) worst = fmax(worst, fabs((double)(lanes[9 + k][l] - position[k])));
+      for (size_t k = 0; k < 3; k++)
+        worst = fmax(worst, fabs((double)(lanes[9 + k][l] - position[k])));
     }
   }
   CHECK_LE(worst, 1e-5);
@@ -380,7 +459,11 @@ static void half_rotation_vector(void) {
   const double angles[12] = {0, 1e-8, 1e-6, 1e-4, 1e-2, 0.5, 1.04, 1.05, 1.5, 3, 3.14, 3.1415};
   for (int trial = 0; trial < 1200; trial++) {
     float random[4], lane[NSVCD__SLICE];
-    double axis[3], length, angle = angles[trial % 12], s = sin(angle / 2), sign = trial % 5 ? 1 : -1;
+    double axis[3];
+    double length;
+    double angle = angles[trial % 12];
+    double s = sin(angle / 2);
+    double sign = trial % 5 ? 1 : -1;
     random_quat(random);
     length = sqrt((double)(random[0] * random[0] + random[1] * random[1] + random[2] * random[2]));
     for (int k = 0; k < 3; k++) axis[k] = (double)random[k] / length;
@@ -425,10 +508,11 @@ static void bad_poses(void) {
   CHECK(memcmp(&motion, &before, sizeof motion) == 0);  // outputs untouched
 }
 
-// ------------------------------------------------------------------------------------------------ conservativeness
+// -------------------------------------------------------------------------------- conservativeness
 
 static int by_pair(const void *a, const void *b) {
-  const nsvcd__candidate *x = (const nsvcd__candidate *)a, *y = (const nsvcd__candidate *)b;
+  const nsvcd__candidate *x = (const nsvcd__candidate *)a;
+  const nsvcd__candidate *y = (const nsvcd__candidate *)b;
   if (x->moving != y->moving) return x->moving < y->moving ? -1 : 1;
   if (x->fixed != y->fixed) return x->fixed < y->fixed ? -1 : 1;
   return x->t_enter < y->t_enter ? -1 : x->t_enter > y->t_enter ? 1 : 0;
@@ -436,7 +520,8 @@ static int by_pair(const void *a, const void *b) {
 
 // Is t in one of the pair's intervals? Slack: times are floats, 1e-6.
 static int is_covered(const nsvcd__candidate *sorted, size_t count, size_t i, size_t j, double t) {
-  size_t low = 0, high = count;
+  size_t low = 0;
+  size_t high = count;
   while (low < high) {
     size_t middle = (low + high) / 2;
     const nsvcd__candidate *c = &sorted[middle];
@@ -456,8 +541,8 @@ typedef struct tally {
 } tally;
 
 // One motion: candidates against spheres sampled densely in time.
-static void try_motion(const nsvcd_body *moving, const nsvcd_body *fixed, size_t count, const nsvcd_pose *fixed_pose,
-                       size_t samples, tally *sum) {
+static void try_motion(const nsvcd_body *moving, const nsvcd_body *fixed, size_t count,
+                       const nsvcd_pose *fixed_pose, size_t samples, tally *sum) {
   static unsigned char pair_met[NSVCD_SMALL_POINTS][NSVCD_SMALL_POINTS];
   nsvcd__motion motion;
   CHECK_EQ(motion_init(poses, count, fixed_pose, &motion), NSVCD_OK);
@@ -468,7 +553,8 @@ static void try_motion(const nsvcd_body *moving, const nsvcd_body *fixed, size_t
   search(moving, fixed, &motion, work, few, limit, &best);
   CHECK_EQ(best.total, all.total);
   CHECK_EQ(best.count, all.total < limit ? all.total : limit);
-  for (size_t n = 0; n < best.count; n++) sum->kept_wrong += memcmp(&few[n], &items[n], sizeof few[n]) != 0;
+  for (size_t n = 0; n < best.count; n++)
+    sum->kept_wrong += memcmp(&few[n], &items[n], sizeof few[n]) != 0;
   for (size_t n = 1; n < all.count; n++) CHECK(items[n - 1].depth >= items[n].depth);
   for (size_t n = 0; n < all.count; n++) {
     const nsvcd__candidate *c = &items[n];
@@ -476,49 +562,59 @@ static void try_motion(const nsvcd_body *moving, const nsvcd_body *fixed, size_t
     CHECK(c->moving < moving->points && c->fixed < fixed->points);
   }
   qsort(items, all.count, sizeof *items, by_pair);
-  sum->motions++, sum->free_motions += all.total == 0, sum->runs += all.total;
+  sum->motions++;
+  sum->free_motions += all.total == 0;
+  sum->runs += all.total;
 
   memset(pair_met, 0, sizeof pair_met);
   pose64 f = to_double(fixed_pose);
   for (size_t n = 0; n < samples; n++) {
     // A third of the samples exactly on the poses, the rest anywhere.
-    double t = n % 3 || count == 1 ? uniform(0, 1) : (double)pick(0, count - 1) / (double)(count - 1);
+    double t =
+        n % 3 || count == 1 ? uniform(0, 1) : (double)pick(0, count - 1) / (double)(count - 1);
     pose64 at = pose_at(poses, count, t);
     for (size_t i = 0; i < moving->points; i++) {
       double c[3] = {(double)nsvcd__body_x(moving)[i], (double)nsvcd__body_y(moving)[i],
                      (double)nsvcd__body_z(moving)[i]};
-      double p[3], ri = (double)nsvcd__body_r(moving)[i];
+      double p[3];
+      double ri = (double)nsvcd__body_r(moving)[i];
       place64(&at, &f, c, p);
       for (size_t j = 0; j < fixed->points; j++) {
-        double d[3] = {p[0] - (double)nsvcd__body_x(fixed)[j], p[1] - (double)nsvcd__body_y(fixed)[j],
+        double d[3] = {p[0] - (double)nsvcd__body_x(fixed)[j],
+                       p[1] - (double)nsvcd__body_y(fixed)[j],
                        p[2] - (double)nsvcd__body_z(fixed)[j]};
         double r = ri + (double)nsvcd__body_r(fixed)[j];
         if (d[0] * d[0] + d[1] * d[1] + d[2] * d[2] > r * r) continue;
-        sum->overlaps++, pair_met[i][j] = 1;
+        sum->overlaps++;
+        pair_met[i][j] = 1;
         sum->lost += !is_covered(items, all.count, i, j, t);
       }
     }
     sum->tested += (size_t)moving->points * fixed->points;
   }
-  for (size_t n = 0; n < all.count; n++) sum->runs_real += pair_met[items[n].moving][items[n].fixed];
+  for (size_t n = 0; n < all.count; n++)
+    sum->runs_real += pair_met[items[n].moving][items[n].fixed];
 }
 
 static void print_tally(const char *name, const tally *t) {
-  printf("  %-12s %5zu motions, %9zu sphere tests, %8zu overlaps, %zu lost; %4zu free; %zu runs, %.1f %% not met\n",
-         name, t->motions, t->tested, t->overlaps, t->lost, t->free_motions, t->runs,
-         100.0 * (double)(t->runs - t->runs_real) / (double)(t->runs + (t->runs == 0)));
+  printf(
+      "  %-12s %5zu motions, %9zu sphere tests, %8zu overlaps, %zu lost; %4zu free; %zu runs, %.1f "
+      "%% not met\n",
+      name, t->motions, t->tested, t->overlaps, t->lost, t->free_motions, t->runs,
+      100.0 * (double)(t->runs - t->runs_real) / (double)(t->runs + (t->runs == 0)));
 }
 
 // `turn` in radians; bodies of `size_a` and `size_b`, in a scene `away` from the origin.
-static void conservative(const char *name, int motions, int kind, double turn, size_t least_count, size_t most_count,
-                         double size_a, double size_b, double away) {
+static void conservative(const char *name, int motions, int kind, double turn, size_t least_count,
+                         size_t most_count, double size_a, double size_b, double away) {
   tally sum;
   memset(&sum, 0, sizeof sum);
   rng_state = 12345;
   for (int n = 0; n < motions; n++) {
     const nsvcd_body *moving = random_body(pick(1, 40), size_a, n % 2 ? 0 : size_a, &blob_a_memory);
     const nsvcd_body *fixed = random_body(pick(1, 40), size_b, 0, &blob_b_memory);
-    double apart = uniform(0, 1.5) * (size_a + size_b), middle[3];
+    double apart = uniform(0, 1.5) * (size_a + size_b);
+    double middle[3];
     nsvcd_pose fixed_pose = {{0, 0, 0}, {0, 0, 0, 1}};
     random_quat(fixed_pose.rotation);
     for (int k = 0; k < 3; k++) {
@@ -537,10 +633,18 @@ static void conservative(const char *name, int motions, int kind, double turn, s
 
 static const double degrees = 3.14159265358979 / 180;
 
-static void conservative_smooth(void) { conservative("smooth", 400, 0, 120 * degrees, 2, 40, 1, 1, 0); }
-static void conservative_wobble(void) { conservative("wobble", 300, 1, 120 * degrees, 1, 200, 1, 1, 0); }
-static void conservative_spin(void) { conservative("720 degrees", 400, 0, 720 * degrees, 9, 200, 1, 1, 0); }
-static void conservative_tumble(void) { conservative("50 turns", 100, 0, 18000 * degrees, 150, 200, 1, 1, 0); }
+static void conservative_smooth(void) {
+  conservative("smooth", 400, 0, 120 * degrees, 2, 40, 1, 1, 0);
+}
+static void conservative_wobble(void) {
+  conservative("wobble", 300, 1, 120 * degrees, 1, 200, 1, 1, 0);
+}
+static void conservative_spin(void) {
+  conservative("720 degrees", 400, 0, 720 * degrees, 9, 200, 1, 1, 0);
+}
+static void conservative_tumble(void) {
+  conservative("50 turns", 100, 0, 18000 * degrees, 150, 200, 1, 1, 0);
+}
 static void conservative_jumps(void) { conservative("jumps", 200, 2, 0, 1, 200, 1, 1, 0); }
 static void conservative_still(void) { conservative("single pose", 200, 0, 0, 1, 1, 1, 1, 0); }
 static void conservative_far(void) { conservative("1 km away", 200, 0, 2, 2, 40, 0.1, 0.2, 1000); }
@@ -551,10 +655,12 @@ static void conservative_sizes(void) {
   conservative("micrometre", 100, 1, 2, 2, 40, 1e-6, 1e-6, 0);
 }
 
-// The bound itself: the true place of a point against its place on the chord, in double, at most dev apart. The points
-// lie across the axis of rotation too, where the bound is attained: a bound that is a little too small fails here.
+// The bound itself: the true place of a point against its place on the chord, in double, at most
+// dev apart. The points lie across the axis of rotation too, where the bound is attained: a bound
+// that is a little too small fails here.
 static void deviation_is_bounded(void) {
-  const double paths[4] = {0, 1, 0, 0}, aways[4] = {0, 0, 1000, 0};
+  const double paths[4] = {0, 1, 0, 0};
+  const double aways[4] = {0, 0, 1000, 0};
   double most = 0;
   rng_state = 7;
   for (int trial = 0; trial < 2000; trial++) {
@@ -566,7 +672,8 @@ static void deviation_is_bounded(void) {
       fixed.position[k] = (float)(uniform(0.5, 1) * aways[trial % 4]);
       middle[k] = (double)fixed.position[k] + uniform(-1, 1);
     }
-    random_motion(count, trial % 4 == 1 ? trial % 3 : 0, trial % 2 ? uniform(0, 12) : 0, paths[trial % 4], middle);
+    random_motion(count, trial % 4 == 1 ? trial % 3 : 0, trial % 2 ? uniform(0, 12) : 0,
+                  paths[trial % 4], middle);
     nsvcd__motion motion;
     CHECK_EQ(motion_init(poses, count, &fixed, &motion), NSVCD_OK);
     nsvcd__cut_motion(&motion, 1, work);
@@ -574,9 +681,16 @@ static void deviation_is_bounded(void) {
     for (int n = 0; n < 200; n++) {
       float q[4], c[3];
       random_quat(q);
-      double length = sqrt((double)(q[0] * q[0] + q[1] * q[1] + q[2] * q[2])) * 2, p[3], c64[3], square = 0;
-      for (int k = 0; k < 3; k++) c[k] = (float)((double)q[k] / length), c64[k] = (double)c[k];
-      size_t s = pick(0, work->segments - 1), l = s % NSVCD__LANES;
+      double length = sqrt((double)(q[0] * q[0] + q[1] * q[1] + q[2] * q[2])) * 2;
+      double p[3];
+      double c64[3];
+      double square = 0;
+      for (int k = 0; k < 3; k++) {
+        c[k] = (float)((double)q[k] / length);
+        c64[k] = (double)c[k];
+      }
+      size_t s = pick(0, work->segments - 1);
+      size_t l = s % NSVCD__LANES;
       double tau = uniform(0.4, 0.6);
       const nsvcd__segments *b = &work->blocks[s / NSVCD__LANES];
       double start = (double)work->time[s];
@@ -584,7 +698,8 @@ static void deviation_is_bounded(void) {
       place64(&at, &f, c64, p);
       nsvcd__chords chords;
       nsvcd__chords_of_sphere(b, c[0], c[1], c[2], 0, &chords);
-      const float x[3] = {chords.x[l], chords.y[l], chords.z[l]}, v[3] = {chords.vx[l], chords.vy[l], chords.vz[l]};
+      const float x[3] = {chords.x[l], chords.y[l], chords.z[l]};
+      const float v[3] = {chords.vx[l], chords.vy[l], chords.vz[l]};
       for (int k = 0; k < 3; k++) square += pow((double)x[k] + tau * (double)v[k] - p[k], 2);
       CHECK_LE(sqrt(square), chords.reach[l]);
       if (trial % 4 == 3) most = fmax(most, sqrt(square) / (double)chords.reach[l]);
@@ -594,15 +709,20 @@ static void deviation_is_bounded(void) {
   CHECK_GE(most, 0.98);
 }
 
-// With all depths equal, which pairs are kept must not depend on the order in which they were found.
+// With all depths equal, which pairs are kept must not depend on the order in which they were
+// found.
 static void ties(void) {
-  memset(centres, 0, sizeof centres), memset(areas, 0, sizeof areas), memset(latents, 0, sizeof latents);
+  memset(centres, 0, sizeof centres);
+  memset(areas, 0, sizeof areas);
+  memset(latents, 0, sizeof latents);
   for (size_t i = 0; i < 40; i++) radii[i] = 1;
-  const nsvcd_body *a = build(40, &blob_a_memory), *b = build(40, &blob_b_memory);
+  const nsvcd_body *a = build(40, &blob_a_memory);
+  const nsvcd_body *b = build(40, &blob_b_memory);
   nsvcd_pose fixed = {{0.5f, 0, 0}, {0, 0, 0, 1}};
   nsvcd__motion motion;
   nsvcd__candidates all, best;
-  poses[0] = fixed, poses[0].position[0] = 0;
+  poses[0] = fixed;
+  poses[0].position[0] = 0;
   CHECK_EQ(motion_init(poses, 1, &fixed, &motion), NSVCD_OK);
   search(a, b, &motion, work, items, 1600, &all);
   CHECK_EQ(all.total, 1600);
@@ -615,11 +735,18 @@ static void ties(void) {
 
 // A known case: two unit spheres, one passes the other at distance 1.5 along x from -5 to 5.
 static void closed_form(void) {
-  memset(latents, 0, sizeof latents), memset(areas, 0, sizeof areas), memset(centres, 0, sizeof centres);
+  memset(latents, 0, sizeof latents);
+  memset(areas, 0, sizeof areas);
+  memset(centres, 0, sizeof centres);
   radii[0] = 1;
-  const nsvcd_body *a = build(1, &blob_a_memory), *b = build(1, &blob_b_memory);
+  const nsvcd_body *a = build(1, &blob_a_memory);
+  const nsvcd_body *b = build(1, &blob_b_memory);
   nsvcd_pose fixed = {{0, 1.5f, 0}, {0, 0, 0, 1}};
-  for (int n = 0; n < 2; n++) poses[n] = fixed, poses[n].position[0] = n ? 5 : -5, poses[n].position[1] = 0;
+  for (int n = 0; n < 2; n++) {
+    poses[n] = fixed;
+    poses[n].position[0] = n ? 5 : -5;
+    poses[n].position[1] = 0;
+  }
   nsvcd__motion motion;
   nsvcd__candidates kept;
   CHECK_EQ(motion_init(poses, 2, &fixed, &motion), NSVCD_OK);
@@ -637,11 +764,15 @@ static void closed_form(void) {
   CHECK_EQ(kept.total, 0);
 }
 
-// One pair that overlaps throughout a full turn: runs follow each other without a hole, none turns over 45 degrees.
+// One pair that overlaps throughout a full turn: runs follow each other without a hole, none turns
+// over 45 degrees.
 static void runs_are_cut(void) {
-  memset(latents, 0, sizeof latents), memset(areas, 0, sizeof areas), memset(centres, 0, sizeof centres);
+  memset(latents, 0, sizeof latents);
+  memset(areas, 0, sizeof areas);
+  memset(centres, 0, sizeof centres);
   radii[0] = 1;
-  const nsvcd_body *a = build(1, &blob_a_memory), *b = build(1, &blob_b_memory);
+  const nsvcd_body *a = build(1, &blob_a_memory);
+  const nsvcd_body *b = build(1, &blob_b_memory);
   const double middle[3] = {0.1, 0, 0};
   nsvcd_pose fixed = {{0, 0, 0}, {0, 0, 0, 1}};
   nsvcd__motion motion;
@@ -660,31 +791,42 @@ static void runs_are_cut(void) {
   }
 }
 
-// ------------------------------------------------------------------------------------------------------ containment
+// ------------------------------------------------------------------------------------- containment
 
 static void containment(void) {
   const float eye[9] = {1, 0, 0, 0, 1, 0, 0, 0, 1};
-  double error[4] = {0, 0, 0, 0};  // of the winding number, by clearance: 0.75-1, 1-1.5, 1.5-2, over 2 radii
-  size_t clear = 0, rough = 0;     // places from NSVCD__CLEARANCE on, and those whose error exceeds 0.3
+  // of the winding number, by clearance: 0.75-1, 1-1.5, 1.5-2, over 2 radii
+  double error[4] = {0, 0, 0, 0};
+  size_t clear = 0;
+  size_t rough = 0;  // places from NSVCD__CLEARANCE on, and those whose error exceeds 0.3
   for (size_t points = 32; points <= 512; points *= 2) {
-    const nsvcd_body *outer = shell_body(points, 1, &blob_a_memory), *inner = shell_body(64, 0.1, &blob_b_memory);
+    const nsvcd_body *outer = shell_body(points, 1, &blob_a_memory);
+    const nsvcd_body *inner = shell_body(64, 0.1, &blob_b_memory);
     double r = (double)nsvcd__body_r(outer)[0];
     for (int n = 0; n < 2000; n++) {
-      float q[4], rotation[9], at[3] = {0, 0, 0}, way[3];
+      float q[4];
+      float rotation[9];
+      float at[3] = {0, 0, 0};
+      float way[3];
       random_quat(q);
       nsvcd__quat_normalize(q, q);
       nsvcd__quat_to_matrix(q, rotation);
       double distance = uniform(0, 2);
-      for (int k = 0; k < 3; k++) way[k] = rotation[3 * k], at[k] = (float)distance * way[k];
+      for (int k = 0; k < 3; k++) {
+        way[k] = rotation[3 * k];
+        at[k] = (float)distance * way[k];
+      }
       float places[3][NSVCD__PROBES], lanes[NSVCD__PROBES];
-      for (int k = 0; k < 3 * NSVCD__PROBES; k++) places[k / NSVCD__PROBES][k % NSVCD__PROBES] = at[k / NSVCD__PROBES];
+      for (int k = 0; k < 3 * NSVCD__PROBES; k++)
+        places[k / NSVCD__PROBES][k % NSVCD__PROBES] = at[k / NSVCD__PROBES];
       nsvcd__clearances(outer, places, lanes);
       double clearance = sqrt((double)lanes[7]);
       int bin = clearance < 1 ? 0 : clearance < 1.5 ? 1 : clearance < 2 ? 2 : 3;
       double want = distance < 1 ? 1 : 0;
       double off = fabs((double)nsvcd__winding_number(outer, at) - want);
       if (clearance >= 0.75) error[bin] = fmax(error[bin], off);
-      clear += clearance >= (double)NSVCD__CLEARANCE, rough += clearance >= (double)NSVCD__CLEARANCE && off > 0.3;
+      clear += clearance >= (double)NSVCD__CLEARANCE;
+      rough += clearance >= (double)NSVCD__CLEARANCE && off > 0.3;
       // In the clear: exactly when it is inside. On the surface: anything. Outside: never.
       if (distance < 1 - 0.1 - r) CHECK(nsvcd__is_contained(inner, outer, 1, rotation, at));
       if (distance < 1 - 0.1 - r) {
@@ -696,12 +838,14 @@ static void containment(void) {
       }
       if (distance > 1.1) CHECK(!nsvcd__is_contained(inner, outer, 1, rotation, at));
     }
-    const float far[3] = {30, 0, 0}, none[3] = {0, 0, 0};
+    const float far[3] = {30, 0, 0};
+    const float none[3] = {0, 0, 0};
     CHECK(!nsvcd__is_contained(inner, outer, 1, eye, far));
     CHECK(nsvcd__is_contained(inner, outer, 1, eye, none));
   }
   printf(
-      "  winding number, worst error from 0.75 / 1 / 1.5 / 2 patch radii on: %.3f %.3f %.3f %.4f; over 0.3: %zu of "
+      "  winding number, worst error from 0.75 / 1 / 1.5 / 2 patch radii on: %.3f %.3f %.3f %.4f; "
+      "over 0.3: %zu of "
       "%zu\n",
       error[0], error[1], error[2], error[3], rough, clear);
   CHECK_GE(clear, 5000);
@@ -714,32 +858,41 @@ static void containment_in_a_cavity(void) {
   const float eye[9] = {1, 0, 0, 0, 1, 0, 0, 0, 1};
   shell_body(256, 0.6, &blob_a_memory);
   float inner_centres[3 * 256], inner_areas[3 * 256], inner_radii[256];
-  memcpy(inner_centres, centres, sizeof inner_centres), memcpy(inner_areas, areas, sizeof inner_areas);
+  memcpy(inner_centres, centres, sizeof inner_centres);
+  memcpy(inner_areas, areas, sizeof inner_areas);
   memcpy(inner_radii, radii, sizeof inner_radii);
   shell_body(256, 1, &blob_a_memory);
-  for (size_t n = 0; n < 3 * 256; n++) centres[3 * 256 + n] = inner_centres[n], areas[3 * 256 + n] = -inner_areas[n];
+  for (size_t n = 0; n < 3 * 256; n++) {
+    centres[3 * 256 + n] = inner_centres[n];
+    areas[3 * 256 + n] = -inner_areas[n];
+  }
   for (size_t n = 0; n < 256; n++) radii[256 + n] = inner_radii[n];
-  const nsvcd_body *hollow = build(512, &blob_a_memory), *ball = shell_body(32, 0.02, &blob_b_memory);
-  const float middle[3] = {0, 0, 0}, wall[3] = {0, 0.8f, 0}, outside[3] = {1.4f, 0, 0};
+  const nsvcd_body *hollow = build(512, &blob_a_memory);
+  const nsvcd_body *ball = shell_body(32, 0.02, &blob_b_memory);
+  const float middle[3] = {0, 0, 0};
+  const float wall[3] = {0, 0.8f, 0};
+  const float outside[3] = {1.4f, 0, 0};
   CHECK(!nsvcd__is_contained(ball, hollow, 1, eye, middle));
   CHECK(nsvcd__is_contained(ball, hollow, 1, eye, wall));
   CHECK(!nsvcd__is_contained(ball, hollow, 1, eye, outside));
 }
 
-// ------------------------------------------------------------------------------------------------------------ speed
+// ------------------------------------------------------------------------------------------- speed
 
 static int by_value(const void *a, const void *b) {
-  double x = *(const double *)a, y = *(const double *)b;
+  double x = *(const double *)a;
+  double y = *(const double *)b;
   return x < y ? -1 : x > y ? 1 : 0;
 }
 
-// Not a check: two shells of 0.1 m radius, path up to 0.4 m, turning up to 120 degrees, 17 poses, K = 8; a near miss
-// to a graze (`gap` to 0.08 m between them at the middle), or nested deeply.
+// Not a check: two shells of 0.1 m radius, path up to 0.4 m, turning up to 120 degrees, 17 poses, K
+// = 8; a near miss to a graze (`gap` to 0.08 m between them at the middle), or nested deeply.
 static void time_broad_phase(const char *name, double least_gap, double most_gap) {
   for (size_t points = 64; points <= 512; points *= 2) {
     double times[300], runs[300];
     rng_state = 99;
-    const nsvcd_body *a = shell_body(points, 0.1, &blob_a_memory), *b = shell_body(points, 0.1, &blob_b_memory);
+    const nsvcd_body *a = shell_body(points, 0.1, &blob_a_memory);
+    const nsvcd_body *b = shell_body(points, 0.1, &blob_b_memory);
     for (int n = 0; n < 300; n++) {
       double middle[3] = {0.2 + uniform(least_gap, most_gap), 0, 0};
       nsvcd_pose fixed = {{0, 0, 0}, {0, 0, 0, 1}};
@@ -754,9 +907,12 @@ static void time_broad_phase(const char *name, double least_gap, double most_gap
       times[n] = 1e6 * (double)(clock() - start) / CLOCKS_PER_SEC / 50;
       runs[n] = (double)kept.total;
     }
-    qsort(times, 300, sizeof *times, by_value), qsort(runs, 300, sizeof *runs, by_value);
-    printf("  %s, N = %3zu: median %.2f us, 90 %% %.2f us, worst %.2f us; median %.0f runs, worst %.0f\n", name, points,
-           times[150], times[270], times[299], runs[150], runs[299]);
+    qsort(times, 300, sizeof *times, by_value);
+    qsort(runs, 300, sizeof *runs, by_value);
+    printf(
+        "  %s, N = %3zu: median %.2f us, 90 %% %.2f us, worst %.2f us; median %.0f runs, worst "
+        "%.0f\n",
+        name, points, times[150], times[270], times[299], runs[150], runs[299]);
   }
 }
 

@@ -17,16 +17,20 @@ static struct {
 
 void test_cost(void);
 
-// ------------------------------------------------------------------------------------------------------------- bound
+// ------------------------------------------------------------------------------------------- bound
 
-// A body whose spheres are all so large that they meet everything, wherever it is: the worst that a blob can be.
+// A body whose spheres are all so large that they meet everything, wherever it is: the worst that a
+// blob can be.
 static void cost_blow_up(query_memory *memory, float factor) {
   struct nsvcd_body *body = (struct nsvcd_body *)memory->at;
   float *r = (float *)(body + 1) + 3 * (size_t)body->padded;
-  float *group_r = (float *)(body + 1) + 4 * (size_t)body->padded + 3 * nsvcd__group_slots(body->padded);
+  float *group_r =
+      (float *)(body + 1) + 4 * (size_t)body->padded + 3 * nsvcd__group_slots(body->padded);
   for (size_t i = 0; i < body->padded; i++) r[i] *= r[i] > 0 ? factor : 1;
-  for (size_t i = 0; i < nsvcd__group_slots(body->padded); i++) group_r[i] *= group_r[i] > 0 ? factor : 1;
-  body->radius *= factor, body->extent *= factor;
+  for (size_t i = 0; i < nsvcd__group_slots(body->padded); i++)
+    group_r[i] *= group_r[i] > 0 ? factor : 1;
+  body->radius *= factor;
+  body->extent *= factor;
 }
 
 static nsvcd__query *cost_query(void) {
@@ -35,12 +39,14 @@ static nsvcd__query *cost_query(void) {
   return query;
 }
 
-// All steps of the search, as if nothing were clear before its end. Returns how many segments the motion has.
+// All steps of the search, as if nothing were clear before its end. Returns how many segments the
+// motion has.
 static size_t cost_search(const query_scene *s) {
   nsvcd__query *query = cost_query();
   nsvcd__motion motion;
   nsvcd__candidates kept;
-  const nsvcd_question question = question_of(s->moving, s->motion, QUERY_POSES, s->fixed, &s->fixed_pose, NULL);
+  const nsvcd_question question =
+      question_of(s->moving, s->motion, QUERY_POSES, s->fixed, &s->fixed_pose, NULL);
   nsvcd__motion_init(&question.a, &question.b, &motion);
   nsvcd__candidates_start(&kept, query->kept, 32);
   nsvcd__cut_motion(&motion, s->moving->extent + s->fixed->extent, &query->broad_phase);
@@ -49,18 +55,22 @@ static size_t cost_search(const query_scene *s) {
   return query->broad_phase.segments;
 }
 
-// Counted, not timed, so that it holds on every machine: random scenes, and bodies made to meet in every test.
+// Counted, not timed, so that it holds on every machine: random scenes, and bodies made to meet in
+// every test.
 static void cost_is_bounded(void) {
   const nsvcd_model models[3] = {NSVCD_MODEL_TINY, NSVCD_MODEL_SMALL, NSVCD_MODEL_BASE};
   const size_t pairs[4] = {1, 3, 8, NSVCD_MAX_PAIRS};
-  size_t most_ranked = 0, most_judged = 0;
+  size_t most_ranked = 0;
+  size_t most_judged = 0;
   double share = 0;
   for (uint64_t seed = 1; seed <= 90; seed++) {
     query_scene s;
     query_scene_open(&s, seed);
     const size_t groups = nsvcd__body_groups(s.moving) * nsvcd__body_groups(s.fixed);
-    if (seed > 30)
-      cost_blow_up(&s.memory[0], seed > 60 ? 100 : 1.5f), cost_blow_up(&s.memory[1], seed > 60 ? 100 : 1.5f);
+    if (seed > 30) {
+      cost_blow_up(&s.memory[0], seed > 60 ? 100 : 1.5f);
+      cost_blow_up(&s.memory[1], seed > 60 ? 100 : 1.5f);
+    }
     memset(&tally, 0, sizeof tally);
     const size_t segments = cost_search(&s);
     const size_t bound = (NSVCD__SLICE < NSVCD__LANES ? 34 : 18) * segments * groups + 3 * segments;
@@ -80,14 +90,14 @@ static void cost_is_bounded(void) {
     }
     query_scene_close(&s);
   }
-  printf("  of the bound: %.0f %% of the tests, %zu of 96 pairs ranked, %zu of 8 judged\n", 100 * share, most_ranked,
-         most_judged);
+  printf("  of the bound: %.0f %% of the tests, %zu of 96 pairs ranked, %zu of 8 judged\n",
+         100 * share, most_ranked, most_judged);
   CHECK_GE(share, 0.8);  // else the bound says little, or the worst case is not here
   CHECK_GE(most_ranked, 48);
   CHECK_EQ(most_judged, 8);
 }
 
-// ----------------------------------------------------------------------------------------------------------- batches
+// ----------------------------------------------------------------------------------------- batches
 
 #define COST_MOTIONS 48
 
@@ -113,29 +123,34 @@ static void cost_open(cost_batch *b, uint64_t seed) {
   }
 }
 
-static nsvcd_result cost_ask_batch(const cost_batch *b, const nsvcd_sweep_options *options, void *workspace,
-                                   nsvcd_answer *answers) {
+static nsvcd_result cost_ask_batch(const cost_batch *b, const nsvcd_sweep_options *options,
+                                   void *workspace, nsvcd_answer *answers) {
   const query_scene *s = &b->scene;
   nsvcd_question questions[COST_MOTIONS];
   for (size_t m = 0; m < COST_MOTIONS; m++) {
-    questions[m] = question_of(s->moving, b->poses + m * QUERY_POSES, QUERY_POSES, s->fixed, &s->fixed_pose, options);
+    questions[m] = question_of(s->moving, b->poses + m * QUERY_POSES, QUERY_POSES, s->fixed,
+                               &s->fixed_pose, options);
   }
-  return nsvcd_sweep_batch(questions, COST_MOTIONS, workspace, nsvcd_sweep_workspace_size(NULL), answers);
+  return nsvcd_sweep_batch(questions, COST_MOTIONS, workspace, nsvcd_sweep_workspace_size(NULL),
+                           answers);
 }
 
 // An answer of a batch is nsvcd_sweep's, or both are collisions and the batch's is clear.
 static void cost_batch_agrees_with_single_queries(void) {
-  size_t same = 0, otherwise = 0, hits = 0;
+  size_t same = 0;
+  size_t otherwise = 0;
+  size_t hits = 0;
   static cost_batch b;
   for (uint64_t seed = 1; seed <= 30; seed++) {
     cost_open(&b, seed);
     for (int model = NSVCD_MODEL_TINY; model <= NSVCD_MODEL_BASE; model++) {
-      const nsvcd_sweep_options options = query_options(0, (nsvcd_model)model, seed % 2 ? 0 : 0.999f);
+      const nsvcd_sweep_options options =
+          query_options(0, (nsvcd_model)model, seed % 2 ? 0 : 0.999f);
       memset(b.batch, 0xff, sizeof b.batch);
       CHECK_EQ(cost_ask_batch(&b, &options, query_workspace(), b.batch), NSVCD_OK);
       for (size_t m = 0; m < COST_MOTIONS; m++) {
-        const nsvcd_answer one = query_ask(b.scene.moving, b.poses + m * QUERY_POSES, QUERY_POSES, b.scene.fixed,
-                                           &b.scene.fixed_pose, &options);
+        const nsvcd_answer one = query_ask(b.scene.moving, b.poses + m * QUERY_POSES, QUERY_POSES,
+                                           b.scene.fixed, &b.scene.fixed_pose, &options);
         hits += one.collides != 0;
         if (query_same_answer(&one, &b.batch[m])) {
           same++;
@@ -147,7 +162,8 @@ static void cost_batch_agrees_with_single_queries(void) {
     }
     query_scene_close(&b.scene);
   }
-  printf("  %zu answers to the bit, %zu other clear collisions, %zu collisions\n", same, otherwise, hits);
+  printf("  %zu answers to the bit, %zu other clear collisions, %zu collisions\n", same, otherwise,
+         hits);
   CHECK_GE(same, 1000);  // else this test saw only one kind
   CHECK_GE(otherwise, 100);
 }
@@ -159,11 +175,13 @@ static void cost_batch_refuses_as_a_query_does(void) {
   void *w = query_workspace();
   const size_t size = nsvcd_sweep_workspace_size(NULL);
   nsvcd_answer before[COST_MOTIONS];
-  memset(b.batch, 0x5a, sizeof b.batch), memcpy(before, b.batch, sizeof before);
+  memset(b.batch, 0x5a, sizeof b.batch);
+  memcpy(before, b.batch, sizeof before);
   b.poses[COST_MOTIONS * QUERY_POSES - 1].rotation[0] = 2;  // the very last
   CHECK_EQ(cost_ask_batch(&b, NULL, w, b.batch), NSVCD_ERROR_POSE);
   nsvcd_question questions[2];
-  for (size_t k = 0; k < 2; k++) questions[k] = question_of(s->moving, b.poses, 2, s->fixed, &s->fixed_pose, NULL);
+  for (size_t k = 0; k < 2; k++)
+    questions[k] = question_of(s->moving, b.poses, 2, s->fixed, &s->fixed_pose, NULL);
   questions[1].a.count = 0;
   CHECK_EQ(nsvcd_sweep_batch(questions, 2, w, size, b.batch), NSVCD_ERROR_ARGUMENT);
   questions[1].a.count = 2;
@@ -177,7 +195,7 @@ static void cost_batch_refuses_as_a_query_does(void) {
   query_scene_close(&b.scene);
 }
 
-// ----------------------------------------------------------------------------------------------------------- threads
+// ----------------------------------------------------------------------------------------- threads
 
 #define COST_THREADS 4
 
@@ -195,8 +213,9 @@ static void *cost_run(void *argument) {
   t->result = NSVCD_OK;
   for (int round = 0; round < 5 && !t->result; round++) {
     for (size_t m = 0; m < COST_MOTIONS && !t->result; m++) {
-      t->result = ask(s->moving, t->work->poses + m * QUERY_POSES, QUERY_POSES, s->fixed, &s->fixed_pose, NULL,
-                              memory.at, nsvcd_sweep_workspace_size(NULL), &t->single[m]);
+      t->result =
+          ask(s->moving, t->work->poses + m * QUERY_POSES, QUERY_POSES, s->fixed, &s->fixed_pose,
+              NULL, memory.at, nsvcd_sweep_workspace_size(NULL), &t->single[m]);
     }
     if (!t->result) t->result = cost_ask_batch(t->work, NULL, memory.at, t->batch);
   }
@@ -204,13 +223,15 @@ static void *cost_run(void *argument) {
   return NULL;
 }
 
-// Threads that share bodies, each with a workspace of its own, answer as one thread does, to the bit.
+// Threads that share bodies, each with a workspace of its own, answer as one thread does, to the
+// bit.
 static void cost_threads_agree(void) {
   static cost_batch b;
   static cost_thread threads[COST_THREADS], alone;
   for (uint64_t seed = 1; seed <= 8; seed++) {
     cost_open(&b, seed);
-    alone.work = &b, cost_run(&alone);
+    alone.work = &b;
+    cost_run(&alone);
     for (size_t t = 0; t < COST_THREADS; t++) {
       threads[t].work = &b;
       CHECK_EQ(pthread_create(&threads[t].thread, NULL, cost_run, &threads[t]), 0);
@@ -227,10 +248,10 @@ static void cost_threads_agree(void) {
   }
 }
 
-// ----------------------------------------------------------------------------------------------------------- numbers
+// ----------------------------------------------------------------------------------------- numbers
 
-// A ray through a detail of a large body, whose triangles are all so small that float rounding keeps them: their numbers
-// are read once, not from the first one on for each.
+// A ray through a detail of a large body, whose triangles are all so small that float rounding
+// keeps them: their numbers are read once, not from the first one on for each.
 static void cost_reads_numbers_once(void) {
   const double way[3] = {0.5359, 0.6013, 0.5927};  // the header's ray from a place on this side
   shapes_mesh shape;
@@ -239,11 +260,14 @@ static void cost_reads_numbers_once(void) {
   const size_t first = shape.vertices;
   shapes_ellipsoid(&shape, 0.005, 0.005, 0.005, 64);
   for (size_t i = 3 * first; i < 3 * shape.vertices; i++) shape.positions[i] += 0.6 * way[i % 3];
-  nsvcd_mesh mesh = query_mesh(&shape, 1), speck = query_box(0.001, 0.001, 0.001);
-  const nsvcd_body *large = NULL, *small = NULL;
+  nsvcd_mesh mesh = query_mesh(&shape, 1);
+  nsvcd_mesh speck = query_box(0.001, 0.001, 0.001);
+  const nsvcd_body *large = NULL;
+  const nsvcd_body *small = NULL;
   CHECK_EQ(nsvcd_encode(&mesh, NULL, NULL, NULL, 0, &large), NSVCD_OK);
   CHECK_EQ(nsvcd_encode(&speck, NULL, NULL, NULL, 0, &small), NSVCD_OK);
-  const nsvcd_pose pose = query_pose(0.2 * way[0], 0.2 * way[1], 0.2 * way[2]), still = query_pose(0, 0, 0);
+  const nsvcd_pose pose = query_pose(0.2 * way[0], 0.2 * way[1], 0.2 * way[2]);
+  const nsvcd_pose still = query_pose(0, 0, 0);
   memset(&tally, 0, sizeof tally);
   const nsvcd_answer answer = query_ask(small, &pose, 1, large, &still, NULL);
   printf("  %zu numbers read on a ray past %zu triangles\n", tally.numbers, mesh.triangle_count);
@@ -257,11 +281,12 @@ static void cost_reads_numbers_once(void) {
   shapes_free(&shape);
 }
 
-// ------------------------------------------------------------------------------------------------------------- stack
+// ------------------------------------------------------------------------------------------- stack
 
 #define COST_STACK (256 * 1024)
 #define COST_PAINT 0xa5
-#define COST_MOST_STACK 6144  // bytes that a proof may take: gcc 12 makes it 3.7 to 5.6 KB, by -march and -O
+// bytes that a proof may take: gcc 12 makes it 3.7 to 5.6 KB, by -march and -O
+#define COST_MOST_STACK 6144
 
 // A thread that asks for proofs, and nothing else, or for nothing.
 typedef struct cost_asker {
@@ -276,7 +301,8 @@ typedef struct cost_asker {
 static void *cost_ask(void *argument) {
   cost_asker *a = (cost_asker *)argument;
   if (a->asks) {
-    a->question = question_of(a->bodies[0], a->motion, QUERY_POSES, a->bodies[1], &a->fixed_pose, NULL);
+    a->question =
+        question_of(a->bodies[0], a->motion, QUERY_POSES, a->bodies[1], &a->fixed_pose, NULL);
     nsvcd_sweep(&a->question, a->workspace, nsvcd_sweep_workspace_size(NULL), &a->answer);
   }
   return NULL;
@@ -297,11 +323,13 @@ static size_t cost_stack_of(cost_asker *asker, unsigned char *stack) {
   return COST_STACK - untouched;
 }
 
-// A motion that passes the fixed body at a gap, or presses into it, so that every part of a proof has its turn.
+// A motion that passes the fixed body at a gap, or presses into it, so that every part of a proof
+// has its turn.
 static void cost_stack_is_bounded(void) {
   static cost_asker asker;
   void *stack;
-  size_t most = 0, statuses[NSVCD_STATUS_UNDECIDED + 1] = {0};
+  size_t most = 0;
+  size_t statuses[NSVCD_STATUS_UNDECIDED + 1] = {0};
   asker.workspace = query_workspace();
   asker.fixed_pose = query_pose(0, 0, 0);
   CHECK_EQ(posix_memalign(&stack, 4096, COST_STACK), 0);
@@ -322,15 +350,16 @@ static void cost_stack_is_bounded(void) {
       asker.motion[i] = query_pose(0.15 + 0.001 * (double)seed, 0.05 * t, 0.02);
       query_multiply(scene.motion[i].rotation, asker.motion[0].rotation, asker.motion[i].rotation);
     }
-    cost_ask(&asker);  // once before, for a function of libm that is called first is looked up, on the stack
+    // once before, for a function of libm that is called first is looked up, on the stack
+    cost_ask(&asker);
     const size_t used = cost_stack_of(&asker, (unsigned char *)stack) - idle;
     most = used > most ? used : most;
     statuses[asker.answer.status]++;
     nsvcd_body_free(asker.bodies[0], NULL);
     nsvcd_mesh_free(&mesh, NULL);
   }
-  printf("  at most %zu bytes of stack; %zu witnesses, %zu free\n", most, statuses[NSVCD_STATUS_WITNESS],
-         statuses[NSVCD_STATUS_CERTIFIED_FREE]);
+  printf("  at most %zu bytes of stack; %zu witnesses, %zu free\n", most,
+         statuses[NSVCD_STATUS_WITNESS], statuses[NSVCD_STATUS_CERTIFIED_FREE]);
   CHECK_GE(statuses[NSVCD_STATUS_WITNESS], 5);
   CHECK_GE(statuses[NSVCD_STATUS_CERTIFIED_FREE], 5);
 #if defined(__OPTIMIZE__) && !defined(__OPTIMIZE_SIZE__) && !defined(__SANITIZE_ADDRESS__)

@@ -1,5 +1,6 @@
-// nsvcd_sweep_gradient: against differences of a reference in double, against those of nsvcd_sweep itself, its
-// contract, and what it costs. TEST_ALONE: with a main of its own, for builds with the header's switches.
+// nsvcd_sweep_gradient: against differences of a reference in double, against those of nsvcd_sweep
+// itself, its contract, and what it costs. TEST_ALONE: with a main of its own, for builds with the
+// header's switches.
 #define NSVCD_STATIC
 #define NEURALSVCD_IMPLEMENTATION
 #include "../neuralsvcd.h"
@@ -43,13 +44,17 @@ static void pool_open(void) {
 }
 static const nsvcd_body *pool_scaled(size_t n, const nsvcd_body *body, double scale) {
   const nsvcd_body *out = NULL;
-  CHECK_EQ(nsvcd_body_scale(body, (float)scale, scaled_memory[n].at, nsvcd_body_size(QUERY_POINTS), &out), NSVCD_OK);
+  CHECK_EQ(nsvcd_body_scale(body, (float)scale, scaled_memory[n].at, nsvcd_body_size(QUERY_POINTS),
+                            &out),
+           NSVCD_OK);
   return out;
 }
 
 static nsvcd_result ask_gradient(const scene *s, nsvcd_answer *answer, float *gradient) {
-  const nsvcd_question question = question_of(s->moving, s->poses, s->count, s->fixed, &s->fixed_pose, &s->options);
-  return nsvcd_sweep_gradient(&question, query_workspace(), nsvcd_sweep_workspace_size(NULL), answer, gradient, NULL);
+  const nsvcd_question question =
+      question_of(s->moving, s->poses, s->count, s->fixed, &s->fixed_pose, &s->options);
+  return nsvcd_sweep_gradient(&question, query_workspace(), nsvcd_sweep_workspace_size(NULL),
+                              answer, gradient, NULL);
 }
 static nsvcd_answer ask_sweep(const scene *s) {
   return query_ask(s->moving, s->poses, s->count, s->fixed, &s->fixed_pose, &s->options);
@@ -57,7 +62,8 @@ static nsvcd_answer ask_sweep(const scene *s) {
 // The answer, and what decided. Did a network answer?
 static int decide(const scene *s, nsvcd_answer *answer, nsvcd__decisive *decisive) {
   nsvcd__task task;
-  nsvcd_question question = question_of(s->moving, s->poses, s->count, s->fixed, &s->fixed_pose, &s->options);
+  nsvcd_question question =
+      question_of(s->moving, s->poses, s->count, s->fixed, &s->fixed_pose, &s->options);
   question.options.method = NSVCD_METHOD_NETWORK;
   CHECK_EQ(nsvcd__question_check(&question), NSVCD_OK);
   nsvcd__query *query = nsvcd__query_open(&question, query_workspace());
@@ -67,7 +73,7 @@ static int decide(const scene *s, nsvcd_answer *answer, nsvcd__decisive *decisiv
   return answer->status == NSVCD_STATUS_OK || answer->status == NSVCD_STATUS_LIMIT;
 }
 
-// ---------------------------------------------------------------------------------------------------------- families
+// ---------------------------------------------------------------------------------------- families
 
 static void turn_pose(nsvcd_pose *pose, const double *by) {  // by a rotation vector, on the left
   double q[4], turned[4];
@@ -77,13 +83,17 @@ static void turn_pose(nsvcd_pose *pose, const double *by) {  // by a rotation ve
   for (int k = 0; k < 4; k++) pose->rotation[k] = (float)(turned[k] / length);
 }
 
-// `count` poses past the fixed body: at mid-motion `away` from its origin, `travel` between the ends, turning by
-// `angle` between neighbours, and each pose off by up to `jitter`. All but angles in parts of the bodies' extents.
-static void pass_by(scene *s, shapes_rng *rng, size_t count, double away, double travel, double angle, double jitter) {
+// `count` poses past the fixed body: at mid-motion `away` from its origin, `travel` between the
+// ends, turning by `angle` between neighbours, and each pose off by up to `jitter`. All but angles
+// in parts of the bodies' extents.
+static void pass_by(scene *s, shapes_rng *rng, size_t count, double away, double travel,
+                    double angle, double jitter) {
   const double size = 0.5 * (double)(s->moving->extent + s->fixed->extent);
   double from[3], along[3], axis[3], turn[3], off[3];
   nsvcd_pose start;
-  shapes_direction(rng, from), shapes_direction(rng, along), shapes_direction(rng, axis);
+  shapes_direction(rng, from);
+  shapes_direction(rng, along);
+  shapes_direction(rng, axis);
   query_random_pose(rng, size, &s->fixed_pose);
   query_random_pose(rng, 0, &start);
   s->count = count;
@@ -112,31 +122,38 @@ static int decisive_centres(const scene *s, double *moving, double *fixed) {
   double in_fixed[2][3], m[9], q[4];
   if (!decide(s, &answer, &decisive)) return 0;
   reference_open(s->moving, s->poses, s->count, s->fixed, &s->fixed_pose,
-                 &((nsvcd__query *)query_workspace())->broad_phase, &decisive.candidate, decisive.head, &pair, poses);
+                 &((nsvcd__query *)query_workspace())->broad_phase, &decisive.candidate,
+                 decisive.head, &pair, poses);
   reference_place(&pair, poses, 0.5, in_fixed[0]);
   memcpy(in_fixed[1], pair.c2, sizeof pair.c2);
   for (int k = 0; k < 4; k++) q[k] = (double)s->fixed_pose.rotation[k];
   reference_matrix(q, m);
-  reference_mul(m, in_fixed[0], moving), reference_mul(m, in_fixed[1], fixed);
+  reference_mul(m, in_fixed[0], moving);
+  reference_mul(m, in_fixed[1], fixed);
   for (int k = 0; k < 3; k++) {
-    moving[k] += (double)s->fixed_pose.position[k], fixed[k] += (double)s->fixed_pose.position[k];
+    moving[k] += (double)s->fixed_pose.position[k];
+    fixed[k] += (double)s->fixed_pose.position[k];
   }
   return 1;
 }
 
-// Poses about one placement: steps along `along` and turns by `angle` to each side about `axis` through `centre`.
-static void move_about(scene *s, const double *centre, const double *along, const double *axis, double angle) {
+// Poses about one placement: steps along `along` and turns by `angle` to each side about `axis`
+// through `centre`.
+static void move_about(scene *s, const double *centre, const double *along, const double *axis,
+                       double angle) {
   const nsvcd_pose middle = s->poses[0];
   for (size_t n = 0; n < s->count; n++) {
     const double t = 2 * (double)n / (double)(s->count - 1) - 1;
-    const double turn[3] = {t * angle * axis[0], t * angle * axis[1], t * angle * axis[2]}, unit[4] = {0, 0, 0, 1};
+    const double turn[3] = {t * angle * axis[0], t * angle * axis[1], t * angle * axis[2]};
+    const double unit[4] = {0, 0, 0, 1};
     double arm[3], turned[3], q[4], m[9];
     for (int k = 0; k < 3; k++) arm[k] = (double)middle.position[k] - centre[k];
     reference_turn(turn, unit, q);
     reference_matrix(q, m);
     reference_mul(m, arm, turned);
     s->poses[n] = middle;
-    for (int k = 0; k < 3; k++) s->poses[n].position[k] = (float)(centre[k] + turned[k] + t * along[k]);
+    for (int k = 0; k < 3; k++)
+      s->poses[n].position[k] = (float)(centre[k] + turned[k] + t * along[k]);
     turn_pose(&s->poses[n], turn);
   }
 }
@@ -147,31 +164,33 @@ static size_t count_between(shapes_rng *rng, int least, int most) {
 
 static int moderate(scene *s, shapes_rng *rng, size_t n) {
   (void)n;
-  pass_by(s, rng, count_between(rng, 2, 8), shapes_uniform(rng, 0.3, 1), shapes_uniform(rng, 0.2, 1.5),
-          shapes_uniform(rng, 0, 0.3), 0);
+  pass_by(s, rng, count_between(rng, 2, 8), shapes_uniform(rng, 0.3, 1),
+          shapes_uniform(rng, 0.2, 1.5), shapes_uniform(rng, 0, 0.3), 0);
   return 1;
 }
 static int straight(scene *s, shapes_rng *rng, size_t n) {
   (void)n;
-  pass_by(s, rng, count_between(rng, 2, 8), shapes_uniform(rng, 0.3, 1), shapes_uniform(rng, 0.2, 1.5), 0, 0);
+  pass_by(s, rng, count_between(rng, 2, 8), shapes_uniform(rng, 0.3, 1),
+          shapes_uniform(rng, 0.2, 1.5), 0, 0);
   return 1;
 }
 static int half_turns(scene *s, shapes_rng *rng, size_t n) {
   (void)n;
-  pass_by(s, rng, count_between(rng, 2, 4), shapes_uniform(rng, 0.3, 1.2), shapes_uniform(rng, 0, 1),
-          shapes_uniform(rng, 0.85, 0.9999) * 3.14159265, 0);
+  pass_by(s, rng, count_between(rng, 2, 4), shapes_uniform(rng, 0.3, 1.2),
+          shapes_uniform(rng, 0, 1), shapes_uniform(rng, 0.85, 0.9999) * 3.14159265, 0);
   return 1;
 }
 static int wild_samples(scene *s, shapes_rng *rng, size_t n) {
   (void)n;
-  pass_by(s, rng, count_between(rng, 2, 8), shapes_uniform(rng, 0.3, 1), 1, 0.2, shapes_uniform(rng, 0.1, 0.6));
+  pass_by(s, rng, count_between(rng, 2, 8), shapes_uniform(rng, 0.3, 1), 1, 0.2,
+          shapes_uniform(rng, 0.1, 0.6));
   return 1;
 }
 // More poses than segments: some segments have poses within.
 static int many_samples(scene *s, shapes_rng *rng, size_t n) {
   (void)n;
-  pass_by(s, rng, count_between(rng, 17, REFERENCE_POSES), shapes_uniform(rng, 0.3, 1), shapes_uniform(rng, 0.5, 2),
-          shapes_uniform(rng, 0, 0.1), shapes_uniform(rng, 0, 0.02));
+  pass_by(s, rng, count_between(rng, 17, REFERENCE_POSES), shapes_uniform(rng, 0.3, 1),
+          shapes_uniform(rng, 0.5, 2), shapes_uniform(rng, 0, 0.1), shapes_uniform(rng, 0, 0.02));
   return 1;
 }
 static int at_rest(scene *s, shapes_rng *rng, size_t n) {  // one pose, or the same one repeated
@@ -181,10 +200,12 @@ static int at_rest(scene *s, shapes_rng *rng, size_t n) {  // one pose, or the s
 static int slow(scene *s, shapes_rng *rng, size_t n) {
   const double speed = pow(10, shapes_uniform(rng, -5, -1));
   (void)n;
-  pass_by(s, rng, count_between(rng, 2, 4), shapes_uniform(rng, 0.3, 0.9), speed, speed * shapes_uniform(rng, 0, 1), 0);
+  pass_by(s, rng, count_between(rng, 2, 4), shapes_uniform(rng, 0.3, 0.9), speed,
+          speed * shapes_uniform(rng, 0, 1), 0);
   return 1;
 }
-// Towards the other centre of the pair, off by the angle `off`, and turning by `angle` about the moving one.
+// Towards the other centre of the pair, off by the angle `off`, and turning by `angle` about the
+// moving one.
 static int approach(scene *s, shapes_rng *rng, double off, double angle) {
   double a[3], b[3], along[3], axis[3], line[3];
   pass_by(s, rng, 1, shapes_uniform(rng, 0.3, 0.9), 0, 0, 0);
@@ -199,7 +220,8 @@ static int approach(scene *s, shapes_rng *rng, double off, double angle) {
   return 1;
 }
 static int nearly_along_the_line(scene *s, shapes_rng *rng, size_t n) {
-  return approach(s, rng, pow(10, shapes_uniform(rng, -3, -1)), n % 2 ? 0 : shapes_uniform(rng, 0, 0.5));
+  return approach(s, rng, pow(10, shapes_uniform(rng, -3, -1)),
+                  n % 2 ? 0 : shapes_uniform(rng, 0, 0.5));
 }
 static int along_the_line(scene *s, shapes_rng *rng, size_t n) {
   return approach(s, rng, 0, n % 2 ? 0 : shapes_uniform(rng, 0, 0.5));
@@ -218,18 +240,20 @@ static int turn_about_the_pair(scene *s, shapes_rng *rng, size_t n) {
 }
 static int turn_about_the_origin(scene *s, shapes_rng *rng, size_t n) {
   (void)n;
-  pass_by(s, rng, count_between(rng, 2, 8), shapes_uniform(rng, 0.3, 1), 0, shapes_uniform(rng, 0.02, 1), 0);
+  pass_by(s, rng, count_between(rng, 2, 8), shapes_uniform(rng, 0.3, 1), 0,
+          shapes_uniform(rng, 0.02, 1), 0);
   return 1;
 }
 static int deep(scene *s, shapes_rng *rng, size_t n) {
   (void)n;
-  pass_by(s, rng, count_between(rng, 2, 8), shapes_uniform(rng, 0, 0.3), 3, shapes_uniform(rng, 0, 0.3), 0);
+  pass_by(s, rng, count_between(rng, 2, 8), shapes_uniform(rng, 0, 0.3), 3,
+          shapes_uniform(rng, 0, 0.3), 0);
   return 1;
 }
 static int shallow(scene *s, shapes_rng *rng, size_t n) {
   (void)n;
-  pass_by(s, rng, count_between(rng, 2, 8), shapes_uniform(rng, 1, 1.5), shapes_uniform(rng, 0.1, 1),
-          shapes_uniform(rng, 0, 0.3), 0);
+  pass_by(s, rng, count_between(rng, 2, 8), shapes_uniform(rng, 1, 1.5),
+          shapes_uniform(rng, 0.1, 1), shapes_uniform(rng, 0, 0.3), 0);
   return 1;
 }
 static int far_from_zero(scene *s, shapes_rng *rng, size_t n) {
@@ -242,7 +266,8 @@ static int far_from_zero(scene *s, shapes_rng *rng, size_t n) {
 }
 static int tiny_or_huge(scene *s, shapes_rng *rng, size_t n) {
   const double scale = pow(10, shapes_uniform(rng, -10, 5));
-  s->moving = pool_scaled(0, s->moving, scale), s->fixed = pool_scaled(1, s->fixed, scale);
+  s->moving = pool_scaled(0, s->moving, scale);
+  s->fixed = pool_scaled(1, s->fixed, scale);
   return n % 2 ? moderate(s, rng, n) : slow(s, rng, n);
 }
 static int of_unlike_size(scene *s, shapes_rng *rng, size_t n) {
@@ -250,7 +275,8 @@ static int of_unlike_size(scene *s, shapes_rng *rng, size_t n) {
   return moderate(s, rng, n);
 }
 static int one_patch_each(scene *s, shapes_rng *rng, size_t n) {
-  s->moving = pool[1][shapes_pick(rng, POOL)], s->fixed = pool[1][shapes_pick(rng, POOL)];
+  s->moving = pool[1][shapes_pick(rng, POOL)];
+  s->fixed = pool[1][shapes_pick(rng, POOL)];
   return n % 2 ? moderate(s, rng, n) : nearly_along_the_line(s, rng, n / 2);
 }
 // A pair whose centres all but coincide: axis 1 of its frame is then the lean.
@@ -260,7 +286,8 @@ static int centres_meet(scene *s, shapes_rng *rng, size_t n) {
   pass_by(s, rng, 1, shapes_uniform(rng, 0.3, 0.9), 0, 0, 0);
   if (!decisive_centres(s, a, b)) return 0;
   const double size = (double)nsvcd_body_describe(s->moving).mean_patch_radius;
-  shapes_direction(rng, off), shapes_direction(rng, axis);
+  shapes_direction(rng, off);
+  shapes_direction(rng, axis);
   for (int k = 0; k < 3; k++) {
     s->poses[0].position[k] += (float)(b[k] - a[k] + 1.5e-5 * size * off[k]);
     off[k] *= 0.1 * size;
@@ -269,33 +296,40 @@ static int centres_meet(scene *s, shapes_rng *rng, size_t n) {
   move_about(s, b, off, axis, 0.02);
   return 1;
 }
-// Bodies of one patch whose latents have no lean, some at rest: axis 2 of those is then that of a convention.
+// Bodies of one patch whose latents have no lean, some at rest: axis 2 of those is then that of a
+// convention.
 static int without_lean(scene *s, shapes_rng *rng, size_t n) {
   const size_t size = nsvcd_body_size(1);
   for (int k = 0; k < 2; k++) {
     const nsvcd_body *from = pool[1][shapes_pick(rng, POOL)];
     const float none[3] = {0, 0, 0};
     const uint16_t first = 0;
-    float centre[3] = {0, 0, 0}, radius = 0;
+    float centre[3] = {0, 0, 0};
+    float radius = 0;
     int8_t latent[NSVCD__LATENT];
     CHECK(nsvcd_body_patch(from, 0, centre, &radius));
     memcpy(latent, nsvcd__body_latents(from), sizeof latent);
     for (size_t i = 0; i < 3; i++) latent[NSVCD_W_CHANNELS * i] = 0;
-    CHECK_EQ(nsvcd__body_build(1, centre, &radius, none, latent, &first, NSVCD_WEIGHTS_ID, 1, scaled_memory[k].at, size,
-                               k ? &s->fixed : &s->moving),
+    CHECK_EQ(nsvcd__body_build(1, centre, &radius, none, latent, &first, NSVCD_WEIGHTS_ID, 1,
+                               scaled_memory[k].at, size, k ? &s->fixed : &s->moving),
              NSVCD_OK);
   }
   return n % 2 ? at_rest(s, rng, 1) : moderate(s, rng, n);
 }
 // Two spheres that touch for a short time.
 static int grazing_spheres(scene *s, shapes_rng *rng, size_t n) {
-  float centre[2][3] = {{0}}, radius[2] = {0};
+  float centre[2][3] = {{0}};
+  float radius[2] = {0};
   double along[3], across[3], arm[3], m[9], q[4];
-  s->moving = pool[1][shapes_pick(rng, POOL)], s->fixed = pool[1][shapes_pick(rng, POOL)];
+  s->moving = pool[1][shapes_pick(rng, POOL)];
+  s->fixed = pool[1][shapes_pick(rng, POOL)];
   pass_by(s, rng, 2 + n % 3, 0, 0, 0, 0);
-  CHECK(nsvcd_body_patch(s->moving, 0, centre[0], &radius[0]) && nsvcd_body_patch(s->fixed, 0, centre[1], &radius[1]));
-  const double reach = (double)(radius[0] + radius[1]), most = 1 - pow(10, shapes_uniform(rng, -6, -1));
-  shapes_direction(rng, arm), shapes_direction(rng, along);
+  CHECK(nsvcd_body_patch(s->moving, 0, centre[0], &radius[0]) &&
+        nsvcd_body_patch(s->fixed, 0, centre[1], &radius[1]));
+  const double reach = (double)(radius[0] + radius[1]);
+  const double most = 1 - pow(10, shapes_uniform(rng, -6, -1));
+  shapes_direction(rng, arm);
+  shapes_direction(rng, along);
   reference_cross(along, arm, across);
   const double scale = most * reach / reference_length(across);
   for (int body = 0; body < 2; body++) {
@@ -324,17 +358,19 @@ static int other_options(scene *s, shapes_rng *rng, size_t n) {
 #else
   s->options.model = (nsvcd_model)shapes_pick(rng, 4);
 #endif
-  s->options.recall = recall[n % 4], s->options.pairs = count_between(rng, 1, 64);
+  s->options.recall = recall[n % 4];
+  s->options.pairs = count_between(rng, 1, 64);
 #if !defined(NSVCD_NO_INT8)
   s->options.precision = shapes_pick(rng, 2) ? NSVCD_PRECISION_INT8 : NSVCD_PRECISION_FLOAT;
 #endif
   return moderate(s, rng, n);
 }
 
-// Where both rest, the library looks at the smaller one from the larger: let the smaller be the one that moves, as the
-// reference has it.
+// Where both rest, the library looks at the smaller one from the larger: let the smaller be the one
+// that moves, as the reference has it.
 static void settle_sides(scene *s) {
-  const nsvcd_question question = question_of(s->moving, s->poses, s->count, s->fixed, &s->fixed_pose, &s->options);
+  const nsvcd_question question =
+      question_of(s->moving, s->poses, s->count, s->fixed, &s->fixed_pose, &s->options);
   if (!nsvcd__is_swapped(&question.a, &question.b)) return;
   CHECK_EQ(s->count, 1);
   const nsvcd_body *moving = s->moving;
@@ -345,11 +381,12 @@ static void settle_sides(scene *s) {
   s->fixed_pose = pose;
 }
 
-// Limits, little above the worst that was measured with and without SIMD and FMA (PORTABLE=1): the share of gradients
-// that are off by more than 1 %, and of those of them that are at no kink; the median of the error, and its 99th
-// percentile where less than 1 % may be beyond 1 %. Of motions exactly along the line between the centres every tenth
-// is at a jump, for then rounding says which way time runs; and where centres meet, or spheres graze, single precision
-// has few digits left: little is asked of those.
+// Limits, little above the worst that was measured with and without SIMD and FMA (PORTABLE=1): the
+// share of gradients that are off by more than 1 %, and of those of them that are at no kink; the
+// median of the error, and its 99th percentile where less than 1 % may be beyond 1 %. Of motions
+// exactly along the line between the centres every tenth is at a jump, for then rounding says which
+// way time runs; and where centres meet, or spheres graze, single precision has few digits left:
+// little is asked of those.
 typedef struct family {
   const char *name;
   int (*make)(scene *, shapes_rng *, size_t);
@@ -386,33 +423,41 @@ static const family families[] = {
 static int scene_of(size_t f, size_t n, scene *s, nsvcd_answer *answer, nsvcd__decisive *decisive) {
   shapes_rng rng = {1000003 * (uint64_t)f + n};
   memset(s, 0, sizeof *s);
-  s->moving = pool[0][shapes_pick(&rng, POOL)], s->fixed = pool[0][shapes_pick(&rng, POOL)];
+  s->moving = pool[0][shapes_pick(&rng, POOL)];
+  s->fixed = pool[0][shapes_pick(&rng, POOL)];
   if (!families[f].make(s, &rng, n)) return 0;
   settle_sides(s);
   return decide(s, answer, decisive);
 }
 
-// -------------------------------------------------------------------------------------------------- against reference
+// ------------------------------------------------------------------------------- against reference
 
 static int compare_doubles(const void *a, const void *b) {
-  const double x = *(const double *)a, y = *(const double *)b;
+  const double x = *(const double *)a;
+  const double y = *(const double *)b;
   return (x > y) - (x < y);
 }
 
 // |a - b| / |b| of two gradients (count, 6), forces times `length` beside torques.
 static double relative_error(const double *a, const double *b, size_t count, double length) {
-  double difference = 0, size = 0;
+  double difference = 0;
+  double size = 0;
   for (size_t i = 0; i < 6 * count; i++) {
-    const double unit = i % 6 < 3 ? length : 1, d = unit * (a[i] - b[i]), g = unit * b[i];
-    difference += d * d, size += g * g;
+    const double unit = i % 6 < 3 ? length : 1;
+    const double d = unit * (a[i] - b[i]);
+    const double g = unit * b[i];
+    difference += d * d;
+    size += g * g;
   }
   return difference > 0 ? sqrt(difference / size) : 0;
 }
 
-// Does the reference's own gradient change by more than 1 % where the poses move by what rounding to float does: 3e-7
-// of a turn or the bodies' size? Then it has a kink or a jump there (ReLU, the frame, a clamp, contact).
-static int is_at_a_kink(const reference_pair *pair, const reference_pose *poses, double length, double size,
-                        double metres, double radians, const double *expected, shapes_rng *rng) {
+// Does the reference's own gradient change by more than 1 % where the poses move by what rounding
+// to float does: 3e-7 of a turn or the bodies' size? Then it has a kink or a jump there (ReLU, the
+// frame, a clamp, contact).
+static int is_at_a_kink(const reference_pair *pair, const reference_pose *poses, double length,
+                        double size, double metres, double radians, const double *expected,
+                        shapes_rng *rng) {
   for (int trial = 0; trial < 12; trial++) {
     reference_pose moved[REFERENCE_POSES];
     double other[6 * REFERENCE_POSES];
@@ -429,11 +474,17 @@ static int is_at_a_kink(const reference_pair *pair, const reference_pose *poses,
 
 static void gradient_matches_the_reference(void) {
   pool_open();
-  printf("  %-22s  cases   median    99 %%   beyond 1 %%: grazing, kinks, unexplained; logit off\n", "family");
+  printf("  %-22s  cases   median    99 %%   beyond 1 %%: grazing, kinks, unexplained; logit off\n",
+         "family");
   for (size_t f = 0; f < FAMILIES; f++) {
     static double errors[2000];
     const size_t cases = families[f].make == many_samples ? 300 : 2000;  // each takes longer
-    size_t count = 0, beyond = 0, grazing = 0, kinks = 0, unexplained = 0, broken = 0;
+    size_t count = 0;
+    size_t beyond = 0;
+    size_t grazing = 0;
+    size_t kinks = 0;
+    size_t unexplained = 0;
+    size_t broken = 0;
     double logit_off = 0;
     for (size_t n = 0; n < cases; n++) {
       scene s;
@@ -445,12 +496,15 @@ static void gradient_matches_the_reference(void) {
       double found[6 * REFERENCE_POSES], expected[6 * REFERENCE_POSES], times[2], graze;
       if (!scene_of(f, n, &s, &answer, &decisive)) continue;
       reference_open(s.moving, s.poses, s.count, s.fixed, &s.fixed_pose,
-                     &((nsvcd__query *)query_workspace())->broad_phase, &decisive.candidate, decisive.head, &pair,
-                     poses);
+                     &((nsvcd__query *)query_workspace())->broad_phase, &decisive.candidate,
+                     decisive.head, &pair, poses);
       CHECK_EQ(ask_gradient(&s, &answer, gradient), NSVCD_OK);
-      const double length = (double)s.moving->extent, metres = 1e-8 * pair.unit, radians = metres / length;
+      const double length = (double)s.moving->extent;
+      const double metres = 1e-8 * pair.unit;
+      const double radians = metres / length;
       for (size_t i = 0; i < 6 * s.count; i++) {
-        found[i] = (double)gradient[i], broken += !nsvcd__is_finite(gradient[i]);
+        found[i] = (double)gradient[i];
+        broken += !nsvcd__is_finite(gradient[i]);
       }
       const double logit = reference_logit(&pair, poses, times, &graze);
       (void)logit;
@@ -458,7 +512,8 @@ static void gradient_matches_the_reference(void) {
       const double error = relative_error(found, expected, s.count, length);
 #ifndef NSVCD_NO_FLOAT
       if (!s.options.precision) {
-        logit_off = fmax(logit_off, fabs(logit - (double)decisive.candidate.score) / fmax(1, fabs(logit)));
+        logit_off =
+            fmax(logit_off, fabs(logit - (double)decisive.candidate.score) / fmax(1, fabs(logit)));
       }
 #endif
       errors[count++] = error;
@@ -475,8 +530,9 @@ static void gradient_matches_the_reference(void) {
         unexplained++;
     }
     qsort(errors, count, sizeof *errors, compare_doubles);
-    printf("  %-22s  %4zu  %.1e  %.1e  %5.2f %%: %3zu %3zu %3zu; %.1e\n", families[f].name, count, errors[count / 2],
-           errors[count * 99 / 100], 100 * (double)beyond / (double)count, grazing, kinks, unexplained, logit_off);
+    printf("  %-22s  %4zu  %.1e  %.1e  %5.2f %%: %3zu %3zu %3zu; %.1e\n", families[f].name, count,
+           errors[count / 2], errors[count * 99 / 100], 100 * (double)beyond / (double)count,
+           grazing, kinks, unexplained, logit_off);
     CHECK_GE(count, 0.8 * (double)cases);
     CHECK_EQ(broken, 0);
     const double allowed = SLACK * families[f].beyond;
@@ -487,25 +543,29 @@ static void gradient_matches_the_reference(void) {
   }
 }
 
-// ------------------------------------------------------------------------------------------------ against nsvcd_sweep
+// ----------------------------------------------------------------------------- against nsvcd_sweep
 
 // s, displaced by `step` times `along` (count, 6).
 static scene displaced(const scene *s, double step, const double *along) {
   scene out = *s;
   for (size_t n = 0; n < s->count; n++) {
-    const double turn[3] = {step * along[6 * n + 3], step * along[6 * n + 4], step * along[6 * n + 5]};
+    const double turn[3] = {step * along[6 * n + 3], step * along[6 * n + 4],
+                            step * along[6 * n + 5]};
     for (size_t k = 0; k < 3; k++) out.poses[n].position[k] += (float)(step * along[6 * n + k]);
     turn_pose(&out.poses[n], turn);
   }
   return out;
 }
 
-// Differences of nsvcd_sweep's logit, up the gradient and in a random direction, where the same pair and head decide on
-// both sides: 1e-3 of the moving body's size apart, so that kinks within that and rounding count as well.
+// Differences of nsvcd_sweep's logit, up the gradient and in a random direction, where the same
+// pair and head decide on both sides: 1e-3 of the moving body's size apart, so that kinks within
+// that and rounding count as well.
 static void gradient_follows_the_logit(void) {
   pool_open();
   for (size_t f = 0; f < 4; f++) {
-    size_t count[2] = {0, 0}, close[2] = {0, 0}, asked = 0;
+    size_t count[2] = {0, 0};
+    size_t close[2] = {0, 0};
+    size_t asked = 0;
     for (size_t n = 0; n < 1000; n++) {
       scene s;
       nsvcd_answer answer;
@@ -516,15 +576,24 @@ static void gradient_follows_the_logit(void) {
       const double length = (double)s.moving->extent;
       shapes_rng rng = {n};
       for (int random = 0; random < 2; random++) {
-        double along[6 * REFERENCE_POSES], norm = 0, slope = 0, steepest = 0, logit[2];
+        double along[6 * REFERENCE_POSES];
+        double norm = 0;
+        double slope = 0;
+        double steepest = 0;
+        double logit[2];
         int same = 1;
         for (size_t i = 0; i < 6 * s.count; i++) {
-          const double unit = i % 6 < 3 ? length : 1, g = unit * (double)gradient[i];
+          const double unit = i % 6 < 3 ? length : 1;
+          const double g = unit * (double)gradient[i];
           along[i] = random ? shapes_normal(&rng) : g;
-          norm += along[i] * along[i], slope += along[i] * g, steepest += g * g;
+          norm += along[i] * along[i];
+          slope += along[i] * g;
+          steepest += g * g;
           along[i] *= unit;
         }
-        norm = sqrt(norm), slope /= norm, steepest = sqrt(steepest);
+        norm = sqrt(norm);
+        slope /= norm;
+        steepest = sqrt(steepest);
         for (size_t i = 0; i < 6 * s.count; i++) along[i] /= norm;
         for (int side = 0; side < 2; side++) {
           const scene moved = displaced(&s, side ? 5e-4 : -5e-4, along);
@@ -536,11 +605,13 @@ static void gradient_follows_the_logit(void) {
         }
         asked++;
         if (!same) continue;
-        count[random]++, close[random] += fabs((logit[1] - logit[0]) / 1e-3 - slope) <= 0.1 * steepest;
+        count[random]++;
+        close[random] += fabs((logit[1] - logit[0]) / 1e-3 - slope) <= 0.1 * steepest;
       }
     }
     printf(
-        "  %-22s  within 10 %% of nsvcd_sweep's differences: %.1f %% of %zu up the gradient, %.1f %% of %zu others\n",
+        "  %-22s  within 10 %% of nsvcd_sweep's differences: %.1f %% of %zu up the gradient, %.1f "
+        "%% of %zu others\n",
         families[f].name, 100 * (double)close[0] / (double)count[0], count[0],
         100 * (double)close[1] / (double)count[1], count[1]);
     CHECK_GE(count[0] + count[1], 0.68 * (double)asked);
@@ -549,17 +620,24 @@ static void gradient_follows_the_logit(void) {
   }
 }
 
-// ----------------------------------------------------------------------------------------------------------- contract
+// ---------------------------------------------------------------------------------------- contract
 
-// Calls with every argument as it should be but for those given; answer and gradient must be left alone.
-static void check_refused(const scene *s, const nsvcd_pose *poses, size_t count, void *workspace, size_t size,
-                          const nsvcd_sweep_options *options, int with_gradient, nsvcd_result expected) {
+// Calls with every argument as it should be but for those given; answer and gradient must be left
+// alone.
+static void check_refused(const scene *s, const nsvcd_pose *poses, size_t count, void *workspace,
+                          size_t size, const nsvcd_sweep_options *options, int with_gradient,
+                          nsvcd_result expected) {
   float gradient[6 * REFERENCE_POSES], before[6 * REFERENCE_POSES];
   nsvcd_answer answer, untouched;
-  memset(gradient, 0x5a, sizeof gradient), memset(before, 0x5a, sizeof before);
-  memset(&answer, 0x5a, sizeof answer), memset(&untouched, 0x5a, sizeof untouched);
-  const nsvcd_question question = question_of(s->moving, poses, count, s->fixed, &s->fixed_pose, options);
-  CHECK_EQ(nsvcd_sweep_gradient(&question, workspace, size, &answer, with_gradient ? gradient : NULL, NULL), expected);
+  memset(gradient, 0x5a, sizeof gradient);
+  memset(before, 0x5a, sizeof before);
+  memset(&answer, 0x5a, sizeof answer);
+  memset(&untouched, 0x5a, sizeof untouched);
+  const nsvcd_question question =
+      question_of(s->moving, poses, count, s->fixed, &s->fixed_pose, options);
+  CHECK_EQ(nsvcd_sweep_gradient(&question, workspace, size, &answer,
+                                with_gradient ? gradient : NULL, NULL),
+           expected);
   CHECK(memcmp(gradient, before, sizeof before) == 0);
   CHECK(memcmp(&answer, &untouched, sizeof answer) == 0);
 }
@@ -591,15 +669,19 @@ static void gradient_refuses(void) {
     check_refused(&s, broken, s.count, workspace, size, NULL, 1, NSVCD_ERROR_POSE);
   }
   float gradient[6 * REFERENCE_POSES];
-  const nsvcd_question question = question_of(s.moving, s.poses, s.count, s.fixed, &s.fixed_pose, NULL);
-  CHECK_EQ(nsvcd_sweep_gradient(&question, workspace, size, NULL, gradient, NULL), NSVCD_ERROR_ARGUMENT);
-  CHECK_EQ(nsvcd_sweep_gradient(NULL, workspace, size, &answer, gradient, NULL), NSVCD_ERROR_ARGUMENT);
+  const nsvcd_question question =
+      question_of(s.moving, s.poses, s.count, s.fixed, &s.fixed_pose, NULL);
+  CHECK_EQ(nsvcd_sweep_gradient(&question, workspace, size, NULL, gradient, NULL),
+           NSVCD_ERROR_ARGUMENT);
+  CHECK_EQ(nsvcd_sweep_gradient(NULL, workspace, size, &answer, gradient, NULL),
+           NSVCD_ERROR_ARGUMENT);
 }
 
-// Moving everything together changes nothing: over both bodies the forces cancel, and so do the torques about the world's
-// origin. `both`: the second body moves along.
+// Moving everything together changes nothing: over both bodies the forces cancel, and so do the
+// torques about the world's origin. `both`: the second body moves along.
 static void gradient_check_balance(const scene *s, int both, double *worst, size_t *count) {
-  nsvcd_question question = question_of(s->moving, s->poses, s->count, s->fixed, &s->fixed_pose, &s->options);
+  nsvcd_question question =
+      question_of(s->moving, s->poses, s->count, s->fixed, &s->fixed_pose, &s->options);
   nsvcd_pose others[REFERENCE_POSES];
   float gradients[2][6 * REFERENCE_POSES];
   nsvcd_answer answer;
@@ -610,20 +692,27 @@ static void gradient_check_balance(const scene *s, int both, double *worst, size
     question.b.count = 3;
   }
   question.options.method = NSVCD_METHOD_NETWORK;
-  CHECK_EQ(nsvcd_sweep_gradient(&question, query_workspace(), nsvcd_sweep_workspace_size(NULL), &answer, gradients[0],
-                                gradients[1]),
+  CHECK_EQ(nsvcd_sweep_gradient(&question, query_workspace(), nsvcd_sweep_workspace_size(NULL),
+                                &answer, gradients[0], gradients[1]),
            NSVCD_OK);
-  double force[3] = {0, 0, 0}, torque[3] = {0, 0, 0}, size = 0, arms = 0;
+  double force[3] = {0, 0, 0};
+  double torque[3] = {0, 0, 0};
+  double size = 0;
+  double arms = 0;
   for (int side = 0; side < 2; side++) {
     const nsvcd_mover *mover = side ? &question.b : &question.a;
     for (size_t n = 0; n < mover->count; n++) {
-      const float *row = gradients[side] + 6 * n, *p = mover->poses[n].position;
+      const float *row = gradients[side] + 6 * n;
+      const float *p = mover->poses[n].position;
       for (size_t k = 0; k < 3; k++) {
-        const size_t i = (k + 1) % 3, j = (k + 2) % 3;
+        const size_t i = (k + 1) % 3;
+        const size_t j = (k + 2) % 3;
         force[k] += (double)row[k];
-        torque[k] += (double)row[3 + k] + (double)p[i] * (double)row[j] - (double)p[j] * (double)row[i];
+        torque[k] +=
+            (double)row[3 + k] + (double)p[i] * (double)row[j] - (double)p[j] * (double)row[i];
         size += fabs((double)row[k]);
-        arms += fabs((double)row[3 + k]) + fabs((double)p[i] * (double)row[j]) + fabs((double)p[j] * (double)row[i]);
+        arms += fabs((double)row[3 + k]) + fabs((double)p[i] * (double)row[j]) +
+                fabs((double)p[j] * (double)row[i]);
       }
     }
   }
@@ -645,18 +734,19 @@ static void gradient_balances(void) {
     nsvcd__decisive decisive;
     (void)scene_of(n % 2, n, &s, &answer, &decisive);
     if (s.count == 0) continue;
-    for (int both = 0; both < 2; both++) gradient_check_balance(&s, both, &worst[both], &count[both]);
+    for (int both = 0; both < 2; both++)
+      gradient_check_balance(&s, both, &worst[both], &count[both]);
   }
-  printf("  one moves, %zu: sums of forces and torques off by %.1e; both, %zu: %.1e\n", count[0], worst[0], count[1],
-         worst[1]);
+  printf("  one moves, %zu: sums of forces and torques off by %.1e; both, %zu: %.1e\n", count[0],
+         worst[0], count[1], worst[1]);
   for (int both = 0; both < 2; both++) {
     CHECK_LE(worst[both], 2e-4);
     CHECK_GE(count[both], 100);
   }
 }
 
-// The answer is nsvcd_sweep's to the bit, the gradient no function of what the workspace held, and all that is written
-// is (count, 6).
+// The answer is nsvcd_sweep's to the bit, the gradient no function of what the workspace held, and
+// all that is written is (count, 6).
 static void gradient_answers_as_sweep(void) {
   size_t statuses[4] = {0, 0, 0, 0};
   pool_open();
@@ -690,9 +780,11 @@ static void gradient_answers_as_sweep(void) {
   CHECK_GE(statuses[NSVCD_STATUS_INSIDE], 1);
 }
 
-// Of two poses that nothing distinguishes but their order, a pose that the decisive pair does not pass gets nothing.
+// Of two poses that nothing distinguishes but their order, a pose that the decisive pair does not
+// pass gets nothing.
 static void gradient_is_zero_where_the_pair_is_not(void) {
-  size_t zero = 0, cases = 0;
+  size_t zero = 0;
+  size_t cases = 0;
   pool_open();
   for (size_t n = 0; n < 200; n++) {
     scene s;
@@ -703,9 +795,10 @@ static void gradient_is_zero_where_the_pair_is_not(void) {
     CHECK_EQ(ask_gradient(&s, &answer, gradient), NSVCD_OK);
     cases++;
     for (size_t k = 0; k < s.count; k++) {
-      const float arcs = (float)(s.count - 1), *row = gradient + 6 * k;
-      const int passed =
-          decisive.candidate.t_exit * arcs > (float)k - 1.001f && decisive.candidate.t_enter * arcs < (float)k + 1.001f;
+      const float arcs = (float)(s.count - 1);
+      const float *row = gradient + 6 * k;
+      const int passed = decisive.candidate.t_exit * arcs > (float)k - 1.001f &&
+                         decisive.candidate.t_enter * arcs < (float)k + 1.001f;
       if (passed) continue;
       zero++;
       for (size_t i = 0; i < 6; i++) CHECK_EQ(row[i], 0);
@@ -715,7 +808,7 @@ static void gradient_is_zero_where_the_pair_is_not(void) {
   CHECK_GE(zero, 50);
 }
 
-// --------------------------------------------------------------------------------------------------------------- time
+// -------------------------------------------------------------------------------------------- time
 
 static void gradient_takes_microseconds(void) {
   pool_open();
@@ -735,20 +828,23 @@ static void gradient_takes_microseconds(void) {
         const clock_t start = clock();
         for (int i = 0; i < turns; i++) {
           ask(s.moving, s.poses, s.count, s.fixed, &s.fixed_pose, &s.options, query_workspace(),
-                      nsvcd_sweep_workspace_size(NULL), &answer);
+              nsvcd_sweep_workspace_size(NULL), &answer);
         }
         const clock_t middle = clock();
         for (int i = 0; i < turns; i++) ask_gradient(&s, &answer, gradient);
         least[0] = fmin(least[0], 1e6 * (double)(middle - start) / CLOCKS_PER_SEC / turns);
         least[1] = fmin(least[1], 1e6 * (double)(clock() - middle) / CLOCKS_PER_SEC / turns);
       }
-      times[0][count] = least[0], times[1][count] = least[1], extra[count++] = least[1] - least[0];
+      times[0][count] = least[0];
+      times[1][count] = least[1];
+      extra[count++] = least[1] - least[0];
     }
     if (count == 0) continue;  // compiled out
     for (int i = 0; i < 2; i++) qsort(times[i], count, sizeof(double), compare_doubles);
     qsort(extra, count, sizeof(double), compare_doubles);
     printf(
-        "  median of %zu, %s decides: nsvcd_sweep %.2f us, nsvcd_sweep_gradient %.2f us; the gradient %.2f, 90 %% "
+        "  median of %zu, %s decides: nsvcd_sweep %.2f us, nsvcd_sweep_gradient %.2f us; the "
+        "gradient %.2f, 90 %% "
         "%.2f\n",
         count, head ? "base" : "tiny", times[0][count / 2], times[1][count / 2], extra[count / 2],
         extra[count * 9 / 10]);

@@ -1,5 +1,6 @@
-// Bodies of more patches than a tile: the levels of spheres above the groups and the walk through them, meshes encoded
-// region by region, and what is answered about a level, against the oracle and against its local pieces.
+// Bodies of more patches than a tile: the levels of spheres above the groups and the walk through
+// them, meshes encoded region by region, and what is answered about a level, against the oracle and
+// against its local pieces.
 #define _POSIX_C_SOURCE 200809L
 #define NSVCD_STATIC
 #define NEURALSVCD_IMPLEMENTATION
@@ -33,7 +34,8 @@ static void *level_workspace(void) {
 static nsvcd_answer level_ask(const nsvcd_question *question) {
   nsvcd_answer answer;
   memset(&answer, 0, sizeof answer);
-  CHECK_EQ(nsvcd_sweep(question, level_workspace(), nsvcd_sweep_workspace_size(NULL), &answer), NSVCD_OK);
+  CHECK_EQ(nsvcd_sweep(question, level_workspace(), nsvcd_sweep_workspace_size(NULL), &answer),
+           NSVCD_OK);
   return answer;
 }
 
@@ -58,7 +60,8 @@ static const level_world *level_shared(void) {
 // ---- the body
 
 // Spheres that touch a ball, as a filter of a walk.
-static uint32_t level_touch(const void *what, const float *x, const float *y, const float *z, const float *r) {
+static uint32_t level_touch(const void *what, const float *x, const float *y, const float *z,
+                            const float *r) {
   const float *ball = (const float *)what;
   uint32_t met = 0;
   for (size_t l = 0; l < NSVCD__LANES; l++) {
@@ -69,7 +72,8 @@ static uint32_t level_touch(const void *what, const float *x, const float *y, co
   return met;
 }
 
-// Every sphere holds those below it, and a walk finds the groups that pass, in order: no more, and none less.
+// Every sphere holds those below it, and a walk finds the groups that pass, in order: no more, and
+// none less.
 static void level_walks_find_all(void) {
   const nsvcd_body *body = level_shared()->level.body;
   const nsvcd_body_facts facts = nsvcd_body_describe(body);
@@ -86,22 +90,26 @@ static void level_walks_find_all(void) {
     for (size_t i = 0; i < below.count; i++) {
       double square = 0;
       for (size_t n = 0; n < 3; n++) {
-        const double d = (double)inner[n * below.slots + i] - (double)outer[n * above.slots + i / 16];
+        const double d =
+            (double)inner[n * below.slots + i] - (double)outer[n * above.slots + i / 16];
         square += d * d;
       }
-      const double radius = (double)outer[3 * above.slots + i / 16] - (double)inner[3 * below.slots + i];
+      const double radius =
+          (double)outer[3 * above.slots + i / 16] - (double)inner[3 * below.slots + i];
       CHECK_LE(sqrt(square), radius * (1 + 1e-6));
     }
   }
 
   size_t found = 0;
   for (int trial = 0; trial < 300; trial++) {
-    const float ball[4] = {(float)shapes_uniform(&rng, -11, 11), (float)shapes_uniform(&rng, -11, 11),
-                           (float)shapes_uniform(&rng, -2, 3), (float)pow(10, shapes_uniform(&rng, -2, 1.3))};
+    const float ball[4] = {(float)shapes_uniform(&rng, -11, 11),
+                           (float)shapes_uniform(&rng, -11, 11), (float)shapes_uniform(&rng, -2, 3),
+                           (float)pow(10, shapes_uniform(&rng, -2, 1.3))};
     nsvcd__walk walk;
     nsvcd__walk_begin(&walk, body, level_touch, ball);
     for (size_t g = 0; g < nsvcd__body_groups(body); g++) {
-      const float d[3] = {nsvcd__body_group(body, 0)[g] - ball[0], nsvcd__body_group(body, 1)[g] - ball[1],
+      const float d[3] = {nsvcd__body_group(body, 0)[g] - ball[0],
+                          nsvcd__body_group(body, 1)[g] - ball[1],
                           nsvcd__body_group(body, 2)[g] - ball[2]};
       const float reach = nsvcd__body_group(body, 3)[g] + ball[3];
       size_t next = 0;
@@ -156,7 +164,8 @@ static nsvcd_question level_question(const level_way *way, const nsvcd_body *fix
   return question;
 }
 
-// A body mapped from a file, and trusted, is as good as one in memory; what is no body is refused all the same.
+// A body mapped from a file, and trusted, is as good as one in memory; what is no body is refused
+// all the same.
 static void level_mapped_from_a_file(void) {
   const level_world *w = level_shared();
   const size_t size = nsvcd_body_describe(w->level.body).size;
@@ -186,10 +195,13 @@ static void level_mapped_from_a_file(void) {
   fclose(file);
 }
 
-// The level, the piece of it that the motion can reach, and the oracle say the same; at rest, whichever is asked about first.
+// The level, the piece of it that the motion can reach, and the oracle say the same; at rest,
+// whichever is asked about first.
 static void level_verdicts_are_right(void) {
   const level_world *w = level_shared();
-  size_t hits = 0, asked = 0, undecided = 0;
+  size_t hits = 0;
+  size_t asked = 0;
+  size_t undecided = 0;
   for (int set = 0; set < LEVEL_SETS; set++) {
     shapes_rng rng = {(uint64_t)(7 + set)};
     for (int trial = 0; trial < 25; trial++) {
@@ -228,7 +240,8 @@ static void level_verdicts_are_right(void) {
   CHECK(hits > 20 && asked - hits > 20);
 }
 
-// A level that is carried past a body at rest: then the level is the moving one, searched tile by tile.
+// A level that is carried past a body at rest: then the level is the moving one, searched tile by
+// tile.
 static void level_that_moves(void) {
   const level_world *w = level_shared();
   shapes_rng rng = {3};
@@ -237,7 +250,8 @@ static void level_that_moves(void) {
     const level_way way = level_draw(&rng, LEVEL_NEAR, w->bodies, &w->level);
     nsvcd_question question = level_question(&way, w->level.body);
     // The body keeps its first rotation and goes straight; or the level goes the other way.
-    nsvcd_pose straight[2] = {way.stored[0], way.stored[0]}, back[2];
+    nsvcd_pose straight[2] = {way.stored[0], way.stored[0]};
+    nsvcd_pose back[2];
     memset(back, 0, sizeof back);
     for (int k = 0; k < 3; k++) {
       straight[1].position[k] = straight[0].position[k] + 0.0625f;  // exact
@@ -286,7 +300,8 @@ static void level_contacts_are_those_of_the_piece(void) {
     const oracle_pose origin = {{0, 0, 0}, {0, 0, 0, 1}};
     const oracle_options exact = {1e-4, 0, 0, 1};
     if (measured.status != NSVCD_STATUS_CERTIFIED_FREE) continue;
-    const oracle_result label = oracle_sweep(&way.body->oracle, way.poses, 2, &w->level.oracle, &origin, &exact);
+    const oracle_result label =
+        oracle_sweep(&way.body->oracle, way.poses, 2, &w->level.oracle, &origin, &exact);
     CHECK_LE(measured.clearance_low, label.distance);
     CHECK_LE(label.lower, measured.clearance_high);
     CHECK_LE(measured.clearance_high - measured.clearance_low, 0.0013);
@@ -294,7 +309,8 @@ static void level_contacts_are_those_of_the_piece(void) {
   CHECK(contacts > 10);
 }
 
-// Pebbles that float: one within a box is found, though there are many, and one outside of it is not.
+// Pebbles that float: one within a box is found, though there are many, and one outside of it is
+// not.
 static void level_components_are_found(void) {
   enum { PEBBLES = 900 };
   shapes_mesh shape, crate;
@@ -342,12 +358,13 @@ static const nsvcd_body *level_with_latents(void) {
   nsvcd_encode_options options = level_options(5000);
   options.no_latents = 0;
   options.latents = 1;
-  if (!body) CHECK_EQ(nsvcd_encode(&level_shared()->level.mesh, &options, NULL, NULL, 0, &body), NSVCD_OK);
+  if (!body)
+    CHECK_EQ(nsvcd_encode(&level_shared()->level.mesh, &options, NULL, NULL, 0, &body), NSVCD_OK);
   return body;
 }
 
-// Asked for, they stand before the body for the proof, which is the same to the byte; not asked for, a level has none. The
-// blob is checked, and scales.
+// Asked for, they stand before the body for the proof, which is the same to the byte; not asked
+// for, a level has none. The blob is checked, and scales.
 static void level_latents_are_added(void) {
   const nsvcd_body *plain = level_shared()->level.body;
   const nsvcd_body *body = level_with_latents();
@@ -362,11 +379,13 @@ static void level_latents_are_added(void) {
   nsvcd_encode_options options = level_options(600);
   const nsvcd_body *other = NULL;
   options.no_latents = 0;
-  CHECK_EQ(nsvcd_encode(&level_shared()->bodies[1].mesh, &options, NULL, NULL, 0, &other), NSVCD_OK);
+  CHECK_EQ(nsvcd_encode(&level_shared()->bodies[1].mesh, &options, NULL, NULL, 0, &other),
+           NSVCD_OK);
   CHECK_EQ(nsvcd_body_describe(other).latents, 0);
   nsvcd_body_free(other, NULL);
   options.no_triangles = 1;  // then they are all there is
-  CHECK_EQ(nsvcd_encode(&level_shared()->bodies[1].mesh, &options, NULL, NULL, 0, &other), NSVCD_OK);
+  CHECK_EQ(nsvcd_encode(&level_shared()->bodies[1].mesh, &options, NULL, NULL, 0, &other),
+           NSVCD_OK);
   CHECK_EQ(nsvcd_body_describe(other).latents, 1);
   CHECK_EQ(other->size, nsvcd_body_size(other->points));
   nsvcd_body_free(other, NULL);
@@ -375,7 +394,8 @@ static void level_latents_are_added(void) {
   memcpy(copy, body, facts.size);
   CHECK_EQ(nsvcd_body_load(copy, facts.size, &loaded), NSVCD_OK);
   for (size_t n = 0; n < nsvcd__level_count(body->padded); n++) {
-    float *sum = (float *)nsvcd__writable(copy, nsvcd__level_areas(copy, nsvcd__level_of(copy->padded, n)));
+    float *sum =
+        (float *)nsvcd__writable(copy, nsvcd__level_areas(copy, nsvcd__level_of(copy->padded, n)));
     const float before = *sum;
     *sum = HUGE_VALF;
     copy->checksum = nsvcd__body_checksum(copy);
@@ -385,7 +405,8 @@ static void level_latents_are_added(void) {
   CHECK_EQ(nsvcd_body_scale(body, 0.5f, copy, facts.size, &loaded), NSVCD_OK);
   const nsvcd__level top = nsvcd__level_of(body->padded, nsvcd__level_count(body->padded) - 1);
   for (size_t i = 0; i < 3 * top.slots; i++) {
-    CHECK_NEAR(nsvcd__level_areas(loaded, top)[i], 0.25 * (double)nsvcd__level_areas(body, top)[i], 1e-4);
+    CHECK_NEAR(nsvcd__level_areas(loaded, top)[i], 0.25 * (double)nsvcd__level_areas(body, top)[i],
+               1e-4);
   }
   CHECK_EQ(nsvcd_body_load(copy, facts.size, &loaded), NSVCD_OK);
   free(copy);
@@ -398,12 +419,19 @@ static void level_balls_cover(void) {
   shapes_rng rng = {8};
   for (int trial = 0; trial < 2000; trial++) {
     const oracle_triangle *t = &mesh->triangles[shapes_next(&rng) % mesh->triangle_count];
-    double u = shapes_uniform(&rng, 0, 1), v = trial % 2 ? 0 : shapes_uniform(&rng, 0, 1), place[3];
-    if (u + v > 1) u = 1 - u, v = 1 - v;
-    for (int k = 0; k < 3; k++) place[k] = t->v[0][k] + u * (t->v[1][k] - t->v[0][k]) + v * (t->v[2][k] - t->v[0][k]);
+    double u = shapes_uniform(&rng, 0, 1);
+    double v = trial % 2 ? 0 : shapes_uniform(&rng, 0, 1);
+    double place[3];
+    if (u + v > 1) {
+      u = 1 - u;
+      v = 1 - v;
+    }
+    for (int k = 0; k < 3; k++)
+      place[k] = t->v[0][k] + u * (t->v[1][k] - t->v[0][k]) + v * (t->v[2][k] - t->v[0][k]);
     int covered = 0;
     for (size_t i = 0; i < body->points && !covered; i++) {
-      const double d[3] = {(double)nsvcd__body_x(body)[i] - place[0], (double)nsvcd__body_y(body)[i] - place[1],
+      const double d[3] = {(double)nsvcd__body_x(body)[i] - place[0],
+                           (double)nsvcd__body_y(body)[i] - place[1],
                            (double)nsvcd__body_z(body)[i] - place[2]};
       covered = oracle_length(d) <= (double)nsvcd__body_r(body)[i];
     }
@@ -411,31 +439,40 @@ static void level_balls_cover(void) {
   }
 }
 
-// Clearances and winding numbers, found through the levels, are those over all patches; so are the sums of area vectors.
+// Clearances and winding numbers, found through the levels, are those over all patches; so are the
+// sums of area vectors.
 static void level_winding_numbers_are_those_of_the_patches(void) {
   const nsvcd_body *body = level_with_latents();
   const float *areas = nsvcd__body_areas(body);
-  double worst = 0, sums[3] = {0, 0, 0};
-  size_t inside = 0, clear = 0;
+  double worst = 0;
+  double sums[3] = {0, 0, 0};
+  size_t inside = 0;
+  size_t clear = 0;
   shapes_rng rng = {9};
   for (int trial = 0; trial < 1000; trial++) {
     float places[3][NSVCD__PROBES], clearances[NSVCD__PROBES];
     const double spread = pow(10, shapes_uniform(&rng, -2, 0.5));
     double middle[3];
-    for (int k = 0; k < 3; k++) middle[k] = k == 2 ? shapes_uniform(&rng, -1.2, 2) : shapes_uniform(&rng, -10.5, 10.5);
+    for (int k = 0; k < 3; k++)
+      middle[k] = k == 2 ? shapes_uniform(&rng, -1.2, 2) : shapes_uniform(&rng, -10.5, 10.5);
     for (size_t n = 0; n < NSVCD__PROBES; n++) {
-      for (int k = 0; k < 3; k++) places[k][n] = (float)(middle[k] + spread * shapes_uniform(&rng, -0.5, 0.5));
+      for (int k = 0; k < 3; k++)
+        places[k][n] = (float)(middle[k] + spread * shapes_uniform(&rng, -0.5, 0.5));
     }
     nsvcd__clearances(body, places, clearances);
     for (size_t n = 0; n < NSVCD__PROBES; n++) {
       const float place[3] = {places[0][n], places[1][n], places[2][n]};
-      double least = (double)(NSVCD__AMPLE * NSVCD__AMPLE), w = 0;
+      double least = (double)(NSVCD__AMPLE * NSVCD__AMPLE);
+      double w = 0;
       for (size_t i = 0; i < body->points; i++) {
-        const double d[3] = {(double)(nsvcd__body_x(body)[i] - place[0]), (double)(nsvcd__body_y(body)[i] - place[1]),
+        const double d[3] = {(double)(nsvcd__body_x(body)[i] - place[0]),
+                             (double)(nsvcd__body_y(body)[i] - place[1]),
                              (double)(nsvcd__body_z(body)[i] - place[2])};
-        const double length = oracle_length(d), r = (double)nsvcd__body_r(body)[i];
+        const double length = oracle_length(d);
+        const double r = (double)nsvcd__body_r(body)[i];
         least = fmin(least, length * length / (r * r));
-        for (size_t k = 0; k < 3; k++) w += (double)areas[k * body->padded + i] * d[k] / (length * length * length);
+        for (size_t k = 0; k < 3; k++)
+          w += (double)areas[k * body->padded + i] * d[k] / (length * length * length);
       }
       w /= 4 * acos(-1);
       CHECK_NEAR(clearances[n], least, 1e-4);
@@ -446,25 +483,32 @@ static void level_winding_numbers_are_those_of_the_patches(void) {
       clear++;
     }
   }
-  printf("  winding numbers of %zu places, %zu inside: within %.4f of those of all patches\n", clear, inside, worst);
+  printf("  winding numbers of %zu places, %zu inside: within %.4f of those of all patches\n",
+         clear, inside, worst);
   CHECK(inside > 50 && clear - inside > 50);
   CHECK_LE(worst, 0.05);
 
   const nsvcd__level top = nsvcd__level_of(body->padded, nsvcd__level_count(body->padded) - 1);
   for (size_t k = 0; k < 3; k++) {
     for (size_t i = 0; i < body->points; i++) sums[k] += (double)areas[k * body->padded + i];
-    for (size_t i = 0; i < top.slots; i++) sums[k] -= (double)nsvcd__level_areas(body, top)[k * top.slots + i];
+    for (size_t i = 0; i < top.slots; i++)
+      sums[k] -= (double)nsvcd__level_areas(body, top)[k * top.slots + i];
     CHECK_NEAR(sums[k], 0, 1e-3);
   }
 }
 
-// The network is right where it can be, whichever body is a; and where it certifies, there is no hit.
+// The network is right where it can be, whichever body is a; and where it certifies, there is no
+// hit.
 static void level_by_the_network(void) {
   const level_world *w = level_shared();
-  size_t wrong = 0, asked = 0, certified = 0, hits = 0;
+  size_t wrong = 0;
+  size_t asked = 0;
+  size_t certified = 0;
+  size_t hits = 0;
   shapes_rng rng = {10};
   for (int trial = 0; trial < 120; trial++) {
-    const level_way way = level_draw(&rng, trial % 2 ? LEVEL_NEAR : LEVEL_DASH, w->bodies, &w->level);
+    const level_way way =
+        level_draw(&rng, trial % 2 ? LEVEL_NEAR : LEVEL_DASH, w->bodies, &w->level);
     const oracle_result label = level_label(&way, &w->level);
     const int collides = label.status == ORACLE_COLLIDES || label.status == ORACLE_INSIDE;
     nsvcd_question question = level_question(&way, level_with_latents());
@@ -480,7 +524,8 @@ static void level_by_the_network(void) {
     turned.b = question.a;
     CHECK_EQ(level_ask(&turned).collides, answer.collides);
   }
-  printf("  by the network: %zu of %zu wrong, %zu hits, %zu certified\n", wrong, asked, hits, certified);
+  printf("  by the network: %zu of %zu wrong, %zu hits, %zu certified\n", wrong, asked, hits,
+         certified);
   CHECK(hits > 30 && asked - hits > 30);
   CHECK_LE(wrong, asked / 10);
 
@@ -488,7 +533,8 @@ static void level_by_the_network(void) {
   nsvcd_question question = level_question(&way, w->level.body);
   nsvcd_answer answer;
   question.options.method = NSVCD_METHOD_NETWORK;  // which this one has nothing for
-  CHECK_EQ(nsvcd_sweep(&question, level_workspace(), nsvcd_sweep_workspace_size(NULL), &answer), NSVCD_ERROR_BODY);
+  CHECK_EQ(nsvcd_sweep(&question, level_workspace(), nsvcd_sweep_workspace_size(NULL), &answer),
+           NSVCD_ERROR_BODY);
 }
 
 // A ball in one of many crates is inside, and between two of them it is not.
@@ -539,14 +585,17 @@ static void level_place(void *user, const float *joints, nsvcd_pose *poses) {
   poses[0].rotation[3] = poses[1].rotation[3] = 1;
 }
 
-// A body flies through the level where the straight way is barred, and the oracle sees it touch nothing.
+// A body flies through the level where the straight way is barred, and the oracle sees it touch
+// nothing.
 static void level_planning(void) {
   const level_world *w = level_shared();
   const level_solid *flyer = &w->bodies[2];
   const nsvcd_body *bodies[2] = {flyer->body, level_with_latents()};
   const nsvcd_body_pair pair = {0, 1};
-  const float low[3] = {-9, -9, 0.2f}, high[3] = {9, 9, 1};
-  float start[3] = {0, 0, 1}, goal[3] = {0, 0, 1};
+  const float low[3] = {-9, -9, 0.2f};
+  const float high[3] = {9, 9, 1};
+  float start[3] = {0, 0, 1};
+  float goal[3] = {0, 0, 1};
   nsvcd_plan_problem problem;
   nsvcd_plan_options options;
   memset(&problem, 0, sizeof problem);
@@ -565,7 +614,8 @@ static void level_planning(void) {
   CHECK(size > 0);
   void *workspace = malloc(size);
   shapes_rng rng = {12};
-  size_t barred = 0, solved = 0;
+  size_t barred = 0;
+  size_t solved = 0;
   while (barred < 4) {
     float control[3 * (NSVCD_MAX_VIA_POINTS + 2)];
     nsvcd_plan_answer answer;
@@ -600,7 +650,8 @@ static void level_planning(void) {
     }
     const oracle_pose origin = {{0, 0, 0}, {0, 0, 0, 1}};
     const oracle_options exact = {2e-5, 1e-3, 0, 0};
-    CHECK_EQ(oracle_sweep(&flyer->oracle, poses, 65, &w->level.oracle, &origin, &exact).status, ORACLE_FREE);
+    CHECK_EQ(oracle_sweep(&flyer->oracle, poses, 65, &w->level.oracle, &origin, &exact).status,
+             ORACLE_FREE);
   }
   printf("  %zu of %zu barred ways solved\n", solved, barred);
   CHECK_LE(3, solved);
@@ -610,8 +661,8 @@ static void level_planning(void) {
 
 // ---- bad input
 
-// Half of the triangles have no area, or the level is inside out, or one triangle of 20 m lies among crumbs of a
-// millimetre: encoded, and the answer is that of the sane half.
+// Half of the triangles have no area, or the level is inside out, or one triangle of 20 m lies
+// among crumbs of a millimetre: encoded, and the answer is that of the sane half.
 static void level_of_bad_triangles(void) {
   const level_world *w = level_shared();
   const nsvcd_mesh *sane = &w->level.mesh;
@@ -620,7 +671,8 @@ static void level_of_bad_triangles(void) {
   mesh.indices = (uint32_t *)malloc(12 * mesh.triangle_count);
   for (size_t t = 0; t < sane->triangle_count; t++) {
     memcpy(mesh.indices + 6 * t, sane->indices + 3 * t, 12);
-    for (size_t k = 0; k < 3; k++) mesh.indices[6 * t + 3 + k] = sane->indices[3 * t + (k > 1)];  // two corners are one
+    // two corners are one
+    for (size_t k = 0; k < 3; k++) mesh.indices[6 * t + 3 + k] = sane->indices[3 * t + (k > 1)];
   }
   const nsvcd_encode_options options = level_options(4000);
   const nsvcd_body *half, *turned, *crumbs;
@@ -650,7 +702,8 @@ static void level_of_bad_triangles(void) {
 
   shapes_mesh shape;
   memset(&shape, 0, sizeof shape);
-  const uint32_t a = shapes_vertex(&shape, -10, -10, 0), b = shapes_vertex(&shape, 10, -10, 0);
+  const uint32_t a = shapes_vertex(&shape, -10, -10, 0);
+  const uint32_t b = shapes_vertex(&shape, 10, -10, 0);
   shapes_triangle(&shape, a, b, shapes_vertex(&shape, 0, 10, 0));
   for (int i = 0; i < 3000; i++) {
     const size_t first = shape.vertices;
@@ -688,8 +741,8 @@ static int level_cancel(float done, void *user) {
   return last[2] >= last[3];
 }
 
-// NaN in the last vertex, memory that runs out at any time, and a caller who has had enough: a code, nothing leaked,
-// nothing written.
+// NaN in the last vertex, memory that runs out at any time, and a caller who has had enough: a
+// code, nothing leaked, nothing written.
 static void level_encoding_ends_well(void) {
   shapes_mesh shape;
   memset(&shape, 0, sizeof shape);
@@ -731,7 +784,8 @@ static void level_encoding_ends_well(void) {
     nsvcd_allocator allocator = {failing_heap_alloc, failing_heap_free, &heap};
     const float from[4] = {0, 0, 0, n};
     memcpy(last, from, sizeof last);
-    CHECK_EQ(nsvcd_encode(&solid.mesh, &options, &allocator, NULL, 0, &body), NSVCD_ERROR_CANCELLED);
+    CHECK_EQ(nsvcd_encode(&solid.mesh, &options, &allocator, NULL, 0, &body),
+             NSVCD_ERROR_CANCELLED);
     CHECK_EQ(heap.live, 0);
     CHECK(body == NULL);
   }
@@ -749,7 +803,8 @@ static void level_encoding_ends_well(void) {
   level_free(&solid);
 }
 
-// Encoding takes at most 100 bytes a triangle at a time, from 10,000 triangles on, in one region and in several.
+// Encoding takes at most 100 bytes a triangle at a time, from 10,000 triangles on, in one region
+// and in several.
 static void level_encoding_is_frugal(void) {
   const size_t sizes[3] = {10000, 40000, 60000};
   for (int i = 0; i < 3; i++) {

@@ -12,7 +12,7 @@
 
 void test_mesh(void);
 
-// ---------------------------------------------------------------------------------------------------- helpers
+// ----------------------------------------------------------------------------------------- helpers
 
 static uint64_t mesh_rng = 1;
 static uint32_t mesh_random(void) {  // splitmix64
@@ -37,7 +37,9 @@ static nsvcd_result parse(const char *text, nsvcd_mesh *mesh, size_t *line) {
   return result;
 }
 
-static double vector_length(const double *v) { return sqrt(v[0] * v[0] + v[1] * v[1] + v[2] * v[2]); }
+static double vector_length(const double *v) {
+  return sqrt(v[0] * v[0] + v[1] * v[1] + v[2] * v[2]);
+}
 
 static void mesh_area_vector(const nsvcd_mesh *mesh, double *sum) {
   sum[0] = sum[1] = sum[2] = 0;
@@ -53,32 +55,40 @@ static nsvcd_mesh mesh_new(size_t vertices, size_t triangles) {
   nsvcd_mesh mesh;
   mesh.positions = (float *)calloc(3 * vertices + 1, sizeof(float));
   mesh.indices = (uint32_t *)calloc(3 * triangles + 1, sizeof(uint32_t));
-  mesh.vertex_count = vertices, mesh.triangle_count = triangles;
+  mesh.vertex_count = vertices;
+  mesh.triangle_count = triangles;
   return mesh;
 }
 
-// A closed surface of rings x segments quads around a torus (tube > 0), or a lumpy sphere (tube 0, poles are
-// degenerate).
+// A closed surface of rings x segments quads around a torus (tube > 0), or a lumpy sphere (tube 0,
+// poles are degenerate).
 static nsvcd_mesh mesh_round(size_t rings, size_t segments, double radius, double tube) {
   nsvcd_mesh mesh = mesh_new(rings * segments, 2 * rings * segments);
   const double pi = 3.14159265358979323846;
   uint32_t *index = mesh.indices;
   for (size_t i = 0; i < rings; ++i) {
     for (size_t j = 0; j < segments; ++j) {
-      double a = tube > 0 ? 2 * pi * (double)i / (double)rings : pi * (double)i / (double)(rings - 1);
+      double a =
+          tube > 0 ? 2 * pi * (double)i / (double)rings : pi * (double)i / (double)(rings - 1);
       double b = 2 * pi * (double)j / (double)segments;
-      double r = tube > 0 ? radius + tube * cos(a) : radius * sin(a) * (1 + 0.3 * cos(3 * b) * sin(a));
+      double r =
+          tube > 0 ? radius + tube * cos(a) : radius * sin(a) * (1 + 0.3 * cos(3 * b) * sin(a));
       if (tube <= 0 && (i == 0 || i == rings - 1)) r = 0;  // exact poles close the surface
       float *p = mesh.positions + 3 * (i * segments + j);
-      p[0] = (float)(r * cos(b)), p[1] = (float)(r * sin(b)),
+      p[0] = (float)(r * cos(b));
+      p[1] = (float)(r * sin(b));
       p[2] = (float)(tube > 0 ? tube * sin(a) : -radius * cos(a));
       if (tube <= 0 && i == rings - 1) {  // no quads beyond the last ring: points
         for (int k = 0; k < 6; ++k) *index++ = (uint32_t)(i * segments + j);
         continue;
       }
-      uint32_t i1 = (uint32_t)((i + 1) % rings), j1 = (uint32_t)((j + 1) % segments), s = (uint32_t)segments;
-      uint32_t v00 = (uint32_t)(i * segments + j), v01 = (uint32_t)i * s + j1, v10 = i1 * s + (uint32_t)j,
-               v11 = i1 * s + j1;
+      uint32_t i1 = (uint32_t)((i + 1) % rings);
+      uint32_t j1 = (uint32_t)((j + 1) % segments);
+      uint32_t s = (uint32_t)segments;
+      uint32_t v00 = (uint32_t)(i * segments + j);
+      uint32_t v01 = (uint32_t)i * s + j1;
+      uint32_t v10 = i1 * s + (uint32_t)j;
+      uint32_t v11 = i1 * s + j1;
       *index++ = v00, *index++ = v01, *index++ = v11;
       *index++ = v00, *index++ = v11, *index++ = v10;
     }
@@ -91,12 +101,15 @@ static nsvcd_mesh mesh_box(double x, double y, double z) {
   nsvcd_mesh mesh = mesh_new(8, 12);
   for (int i = 0; i < 8; ++i) {
     float *p = mesh.positions + 3 * i;
-    p[0] = (float)(i & 1 ? x : -x), p[1] = (float)(i & 2 ? y : -y), p[2] = (float)(i & 4 ? z : -z);
+    p[0] = (float)(i & 1 ? x : -x);
+    p[1] = (float)(i & 2 ? y : -y);
+    p[2] = (float)(i & 4 ? z : -z);
   }
   memcpy(mesh.indices, faces, sizeof faces);
   return mesh;
 }
-static nsvcd_mesh mesh_soup(size_t triangles, double size) {  // random triangles, some tiny, some slivers, some points
+// random triangles, some tiny, some slivers, some points
+static nsvcd_mesh mesh_soup(size_t triangles, double size) {
   nsvcd_mesh mesh = mesh_new(3 * triangles, triangles);
   for (size_t i = 0; i < 3 * triangles; ++i) {
     double scale = i % 9 < 3 ? 1 : 0.05;
@@ -106,17 +119,21 @@ static nsvcd_mesh mesh_soup(size_t triangles, double size) {  // random triangle
     }
     mesh.indices[i] = (uint32_t)i;
   }
-  for (size_t t = 0; t + 1 < triangles; t += 11) mesh.indices[3 * t + 1] = mesh.indices[3 * t];  // no area
+  // no area
+  for (size_t t = 0; t + 1 < triangles; t += 11) mesh.indices[3 * t + 1] = mesh.indices[3 * t];
   return mesh;
 }
-static nsvcd_mesh mesh_fan(size_t triangles, double length, double width) {  // slivers from one point: an open strip
+// slivers from one point: an open strip
+static nsvcd_mesh mesh_fan(size_t triangles, double length, double width) {
   nsvcd_mesh mesh = mesh_new(triangles + 2, triangles);
   for (size_t i = 0; i <= triangles; ++i) {
-    mesh.positions[3 * i] = (float)length, mesh.positions[3 * i + 1] = (float)(width * (double)i / (double)triangles);
+    mesh.positions[3 * i] = (float)length;
+    mesh.positions[3 * i + 1] = (float)(width * (double)i / (double)triangles);
   }
   for (size_t t = 0; t < triangles; ++t) {
-    mesh.indices[3 * t] = (uint32_t)triangles + 1, mesh.indices[3 * t + 1] = (uint32_t)t,
-                     mesh.indices[3 * t + 2] = (uint32_t)t + 1;
+    mesh.indices[3 * t] = (uint32_t)triangles + 1;
+    mesh.indices[3 * t + 1] = (uint32_t)t;
+    mesh.indices[3 * t + 2] = (uint32_t)t + 1;
   }
   return mesh;
 }
@@ -156,7 +173,7 @@ static nsvcd_mesh mesh_kind(int kind) {
 }
 static const int mesh_kind_closed[MESH_KINDS] = {1, 1, 1, 1, 0, 0, 1, 1, 1};
 
-// -------------------------------------------------------------------------------------------------------- OBJ
+// --------------------------------------------------------------------------------------------- OBJ
 
 #define TETRAHEDRON "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\n"
 
@@ -164,10 +181,12 @@ static void mesh_result_strings(void) {
   for (int i = 0; i <= NSVCD_ERROR_CANCELLED; ++i) {
     CHECK(strlen(nsvcd_result_string((nsvcd_result)i)) > 0);
     for (int j = 0; j < i; ++j) {
-      CHECK(strcmp(nsvcd_result_string((nsvcd_result)i), nsvcd_result_string((nsvcd_result)j)) != 0);
+      CHECK(strcmp(nsvcd_result_string((nsvcd_result)i), nsvcd_result_string((nsvcd_result)j)) !=
+            0);
     }
   }
-  CHECK(strcmp(nsvcd_result_string((nsvcd_result)(NSVCD_ERROR_CANCELLED + 1)), "unknown result") == 0);
+  CHECK(strcmp(nsvcd_result_string((nsvcd_result)(NSVCD_ERROR_CANCELLED + 1)), "unknown result") ==
+        0);
 }
 
 static void mesh_obj_accepted(void) {
@@ -183,20 +202,26 @@ static void mesh_obj_accepted(void) {
       {TETRAHEDRON "f 1/1 2/2 3/3\nf 1//1 3//2 4//3\nf 1/1/1 4/2/-2 2/-3/3\n", 4, 3, {0, 3, 1}},
       {TETRAHEDRON "f -4 -3 -2\nf -1 -2 -3\n", 4, 2, {3, 2, 1}},
       {"v 0 0 0\nv 1 0 0\nv 0 1 0\nf -3 -2 -1\nv 5 5 5\nf -1 -2 -3\n", 4, 2, {3, 2, 1}},
-      {"f 1 2 3\n" TETRAHEDRON, 4, 1, {0, 1, 2}},                            // refers to later vertices
+      // refers to later vertices
+      {"f 1 2 3\n" TETRAHEDRON, 4, 1, {0, 1, 2}},
       {"f 1 2 4 3\nv 0 0 0\nv 1 0 0\nv 0 1 0\nv 1 1 0\n", 4, 2, {1, 3, 2}},  // so does a polygon
-      {"v 0 0 0 1.0\nv 1 0 0 0.5 0.5 0.5\nv 0 1 0 1 0.1 0.2 0.3\nf 1 2 3", 3, 1, {0, 1, 2}},  // w, colours
-      {"v 0 0 \\\n0\nv 1 0 0\nv 0 \\\r\n 1 0\nf 1 2\\\n 3", 3, 1, {0, 1, 2}},                 // continued lines
+      // w, colours
+      {"v 0 0 0 1.0\nv 1 0 0 0.5 0.5 0.5\nv 0 1 0 1 0.1 0.2 0.3\nf 1 2 3", 3, 1, {0, 1, 2}},
+      // continued lines
+      {"v 0 0 \\\n0\nv 1 0 0\nv 0 \\\r\n 1 0\nf 1 2\\\n 3", 3, 1, {0, 1, 2}},
       {"# comment \\\nv 0 0 0 # one\nv 1 0 0 #\nv 0 1 0\nf 1 2 3 # four", 3, 1, {0, 1, 2}},
       {"\xef\xbb\xbfv 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3", 3, 1, {0, 1, 2}},  // byte order mark
-      {"mtllib a.mtl\no x\ng y z\ns off\nusemtl m\nvt 0 0\nvn 0 0 1\nvp 1\np 1\nl 1 2\ncurv2 \xff\n" TETRAHEDRON
-       "f 1 2 3\n",
+      {"mtllib a.mtl\no x\ng y z\ns off\nusemtl m\nvt 0 0\nvn 0 0 1\nvp 1\np 1\nl 1 2\ncurv2 "
+       "\xff\n" TETRAHEDRON "f 1 2 3\n",
        0,
        0,
        {0, 0, 0}},
       {TETRAHEDRON "f 1 1 1\nf 1 2 2\n", 4, 2, {0, 1, 1}},  // no area
       {"v 0 0 0\nv 0 0 0\nv 0 0 0\nv 0 0 0\nf 1 2 3 4\n", 4, 2, {1, 2, 3}},
-      {"\n\n   \nv +1. -.5 1E+2\nv 1e-3 -0 0e999999999999999999999\nv 1e-999999 0.000 007\nf 1 2 3", 3, 1, {0, 1, 2}},
+      {"\n\n   \nv +1. -.5 1E+2\nv 1e-3 -0 0e999999999999999999999\nv 1e-999999 0.000 007\nf 1 2 3",
+       3,
+       1,
+       {0, 1, 2}},
   };
   for (size_t i = 0; i < sizeof cases / sizeof cases[0]; ++i) {
     nsvcd_mesh mesh;
@@ -207,7 +232,8 @@ static void mesh_obj_accepted(void) {
       CHECK_EQ(line, 11);
       continue;
     }
-    if (result != NSVCD_OK) printf("case %d, line %d: %s\n", (int)i, (int)line, nsvcd_result_string(result));
+    if (result != NSVCD_OK)
+      printf("case %d, line %d: %s\n", (int)i, (int)line, nsvcd_result_string(result));
     CHECK_EQ(result, NSVCD_OK);
     if (result != NSVCD_OK) continue;
     CHECK_EQ(line, 0);
@@ -217,7 +243,8 @@ static void mesh_obj_accepted(void) {
     for (int k = 0; k < 3; ++k) CHECK_EQ(last[k], cases[i].last[k]);
     CHECK_EQ(nsvcd__mesh_check(&mesh), NSVCD_OK);
     nsvcd_mesh_free(&mesh, NULL);
-    CHECK(mesh.positions == NULL && mesh.indices == NULL && mesh.vertex_count == 0 && mesh.triangle_count == 0);
+    CHECK(mesh.positions == NULL && mesh.indices == NULL && mesh.vertex_count == 0 &&
+          mesh.triangle_count == 0);
   }
 }
 
@@ -235,8 +262,9 @@ static void mesh_obj_refused(void) {
       {TETRAHEDRON "f 1 2 -0\n", NSVCD_ERROR_INDEX, 5},
       {TETRAHEDRON "f 1 2 3\n\n# x\nf 1 2 5\n", NSVCD_ERROR_INDEX, 8},
       {TETRAHEDRON "f 1 2 -5\n", NSVCD_ERROR_INDEX, 5},
-      {"v 0 0 0\nv 0 0 1\nf -1 -2 -3\nv 1 0 0\n", NSVCD_ERROR_INDEX, 3},  // negative: only what came before
-      {TETRAHEDRON "f 1 2 4294967297\n", NSVCD_ERROR_INDEX, 5},           // 1 modulo 2^32
+      // negative: only what came before
+      {"v 0 0 0\nv 0 0 1\nf -1 -2 -3\nv 1 0 0\n", NSVCD_ERROR_INDEX, 3},
+      {TETRAHEDRON "f 1 2 4294967297\n", NSVCD_ERROR_INDEX, 5},  // 1 modulo 2^32
       {TETRAHEDRON "f 1 2 18446744073709551617\n", NSVCD_ERROR_INDEX, 5},
       {TETRAHEDRON "f 1 2 -99999999999999999999999999\n", NSVCD_ERROR_INDEX, 5},
       {TETRAHEDRON "f\n", NSVCD_ERROR_SYNTAX, 5},
@@ -271,7 +299,8 @@ static void mesh_obj_refused(void) {
       {"v 0 0 \\\n\\\n1e7\nf 1 1 1\n", NSVCD_ERROR_NUMBER, 3},
       {"v 0 0 0\n\x01\x02 1 2 3\nf 1 1 1\n", NSVCD_ERROR_SYNTAX, 2},
       {"\x89PNG\r\n\x1a\n", NSVCD_ERROR_SYNTAX, 1},
-      {"v 0 0 0\rv 0 0 1\rf 1 2 1\r", NSVCD_ERROR_EMPTY, 0},  // lines ended by CR alone are one vertex line: no face
+      // lines ended by CR alone are one vertex line: no face
+      {"v 0 0 0\rv 0 0 1\rf 1 2 1\r", NSVCD_ERROR_EMPTY, 0},
   };
   for (size_t i = 0; i < sizeof cases / sizeof cases[0]; ++i) {
     for (int fail_at = -1; fail_at < 4; ++fail_at) {
@@ -283,23 +312,29 @@ static void mesh_obj_refused(void) {
       size_t line = 99;
       memset(&mesh, 0x5a, sizeof mesh);
       before = mesh;
-      nsvcd_result result = nsvcd_obj_parse(cases[i].text, strlen(cases[i].text), &allocator, &mesh, &line);
+      nsvcd_result result =
+          nsvcd_obj_parse(cases[i].text, strlen(cases[i].text), &allocator, &mesh, &line);
       int out_of_memory = result == NSVCD_ERROR_MEMORY && fail_at >= 0 && fail_at < heap.calls;
       if (!out_of_memory) {
-        if (result != cases[i].result || line != cases[i].line) printf("case %d: %s", (int)i, cases[i].text);
+        if (result != cases[i].result || line != cases[i].line)
+          printf("case %d: %s", (int)i, cases[i].text);
         CHECK_EQ(result, cases[i].result);
         CHECK_EQ(line, cases[i].line);
       }
       CHECK_EQ(heap.live, 0);
       CHECK(memcmp(&mesh, &before, sizeof mesh) == 0);
-      CHECK(nsvcd_obj_parse(cases[i].text, strlen(cases[i].text), NULL, &mesh, NULL) == cases[i].result);
+      CHECK(nsvcd_obj_parse(cases[i].text, strlen(cases[i].text), NULL, &mesh, NULL) ==
+            cases[i].result);
     }
   }
   nsvcd_mesh mesh;
   CHECK_EQ(nsvcd_obj_parse(NULL, 0, NULL, &mesh, NULL), NSVCD_ERROR_ARGUMENT);
   CHECK_EQ(nsvcd_obj_parse("f", 1, NULL, NULL, NULL), NSVCD_ERROR_ARGUMENT);
-  CHECK_EQ(nsvcd_obj_parse("v 0 0 0\nf 1 1 1", 14, NULL, &mesh, NULL), NSVCD_ERROR_SYNTAX);  // cut short: f 1 1
-  CHECK_EQ(nsvcd_obj_parse("v 0 0 0\nv 0 0 \0000\nf 1 1 1", 25, NULL, &mesh, NULL), NSVCD_ERROR_SYNTAX);  // a NUL
+  // cut short: f 1 1
+  CHECK_EQ(nsvcd_obj_parse("v 0 0 0\nf 1 1 1", 14, NULL, &mesh, NULL), NSVCD_ERROR_SYNTAX);
+  // a NUL
+  CHECK_EQ(nsvcd_obj_parse("v 0 0 0\nv 0 0 \0000\nf 1 1 1", 25, NULL, &mesh, NULL),
+           NSVCD_ERROR_SYNTAX);
 }
 
 static void mesh_obj_allocation_fails(void) {
@@ -346,7 +381,8 @@ static void mesh_obj_counts_are_capped(void) {
 
 static void mesh_obj_numbers(void) {
   static const char *const formats[] = {"%.9g", "%.6f", "%.8e", "%.17g", "%.3e", "%.25f"};
-  int wrong = 0, tried = 0;
+  int wrong = 0;
+  int tried = 0;
   mesh_rng = 7;
   for (int i = 0; i < 60000; ++i) {
     char text[512];
@@ -379,7 +415,8 @@ static void mesh_obj_numbers(void) {
 
 static void mesh_obj_in_any_locale(void) {
   static const char *const names[] = {"de_DE.UTF-8", "de_DE", "fr_FR.UTF-8", "C.UTF-8"};
-  for (size_t i = 0; i < sizeof names / sizeof names[0] && !setlocale(LC_ALL, names[i]); ++i) continue;
+  for (size_t i = 0; i < sizeof names / sizeof names[0] && !setlocale(LC_ALL, names[i]); ++i)
+    continue;
   nsvcd_mesh mesh;
   nsvcd_result result = parse("v 1.5 0 0\nv 0 0 0\nv 0 1 0\nf 1 2 3\n", &mesh, NULL);
   setlocale(LC_ALL, "C");
@@ -392,17 +429,27 @@ static void mesh_obj_in_any_locale(void) {
 // Lines of a megabyte and more, of every kind. Anything quadratic would take minutes here.
 static void mesh_obj_long_lines(void) {
   enum { CORNERS = 300000 };
-  size_t capacity = 16000000, used = 0;
+  size_t capacity = 16000000;
+  size_t used = 0;
   char *text = (char *)malloc(capacity);
   used += (size_t)sprintf(text + used, "#");
-  memset(text + used, 'x', 2000000), used += 2000000;
+  memset(text + used, 'x', 2000000);
+  used += 2000000;
   used += (size_t)sprintf(text + used, "\ng");
-  for (int i = 0; i < 500000; ++i) text[used++] = ' ', text[used++] = 'a';
-  for (int i = 0; i < 500000; ++i) text[used++] = '\\', text[used++] = '\n';
+  for (int i = 0; i < 500000; ++i) {
+    text[used++] = ' ';
+    text[used++] = 'a';
+  }
+  for (int i = 0; i < 500000; ++i) {
+    text[used++] = '\\';
+    text[used++] = '\n';
+  }
   used += (size_t)sprintf(text + used, "\nv 0.");
-  memset(text + used, '0', 1000000), used += 1000000;
+  memset(text + used, '0', 1000000);
+  used += 1000000;
   used += (size_t)sprintf(text + used, "1e1000001");
-  memset(text + used, ' ', 1000000), used += 1000000;
+  memset(text + used, ' ', 1000000);
+  used += 1000000;
   used += (size_t)sprintf(text + used, "0 0\nv 0 0 0\nv 0 1 0\nf");
   for (int i = 0; i < CORNERS; ++i) used += (size_t)sprintf(text + used, " %d/1/1", i % 3 + 1);
   nsvcd_mesh mesh;
@@ -418,10 +465,12 @@ static void mesh_obj_long_lines(void) {
   used += (size_t)sprintf(text + used, "\nf 1 2 3\nf 1 2 9\n");
   CHECK_EQ(nsvcd_obj_parse(text, used, NULL, &mesh, &line), NSVCD_ERROR_INDEX);
   CHECK_EQ(line, 500000 + 8);
-  // A zigzag of 100,000 corners: concave, and more than can be clipped in the time a parser may take.
+  // A zigzag of 100,000 corners: concave, and more than can be clipped in the time a parser may
+  // take.
   used = 0;
   for (int i = 0; i < 100000; ++i)
-    used += (size_t)sprintf(text + used, "v %d %d 0\n", i < 50000 ? i : 100000 - i, i % 2 + (i < 50000 ? 0 : 5));
+    used += (size_t)sprintf(text + used, "v %d %d 0\n", i < 50000 ? i : 100000 - i,
+                            i % 2 + (i < 50000 ? 0 : 5));
   used += (size_t)sprintf(text + used, "f");
   for (int i = 0; i < 100000; ++i) used += (size_t)sprintf(text + used, " %d", i + 1);
   CHECK_EQ(nsvcd_obj_parse(text, used, NULL, &mesh, &line), NSVCD_ERROR_TOO_LARGE);
@@ -467,7 +516,8 @@ static void mesh_obj_files(void) {
 static void mesh_obj_fuzz(void) {
   static const char seed[] =
       "# seed\nv 0 0 0\nv 1.5e0 0 0 1\nv 1 1 0 .1 .2 .3\r\nv 0 1 -0\nv 0.5 0.5 1\n"
-      "vt 0 0\nvn 0 0 1\no a\nf 1/1/1 2/1/1 3/1/1 4/1/1\nf 1//1 2//1 \\\n 5\nf -1 -2 -3 2\nf 1 2 3 5 4";
+      "vt 0 0\nvn 0 0 1\no a\nf 1/1/1 2/1/1 3/1/1 4/1/1\nf 1//1 2//1 \\\n 5\nf -1 -2 -3 2\nf 1 2 3 "
+      "5 4";
   static const char alphabet[] = "0123456789-+.eE/\\ \t\r\n#vfnai\0\xff";
   enum { ROUNDS = 40000 };
   int accepted = 0;
@@ -477,7 +527,8 @@ static void mesh_obj_fuzz(void) {
     size_t size = sizeof seed - 1;
     memcpy(text, seed, size);
     for (size_t i = mesh_below(6); i > 0; --i) {
-      size_t at = mesh_below(size), length = 1 + mesh_below(8);
+      size_t at = mesh_below(size);
+      size_t length = 1 + mesh_below(8);
       switch (mesh_below(4)) {
         case 0:
           text[at] = alphabet[mesh_below(sizeof alphabet)];
@@ -487,11 +538,13 @@ static void mesh_obj_fuzz(void) {
           break;
         case 2:  // cut out
           if (at + length > size || size - length < 1) break;
-          memmove(text + at, text + at + length, size - at - length), size -= length;
+          memmove(text + at, text + at + length, size - at - length);
+          size -= length;
           break;
         default:  // double
           if (at + length > size || size + length > sizeof text) break;
-          memmove(text + at + length, text + at, size - at), size += length;
+          memmove(text + at + length, text + at, size - at);
+          size += length;
       }
     }
     char *exact = (char *)malloc(size);
@@ -519,18 +572,24 @@ static void mesh_obj_fuzz(void) {
 }
 
 static void mesh_is_checked(void) {
-  nsvcd_mesh mesh = mesh_box(1, 1, 1), bad;
+  nsvcd_mesh mesh = mesh_box(1, 1, 1);
+  nsvcd_mesh bad;
   CHECK_EQ(nsvcd__mesh_check(&mesh), NSVCD_OK);
   CHECK_EQ(nsvcd__mesh_check(NULL), NSVCD_ERROR_ARGUMENT);
-  bad = mesh, bad.triangle_count = 0;
+  bad = mesh;
+  bad.triangle_count = 0;
   CHECK_EQ(nsvcd__mesh_check(&bad), NSVCD_ERROR_EMPTY);
-  bad = mesh, bad.positions = NULL;
+  bad = mesh;
+  bad.positions = NULL;
   CHECK_EQ(nsvcd__mesh_check(&bad), NSVCD_ERROR_ARGUMENT);
-  bad = mesh, bad.vertex_count = 7;
+  bad = mesh;
+  bad.vertex_count = 7;
   CHECK_EQ(nsvcd__mesh_check(&bad), NSVCD_ERROR_INDEX);
-  bad = mesh, bad.vertex_count = 0x80000000u;
+  bad = mesh;
+  bad.vertex_count = 0x80000000u;
   CHECK_EQ(nsvcd__mesh_check(&bad), NSVCD_ERROR_TOO_LARGE);
-  bad = mesh, bad.triangle_count = 0x80000000u;
+  bad = mesh;
+  bad.triangle_count = 0x80000000u;
   CHECK_EQ(nsvcd__mesh_check(&bad), NSVCD_ERROR_TOO_LARGE);
   static const float numbers[] = {HUGE_VALF, -HUGE_VALF, 1.01e6f, -2e6f};
   for (size_t i = 0; i < 5; ++i) {
@@ -542,31 +601,42 @@ static void mesh_is_checked(void) {
   nsvcd_mesh_free(NULL, NULL);
 }
 
-// --------------------------------------------------------------------------------------------------- polygons
+// ---------------------------------------------------------------------------------------- polygons
 
 enum { POLYGON_MAX = 400 };
 
-// Triangulates a polygon given in the plane after placing it in space; returns the sum of the triangles' areas over
-// the polygon's (1 if they cover it without overlap), and checks that the vector areas agree.
+// Triangulates a polygon given in the plane after placing it in space; returns the sum of the
+// triangles' areas over the polygon's (1 if they cover it without overlap), and checks that the
+// vector areas agree.
 static double polygon_cover(const double (*xy)[2], uint32_t count) {
   static nsvcd__corner corners[POLYGON_MAX];
   static float positions[3 * POLYGON_MAX];
   static uint32_t triangles[3 * POLYGON_MAX];
   nsvcd_mesh mesh = {positions, triangles, 0, 0};
-  float q[4], m[9], norm = 0;
-  for (int k = 0; k < 4; ++k) q[k] = (float)mesh_uniform(-1, 1), norm += q[k] * q[k];
+  float q[4];
+  float m[9];
+  float norm = 0;
+  for (int k = 0; k < 4; ++k) {
+    q[k] = (float)mesh_uniform(-1, 1);
+    norm += q[k] * q[k];
+  }
   for (int k = 0; k < 4; ++k) q[k] /= sqrtf(norm);
   nsvcd__quat_to_matrix(q, m);
-  double area = 0, covered = 0, vector[3], normal[3];
+  double area = 0;
+  double covered = 0;
+  double vector[3];
+  double normal[3];
   for (uint32_t i = 0; i < count; ++i) {
-    const double *a = xy[i], *b = xy[(i + 1) % count];
+    const double *a = xy[i];
+    const double *b = xy[(i + 1) % count];
     float flat[3] = {(float)a[0], (float)a[1], 0.3f};
     area += 0.5 * (a[0] * b[1] - a[1] * b[0]);
     nsvcd__mul33_vec(m, flat, positions + 3 * i);
     corners[i].vertex = i;
   }
   CHECK_EQ(nsvcd__polygon_triangulate(corners, count, positions, triangles), NSVCD_OK);
-  mesh.vertex_count = count, mesh.triangle_count = count - 2;
+  mesh.vertex_count = count;
+  mesh.triangle_count = count - 2;
   CHECK_EQ(nsvcd__mesh_check(&mesh), NSVCD_OK);
   for (size_t t = 0; t < mesh.triangle_count; ++t) {
     double corner[3][3], v[3];
@@ -587,23 +657,30 @@ static int segments_cross(const double *a, const double *b, const double *c, con
   return (u > 0) != (v > 0) && (w > 0) != (x > 0);
 }
 
-// Random simple polygons: random points, crossings undone by reversing the stretch between them (2-opt).
+// Random simple polygons: random points, crossings undone by reversing the stretch between them
+// (2-opt).
 static void mesh_polygons_simple(void) {
   static double xy[POLYGON_MAX][2];
-  int count = 0, wrong = 0;
+  int count = 0;
+  int wrong = 0;
   mesh_rng = 11;
   for (int round = 0; round < 1000; ++round) {
     uint32_t n = (uint32_t)(4 + mesh_below(round % 50 == 0 ? 60 : 16));
-    for (uint32_t i = 0; i < n; ++i) xy[i][0] = mesh_uniform(-1, 1), xy[i][1] = mesh_uniform(-1, 1);
+    for (uint32_t i = 0; i < n; ++i) {
+      xy[i][0] = mesh_uniform(-1, 1);
+      xy[i][1] = mesh_uniform(-1, 1);
+    }
     for (int crossed = 1; crossed;) {
       crossed = 0;
       for (uint32_t i = 0; i < n; ++i) {
         for (uint32_t j = i + 2; j < n; ++j) {
-          if ((j + 1) % n == i || !segments_cross(xy[i], xy[i + 1], xy[j], xy[(j + 1) % n])) continue;
+          if ((j + 1) % n == i || !segments_cross(xy[i], xy[i + 1], xy[j], xy[(j + 1) % n]))
+            continue;
           for (uint32_t a = i + 1, b = j; a < b; ++a, --b) {
             for (int k = 0; k < 2; ++k) {
               double swap = xy[a][k];
-              xy[a][k] = xy[b][k], xy[b][k] = swap;
+              xy[a][k] = xy[b][k];
+              xy[b][k] = swap;
             }
           }
           crossed = 1;
@@ -624,41 +701,60 @@ static void mesh_polygons_special(void) {
   for (int round = 0; round < 200; ++round) {  // stars, both ways round
     uint32_t n = (uint32_t)(5 + mesh_below(200));
     for (uint32_t i = 0; i < n; ++i) {
-      double angle = (round % 2 ? -2 : 2) * pi * i / n, r = mesh_uniform(0.2, 1);
-      xy[i][0] = r * cos(angle), xy[i][1] = r * sin(angle);
+      double angle = (round % 2 ? -2 : 2) * pi * i / n;
+      double r = mesh_uniform(0.2, 1);
+      xy[i][0] = r * cos(angle);
+      xy[i][1] = r * sin(angle);
     }
     CHECK_NEAR(polygon_cover((const double(*)[2])xy, n), 1, 1e-4);
   }
   for (uint32_t i = 0; i < 200; ++i) {  // a spiral: out along one side, back along the other
-    double angle = 0.1 * (i < 100 ? i : 199 - i), r = 0.1 + 0.05 * angle + (i < 100 ? 0 : 0.02);
-    xy[i][0] = r * cos(angle), xy[i][1] = r * sin(angle);
+    double angle = 0.1 * (i < 100 ? i : 199 - i);
+    double r = 0.1 + 0.05 * angle + (i < 100 ? 0 : 0.02);
+    xy[i][0] = r * cos(angle);
+    xy[i][1] = r * sin(angle);
   }
   CHECK_NEAR(polygon_cover((const double(*)[2])xy, 200), 1, 1e-4);
   for (uint32_t n = 4; n < 60; n += 7) {  // a comb on a grid: many corners in line
-    for (uint32_t i = 0; i < n; ++i) xy[i][0] = i / 2, xy[i][1] = (i / 2 + i) % 2 ? 1 : 0.5;
-    xy[n][0] = n, xy[n][1] = 0;
-    for (uint32_t i = 0; i <= n; ++i) xy[n + 1 + i][0] = n - i, xy[n + 1 + i][1] = -1;
+    for (uint32_t i = 0; i < n; ++i) {
+      xy[i][0] = i / 2;
+      xy[i][1] = (i / 2 + i) % 2 ? 1 : 0.5;
+    }
+    xy[n][0] = n;
+    xy[n][1] = 0;
+    for (uint32_t i = 0; i <= n; ++i) {
+      xy[n + 1 + i][0] = n - i;
+      xy[n + 1 + i][1] = -1;
+    }
     CHECK_NEAR(polygon_cover((const double(*)[2])xy, 2 * n + 2), 1, 1e-4);
   }
-  for (int round = 0; round < 100; ++round) {  // a ring cut open by a bridge: its four corners coincide in pairs
+  // a ring cut open by a bridge: its four corners coincide in pairs
+  for (int round = 0; round < 100; ++round) {
     uint32_t n = (uint32_t)(3 + mesh_below(20));
     double turn = mesh_uniform(0, 6);
     for (uint32_t i = 0; i <= n; ++i) {
-      double a = turn + 2 * pi * (i % n) / n, r = 1 - 0.2 * (double)(i % n % 2), inner = r * 0.3;
-      xy[i][0] = r * cos(a), xy[i][1] = r * sin(a);
-      xy[2 * n + 1 - i][0] = inner * cos(a), xy[2 * n + 1 - i][1] = inner * sin(a);
+      double a = turn + 2 * pi * (i % n) / n;
+      double r = 1 - 0.2 * (double)(i % n % 2);
+      double inner = r * 0.3;
+      xy[i][0] = r * cos(a);
+      xy[i][1] = r * sin(a);
+      xy[2 * n + 1 - i][0] = inner * cos(a);
+      xy[2 * n + 1 - i][1] = inner * sin(a);
     }
     CHECK_NEAR(polygon_cover((const double(*)[2])xy, 2 * n + 2), 1, 1e-4);
   }
   // Not simple: only the vector area is promised.
   for (int round = 0; round < 300; ++round) {
     uint32_t n = (uint32_t)(4 + mesh_below(30));
-    for (uint32_t i = 0; i < n; ++i) xy[i][0] = (double)mesh_below(4), xy[i][1] = (double)mesh_below(4);
+    for (uint32_t i = 0; i < n; ++i) {
+      xy[i][0] = (double)mesh_below(4);
+      xy[i][1] = (double)mesh_below(4);
+    }
     polygon_cover((const double(*)[2])xy, n);
   }
 }
 
-// --------------------------------------------------------------------------------------------- surface points
+// ---------------------------------------------------------------------------------- surface points
 
 static void mesh_samples_are_uniform(void) {
   enum { S = 8192 };
@@ -667,17 +763,23 @@ static void mesh_samples_are_uniform(void) {
   // One triangle more, without area, first of all: never chosen.
   mesh.indices = (uint32_t *)realloc(mesh.indices, 39 * sizeof(uint32_t));
   memmove(mesh.indices + 3, mesh.indices, 36 * sizeof(uint32_t));
-  mesh.indices[0] = mesh.indices[1] = 0, mesh.indices[2] = 7, mesh.triangle_count = 13;
+  mesh.indices[0] = mesh.indices[1] = 0;
+  mesh.indices[2] = 7;
+  mesh.triangle_count = 13;
   nsvcd__sample_surface(&mesh, S, points, normals);
-  double face[6] = {0, 0, 0, 0, 0, 0}, mean[6][2] = {{0, 0}, {0, 0}, {0, 0}, {0, 0}, {0, 0}, {0, 0}};
+  double face[6] = {0, 0, 0, 0, 0, 0};
+  double mean[6][2] = {{0, 0}, {0, 0}, {0, 0}, {0, 0}, {0, 0}, {0, 0}};
   static const double half[3] = {0.1, 0.2, 0.3};
   for (size_t s = 0; s < S; ++s) {
-    const float *p = points + 3 * s, *n = normals + 3 * s;
+    const float *p = points + 3 * s;
+    const float *n = normals + 3 * s;
     CHECK_NEAR(nsvcd__length3(n), 1, 1e-6);
-    size_t axis = fabsf(n[0]) > 0.9f ? 0 : fabsf(n[1]) > 0.9f ? 1 : 2, side = n[axis] > 0;
+    size_t axis = fabsf(n[0]) > 0.9f ? 0 : fabsf(n[1]) > 0.9f ? 1 : 2;
+    size_t side = n[axis] > 0;
     CHECK_NEAR(p[axis], side ? half[axis] : -half[axis], 1e-7);
     face[2 * axis + side]++;
-    for (size_t k = 0; k < 2; ++k) mean[2 * axis + side][k] += (double)p[(axis + 1 + k) % 3] / half[(axis + 1 + k) % 3];
+    for (size_t k = 0; k < 2; ++k)
+      mean[2 * axis + side][k] += (double)p[(axis + 1 + k) % 3] / half[(axis + 1 + k) % 3];
   }
   double total = 0.02 + 0.06 + 0.03;  // of the three products of half extents
   for (size_t f = 0; f < 6; ++f) {
@@ -689,9 +791,12 @@ static void mesh_samples_are_uniform(void) {
 
   mesh = mesh_round(30, 40, 0.1, 0.04);  // every triangle gets its share, to one sample
   nsvcd__sample_surface(&mesh, S, points, normals);
-  double z2 = 0, exact = 0;
-  for (size_t s = 0; s < S; ++s) z2 += (double)points[3 * s + 2] * (double)points[3 * s + 2] / (double)S;
-  for (size_t t = 0; t < mesh.triangle_count; ++t) {  // integral of z^2 over a triangle: mean over the edges' middles
+  double z2 = 0;
+  double exact = 0;
+  for (size_t s = 0; s < S; ++s)
+    z2 += (double)points[3 * s + 2] * (double)points[3 * s + 2] / (double)S;
+  // integral of z^2 over a triangle: mean over the edges' middles
+  for (size_t t = 0; t < mesh.triangle_count; ++t) {
     double c[3][3], v[3];
     nsvcd__triangle(&mesh, t, c);
     double area = nsvcd__area_vector(c, v) / nsvcd__mesh_area(&mesh);
@@ -710,7 +815,8 @@ static void mesh_samples_scale(void) {
     nsvcd__sample_surface(&mesh, S, a, normals);
     mesh_scale(&mesh, scales[i]);
     nsvcd__sample_surface(&mesh, S, b, scaled_normals);
-    double worst = 0, turned = 0;
+    double worst = 0;
+    double turned = 0;
     for (size_t k = 0; k < 3 * S; ++k) {
       worst = fmax(worst, fabs((double)b[k] / (double)scales[i] - (double)a[k]));
       turned = fmax(turned, fabs((double)normals[k] - (double)scaled_normals[k]));
@@ -726,23 +832,27 @@ static void mesh_samples_lie_mid_stratum(void) {
   nsvcd_mesh mesh = mesh_fan(2, 1, 1);  // triangles of equal area,
   mesh.positions[4] = 0.2f;             // now a fifth and four fifths of the whole
   nsvcd__sample_surface(&mesh, 4, points, normals);
-  for (int i = 0; i < 4; ++i) CHECK_EQ(points[3 * i + 1] < 0.2f * points[3 * i], i == 0);  // at 1/8, 3/8, 5/8, 7/8
+  // at 1/8, 3/8, 5/8, 7/8
+  for (int i = 0; i < 4; ++i) CHECK_EQ(points[3 * i + 1] < 0.2f * points[3 * i], i == 0);
   nsvcd_mesh_free(&mesh, NULL);
 }
 
-// ---------------------------------------------------------------------------------------------------- patches
+// ----------------------------------------------------------------------------------------- patches
 
 // Samples without a mesh: (n, 3) random points, some of them equal.
 static nsvcd__patches patches_of_points(size_t centres, size_t samples) {
   nsvcd__patches p;
   CHECK_EQ(nsvcd__patches_alloc(&p, centres, samples, NULL), NSVCD_OK);
   for (size_t s = 0; s < samples; ++s) {
-    p.x[s] = (float)mesh_below(40), p.y[s] = (float)mesh_below(40), p.z[s] = (float)mesh_below(4);
+    p.x[s] = (float)mesh_below(40);
+    p.y[s] = (float)mesh_below(40);
+    p.z[s] = (float)mesh_below(4);
   }
   return p;
 }
 
-// Each centre is, at its turn, a sample farthest from those before it; each sample goes to a nearest centre.
+// Each centre is, at its turn, a sample farthest from those before it; each sample goes to a
+// nearest centre.
 static void mesh_farthest_points_are_farthest(void) {
   mesh_rng = 51;
   for (int round = 0; round < 20; ++round) {
@@ -750,23 +860,29 @@ static void mesh_farthest_points_are_farthest(void) {
     nsvcd__farthest_points(&p);
     CHECK_EQ(p.count, 60);
     for (uint32_t i = 1; i <= p.count; ++i) {
-      float farthest = 0, centre = HUGE_VALF;
+      float farthest = 0;
+      float centre = HUGE_VALF;
       for (uint32_t j = 0; i < p.count && j < i; ++j) {
-        centre = fminf(centre, nsvcd__centre_distance(&p, j, p.centre_x[i], p.centre_y[i], p.centre_z[i]));
+        centre = fminf(centre,
+                       nsvcd__centre_distance(&p, j, p.centre_x[i], p.centre_y[i], p.centre_z[i]));
       }
       for (size_t s = 0; s < p.sample_count; ++s) {
         float nearest = HUGE_VALF;
         for (uint32_t j = 0; j < i; ++j)
           nearest = fminf(nearest, nsvcd__centre_distance(&p, j, p.x[s], p.y[s], p.z[s]));
         farthest = fmaxf(farthest, nearest);
-        if (i == p.count) CHECK_EQ(nearest, nsvcd__centre_distance(&p, p.owners[s], p.x[s], p.y[s], p.z[s]));
+        if (i == p.count)
+          CHECK_EQ(nearest, nsvcd__centre_distance(&p, p.owners[s], p.x[s], p.y[s], p.z[s]));
       }
       if (i < p.count) CHECK_EQ(centre, farthest);
     }
     nsvcd__patches_free(&p, NULL);
   }
   nsvcd__patches p = patches_of_points(10, 64);
-  for (size_t s = 0; s < 64; ++s) p.x[s] = (float)(s % 3), p.y[s] = p.z[s] = 5;  // three places for ten centres
+  for (size_t s = 0; s < 64; ++s) {  // three places for ten centres
+    p.x[s] = (float)(s % 3);
+    p.y[s] = p.z[s] = 5;
+  }
   nsvcd__farthest_points(&p);
   CHECK_EQ(p.count, 3);
   nsvcd__patches_free(&p, NULL);
@@ -774,7 +890,10 @@ static void mesh_farthest_points_are_farthest(void) {
 
 static void mesh_centres_without_samples_are_dropped(void) {
   nsvcd__patches p = patches_of_points(4, 64);
-  for (size_t s = 0; s < 64; ++s) p.x[s] = (float)s, p.owners[s] = s < 32 ? 3 : 1;
+  for (size_t s = 0; s < 64; ++s) {
+    p.x[s] = (float)s;
+    p.owners[s] = s < 32 ? 3 : 1;
+  }
   nsvcd__move_centres(&p);
   CHECK_EQ(p.count, 2);
   CHECK_EQ(p.centre_x[0], 47.5);
@@ -789,16 +908,19 @@ static void mesh_centres_without_samples_are_dropped(void) {
   nsvcd__patches_free(&p, NULL);
 }
 
-// r^2 N / area: 1/pi for discs that do not overlap, 0.385 for hexagons; all that exceeds it is wasted broad phase.
+// r^2 N / area: 1/pi for discs that do not overlap, 0.385 for hexagons; all that exceeds it is
+// wasted broad phase.
 static void mesh_patches_are_round(void) {
   static const size_t counts[] = {64, 128, 256, 512};
   for (int n = 0; n < 4; ++n) {
     nsvcd_mesh mesh = mesh_kind(2);
     nsvcd__patches p;
-    double samples = 0, balls = 0;
+    double samples = 0;
+    double balls = 0;
     CHECK_EQ(nsvcd__patches_build(&mesh, counts[n], NULL, &p), NSVCD_OK);
     for (size_t i = 0; i < p.count; ++i) {
-      samples += (double)p.sample_radii[i] / (double)p.count, balls += (double)p.radii[i] / (double)p.count;
+      samples += (double)p.sample_radii[i] / (double)p.count;
+      balls += (double)p.radii[i] / (double)p.count;
     }
     double area = nsvcd__mesh_area(&mesh) / (double)p.count;
     printf("N %d: r^2 N / area: samples %.3f, balls %.3f\n", (int)p.count, samples * samples / area,
@@ -820,7 +942,8 @@ static int patches_cover(const nsvcd__patches *p, const double *x) {
 
 static void mesh_patches_cover_the_surface(void) {
   static const size_t counts[] = {1, 2, 17, 128, 512};
-  long tried = 0, lost = 0;
+  long tried = 0;
+  long lost = 0;
   mesh_rng = 21;
   for (int kind = 0; kind < MESH_KINDS; ++kind) {
     for (int n = 0; n < 5; ++n) {
@@ -829,11 +952,18 @@ static void mesh_patches_cover_the_surface(void) {
       CHECK_EQ(nsvcd__patches_build(&mesh, counts[n], NULL, &p), NSVCD_OK);
       CHECK(p.count >= 1 && p.count <= counts[n]);
       for (size_t s = 0; s < 6000; ++s) {  // corners, edges and insides of triangles
-        double c[3][3], x[3], u = mesh_uniform(0, 1), v = mesh_uniform(0, 1 - u);
+        double c[3][3];
+        double x[3];
+        double u = mesh_uniform(0, 1);
+        double v = mesh_uniform(0, 1 - u);
         nsvcd__triangle(&mesh, s < mesh.triangle_count ? s : mesh_below(mesh.triangle_count), c);
         if (s % 4 == 1) u = 0;
-        if (s % 4 == 2) u = 0, v = 0;
-        for (int k = 0; k < 3; ++k) x[k] = c[0][k] + u * (c[1][k] - c[0][k]) + v * (c[2][k] - c[0][k]);
+        if (s % 4 == 2) {
+          u = 0;
+          v = 0;
+        }
+        for (int k = 0; k < 3; ++k)
+          x[k] = c[0][k] + u * (c[1][k] - c[0][k]) + v * (c[2][k] - c[0][k]);
         lost += !patches_cover(&p, x);
         tried++;
       }
@@ -853,17 +983,23 @@ static void mesh_patches_are_consistent(void) {
     CHECK_EQ(p.sample_count, 3200);
     CHECK_EQ(p.offsets[0], 0);
     CHECK_EQ(p.offsets[p.count], p.sample_count);
-    double area = 0, vector[3] = {0, 0, 0}, whole[3];
+    double area = 0;
+    double vector[3] = {0, 0, 0};
+    double whole[3];
     for (size_t i = 0; i < p.count; ++i) {
       CHECK(p.offsets[i] < p.offsets[i + 1]);
-      double mean[3] = {0, 0, 0}, samples = p.offsets[i + 1] - p.offsets[i], reach = 0;
+      double mean[3] = {0, 0, 0};
+      double samples = p.offsets[i + 1] - p.offsets[i];
+      double reach = 0;
       for (size_t s = p.offsets[i]; s < p.offsets[i + 1]; ++s) {
         const float *x = p.points + 3 * s;
         for (int k = 0; k < 3; ++k) mean[k] += (double)x[k] / samples;
-        reach = fmax(reach, nsvcd__squared_distance(&p, i, (double)x[0], (double)x[1], (double)x[2]));
+        reach =
+            fmax(reach, nsvcd__squared_distance(&p, i, (double)x[0], (double)x[1], (double)x[2]));
         CHECK_NEAR(nsvcd__length3(p.normals + 3 * s), 1, 1e-6);
       }
-      for (size_t k = 0; k < 3; ++k) CHECK_NEAR((double)p.centres[3 * i + k], mean[k], 1e-6 * fabs(mean[k]) + 1e-12);
+      for (size_t k = 0; k < 3; ++k)
+        CHECK_NEAR((double)p.centres[3 * i + k], mean[k], 1e-6 * fabs(mean[k]) + 1e-12);
       CHECK_NEAR((double)p.sample_radii[i] / sqrt(reach), 1, 1e-6);
       CHECK(p.radii[i] > 0 && nsvcd__is_finite(p.radii[i]));
       area += (double)p.areas[i];
@@ -883,7 +1019,8 @@ static void mesh_patches_are_consistent(void) {
 
 // The search from a guess finds what looking at every centre finds.
 static void mesh_nearest_centre_is_nearest(void) {
-  int tried = 0, wrong = 0;
+  int tried = 0;
+  int wrong = 0;
   mesh_rng = 31;
   for (int kind = 0; kind < MESH_KINDS; ++kind) {
     nsvcd_mesh mesh = mesh_kind(kind);
@@ -894,12 +1031,14 @@ static void mesh_nearest_centre_is_nearest(void) {
       double spread = i % 3 * 3 * (double)p.radii[0];
       float x[3];
       for (int k = 0; k < 3; ++k) x[k] = at[k] + (float)(spread * mesh_uniform(-1, 1));
-      uint32_t found = nsvcd__nearest_centre(&p, (uint32_t)mesh_below(p.count), x[0], x[1], x[2]), best = 0;
+      uint32_t found = nsvcd__nearest_centre(&p, (uint32_t)mesh_below(p.count), x[0], x[1], x[2]);
+      uint32_t best = 0;
       for (uint32_t c = 1; c < p.count; ++c) {
         float d = nsvcd__centre_distance(&p, c, x[0], x[1], x[2]);
         if (d < nsvcd__centre_distance(&p, best, x[0], x[1], x[2])) best = c;
       }
-      tried++, wrong += found != best;
+      tried++;
+      wrong += found != best;
     }
     nsvcd__patches_free(&p, NULL);
     nsvcd_mesh_free(&mesh, NULL);
@@ -916,9 +1055,12 @@ static void mesh_patches_are_deterministic(void) {
   mesh_scale(&mesh, 8);
   CHECK_EQ(nsvcd__patches_build(&mesh, 64, NULL, &c), NSVCD_OK);
   CHECK_EQ(a.count, b.count);
-  CHECK(memcmp(a.centres, b.centres, 12 * a.count) == 0 && memcmp(a.radii, b.radii, 4 * a.count) == 0);
-  CHECK(memcmp(a.area_vectors, b.area_vectors, 12 * a.count) == 0 && memcmp(a.areas, b.areas, 4 * a.count) == 0);
-  CHECK(memcmp(a.points, b.points, 12 * a.sample_count) == 0 && memcmp(a.normals, b.normals, 12 * a.sample_count) == 0);
+  CHECK(memcmp(a.centres, b.centres, 12 * a.count) == 0 &&
+        memcmp(a.radii, b.radii, 4 * a.count) == 0);
+  CHECK(memcmp(a.area_vectors, b.area_vectors, 12 * a.count) == 0 &&
+        memcmp(a.areas, b.areas, 4 * a.count) == 0);
+  CHECK(memcmp(a.points, b.points, 12 * a.sample_count) == 0 &&
+        memcmp(a.normals, b.normals, 12 * a.sample_count) == 0);
   CHECK(memcmp(a.offsets, b.offsets, 4 * (a.count + 1)) == 0);
   CHECK_EQ(a.count, c.count);  // and a power of two in scale changes nothing else
   for (size_t i = 0; i < a.count && i < c.count; ++i) {
@@ -940,7 +1082,8 @@ static void mesh_patches_edge_cases(void) {
   failing_heap heap = {0, 0, 0};
   nsvcd_allocator allocator = {failing_heap_alloc, failing_heap_free, NULL};
   allocator.user = &heap;
-  CHECK_EQ(nsvcd__patches_build(&mesh, 8, &allocator, &p), NSVCD_ERROR_MEMORY);  // the only allocation fails
+  // the only allocation fails
+  CHECK_EQ(nsvcd__patches_build(&mesh, 8, &allocator, &p), NSVCD_ERROR_MEMORY);
   CHECK_EQ(heap.live, 0);
   CHECK_EQ(heap.calls, 1);
   CHECK(memcmp(&p, &before, sizeof p) == 0);
@@ -980,7 +1123,8 @@ static double mesh_total_area(const nsvcd_mesh *mesh) {
       a[k] = (double)mesh->positions[3 * (size_t)mesh->indices[3 * t + 1] + k] - (double)p[k];
       b[k] = (double)mesh->positions[3 * (size_t)mesh->indices[3 * t + 2] + k] - (double)p[k];
     }
-    for (size_t k = 0; k < 3; k++) n[k] = a[(k + 1) % 3] * b[(k + 2) % 3] - a[(k + 2) % 3] * b[(k + 1) % 3];
+    for (size_t k = 0; k < 3; k++)
+      n[k] = a[(k + 1) % 3] * b[(k + 2) % 3] - a[(k + 2) % 3] * b[(k + 1) % 3];
     sum += 0.5 * sqrt(n[0] * n[0] + n[1] * n[1] + n[2] * n[2]);
   }
   return sum;
@@ -988,14 +1132,18 @@ static double mesh_total_area(const nsvcd_mesh *mesh) {
 
 // A box of 2 x 2 x 2 cut at random: the area left is known, and every vertex lies within.
 static void mesh_cut_to_a_box(void) {
-  nsvcd_mesh mesh = mesh_box(2, 2, 2), part;
-  float from[3] = {1e9f, 1e9f, 1e9f}, to[3] = {-1e9f, -1e9f, -1e9f};
+  nsvcd_mesh mesh = mesh_box(2, 2, 2);
+  nsvcd_mesh part;
+  float from[3] = {1e9f, 1e9f, 1e9f};
+  float to[3] = {-1e9f, -1e9f, -1e9f};
   for (size_t i = 0; i < 3 * mesh.vertex_count; i++) {
-    from[i % 3] = fminf(from[i % 3], mesh.positions[i]), to[i % 3] = fmaxf(to[i % 3], mesh.positions[i]);
+    from[i % 3] = fminf(from[i % 3], mesh.positions[i]);
+    to[i % 3] = fmaxf(to[i % 3], mesh.positions[i]);
   }
   for (int trial = 0; trial < 200; trial++) {
     float low[3], high[3];
-    double side[3], area = 0;
+    double side[3];
+    double area = 0;
     for (int k = 0; k < 3; k++) {
       low[k] = from[k] + (float)mesh_uniform(-0.5, 1.9);
       high[k] = low[k] + (float)mesh_uniform(0.1, 3);
@@ -1016,7 +1164,9 @@ static void mesh_cut_to_a_box(void) {
     CHECK_EQ(nsvcd__mesh_check(&part), NSVCD_OK);
     nsvcd_mesh_free(&part, NULL);
   }
-  const float low[3] = {-4, -4, -4}, high[3] = {4, 4, 4}, nan[3] = {0, (float)NAN, 0};
+  const float low[3] = {-4, -4, -4};
+  const float high[3] = {4, 4, 4};
+  const float nan[3] = {0, (float)NAN, 0};
   CHECK_EQ(nsvcd_mesh_cut(&mesh, low, high, NULL, &part), NSVCD_OK);  // all of it
   CHECK_EQ(part.triangle_count, mesh.triangle_count);
   nsvcd_mesh_free(&part, NULL);
@@ -1036,7 +1186,8 @@ static void mesh_cut_to_a_box(void) {
   nsvcd_mesh_free(&mesh, NULL);
 }
 
-// Hundreds of thousands of needles, each far longer than a patch is wide: the number of pieces stays bounded.
+// Hundreds of thousands of needles, each far longer than a patch is wide: the number of pieces
+// stays bounded.
 static void mesh_patches_of_slivers(void) {
   nsvcd_mesh mesh = mesh_fan(200000, 100, 0.1);
   nsvcd__patches p;

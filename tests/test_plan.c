@@ -1,6 +1,6 @@
-// The trajectory optimizer: spline, cost and its gradient against references in double, culling against queries, then
-// nsvcd_plan through the public API: what it finds, what it refuses, and a thousand scenes in which nothing can be
-// done.
+// The trajectory optimizer: spline, cost and its gradient against references in double, culling
+// against queries, then nsvcd_plan through the public API: what it finds, what it refuses, and a
+// thousand scenes in which nothing can be done.
 #define NSVCD_STATIC
 #define NEURALSVCD_IMPLEMENTATION
 #include "../neuralsvcd.h"
@@ -14,14 +14,15 @@ void test_plan(void);
 #define PLAN_BODIES 32
 #define PLAN_VIA (NSVCD_MAX_VIA_POINTS + 2)
 
-// ------------------------------------------------------------------------------------------------------------ spline
+// ------------------------------------------------------------------------------------------ spline
 
 static void plan_random_numbers(shapes_rng *rng, size_t count, double reach, float *out) {
   for (size_t k = 0; k < count; k++) out[k] = (float)shapes_uniform(rng, -reach, reach);
 }
 // The spline in double, of one joint.
 static double plan_spline(const float *control, size_t via, double t, size_t derivative) {
-  double weights[PLAN_VIA], sum = 0;
+  double weights[PLAN_VIA];
+  double sum = 0;
   nsvcd__spline_weights(via, t, derivative, weights);
   for (size_t k = 0; k < via + 2; k++) sum += weights[k] * (double)control[k];
   return sum;
@@ -50,36 +51,42 @@ static void plan_spline_passes_through_its_points_and_rests_at_both_ends(void) {
   }
 }
 
-// Each order is the derivative of the one below, within every piece; position, velocity and acceleration agree on both
-// sides of a via point.
+// Each order is the derivative of the one below, within every piece; position, velocity and
+// acceleration agree on both sides of a via point.
 static void plan_spline_derivatives(void) {
   shapes_rng rng = {2};
   double worst = 0;
   for (size_t via = 0; via <= NSVCD_MAX_VIA_POINTS; via++) {
     float control[PLAN_VIA];
-    const double last = (double)(via + 1), h = 1e-4 / last;
+    const double last = (double)(via + 1);
+    const double h = 1e-4 / last;
     plan_random_numbers(&rng, via + 2, 2, control);
     for (int n = 0; n < 40; n++) {
-      const double t = ((double)shapes_pick(&rng, (int)via + 1) + shapes_uniform(&rng, 0.01, 0.99)) / last;
+      const double t =
+          ((double)shapes_pick(&rng, (int)via + 1) + shapes_uniform(&rng, 0.01, 0.99)) / last;
       for (size_t derivative = 1; derivative <= 3; derivative++) {
         const double scale = pow(last, (double)derivative);
-        const double by_differences =
-            (plan_spline(control, via, t + h, derivative - 1) - plan_spline(control, via, t - h, derivative - 1)) /
-            (2 * h);
-        const double error = fabs(plan_spline(control, via, t, derivative) - by_differences) / scale;
+        const double by_differences = (plan_spline(control, via, t + h, derivative - 1) -
+                                       plan_spline(control, via, t - h, derivative - 1)) /
+                                      (2 * h);
+        const double error =
+            fabs(plan_spline(control, via, t, derivative) - by_differences) / scale;
         CHECK_LE(error, 1e-4);
         worst = fmax(worst, error);
       }
     }
     for (size_t k = 1; k <= via; k++) {
-      const double at = (double)k / last, side = 1e-7 / last;
+      const double at = (double)k / last;
+      const double side = 1e-7 / last;
       for (size_t derivative = 0; derivative <= 2; derivative++) {
-        const double jump =
-            plan_spline(control, via, at + side, derivative) - plan_spline(control, via, at - side, derivative);
+        const double jump = plan_spline(control, via, at + side, derivative) -
+                            plan_spline(control, via, at - side, derivative);
         CHECK_NEAR(jump / pow(last, (double)derivative), 0, 1e-4);
       }
       // At via points the velocity is that of central differences, and the acceleration too.
-      const double before = (double)control[k - 1], here = (double)control[k], after = (double)control[k + 1];
+      const double before = (double)control[k - 1];
+      const double here = (double)control[k];
+      const double after = (double)control[k + 1];
       CHECK_NEAR(plan_spline(control, via, at, 1) / last, (after - before) / 2, 1e-6);
       CHECK_NEAR(plan_spline(control, via, at, 2) / (last * last), after - 2 * here + before, 1e-6);
     }
@@ -91,7 +98,10 @@ static void plan_spline_weights_are_a_partition_of_unity(void) {
   shapes_rng rng = {3};
   for (size_t via = 0; via <= NSVCD_MAX_VIA_POINTS; via++) {
     float control[2 * PLAN_VIA], x[2];
-    for (size_t k = 0; k < via + 2; k++) control[2 * k] = 1.25f, control[2 * k + 1] = -3;
+    for (size_t k = 0; k < via + 2; k++) {
+      control[2 * k] = 1.25f;
+      control[2 * k + 1] = -3;
+    }
     for (int n = 0; n < 20; n++) {
       const float t = (float)shapes_uniform(&rng, 0, 1);
       nsvcd_spline(control, via, 2, t, 0, x);
@@ -110,7 +120,9 @@ static void plan_mean_squares_are_integrals(void) {
   double worst = 0;
   for (size_t via = 1; via <= NSVCD_MAX_VIA_POINTS; via++) {
     for (size_t derivative = 1; derivative <= 3; derivative++) {
-      double form[PLAN_VIA * PLAN_VIA], sum = 0, integral = 0;
+      double form[PLAN_VIA * PLAN_VIA];
+      double sum = 0;
+      double integral = 0;
       float control[PLAN_VIA];
       const int steps = 100 * (int)(via + 1);
       memset(form, 0, sizeof form);
@@ -120,7 +132,8 @@ static void plan_mean_squares_are_integrals(void) {
       for (size_t i = 0; i < via + 2; i++) {
         for (size_t j = 0; j < via + 2; j++) {
           sum += form[i * (via + 2) + j] * (double)control[i] * (double)control[j];
-          CHECK_NEAR(form[i * (via + 2) + j], form[j * (via + 2) + i], 1e-9 * fabs(form[i * (via + 2) + j]) + 1e-9);
+          CHECK_NEAR(form[i * (via + 2) + j], form[j * (via + 2) + i],
+                     1e-9 * fabs(form[i * (via + 2) + j]) + 1e-9);
         }
       }
       for (int n = 0; n < steps; n++) {
@@ -152,22 +165,28 @@ static void plan_cholesky_solves(void) {
       for (size_t j = 0; j < n; j++) x[i] += a[i * n + j] * wanted[j];
     }
     nsvcd__cholesky(a, n, l);
-    nsvcd__solve_lower(l, n, x), nsvcd__solve_upper(l, n, x);
+    nsvcd__solve_lower(l, n, x);
+    nsvcd__solve_upper(l, n, x);
     for (size_t i = 0; i < n; i++) CHECK_NEAR(x[i], wanted[i], 1e-9);
     nsvcd__cholesky(a, n, a);  // in place
     for (size_t k = 0; k < n * n; k++) CHECK_EQ(a[k], l[k]);
   }
 }
 
-// ------------------------------------------------------------------------------------------------------------ scenes
+// ------------------------------------------------------------------------------------------ scenes
 
 typedef enum plan_kind { PLAN_XYZ, PLAN_ARMS } plan_kind;
 
 // What place() can do wrong.
-typedef enum plan_fault { PLAN_NO_FAULT, PLAN_NAN, PLAN_LONG_QUATERNION, PLAN_NAN_LATER } plan_fault;
+typedef enum plan_fault {
+  PLAN_NO_FAULT,
+  PLAN_NAN,
+  PLAN_LONG_QUATERNION,
+  PLAN_NAN_LATER
+} plan_fault;
 
-// PLAN_XYZ: body 0 moves by three joints. PLAN_ARMS: bodies 0 and 1 are two links, 2 another arm; five joints. The rest
-// rests.
+// PLAN_XYZ: body 0 moves by three joints. PLAN_ARMS: bodies 0 and 1 are two links, 2 another arm;
+// five joints. The rest rests.
 typedef struct plan_scene {
   nsvcd_plan_problem problem;
   nsvcd_plan_options options;
@@ -190,7 +209,8 @@ static void plan_turn(double x, double y, double z, double angle, double *q) {
   const double axis[3] = {x, y, z};
   oracle_axis_angle(axis, angle, q);
 }
-static void plan_at(const double *base, const double *q, double x, double y, double z, oracle_pose *pose) {
+static void plan_at(const double *base, const double *q, double x, double y, double z,
+                    oracle_pose *pose) {
   const oracle_pose frame = {{base[0], base[1], base[2]}, {q[0], q[1], q[2], q[3]}};
   const double v[3] = {x, y, z};
   oracle_transform(&frame, v, pose->position);
@@ -211,14 +231,18 @@ static void plan_place_exactly(const plan_scene *s, const double *joints, oracle
     return;
   }
   if (s->kind != PLAN_ARMS) return;
-  const double origin[3] = {0, 0, 0}, lifted[3] = {plan_base[0], plan_base[1], plan_base[2] + joints[4]};
+  const double origin[3] = {0, 0, 0};
+  const double lifted[3] = {plan_base[0], plan_base[1], plan_base[2] + joints[4]};
   double first[4], by[4], second[4], other[4];
   oracle_pose elbow;
-  plan_turn(0, 0, 1, joints[0], first), plan_turn(0, 1, 0, joints[1], by);
+  plan_turn(0, 0, 1, joints[0], first);
+  plan_turn(0, 1, 0, joints[1], by);
   oracle_quat_mul(first, by, second);
-  plan_at(origin, first, 0.1, 0, 0, &poses[0]), plan_at(origin, first, 0.2, 0, 0, &elbow);
+  plan_at(origin, first, 0.1, 0, 0, &poses[0]);
+  plan_at(origin, first, 0.2, 0, 0, &elbow);
   plan_at(elbow.position, second, 0.1, 0, 0, &poses[1]);
-  plan_turn(0, 0, 1, joints[2], by), plan_turn(1, 0, 0, joints[3], second);
+  plan_turn(0, 0, 1, joints[2], by);
+  plan_turn(1, 0, 0, joints[3], second);
   oracle_quat_mul(by, second, other);
   plan_at(lifted, other, -0.15, 0.03, 0, &poses[2]);
 }
@@ -230,10 +254,12 @@ static void plan_place(void *user, const float *joints, nsvcd_pose *poses) {
   plan_place_exactly(s, q, exact);
   for (size_t b = 0; b < s->problem.body_count; b++) {
     for (int k = 0; k < 3; k++) poses[b].position[k] = (float)exact[b].position[k];
-    for (int k = 0; k < 4; k++) poses[b].rotation[k] = (float)(exact[b].rotation[k] * (s->length > 0 ? s->length : 1));
+    for (int k = 0; k < 4; k++)
+      poses[b].rotation[k] = (float)(exact[b].rotation[k] * (s->length > 0 ? s->length : 1));
   }
   s->placed++;
-  if (s->fault == PLAN_NAN || (s->fault == PLAN_NAN_LATER && s->placed > 50)) poses[0].position[1] = NAN;
+  if (s->fault == PLAN_NAN || (s->fault == PLAN_NAN_LATER && s->placed > 50))
+    poses[0].position[1] = NAN;
   if (s->fault == PLAN_LONG_QUATERNION) poses[0].rotation[3] = 1.1f;
 }
 static void plan_jacobian(void *user, const float *joints, float *jacobian) {
@@ -251,17 +277,22 @@ static void plan_jacobian(void *user, const float *joints, float *jacobian) {
   for (size_t j = 0; j < f; j++) q[j] = (double)joints[j];
   plan_place_exactly(s, q, poses);
   // Axes: joint, a point on it, its direction; and the body that it turns.
-  const double c0 = cos(q[0]), s0 = sin(q[0]), c2 = cos(q[2]), s2 = sin(q[2]);
+  const double c0 = cos(q[0]);
+  const double s0 = sin(q[0]);
+  const double c2 = cos(q[2]);
+  const double s2 = sin(q[2]);
   const double axes[5][3] = {{0, 0, 1}, {0, 0, 1}, {-s0, c0, 0}, {0, 0, 1}, {c2, s2, 0}};
   const double points[5][3] = {{0, 0, 0},
                                {0, 0, 0},
                                {0.2 * c0, 0.2 * s0, 0},
                                {plan_base[0], plan_base[1], 0},
                                {plan_base[0], plan_base[1], q[4]}};
-  const size_t body[5] = {0, 1, 1, 2, 2}, joint[5] = {0, 0, 1, 2, 3};
+  const size_t body[5] = {0, 1, 1, 2, 2};
+  const size_t joint[5] = {0, 0, 1, 2, 3};
   for (size_t n = 0; n < 5; n++) {
     double arm[3], moved[3];
-    oracle_sub(poses[body[n]].position, points[n], arm), oracle_cross(axes[n], arm, moved);
+    oracle_sub(poses[body[n]].position, points[n], arm);
+    oracle_cross(axes[n], arm, moved);
     for (size_t k = 0; k < 3; k++) {
       jacobian[(6 * body[n] + k) * f + joint[n]] = (float)moved[k];
       jacobian[(6 * body[n] + 3 + k) * f + joint[n]] = (float)axes[n][k];
@@ -270,21 +301,24 @@ static void plan_jacobian(void *user, const float *joints, float *jacobian) {
   jacobian[(6 * 2 + 2) * f + 4] = 1;
 }
 
-// A smooth cost of collision: a bump per pair and sample, of the distance of two points that are off the bodies'
-// origins.
+// A smooth cost of collision: a bump per pair and sample, of the distance of two points that are
+// off the bodies' origins.
 static void plan_bump_point(const oracle_pose *pose, size_t body, double *arm, double *point) {
   const double offset[3] = {0.05, 0.02 * (double)(body + 1), -0.04};
   double m[9];
-  oracle_matrix(pose->rotation, m), oracle_rotate(m, offset, arm);
+  oracle_matrix(pose->rotation, m);
+  oracle_rotate(m, offset, arm);
   for (int k = 0; k < 3; k++) point[k] = pose->position[k] + arm[k];
 }
-static double plan_bumps(const plan_scene *s, const oracle_pose *poses, double *gradient) {  // of one sample
+// of one sample
+static double plan_bumps(const plan_scene *s, const oracle_pose *poses, double *gradient) {
   double sum = 0;
   for (size_t n = 0; n < s->problem.pair_count; n++) {
     const nsvcd_body_pair pair = s->problem.pairs[n];
     const size_t body[2] = {pair.a, pair.b};
     double arm[2][3], point[2][3], d[3];
-    for (int side = 0; side < 2; side++) plan_bump_point(&poses[body[side]], body[side], arm[side], point[side]);
+    for (int side = 0; side < 2; side++)
+      plan_bump_point(&poses[body[side]], body[side], arm[side], point[side]);
     oracle_sub(point[0], point[1], d);
     const double bump = exp(-oracle_dot(d, d) / 0.04);
     sum += bump;
@@ -304,8 +338,8 @@ static oracle_pose plan_exact_pose(const nsvcd_pose *pose) {
   for (int k = 0; k < 4; k++) out.rotation[k] = (double)pose->rotation[k];
   return out;
 }
-static float plan_bump_collision(void *user, const nsvcd_pose *poses, size_t samples, float limit, int *collides,
-                                 float *gradient) {
+static float plan_bump_collision(void *user, const nsvcd_pose *poses, size_t samples, float limit,
+                                 int *collides, float *gradient) {
   (void)limit;
   const plan_scene *s = (const plan_scene *)user;
   const size_t bodies = s->problem.body_count;
@@ -316,7 +350,8 @@ static float plan_bump_collision(void *user, const nsvcd_pose *poses, size_t sam
     double by_poses[6 * PLAN_BODIES] = {0};
     for (size_t b = 0; b < bodies; b++) exact[b] = plan_exact_pose(&poses[i * bodies + b]);
     const double bump = plan_bumps(s, exact, by_poses);
-    for (size_t k = 0; gradient && k < 6 * bodies; k++) gradient[i * bodies * 6 + k] += (float)by_poses[k];
+    for (size_t k = 0; gradient && k < 6 * bodies; k++)
+      gradient[i * bodies * 6 + k] += (float)by_poses[k];
     *collides |= bump > 0.5;
     sum += bump;
   }
@@ -326,15 +361,17 @@ static float plan_bump_collision(void *user, const nsvcd_pose *poses, size_t sam
 static int plan_progress(void *user, const nsvcd_plan_progress *progress) {
   plan_scene *s = (plan_scene *)user;
   const size_t f = s->problem.joints;
-  if (s->reports) {  // in order: seeds, then stages, then iterations, each rising by one; the best never gets worse
-    const int same_seed = progress->seed == s->last_seed, same_stage = progress->refining == s->last_refining;
+  // in order: seeds, then stages, then iterations, each rising by one; the best never gets worse
+  if (s->reports) {
+    const int same_seed = progress->seed == s->last_seed;
+    const int same_stage = progress->refining == s->last_refining;
     // Where a proof finds a hit, L-BFGS begins once more, with another margin.
     const int once_more = same_seed && same_stage && progress->refining && progress->iteration == 0;
     if (same_seed && same_stage && !once_more) {
       s->disorders += progress->iteration != s->last_iteration + 1 || progress->cost > s->last_cost;
     } else {
-      s->disorders +=
-          progress->iteration != 0 || (same_seed ? !progress->refining : progress->seed != s->last_seed + 1);
+      s->disorders += progress->iteration != 0 ||
+                      (same_seed ? !progress->refining : progress->seed != s->last_seed + 1);
       s->again += once_more;
     }
   } else {
@@ -345,8 +382,11 @@ static int plan_progress(void *user, const nsvcd_plan_progress *progress) {
     s->out_of_place += progress->control[j] != s->start[j];
     s->out_of_place += progress->control[(progress->via_points + 1) * f + j] != s->goal[j];
   }
-  for (size_t k = 0; k < (progress->via_points + 2) * f; k++) s->out_of_place += !isfinite(progress->control[k]);
-  s->last_seed = progress->seed, s->last_iteration = progress->iteration, s->last_refining = progress->refining;
+  for (size_t k = 0; k < (progress->via_points + 2) * f; k++)
+    s->out_of_place += !isfinite(progress->control[k]);
+  s->last_seed = progress->seed;
+  s->last_iteration = progress->iteration;
+  s->last_refining = progress->refining;
   s->last_cost = progress->cost;
   return ++s->reports == s->cancel_at;
 }
@@ -355,12 +395,21 @@ static void plan_begin(plan_scene *s, plan_kind kind, size_t bodies) {
   memset(s, 0, sizeof *s);
   s->kind = kind;
   for (size_t b = 0; b < PLAN_BODIES; b++) s->rest[b] = query_pose(0, 0, 0);
-  for (size_t j = 0; j < PLAN_JOINTS; j++) s->low[j] = -2, s->high[j] = 2;
+  for (size_t j = 0; j < PLAN_JOINTS; j++) {
+    s->low[j] = -2;
+    s->high[j] = 2;
+  }
   s->problem.joints = kind == PLAN_XYZ ? 3 : 5;
-  s->problem.low = s->low, s->problem.high = s->high, s->problem.start = s->start, s->problem.goal = s->goal;
-  s->problem.bodies = s->bodies, s->problem.body_count = bodies;
+  s->problem.low = s->low;
+  s->problem.high = s->high;
+  s->problem.start = s->start;
+  s->problem.goal = s->goal;
+  s->problem.bodies = s->bodies;
+  s->problem.body_count = bodies;
   s->problem.pairs = s->pairs;
-  s->problem.place = plan_place, s->problem.progress = plan_progress, s->problem.user = s;
+  s->problem.place = plan_place;
+  s->problem.progress = plan_progress;
+  s->problem.user = s;
 }
 static void plan_pair(plan_scene *s, uint32_t a, uint32_t b) {
   const nsvcd_body_pair pair = {a, b};
@@ -380,7 +429,10 @@ static const nsvcd_body *plan_body(int shape) {
   if (shape == PLAN_WALL) shapes_box(mesh, 0.05, 0.4, 0.4, 6);
   if (shape == PLAN_LINK) shapes_box(mesh, 0.2, 0.06, 0.05, 4);
   if (shape == PLAN_SHELL) shapes_shell(mesh, 0.4, 0.4, 0.4, 0.03, 0, 16);
-  if (shape == PLAN_OFF_CENTRE) shapes_box(mesh, 0.2, 0.06, 0.05, 4), shapes_place(mesh, 0, NULL, 0.5, 0.1, 0);
+  if (shape == PLAN_OFF_CENTRE) {
+    shapes_box(mesh, 0.2, 0.06, 0.05, 4);
+    shapes_place(mesh, 0, NULL, 0.5, 0.1, 0);
+  }
   nsvcd_mesh flat = query_mesh(mesh, 1);
   bodies[shape] = query_encode(&flat, shape == PLAN_BALL ? 32 : 96, &memory[shape]);
   nsvcd_mesh_free(&flat, NULL);
@@ -399,7 +451,8 @@ static int plan_open(plan_scene *s, plan_inside *in) {
   in->memory = query_reserve(size);
   if (!nsvcd__planner_settings(&s->problem, &s->options, p)) return 0;
   CHECK_EQ(nsvcd__planner_memory(p, (char *)in->memory.at), size);
-  nsvcd__stage_init(&p->options, &p->explore), nsvcd__stage_init(&p->options, &p->refine);
+  nsvcd__stage_init(&p->options, &p->explore);
+  nsvcd__stage_init(&p->options, &p->refine);
   nsvcd__stage_init(&p->options, &p->check);
   nsvcd__find_boxes(p);
   for (size_t k = 0; k < s->problem.pair_count; k++) p->order[k] = (uint32_t)k;
@@ -407,15 +460,16 @@ static int plan_open(plan_scene *s, plan_inside *in) {
 }
 static void plan_close(plan_inside *in) { query_release(&in->memory); }
 
-// ------------------------------------------------------------------------------------------------ cost and gradient
+// ------------------------------------------------------------------------------- cost and gradient
 
-// The whole cost in double, written from the header's comments: weighted means of squares per second, joints beyond
-// their limits, bumps. control: (via + 2, F).
-static double plan_exact_cost(const plan_scene *s, const nsvcd_plan_options *o, size_t via, size_t segments,
-                              const double *control) {
+// The whole cost in double, written from the header's comments: weighted means of squares per
+// second, joints beyond their limits, bumps. control: (via + 2, F).
+static double plan_exact_cost(const plan_scene *s, const nsvcd_plan_options *o, size_t via,
+                              size_t segments, const double *control) {
   const size_t f = s->problem.joints;
   const double weights[3] = {(double)o->velocity, (double)o->acceleration, (double)o->jerk};
-  double w[PLAN_VIA], cost = 0;
+  double w[PLAN_VIA];
+  double cost = 0;
   for (size_t derivative = 1; derivative <= 3; derivative++) {
     const size_t steps = 100 * (via + 1);
     for (size_t n = 0; n < steps; n++) {
@@ -436,7 +490,8 @@ static double plan_exact_cost(const plan_scene *s, const nsvcd_plan_options *o, 
       joints[j] = 0;
       for (size_t k = 0; k < via + 2; k++) joints[j] += w[k] * control[k * f + j];
       const double inner = 0.005 * (double)(s->high[j] - s->low[j]);
-      const double out = fmax(0, fmax((double)s->low[j] + inner - joints[j], joints[j] - (double)s->high[j] + inner));
+      const double out = fmax(
+          0, fmax((double)s->low[j] + inner - joints[j], joints[j] - (double)s->high[j] + inner));
       cost += 1e5 * out * out / (double)(segments + 1);
     }
     plan_place_exactly(s, joints, poses);
@@ -455,19 +510,30 @@ static void plan_gradient_case(plan_kind kind, int jacobian, int limits, double 
   s.rest[s.problem.body_count - 1] = query_pose(0.2, 0.1, 0.05);
   if (kind == PLAN_XYZ) {
     s.attached = 1;
-    plan_pair(&s, 0, 2), plan_pair(&s, 2, 1);
+    plan_pair(&s, 0, 2);
+    plan_pair(&s, 2, 1);
   } else {
-    plan_pair(&s, 0, 2), plan_pair(&s, 2, 1), plan_pair(&s, 1, 3);  // both move, both move, one does
+    plan_pair(&s, 0, 2);
+    plan_pair(&s, 2, 1);
+    plan_pair(&s, 1, 3);  // both move, both move, one does
   }
-  for (size_t j = 0; j < PLAN_JOINTS; j++) s.low[j] = limits ? -0.2f : -3, s.high[j] = limits ? 0.25f : 3;
+  for (size_t j = 0; j < PLAN_JOINTS; j++) {
+    s.low[j] = limits ? -0.2f : -3;
+    s.high[j] = limits ? 0.25f : 3;
+  }
   for (int n = 0; n < 8; n++) {
-    const size_t via = 1 + (size_t)shapes_pick(&rng, 12), f = s.problem.joints, numbers = (via + 2) * f;
+    const size_t via = 1 + (size_t)shapes_pick(&rng, 12);
+    const size_t f = s.problem.joints;
+    const size_t numbers = (via + 2) * f;
     float control[PLAN_VIA * PLAN_JOINTS], gradient[PLAN_VIA * PLAN_JOINTS];
-    double exact[PLAN_VIA * PLAN_JOINTS], norm = 0, difference = 0;
+    double exact[PLAN_VIA * PLAN_JOINTS];
+    double norm = 0;
+    double difference = 0;
     plan_inside in;
-    s.options.refine.via_points = via, s.options.refine.segments = 5 + (size_t)shapes_pick(&rng, 20);
+    s.options.refine.via_points = via;
+    s.options.refine.segments = 5 + (size_t)shapes_pick(&rng, 20);
     s.options.collision = (float)shapes_uniform(&rng, 0.5, 20);
-    s.options.velocity = (float)shapes_uniform(&rng, 1, 20),
+    s.options.velocity = (float)shapes_uniform(&rng, 1, 20);
     s.options.duration = n % 2 ? 2.0f : 40.0f;  // smoothness outweighs the bumps, or they it
     plan_random_numbers(&rng, numbers, 0.3, control);
     for (size_t k = 0; k < numbers; k++) exact[k] = (double)control[k];
@@ -481,14 +547,16 @@ static void plan_gradient_case(plan_kind kind, int jacobian, int limits, double 
     CHECK_EQ(cost.total, again.total);  // the gradient does not change it
     CHECK_NEAR(cost.total, whole, 2e-3 * whole);
     for (size_t k = 0; k < numbers; k++) {
-      const double h = 1e-6, here = exact[k];
+      const double h = 1e-6;
+      const double here = exact[k];
       exact[k] = here + h;
       const double above = plan_exact_cost(&s, &p->options, via, segments, exact);
       exact[k] = here - h;
       const double below = plan_exact_cost(&s, &p->options, via, segments, exact);
       exact[k] = here;
       const double slope = (above - below) / (2 * h);
-      norm += slope * slope, difference += pow(slope - (double)gradient[k], 2);
+      norm += slope * slope;
+      difference += pow(slope - (double)gradient[k], 2);
     }
     CHECK_LE(sqrt(difference), 0.003 * sqrt(norm));
     *worst = fmax(*worst, sqrt(difference / norm));
@@ -502,12 +570,13 @@ static void plan_gradient_of_the_cost(void) {
       plan_gradient_case(PLAN_XYZ, jacobian, limits, &worst[limits]);
       plan_gradient_case(PLAN_ARMS, jacobian, limits, &worst[limits]);
     }
-    printf("  %s: off by %.1e at most, %.1e with limits\n", jacobian ? "jacobian" : "differences of place()", worst[0],
-           worst[1]);
+    printf("  %s: off by %.1e at most, %.1e with limits\n",
+           jacobian ? "jacobian" : "differences of place()", worst[0], worst[1]);
   }
 }
 
-// Who decides the network's cost: the pairs of patches of every segment that costs, and of every run looked at.
+// Who decides the network's cost: the pairs of patches of every segment that costs, and of every
+// run looked at.
 static uint64_t plan_decisive(nsvcd__planner *p, const nsvcd__stage *stage, const float *control) {
   uint64_t hash = 1469598103934665603u;
   nsvcd__cost_of(p, stage, control, INFINITY, NULL, NULL);  // p->poses
@@ -521,30 +590,39 @@ static uint64_t plan_decisive(nsvcd__planner *p, const nsvcd__stage *stage, cons
   }
   return hash;
 }
-// Along random directions in which the same pairs decide, and the slopes over one and over two steps agree: there are
-// kinks (ReLU, which segment of a pair's contact).
-static void plan_network_gradient_case(plan_kind kind, int *tried, int *smooth, int *right, double *worst) {
+// Along random directions in which the same pairs decide, and the slopes over one and over two
+// steps agree: there are kinks (ReLU, which segment of a pair's contact).
+static void plan_network_gradient_case(plan_kind kind, int *tried, int *smooth, int *right,
+                                       double *worst) {
   static plan_scene s;
   shapes_rng rng = {(uint64_t)(20 + kind)};
   plan_inside in;
   plan_begin(&s, kind, 4);
   if (kind == PLAN_XYZ) {
     s.problem.body_count = 2;
-    s.bodies[0] = plan_body(PLAN_BALL), s.bodies[1] = plan_body(PLAN_BOX);
+    s.bodies[0] = plan_body(PLAN_BALL);
+    s.bodies[1] = plan_body(PLAN_BOX);
     plan_pair(&s, 0, 1);
   } else {  // the arms, and a box; in one pair both bodies turn
-    s.bodies[0] = s.bodies[1] = s.bodies[2] = plan_body(PLAN_LINK), s.bodies[3] = plan_body(PLAN_BOX);
+    s.bodies[0] = s.bodies[1] = s.bodies[2] = plan_body(PLAN_LINK);
+    s.bodies[3] = plan_body(PLAN_BOX);
     s.rest[3] = query_pose(0.3, 0.25, 0);
-    plan_pair(&s, 1, 2), plan_pair(&s, 1, 3);
+    plan_pair(&s, 1, 2);
+    plan_pair(&s, 1, 3);
   }
-  s.options.refine.via_points = 4, s.options.refine.segments = 10, s.options.velocity = s.options.jerk = 0.1f;
-  s.options.acceleration = -1, s.options.collision = 1;
+  s.options.refine.via_points = 4;
+  s.options.refine.segments = 10;
+  s.options.velocity = s.options.jerk = 0.1f;
+  s.options.acceleration = -1;
+  s.options.collision = 1;
   s.options.sweep.precision = NSVCD_PRECISION_FLOAT;
   if (!plan_open(&s, &in)) return;
   nsvcd__planner *p = &in.planner;
-  const size_t f = s.problem.joints, numbers = 6 * f;
+  const size_t f = s.problem.joints;
+  const size_t numbers = 6 * f;
   for (int n = 0; n < (kind == PLAN_XYZ ? 400 : 500); n++) {
-    float control[6 * PLAN_JOINTS], moved[6 * PLAN_JOINTS], gradient[6 * PLAN_JOINTS], direction[6 * PLAN_JOINTS];
+    float control[6 * PLAN_JOINTS], moved[6 * PLAN_JOINTS], gradient[6 * PLAN_JOINTS],
+        direction[6 * PLAN_JOINTS];
     float at[5];
     double slope = 0;
     if (kind == PLAN_XYZ) {
@@ -565,9 +643,12 @@ static void plan_network_gradient_case(plan_kind kind, int *tried, int *smooth, 
       same = same && plan_decisive(p, &p->refine, moved) == who;
       at[i + 2] = nsvcd__cost_of(p, &p->refine, moved, INFINITY, NULL, NULL).total;
     }
-    const double near = ((double)at[3] - (double)at[1]) / 2e-4, far = ((double)at[4] - (double)at[0]) / 4e-4;
-    const double left = ((double)at[2] - (double)at[1]) / 1e-4, right_side = ((double)at[3] - (double)at[2]) / 1e-4;
-    if (!same || fabs(near - far) > 0.01 * fabs(near) || fabs(left - right_side) > 0.1 * fabs(near)) continue;
+    const double near = ((double)at[3] - (double)at[1]) / 2e-4;
+    const double far = ((double)at[4] - (double)at[0]) / 4e-4;
+    const double left = ((double)at[2] - (double)at[1]) / 1e-4;
+    const double right_side = ((double)at[3] - (double)at[2]) / 1e-4;
+    if (!same || fabs(near - far) > 0.01 * fabs(near) || fabs(left - right_side) > 0.1 * fabs(near))
+      continue;
     (*smooth)++;
     const double error = fabs(slope - near) / fabs(near);
     *right += error < 0.03;
@@ -579,32 +660,44 @@ static void plan_network_gradient_case(plan_kind kind, int *tried, int *smooth, 
 static void plan_gradient_of_the_network(void) {
   static const char *const names[2] = {"a ball past a box", "two arms and a box"};
   for (int kind = 0; kind < 2; kind++) {
-    int tried = 0, smooth = 0, right = 0;
+    int tried = 0;
+    int smooth = 0;
+    int right = 0;
     double worst = 0;
     plan_network_gradient_case(kind ? PLAN_ARMS : PLAN_XYZ, &tried, &smooth, &right, &worst);
-    printf("  %s: %d trajectories that cost, %d smooth there, of these %d right to 3 %%, worst %.2g\n", names[kind],
-           tried, smooth, right, worst);
+    printf(
+        "  %s: %d trajectories that cost, %d smooth there, of these %d right to 3 %%, worst %.2g\n",
+        names[kind], tried, smooth, right, worst);
     CHECK_GE(smooth, 30);
     CHECK_GE(right, 0.9 * smooth);
   }
 }
 
-// What turns a logit's derivative by a's pose as b sees it into wrenches on both, against the change of that pose when
-// both move a little in the world.
+// What turns a logit's derivative by a's pose as b sees it into wrenches on both, against the
+// change of that pose when both move a little in the world.
 static void plan_wrenches_are_derivatives(void) {
   shapes_rng rng = {21};
   double worst = 0;
   for (int n = 0; n < 200; n++) {
     nsvcd_pose poses[2];
-    float wrench[6], wrenches[12] = {0};
-    double moved[2][6], before[3], after[3], q[2][4], inverse[4], turned[4], change = 0, expected = 0;
+    float wrench[6];
+    float wrenches[12] = {0};
+    double moved[2][6];
+    double before[3];
+    double after[3];
+    double q[2][4];
+    double inverse[4];
+    double turned[4];
+    double change = 0;
+    double expected = 0;
     const nsvcd_body_pair pair = {(uint32_t)(n % 2), (uint32_t)(1 - n % 2)};
     for (int b = 0; b < 2; b++) query_random_pose(&rng, 1, &poses[b]);
     plan_random_numbers(&rng, 6, 1, wrench);
     nsvcd__add_wrench(&pair, poses, 0.5f, wrench, wrenches);
     oracle_pose exact[2];
     for (int b = 0; b < 2; b++) {
-      exact[b] = plan_exact_pose(&poses[b]), oracle_quat_normalize(exact[b].rotation);
+      exact[b] = plan_exact_pose(&poses[b]);
+      oracle_quat_normalize(exact[b].rotation);
       for (int k = 0; k < 6; k++) {
         moved[b][k] = shapes_uniform(&rng, -1e-5, 1e-5);
         expected += moved[b][k] * (double)wrenches[6 * b + k];
@@ -616,7 +709,8 @@ static void plan_wrenches_are_derivatives(void) {
         const double angle = oracle_length(moved[b] + 3);
         double by[4], product[4];
         plan_turn(moved[b][3] / angle, moved[b][4] / angle, moved[b][5] / angle, angle, by);
-        oracle_quat_mul(by, exact[b].rotation, product), memcpy(exact[b].rotation, product, sizeof product);
+        oracle_quat_mul(by, exact[b].rotation, product);
+        memcpy(exact[b].rotation, product, sizeof product);
         for (int k = 0; k < 3; k++) exact[b].position[k] += moved[b][k];
       }
       oracle_matrix(exact[pair.b].rotation, m);
@@ -628,7 +722,8 @@ static void plan_wrenches_are_derivatives(void) {
     for (int k = 0; k < 4; k++) inverse[k] = (k < 3 ? -1 : 1) * q[0][k];
     oracle_quat_mul(q[1], inverse, turned);
     for (int k = 0; k < 3; k++) {
-      change += 0.5 * ((double)wrench[k] * (after[k] - before[k]) + (double)wrench[3 + k] * 2 * turned[k]);
+      change += 0.5 * ((double)wrench[k] * (after[k] - before[k]) +
+                       (double)wrench[3 + k] * 2 * turned[k]);
     }
     CHECK_NEAR(change, expected, 1e-9);  // of about 1e-5: what is left is of second order
     worst = fmax(worst, fabs(change - expected));
@@ -644,13 +739,19 @@ static void plan_bundled_gradient_is_a_mean(void) {
   plan_begin(&s, PLAN_ARMS, 4);
   s.problem.collision = plan_bump_collision;
   s.rest[3] = query_pose(0.2, 0.1, 0.05);
-  plan_pair(&s, 0, 2), plan_pair(&s, 1, 3);
+  plan_pair(&s, 0, 2);
+  plan_pair(&s, 1, 3);
   if (!plan_open(&s, &in)) return;
   nsvcd__planner *p = &in.planner;
   const nsvcd__stage *stage = &p->refine;
-  const size_t f = 5, numbers = stage->via * f;
-  float control[PLAN_VIA * PLAN_JOINTS], moved[PLAN_VIA * PLAN_JOINTS], gradient[PLAN_VIA * PLAN_JOINTS];
-  double sum[PLAN_VIA * PLAN_JOINTS] = {0}, norm = 0, difference = 0, spread = 0;
+  const size_t f = 5;
+  const size_t numbers = stage->via * f;
+  float control[PLAN_VIA * PLAN_JOINTS], moved[PLAN_VIA * PLAN_JOINTS],
+      gradient[PLAN_VIA * PLAN_JOINTS];
+  double sum[PLAN_VIA * PLAN_JOINTS] = {0};
+  double norm = 0;
+  double difference = 0;
+  double spread = 0;
   plan_random_numbers(&rng, numbers + 2 * f, 0.3, control);
   plan_random_numbers(&rng, stage->count * numbers, 0.2, p->tries);
   for (size_t n = 0; n < stage->count; n++) {
@@ -662,7 +763,8 @@ static void plan_bundled_gradient_is_a_mean(void) {
   nsvcd__cost_of(p, stage, control, INFINITY, gradient, NULL);
   nsvcd__bundled_gradient(p, stage, control);
   for (size_t k = 0; k < numbers; k++) {
-    norm += sum[k] * sum[k], difference += pow(sum[k] - (double)p->sum[k], 2);
+    norm += sum[k] * sum[k];
+    difference += pow(sum[k] - (double)p->sum[k], 2);
     spread += pow(sum[k] - (double)gradient[f + k], 2);
   }
   CHECK_LE(sqrt(difference), 1e-5 * sqrt(norm));
@@ -682,15 +784,24 @@ static void plan_refining_converges(void) {
       nsvcd_plan_answer unused;
       int cancelled = 0;
       memset(&unused, 0, sizeof unused);
-      s.problem.collision = plan_bump_collision, s.problem.jacobian = plan_jacobian, s.problem.progress = NULL;
-      s.start[0] = -0.5f, s.goal[0] = 0.5f, s.rest[1] = query_pose(0.05 * n - 0.2, 0.03 + 0.01 * n, 0.05);
+      s.problem.collision = plan_bump_collision;
+      s.problem.jacobian = plan_jacobian;
+      s.problem.progress = NULL;
+      s.start[0] = -0.5f;
+      s.goal[0] = 0.5f;
+      s.rest[1] = query_pose(0.05 * n - 0.2, 0.03 + 0.01 * n, 0.05);
       plan_pair(&s, 0, 1);
-      s.options.explore.iterations = NSVCD_NONE, s.options.refine.iterations = longer ? 300 : 12;
-      s.options.refine.samples = 1, s.options.bundle = -1, s.options.collision = 1;
+      s.options.explore.iterations = NSVCD_NONE;
+      s.options.refine.iterations = longer ? 300 : 12;
+      s.options.refine.samples = 1;
+      s.options.bundle = -1;
+      s.options.collision = 1;
       if (!plan_open(&s, &in)) return;
       nsvcd__smoothest(&in.planner, &in.planner.refine, in.planner.best);
       nsvcd__refine(&in.planner, 0, &unused, &cancelled);
-      cost[longer] = nsvcd__cost_of(&in.planner, &in.planner.refine, in.planner.best, INFINITY, NULL, NULL).total;
+      cost[longer] =
+          nsvcd__cost_of(&in.planner, &in.planner.refine, in.planner.best, INFINITY, NULL, NULL)
+              .total;
       CHECK_EQ(in.planner.error, NSVCD_OK);
       plan_close(&in);
     }
@@ -700,21 +811,28 @@ static void plan_refining_converges(void) {
   CHECK_LE(worst, 0.01);
 }
 
-// ----------------------------------------------------------------------------------------------------------- culling
+// ----------------------------------------------------------------------------------------- culling
 
-// Random scenes: everything moves and turns at random, by up to two radians from one sample to the next; one in two
-// bodies lies off its origin.
-static void plan_random_poses(shapes_rng *rng, nsvcd__planner *p, size_t samples, double reach, double turn) {
+// Random scenes: everything moves and turns at random, by up to two radians from one sample to the
+// next; one in two bodies lies off its origin.
+static void plan_random_poses(shapes_rng *rng, nsvcd__planner *p, size_t samples, double reach,
+                              double turn) {
   const size_t bodies = p->problem->body_count;
   const int fast = shapes_pick(rng, 2);
   for (size_t b = 0; b < bodies; b++) {
     nsvcd_pose at;
-    double axis[3], way[3], angle = shapes_uniform(rng, -turn, turn), q[4];
+    double axis[3];
+    double way[3];
+    double angle = shapes_uniform(rng, -turn, turn);
+    double q[4];
     const double speed = (!fast ? 0.3 : b ? 0.3 + 1.5 * shapes_pick(rng, 4) : 0.1) * reach;
     query_random_pose(rng, reach, &at);
-    shapes_direction(rng, axis), shapes_direction(rng, way);
-    if (b > 0 && shapes_pick(rng, 3) < (fast ? 2 : 1)) {  // its origin comes close to the first body's
-      for (int k = 0; k < 3; k++) at.position[k] = p->poses[0].position[k] + (float)shapes_uniform(rng, -0.2, 0.2);
+    shapes_direction(rng, axis);
+    shapes_direction(rng, way);
+    // its origin comes close to the first body's
+    if (b > 0 && shapes_pick(rng, 3) < (fast ? 2 : 1)) {
+      for (int k = 0; k < 3; k++)
+        at.position[k] = p->poses[0].position[k] + (float)shapes_uniform(rng, -0.2, 0.2);
     }
     for (size_t s = 0; s < samples; s++) {
       nsvcd_pose *pose = &p->poses[s * bodies + b];
@@ -723,7 +841,8 @@ static void plan_random_poses(shapes_rng *rng, nsvcd__planner *p, size_t samples
       for (int k = 0; k < 4; k++) by[k] = (float)q[k];
       query_multiply(by, at.rotation, pose->rotation);
       for (int k = 0; k < 3; k++)
-        pose->position[k] = at.position[k] + (float)(speed * way[k] * ((double)s - (fast ? 3.5 : 4)));
+        pose->position[k] =
+            at.position[k] + (float)(speed * way[k] * ((double)s - (fast ? 3.5 : 4)));
     }
   }
 }
@@ -731,9 +850,14 @@ static void plan_culling_misses_nothing(void) {
   static plan_scene s;
   shapes_rng rng = {30};
   plan_inside in;
-  int segments = 0, uncertain = 0, missed = 0, missed_by_network = 0, culled = 0;
+  int segments = 0;
+  int uncertain = 0;
+  int missed = 0;
+  int missed_by_network = 0;
+  int culled = 0;
   plan_begin(&s, PLAN_XYZ, 6);
-  const int shapes[6] = {PLAN_OFF_CENTRE, PLAN_BALL, PLAN_OFF_CENTRE, PLAN_BOX, PLAN_WALL, PLAN_LINK};
+  const int shapes[6] = {PLAN_OFF_CENTRE, PLAN_BALL, PLAN_OFF_CENTRE,
+                         PLAN_BOX,        PLAN_WALL, PLAN_LINK};
   for (size_t b = 0; b < 6; b++) s.bodies[b] = plan_body(shapes[b]);
   for (uint32_t a = 0; a < 6; a++) {
     for (uint32_t b = 0; b < 6; b++) {
@@ -744,8 +868,12 @@ static void plan_culling_misses_nothing(void) {
   nsvcd__planner *p = &in.planner;
   for (int n = 0; n < 1500; n++) {
     const size_t samples = 9;
-    plan_random_poses(&rng, p, samples, shapes_uniform(&rng, 0.1, 1), n % 3 == 0 ? 0.1 : n % 3 == 1 ? 0.6 : 2);
-    for (size_t i = 0; n % 5 == 0 && i < samples * 6; i++) p->poses[i].position[1] += 1e5f;  // far off, and rounded
+    plan_random_poses(&rng, p, samples, shapes_uniform(&rng, 0.1, 1),
+                      n % 3 == 0   ? 0.1
+                      : n % 3 == 1 ? 0.6
+                                   : 2);
+    // far off, and rounded
+    for (size_t i = 0; n % 5 == 0 && i < samples * 6; i++) p->poses[i].position[1] += 1e5f;
     nsvcd__track_bodies(p, samples);
     for (uint32_t k = 0; k < s.problem.pair_count; k++) {
       for (size_t stride = 0; stride < 2; stride++) {
@@ -753,14 +881,19 @@ static void plan_culling_misses_nothing(void) {
         for (size_t i = 0; i + stride < samples; i++) {
           const nsvcd_answer answer = nsvcd__ask(p, k, i, stride, 0, NULL);
           const int certain = answer.status == NSVCD_STATUS_CERTIFIED_FREE;
-          segments++, uncertain += !certain, culled += !p->meets[i];
-          missed += !certain && !p->meets[i], missed_by_network += answer.logit > -2 && !p->meets[i];
+          segments++;
+          uncertain += !certain;
+          culled += !p->meets[i];
+          missed += !certain && !p->meets[i];
+          missed_by_network += answer.logit > -2 && !p->meets[i];
         }
       }
     }
   }
-  printf("  of %d segments %d are not certified free, %d culled, of which %d not certified free, %d suspicious\n",
-         segments, uncertain, culled, missed, missed_by_network);
+  printf(
+      "  of %d segments %d are not certified free, %d culled, of which %d not certified free, %d "
+      "suspicious\n",
+      segments, uncertain, culled, missed, missed_by_network);
   CHECK_EQ(p->error, NSVCD_OK);
   CHECK_EQ(missed, 0);
   CHECK_GE(culled, 0.2 * (segments - uncertain));  // else it culls nothing
@@ -768,47 +901,66 @@ static void plan_culling_misses_nothing(void) {
   plan_close(&in);
 }
 
-// The collision cost of a trajectory is the sum over pairs and segments, as if nothing were culled; but for the
-// segments of a run that as one motion is answered at most -margin: these count as free. So it is never more than the
-// sum.
+// The collision cost of a trajectory is the sum over pairs and segments, as if nothing were culled;
+// but for the segments of a run that as one motion is answered at most -margin: these count as
+// free. So it is never more than the sum.
 static void plan_cost_is_the_sum_over_segments(void) {
   static plan_scene s;
   shapes_rng rng = {31};
   plan_inside in;
-  int equal = 0, total = 0, dropped = 0, dropped_hits = 0, costly = 0;
+  int equal = 0;
+  int total = 0;
+  int dropped = 0;
+  int dropped_hits = 0;
+  int costly = 0;
   plan_begin(&s, PLAN_ARMS, 4);
-  s.bodies[0] = s.bodies[1] = s.bodies[2] = plan_body(PLAN_LINK), s.bodies[3] = plan_body(PLAN_BOX);
+  s.bodies[0] = s.bodies[1] = s.bodies[2] = plan_body(PLAN_LINK);
+  s.bodies[3] = plan_body(PLAN_BOX);
   s.rest[3] = query_pose(0.3, 0.25, 0);
-  plan_pair(&s, 1, 2), plan_pair(&s, 1, 3), plan_pair(&s, 0, 3), plan_pair(&s, 2, 0);
+  plan_pair(&s, 1, 2);
+  plan_pair(&s, 1, 3);
+  plan_pair(&s, 0, 3);
+  plan_pair(&s, 2, 0);
   if (!plan_open(&s, &in)) return;
   nsvcd__planner *p = &in.planner;
   const nsvcd__stage *stage = &p->refine;
   for (int n = 0; n < 400; n++) {
     float control[PLAN_VIA * PLAN_JOINTS], gradient[PLAN_VIA * PLAN_JOINTS], slope;
-    double sum = 0, without = 0;
-    int collides = 0, collides_at_all = 0, dropped_here = 0;
+    double sum = 0;
+    double without = 0;
+    int collides = 0;
+    int collides_at_all = 0;
+    int dropped_here = 0;
     plan_random_numbers(&rng, (stage->via + 2) * s.problem.joints, 0.6, control);
     const nsvcd__cost cost = nsvcd__cost_of(p, stage, control, INFINITY, NULL, NULL);
     const nsvcd__cost again = nsvcd__cost_of(p, stage, control, INFINITY, gradient, NULL);
     CHECK_NEAR(cost.collision, again.collision, 1e-5 * (double)cost.collision);
     CHECK_EQ(cost.collides, again.collides);
     for (uint32_t k = 0; k < s.problem.pair_count; k++) {
-      unsigned char meets[64] = {0}, runs[64];
+      unsigned char meets[64] = {0};
+      unsigned char runs[64];
       nsvcd__find_meetings(p, &s.pairs[k], stage->samples, 1);
-      memcpy(meets, p->meets, stage->samples - 1), memset(runs, 0, sizeof runs);
+      memcpy(meets, p->meets, stage->samples - 1);
+      memset(runs, 0, sizeof runs);
       for (size_t i = 0; i + 1 < stage->samples;) {  // which runs are clear
         size_t length = 0;
         while (length < 8 && i + length + 1 < stage->samples && meets[i + length]) length++;
-        if (length > 1 && nsvcd__ask(p, k, i, length, 0, NULL).logit <= -p->options.margin) memset(runs + i, 1, length);
+        if (length > 1 && nsvcd__ask(p, k, i, length, 0, NULL).logit <= -p->options.margin)
+          memset(runs + i, 1, length);
         i += length ? length : 1;
       }
       for (size_t i = 0; i + 1 < stage->samples; i++) {
         const nsvcd_answer answer = nsvcd__ask(p, k, i, 1, 0, NULL);
         const double share = (double)nsvcd__cost_of_logit(answer.logit, p->options.margin, &slope);
-        sum += share, collides_at_all |= answer.collides, costly += share > 0;
+        sum += share;
+        collides_at_all |= answer.collides;
+        costly += share > 0;
         if (!meets[i]) CHECK_EQ(share, 0);
         if (runs[i]) {
-          without += share, dropped += share > 0, dropped_hits += answer.collides, dropped_here += share > 0;
+          without += share;
+          dropped += share > 0;
+          dropped_hits += answer.collides;
+          dropped_here += share > 0;
         } else {
           collides |= answer.collides;
         }
@@ -817,10 +969,13 @@ static void plan_cost_is_the_sum_over_segments(void) {
     CHECK_NEAR(cost.collision, sum - without, 1e-5 * sum + 1e-6);
     CHECK_EQ(cost.collides, collides);
     CHECK(cost.collides <= collides_at_all);
-    total++, equal += !dropped_here;
+    total++;
+    equal += !dropped_here;
   }
-  printf("  %d of %d trajectories cost the sum; of %d segments that cost, %d (%d collide) lie in runs that do not\n",
-         equal, total, costly, dropped, dropped_hits);
+  printf(
+      "  %d of %d trajectories cost the sum; of %d segments that cost, %d (%d collide) lie in runs "
+      "that do not\n",
+      equal, total, costly, dropped, dropped_hits);
   CHECK_EQ(p->error, NSVCD_OK);
   CHECK_GE(equal, 0.8 * total);
   CHECK_GE(costly, 500);
@@ -834,9 +989,11 @@ static void plan_cost_stops_at_its_limit(void) {
   plan_inside in;
   int cut = 0;
   plan_begin(&s, PLAN_ARMS, 4);
-  s.bodies[0] = s.bodies[1] = s.bodies[2] = plan_body(PLAN_LINK), s.bodies[3] = plan_body(PLAN_BOX);
+  s.bodies[0] = s.bodies[1] = s.bodies[2] = plan_body(PLAN_LINK);
+  s.bodies[3] = plan_body(PLAN_BOX);
   s.rest[3] = query_pose(0.3, 0.25, 0);
-  plan_pair(&s, 1, 2), plan_pair(&s, 1, 3);
+  plan_pair(&s, 1, 2);
+  plan_pair(&s, 1, 3);
   if (!plan_open(&s, &in)) return;
   nsvcd__planner *p = &in.planner;
   for (int n = 0; n < 200; n++) {
@@ -845,7 +1002,8 @@ static void plan_cost_stops_at_its_limit(void) {
     const nsvcd__cost whole = nsvcd__cost_of(p, &p->refine, control, INFINITY, NULL, NULL);
     const float limit = whole.total * (float)shapes_uniform(&rng, 0.1, 2);
     const nsvcd__cost cost = nsvcd__cost_of(p, &p->refine, control, limit, NULL, NULL);
-    if (whole.total < 0.9999f * limit) CHECK_NEAR(cost.total, whole.total, 1e-5 * (double)whole.total);
+    if (whole.total < 0.9999f * limit)
+      CHECK_NEAR(cost.total, whole.total, 1e-5 * (double)whole.total);
     if (whole.total > 1.0001f * limit) CHECK_GE(cost.total, limit);
     cut += cost.total < 0.999f * whole.total;
   }
@@ -853,7 +1011,7 @@ static void plan_cost_stops_at_its_limit(void) {
   plan_close(&in);
 }
 
-// --------------------------------------------------------------------------------------------------------- behaviour
+// --------------------------------------------------------------------------------------- behaviour
 
 #define PLAN_GUARD 64
 
@@ -864,17 +1022,23 @@ typedef struct plan_outcome {
   size_t via;
 } plan_outcome;
 
-// nsvcd_plan with a workspace of just the size asked for and guards behind it and behind control; and what holds of
-// every answer: bounds, counts, finite numbers, start and goal in place; and of every error: nothing written.
+// nsvcd_plan with a workspace of just the size asked for and guards behind it and behind control;
+// and what holds of every answer: bounds, counts, finite numbers, start and goal in place; and of
+// every error: nothing written.
 static plan_outcome plan_run(plan_scene *s) {
   static const unsigned char untouched = 0x5a;
   plan_outcome out;
   const nsvcd_plan_options *o = &s->options;
-  const size_t size = nsvcd_plan_workspace_size(&s->problem, o), f = s->problem.joints;
-  const size_t refine = o->refine.iterations == NSVCD_NONE ? 0 : o->refine.iterations ? o->refine.iterations : 10;
-  const size_t explore = o->explore.iterations == NSVCD_NONE ? 0 : o->explore.iterations ? o->explore.iterations : 40;
-  const size_t tries = o->explore.samples ? o->explore.samples : 200,
-               bundle = o->refine.samples ? o->refine.samples : 10;
+  const size_t size = nsvcd_plan_workspace_size(&s->problem, o);
+  const size_t f = s->problem.joints;
+  const size_t refine = o->refine.iterations == NSVCD_NONE ? 0
+                        : o->refine.iterations             ? o->refine.iterations
+                                                           : 10;
+  const size_t explore = o->explore.iterations == NSVCD_NONE ? 0
+                         : o->explore.iterations             ? o->explore.iterations
+                                                             : 40;
+  const size_t tries = o->explore.samples ? o->explore.samples : 200;
+  const size_t bundle = o->refine.samples ? o->refine.samples : 10;
   query_memory memory = query_reserve(size + PLAN_GUARD);
   size_t written = 0;
   s->reports = s->disorders = s->out_of_place = s->placed = s->again = 0;
@@ -882,13 +1046,15 @@ static plan_outcome plan_run(plan_scene *s) {
   out.via = o->refine.iterations == NSVCD_NONE ? (o->explore.via_points ? o->explore.via_points : 5)
                                                : (o->refine.via_points ? o->refine.via_points : 10);
   out.result = nsvcd_plan(&s->problem, o, memory.at, size, out.control, &out.answer);
-  for (size_t k = size; k < size + PLAN_GUARD; k++) CHECK_EQ(((unsigned char *)memory.at)[k], untouched);
+  for (size_t k = size; k < size + PLAN_GUARD; k++)
+    CHECK_EQ(((unsigned char *)memory.at)[k], untouched);
   query_release(&memory);
   const size_t numbers = out.result || out.via > NSVCD_MAX_VIA_POINTS ? 0 : (out.via + 2) * f;
   for (size_t k = numbers * sizeof(float); k < sizeof out.control; k++)
     written += ((unsigned char *)out.control)[k] != untouched;
   if (out.result) {
-    for (size_t k = 0; k < sizeof out.answer; k++) written += ((unsigned char *)&out.answer)[k] != untouched;
+    for (size_t k = 0; k < sizeof out.answer; k++)
+      written += ((unsigned char *)&out.answer)[k] != untouched;
   }
   CHECK_EQ(written, 0);
   if (out.result) return out;
@@ -903,13 +1069,17 @@ static plan_outcome plan_run(plan_scene *s) {
   // What a proof finds to be a hit is refined three times more.
   const size_t rounds = 4;
   CHECK(a->seeds <= seeds && a->iterations <= a->seeds * (explore + rounds * refine));
-  CHECK_LE(a->trajectories, a->seeds * (explore * tries + rounds * (refine * (bundle + 5) + 2) + 1));
-  CHECK(isfinite(a->cost) && isfinite(a->smoothness) && isfinite(a->logit) && a->time >= 0 && a->time <= 1);
+  CHECK_LE(a->trajectories,
+           a->seeds * (explore * tries + rounds * (refine * (bundle + 5) + 2) + 1));
+  CHECK(isfinite(a->cost) && isfinite(a->smoothness) && isfinite(a->logit) && a->time >= 0 &&
+        a->time <= 1);
   CHECK(a->pair == NSVCD_NONE || a->pair < s->problem.pair_count);
   CHECK(a->joint == NSVCD_NONE || a->joint < f);
   if (a->status == NSVCD_PLAN_CONVERGED) CHECK(!a->collides && a->joint == NSVCD_NONE);
-  if (a->status == NSVCD_PLAN_START || a->status == NSVCD_PLAN_GOAL) {  // there is a reason, and only one
-    CHECK((a->joint != NSVCD_NONE) != (a->collides && (a->pair != NSVCD_NONE || s->problem.collision)));
+  // there is a reason, and only one
+  if (a->status == NSVCD_PLAN_START || a->status == NSVCD_PLAN_GOAL) {
+    CHECK((a->joint != NSVCD_NONE) !=
+          (a->collides && (a->pair != NSVCD_NONE || s->problem.collision)));
   }
   if (s->problem.progress) {
     CHECK_EQ(s->reports, a->iterations);
@@ -922,18 +1092,27 @@ static plan_outcome plan_run(plan_scene *s) {
 // A ball that must go round a wall.
 static void plan_wall_scene(plan_scene *s) {
   plan_begin(s, PLAN_XYZ, 2);
-  s->bodies[0] = plan_body(PLAN_BALL), s->bodies[1] = plan_body(PLAN_WALL);
+  s->bodies[0] = plan_body(PLAN_BALL);
+  s->bodies[1] = plan_body(PLAN_WALL);
   plan_pair(s, 0, 1);
-  for (size_t j = 0; j < 3; j++) s->low[j] = -0.5f, s->high[j] = 0.5f;
-  s->start[0] = -0.3f, s->goal[0] = 0.3f, s->start[1] = 0.02f, s->start[2] = -0.03f;
+  for (size_t j = 0; j < 3; j++) {
+    s->low[j] = -0.5f;
+    s->high[j] = 0.5f;
+  }
+  s->start[0] = -0.3f;
+  s->goal[0] = 0.3f;
+  s->start[1] = 0.02f;
+  s->start[2] = -0.03f;
 }
 // The least distance of the two surfaces along the trajectory, exactly, on fine samples.
-static double plan_exact_distance(const plan_scene *s, const plan_outcome *out, int shape_a, int shape_b) {
+static double plan_exact_distance(const plan_scene *s, const plan_outcome *out, int shape_a,
+                                  int shape_b) {
   enum { COUNT = 401 };
   static oracle_pose poses[COUNT];
   oracle_mesh a, b;
   const oracle_pose wall = plan_exact_pose(&s->rest[1]);
-  const shapes_mesh *x = &plan_shapes[shape_a], *y = &plan_shapes[shape_b];
+  const shapes_mesh *x = &plan_shapes[shape_a];
+  const shapes_mesh *y = &plan_shapes[shape_b];
   CHECK(oracle_mesh_init(&a, x->positions, x->vertices, x->indices, x->triangles, 1));
   CHECK(oracle_mesh_init(&b, y->positions, y->vertices, y->indices, y->triangles, 1));
   for (int n = 0; n < COUNT; n++) {
@@ -944,7 +1123,8 @@ static double plan_exact_distance(const plan_scene *s, const plan_outcome *out, 
     poses[n] = plan_exact_pose(&placed[0]);
   }
   const oracle_result found = oracle_sweep(&a, poses, COUNT, &b, &wall, NULL);
-  oracle_mesh_free(&a), oracle_mesh_free(&b);
+  oracle_mesh_free(&a);
+  oracle_mesh_free(&b);
   return found.status == ORACLE_FREE ? found.distance : 0;
 }
 
@@ -973,16 +1153,19 @@ static void plan_goes_round_a_wall(void) {
 }
 
 static int plan_same(const plan_outcome *a, const plan_outcome *b, size_t joints) {  // to the bit
-  return a->result == b->result && a->answer.status == b->answer.status && a->answer.cost == b->answer.cost &&
-         a->answer.logit == b->answer.logit && a->answer.sweeps == b->answer.sweeps &&
-         a->answer.iterations == b->answer.iterations && a->answer.trajectories == b->answer.trajectories &&
+  return a->result == b->result && a->answer.status == b->answer.status &&
+         a->answer.cost == b->answer.cost && a->answer.logit == b->answer.logit &&
+         a->answer.sweeps == b->answer.sweeps && a->answer.iterations == b->answer.iterations &&
+         a->answer.trajectories == b->answer.trajectories &&
          memcmp(a->control, b->control, (a->via + 2) * joints * sizeof(float)) == 0;
 }
 static void plan_is_deterministic(void) {
   static plan_scene s;
   plan_wall_scene(&s);
-  s.options.explore.iterations = 10, s.options.explore.samples = 50;
-  const plan_outcome first = plan_run(&s), second = plan_run(&s);
+  s.options.explore.iterations = 10;
+  s.options.explore.samples = 50;
+  const plan_outcome first = plan_run(&s);
+  const plan_outcome second = plan_run(&s);
   CHECK_EQ(first.result, NSVCD_OK);
   CHECK(plan_same(&first, &second, 3));
   s.options.seed = 2;
@@ -990,7 +1173,8 @@ static void plan_is_deterministic(void) {
   CHECK(memcmp(first.control, other.control, 36 * sizeof(float)) != 0);
 }
 
-// Of several starts, none of which ends free, the best is kept: with one more the answer costs no more.
+// Of several starts, none of which ends free, the best is kept: with one more the answer costs no
+// more.
 static void plan_keeps_the_best_of_its_seeds(void) {
   static plan_scene s;
   int better = 0;
@@ -1015,7 +1199,8 @@ static void plan_keeps_the_best_of_its_seeds(void) {
 static void plan_can_be_cancelled(void) {
   static plan_scene s;
   plan_wall_scene(&s);
-  s.options.explore.samples = 40, s.options.explore.iterations = 5;  // so that refining is cancelled too
+  s.options.explore.samples = 40;
+  s.options.explore.iterations = 5;  // so that refining is cancelled too
   const plan_outcome whole = plan_run(&s);
   CHECK_GE(whole.answer.iterations, 7);
   for (size_t at = 1; at <= 7; at++) {
@@ -1031,8 +1216,10 @@ static void plan_can_be_cancelled(void) {
 static void plan_grasped_bodies_move_along(void) {
   static plan_scene s;
   plan_wall_scene(&s);
-  s.bodies[2] = s.bodies[0], s.problem.body_count = 3;  // between: the wall. The second ball is body 1 now
-  s.bodies[1] = s.bodies[0], s.bodies[2] = plan_body(PLAN_WALL);
+  s.bodies[2] = s.bodies[0];
+  s.problem.body_count = 3;  // between: the wall. The second ball is body 1 now
+  s.bodies[1] = s.bodies[0];
+  s.bodies[2] = plan_body(PLAN_WALL);
   s.pairs[0].b = 2;
   plan_pair(&s, 1, 2);
   s.attached = 1;
@@ -1056,10 +1243,14 @@ static void plan_grasped_bodies_move_along(void) {
     plan_place(&s, joints, placed);
     for (int b = 0; b < 2; b++) poses[b][n] = plan_exact_pose(&placed[b]);
   }
-  for (int b = 0; b < 2; b++) CHECK_EQ(oracle_sweep(&ball, poses[b], 201, &wall, &at, NULL).status, ORACLE_FREE);
-  oracle_mesh_free(&ball), oracle_mesh_free(&wall);
-  // Let go: the second ball rests where the path is blocked no more, and the pair of both balls is looked at.
-  s.attached = 0, s.rest[1] = query_pose(0, 0.4, 0.45);
+  for (int b = 0; b < 2; b++)
+    CHECK_EQ(oracle_sweep(&ball, poses[b], 201, &wall, &at, NULL).status, ORACLE_FREE);
+  oracle_mesh_free(&ball);
+  oracle_mesh_free(&wall);
+  // Let go: the second ball rests where the path is blocked no more, and the pair of both balls is
+  // looked at.
+  s.attached = 0;
+  s.rest[1] = query_pose(0, 0.4, 0.45);
   plan_pair(&s, 0, 1);
   const plan_outcome alone = plan_run(&s);
   CHECK_EQ(alone.answer.status, NSVCD_PLAN_CONVERGED);
@@ -1076,7 +1267,8 @@ static const nsvcd_body *plan_solid(int shape) {
   return bodies[shape];
 }
 
-// With triangles CONVERGED is a proof, and what is not free is not called so, whatever the search believed.
+// With triangles CONVERGED is a proof, and what is not free is not called so, whatever the search
+// believed.
 static void plan_proves_at_the_end(void) {
   static plan_scene s;
   plan_wall_scene(&s);
@@ -1096,9 +1288,11 @@ static void plan_proves_at_the_end(void) {
     s.options.seed = seed;
     s.options.sweep.clearance = 0.002f * (float)seed;
     const plan_outcome out = plan_run(&s);
-    CHECK(out.answer.status == NSVCD_PLAN_CONVERGED || (out.answer.status == NSVCD_PLAN_LIMIT && out.answer.collides));
+    CHECK(out.answer.status == NSVCD_PLAN_CONVERGED ||
+          (out.answer.status == NSVCD_PLAN_LIMIT && out.answer.collides));
     if (out.answer.status != NSVCD_PLAN_CONVERGED) continue;
-    CHECK_GE(plan_exact_distance(&s, &out, PLAN_BALL, PLAN_WALL), (double)s.options.sweep.clearance - 1e-5);
+    CHECK_GE(plan_exact_distance(&s, &out, PLAN_BALL, PLAN_WALL),
+             (double)s.options.sweep.clearance - 1e-5);
     converged++;
   }
   CHECK_GE(converged, 1);
@@ -1112,7 +1306,8 @@ static void plan_proves_at_the_end(void) {
   CHECK_NEAR(through.answer.time, 0.5, 0.25);
 }
 
-// Half a millimetre beside a wall, and along it: the network calls the start a hit, the proof does not.
+// Half a millimetre beside a wall, and along it: the network calls the start a hit, the proof does
+// not.
 static void plan_starts_beside_a_wall(void) {
   static plan_scene s;
   plan_begin(&s, PLAN_XYZ, 2);
@@ -1137,16 +1332,20 @@ static void plan_starts_beside_a_wall(void) {
 static void plan_stages_can_be_left_out(void) {
   static plan_scene s;
   plan_wall_scene(&s);
-  s.options.refine.iterations = NSVCD_NONE, s.options.refine.via_points = 9, s.options.explore.via_points = 4;
+  s.options.refine.iterations = NSVCD_NONE;
+  s.options.refine.via_points = 9;
+  s.options.explore.via_points = 4;
   plan_outcome out = plan_run(&s);  // checks the number of via points
   CHECK_EQ(out.answer.status, NSVCD_PLAN_CONVERGED);
   CHECK_GE(plan_exact_distance(&s, &out, PLAN_BALL, PLAN_WALL), 1e-4);
   memset(&s.options, 0, sizeof s.options);
-  s.options.explore.iterations = NSVCD_NONE, s.options.refine.iterations = 40;
+  s.options.explore.iterations = NSVCD_NONE;
+  s.options.refine.iterations = 40;
   out = plan_run(&s);
   CHECK_EQ(out.result, NSVCD_OK);
   CHECK_GE(s.reports, 1);
-  s.options.refine.iterations = NSVCD_NONE, s.options.seeds = 1;  // nothing but the check of a line that hits
+  s.options.refine.iterations = NSVCD_NONE;
+  s.options.seeds = 1;  // nothing but the check of a line that hits
   out = plan_run(&s);
   CHECK_EQ(out.answer.status, NSVCD_PLAN_LIMIT);
   CHECK_EQ(out.answer.iterations, 0);
@@ -1157,7 +1356,8 @@ static void plan_stages_can_be_left_out(void) {
   CHECK_EQ(out.answer.status, NSVCD_PLAN_CONVERGED);
   for (size_t k = 0; k < out.via + 2; k++) {
     for (size_t j = 0; j < 3; j++) {  // monotone, and symmetric in time
-      const double x = (double)out.control[3 * k + j], y = (double)out.control[3 * (out.via + 1 - k) + j];
+      const double x = (double)out.control[3 * k + j];
+      const double y = (double)out.control[3 * (out.via + 1 - k) + j];
       CHECK_NEAR(x + y, (double)s.start[j] + (double)s.goal[j], 1e-5);
       if (k) CHECK(out.control[3 * k] >= out.control[3 * k - 3] - 1e-6f);
     }
@@ -1173,7 +1373,8 @@ static void plan_discrete_looks_at_poses(void) {
   // Two segments: start, middle and goal. A wall between them is not seen, by design; swept it is.
   s.rest[1] = query_pose(-0.15, 0, 0);
   s.options.explore.iterations = s.options.refine.iterations = NSVCD_NONE;
-  s.options.check = 2, s.options.seeds = 1;
+  s.options.check = 2;
+  s.options.seeds = 1;
   out = plan_run(&s);
   CHECK_EQ(out.answer.status, NSVCD_PLAN_CONVERGED);
   s.options.discrete = 0;
@@ -1187,7 +1388,8 @@ static void plan_takes_a_custom_cost(void) {
   static plan_scene s;
   for (int jacobian = 0; jacobian < 2; jacobian++) {
     plan_wall_scene(&s);
-    s.problem.collision = plan_bump_collision, s.problem.bodies = NULL;
+    s.problem.collision = plan_bump_collision;
+    s.problem.bodies = NULL;
     s.problem.jacobian = jacobian ? plan_jacobian : NULL;
     const plan_outcome out = plan_run(&s);
     CHECK_EQ(out.result, NSVCD_OK);
@@ -1206,7 +1408,7 @@ static void plan_takes_a_custom_cost(void) {
   }
 }
 
-// ------------------------------------------------------------------------------------------------------------ errors
+// ------------------------------------------------------------------------------------------ errors
 
 static void plan_refuses(plan_scene *s, nsvcd_result expected, int measured) {
   if (!measured) CHECK_EQ(nsvcd_plan_workspace_size(&s->problem, &s->options), 0);
@@ -1219,11 +1421,19 @@ static void plan_refuses_options_out_of_range(void) {
   plan_wall_scene(&s);
   nsvcd_plan_options *o = &s.options;
   const nsvcd_plan_options none = *o;
-  size_t *const sizes[] = {
-      &o->explore.via_points, &o->explore.segments,  &o->explore.iterations, &o->explore.samples, &o->refine.via_points,
-      &o->refine.segments,    &o->refine.iterations, &o->refine.samples,     &o->seeds,           &o->check,
-      &o->sweep.pairs};
-  const size_t most[] = {32, 4096, 100000, 10000, 32, 4096, 100000, 10000, 1000, 16384, NSVCD_MAX_PAIRS};
+  size_t *const sizes[] = {&o->explore.via_points,
+                           &o->explore.segments,
+                           &o->explore.iterations,
+                           &o->explore.samples,
+                           &o->refine.via_points,
+                           &o->refine.segments,
+                           &o->refine.iterations,
+                           &o->refine.samples,
+                           &o->seeds,
+                           &o->check,
+                           &o->sweep.pairs};
+  const size_t most[] = {32,    4096, 100000, 10000,          32, 4096, 100000,
+                         10000, 1000, 16384,  NSVCD_MAX_PAIRS};
   for (size_t k = 0; k < sizeof sizes / sizeof *sizes; k++) {
     *sizes[k] = most[k];
     o->check = o->check ? o->check : 10;
@@ -1235,8 +1445,9 @@ static void plan_refuses_options_out_of_range(void) {
     }
     *o = none;
   }
-  float *const floats[] = {&o->velocity, &o->acceleration, &o->jerk,   &o->collision,   &o->duration,
-                           &o->margin,   &o->spread,       &o->bundle, &o->sweep.recall};
+  float *const floats[] = {&o->velocity,  &o->acceleration, &o->jerk,
+                           &o->collision, &o->duration,     &o->margin,
+                           &o->spread,    &o->bundle,       &o->sweep.recall};
   for (size_t k = 0; k < sizeof floats / sizeof *floats; k++) {
     *floats[k] = NAN;
     plan_refuses(&s, NSVCD_ERROR_ARGUMENT, 0);
@@ -1261,11 +1472,13 @@ static void plan_works_at_the_ends_of_its_options(void) {
   plan_outcome out = plan_run(&s);
   CHECK_EQ(out.result, NSVCD_OK);
   o->explore.via_points = o->refine.via_points = 32;
-  o->explore.segments = o->refine.segments = 300, o->check = 16384;
+  o->explore.segments = o->refine.segments = 300;
+  o->check = 16384;
   out = plan_run(&s);
   CHECK_EQ(out.result, NSVCD_OK);
   memset(o, 0, sizeof *o);
-  o->explore.via_points = 32, o->refine.via_points = 1;  // from more to fewer
+  o->explore.via_points = 32;
+  o->refine.via_points = 1;  // from more to fewer
   o->explore.samples = 30;
   out = plan_run(&s);
   CHECK_EQ(out.result, NSVCD_OK);
@@ -1302,7 +1515,10 @@ static void plan_refuses_problems(void) {
   const float wrong[4] = {NAN, INFINITY, -INFINITY, 2e6f};
   for (size_t k = 0; k < 16; k++) {
     plan_wall_scene(&s);
-    float *const number = k < 4 ? &s.low[2] : k < 8 ? &s.high[2] : k < 12 ? &s.start[2] : &s.goal[2];
+    float *const number = k < 4    ? &s.low[2]
+                          : k < 8  ? &s.high[2]
+                          : k < 12 ? &s.start[2]
+                                   : &s.goal[2];
     *number = wrong[k % 4];
     plan_refuses(&s, NSVCD_ERROR_NUMBER, 1);
   }
@@ -1322,12 +1538,15 @@ static void plan_refuses_problems(void) {
     CHECK_EQ(out.answer.status, NSVCD_PLAN_CONVERGED);
   }
   plan_wall_scene(&s);  // no pairs, no bodies
-  s.problem.pair_count = 0, s.problem.pairs = NULL, s.problem.bodies = NULL;
+  s.problem.pair_count = 0;
+  s.problem.pairs = NULL;
+  s.problem.bodies = NULL;
   const plan_outcome out = plan_run(&s);
   CHECK_EQ(out.answer.status, NSVCD_PLAN_CONVERGED);
 }
 
-// A problem for which some 4 GB of memory would be needed: as many bytes, or none where size_t cannot count them.
+// A problem for which some 4 GB of memory would be needed: as many bytes, or none where size_t
+// cannot count them.
 static void plan_sizes_do_not_wrap(void) {
   static plan_scene s;
   static const nsvcd_body *bodies[2260];
@@ -1351,16 +1570,21 @@ static void plan_sizes_do_not_wrap(void) {
 static void plan_workspace_is_checked(void) {
   static plan_scene s;
   plan_wall_scene(&s);
-  s.options.explore.samples = 20, s.options.explore.iterations = 2;
+  s.options.explore.samples = 20;
+  s.options.explore.iterations = 2;
   const size_t size = nsvcd_plan_workspace_size(&s.problem, &s.options);
   query_memory memory = query_reserve(size + 16);
   nsvcd_plan_answer answer, before;
   float control[12 * 3], same[12 * 3];
-  memset(&answer, 7, sizeof answer), memset(&before, 7, sizeof before);
-  memset(control, 7, sizeof control), memset(same, 7, sizeof same);
+  memset(&answer, 7, sizeof answer);
+  memset(&before, 7, sizeof before);
+  memset(control, 7, sizeof control);
+  memset(same, 7, sizeof same);
   char *at = (char *)memory.at;
-  CHECK_EQ(nsvcd_plan(&s.problem, &s.options, at, size - 1, control, &answer), NSVCD_ERROR_WORKSPACE);
-  CHECK_EQ(nsvcd_plan(&s.problem, &s.options, at + 4, size, control, &answer), NSVCD_ERROR_WORKSPACE);
+  CHECK_EQ(nsvcd_plan(&s.problem, &s.options, at, size - 1, control, &answer),
+           NSVCD_ERROR_WORKSPACE);
+  CHECK_EQ(nsvcd_plan(&s.problem, &s.options, at + 4, size, control, &answer),
+           NSVCD_ERROR_WORKSPACE);
   CHECK_EQ(nsvcd_plan(&s.problem, &s.options, NULL, size, control, &answer), NSVCD_ERROR_WORKSPACE);
   CHECK_EQ(nsvcd_plan(NULL, &s.options, at, size, control, &answer), NSVCD_ERROR_ARGUMENT);
   CHECK_EQ(nsvcd_plan(&s.problem, &s.options, at, size, NULL, &answer), NSVCD_ERROR_ARGUMENT);
@@ -1371,7 +1595,7 @@ static void plan_workspace_is_checked(void) {
   query_release(&memory);
 }
 
-// --------------------------------------------------------------------------------------------- a thousand bad scenes
+// --------------------------------------------------------------------------- a thousand bad scenes
 
 typedef enum plan_trouble {
   PLAN_START_HITS,
@@ -1419,10 +1643,16 @@ static void plan_scale(plan_scene *s, float scale, query_memory *memory) {
     CHECK_EQ(nsvcd_body_scale(s->bodies[b], scale, memory[b].at, size, &s->bodies[b]), NSVCD_OK);
     for (int k = 0; k < 3; k++) s->rest[b].position[k] *= scale;
   }
-  for (size_t j = 0; j < 3; j++) s->low[j] *= scale, s->high[j] *= scale, s->start[j] *= scale, s->goal[j] *= scale;
+  for (size_t j = 0; j < 3; j++) {
+    s->low[j] *= scale;
+    s->high[j] *= scale;
+    s->start[j] *= scale;
+    s->goal[j] *= scale;
+  }
 }
 
-// Makes a scene of this trouble, plans, and checks what must come of it. Returns the status, or -1 for an error.
+// Makes a scene of this trouble, plans, and checks what must come of it. Returns the status, or -1
+// for an error.
 static int plan_trouble_case(plan_trouble trouble, uint64_t seed) {
   static plan_scene s;
   shapes_rng rng = {1000 * seed + (uint64_t)trouble};
@@ -1431,22 +1661,33 @@ static int plan_trouble_case(plan_trouble trouble, uint64_t seed) {
   plan_wall_scene(&s);
   s.rest[1] = query_pose(0, shapes_uniform(&rng, -0.2, 0.2), shapes_uniform(&rng, -0.2, 0.2));
   for (size_t j = 1; j < 3; j++) {
-    s.start[j] = (float)shapes_uniform(&rng, -0.3, 0.3), s.goal[j] = (float)shapes_uniform(&rng, -0.3, 0.3);
+    s.start[j] = (float)shapes_uniform(&rng, -0.3, 0.3);
+    s.goal[j] = (float)shapes_uniform(&rng, -0.3, 0.3);
   }
   nsvcd_plan_options *o = &s.options;
-  o->seed = seed, o->seeds = 1 + (size_t)shapes_pick(&rng, 2);
-  o->explore.iterations = 4, o->explore.samples = 12, o->explore.segments = 8, o->explore.via_points = 3;
-  o->refine.iterations = 3, o->refine.samples = 2, o->refine.segments = 10, o->refine.via_points = 4;
+  o->seed = seed;
+  o->seeds = 1 + (size_t)shapes_pick(&rng, 2);
+  o->explore.iterations = 4;
+  o->explore.samples = 12;
+  o->explore.segments = 8;
+  o->explore.via_points = 3;
+  o->refine.iterations = 3;
+  o->refine.samples = 2;
+  o->refine.segments = 10;
+  o->refine.via_points = 4;
   if (trouble == PLAN_START_HITS || trouble == PLAN_GOAL_HITS) {
-    s.problem.body_count = 3, s.bodies[2] = plan_body(PLAN_BOX);
+    s.problem.body_count = 3;
+    s.bodies[2] = plan_body(PLAN_BOX);
     const float *at = trouble == PLAN_START_HITS ? s.start : s.goal;
-    s.rest[2] = query_pose((double)at[0] + shapes_uniform(&rng, -0.08, 0.08), (double)at[1], (double)at[2]);
+    s.rest[2] =
+        query_pose((double)at[0] + shapes_uniform(&rng, -0.08, 0.08), (double)at[1], (double)at[2]);
     plan_pair(&s, 0, 2);
   }
   if (trouble == PLAN_START_OUT) s.start[joint] = (float)shapes_uniform(&rng, 0.51, 3);
   if (trouble == PLAN_GOAL_OUT) {  // and something near the start, which is not the reason
     s.goal[joint] = (float)shapes_uniform(&rng, -3, -0.51);
-    s.problem.body_count = 3, s.bodies[2] = plan_body(PLAN_BOX);
+    s.problem.body_count = 3;
+    s.bodies[2] = plan_body(PLAN_BOX);
     s.rest[2] = query_pose((double)s.start[0] - 0.18, (double)s.start[1], (double)s.start[2]);
     plan_pair(&s, 0, 2);
   }
@@ -1454,7 +1695,10 @@ static int plan_trouble_case(plan_trouble trouble, uint64_t seed) {
   if (trouble == PLAN_ENCLOSED) {
     s.bodies[1] = plan_body(PLAN_SHELL);
     for (size_t j = 0; j < 3; j++) {
-      s.low[j] = -2, s.high[j] = 2, s.goal[j] = s.rest[1].position[j], s.start[j] = s.goal[j] + (j == joint ? 0.6f : 0);
+      s.low[j] = -2;
+      s.high[j] = 2;
+      s.goal[j] = s.rest[1].position[j];
+      s.start[j] = s.goal[j] + (j == joint ? 0.6f : 0);
     }
     o->sweep.recall = 0.999f;
   }
@@ -1470,15 +1714,28 @@ static int plan_trouble_case(plan_trouble trouble, uint64_t seed) {
     for (uint32_t b = 2; b < PLAN_BODIES; b++) {
       s.bodies[b] = plan_body(shapes_pick(&rng, PLAN_SHAPES));
       query_random_pose(&rng, 1.5, &s.rest[b]);
-      plan_pair(&s, 0, b), plan_pair(&s, b, (uint32_t)shapes_pick(&rng, 2));
+      plan_pair(&s, 0, b);
+      plan_pair(&s, b, (uint32_t)shapes_pick(&rng, 2));
     }
   }
   if (trouble == PLAN_ONE_VIA) o->explore.via_points = o->refine.via_points = 1;
-  if (trouble == PLAN_HUGE) plan_scale(&s, 1e5f, scaled), o->spread = 5e4f, o->bundle = 1e3f;
-  if (trouble == PLAN_TINY) plan_scale(&s, 1e-6f, scaled), o->spread = 5e-7f, o->bundle = 1e-8f;
+  if (trouble == PLAN_HUGE) {
+    plan_scale(&s, 1e5f, scaled);
+    o->spread = 5e4f;
+    o->bundle = 1e3f;
+  }
+  if (trouble == PLAN_TINY) {
+    plan_scale(&s, 1e-6f, scaled);
+    o->spread = 5e-7f;
+    o->bundle = 1e-8f;
+  }
   if (trouble == PLAN_FAR) {
     for (size_t j = 0; j < 3; j++) {
-      s.low[j] += 1e5f, s.high[j] += 1e5f, s.start[j] += 1e5f, s.goal[j] += 1e5f, s.rest[1].position[j] += 1e5f;
+      s.low[j] += 1e5f;
+      s.high[j] += 1e5f;
+      s.start[j] += 1e5f;
+      s.goal[j] += 1e5f;
+      s.rest[1].position[j] += 1e5f;
     }
   }
   float *const weights[] = {&o->velocity, &o->acceleration, &o->jerk,   &o->collision,
@@ -1499,7 +1756,8 @@ static int plan_trouble_case(plan_trouble trouble, uint64_t seed) {
     CHECK_EQ(out.result, NSVCD_ERROR_ARGUMENT);
     return -1;
   }
-  if (trouble == PLAN_EXTREME && out.result == NSVCD_ERROR_NUMBER) return -1;  // the cost is beyond float's range
+  // the cost is beyond float's range
+  if (trouble == PLAN_EXTREME && out.result == NSVCD_ERROR_NUMBER) return -1;
   CHECK_EQ(out.result, NSVCD_OK);
   if (out.result) return -1;
   if (trouble == PLAN_START_HITS || trouble == PLAN_GOAL_HITS) {
@@ -1527,10 +1785,15 @@ static void plan_troubles_end_well(void) {
   int total = 0;
   for (int trouble = 0; trouble < PLAN_TROUBLES; trouble++) {
     int count[6] = {0};
-    for (uint64_t seed = 1; seed <= EACH; seed++) count[1 + plan_trouble_case((plan_trouble)trouble, seed)]++, total++;
+    for (uint64_t seed = 1; seed <= EACH; seed++) {
+      count[1 + plan_trouble_case((plan_trouble)trouble, seed)]++;
+      total++;
+    }
     printf("  %-26s", plan_troubles[trouble]);
     for (int k = 0; k < 6; k++) {
-      if (count[k]) printf("%4d %s", count[k], k ? nsvcd_plan_status_string((nsvcd_plan_status)(k - 1)) : "error");
+      if (count[k])
+        printf("%4d %s", count[k],
+               k ? nsvcd_plan_status_string((nsvcd_plan_status)(k - 1)) : "error");
     }
     printf("\n");
     CHECK_EQ(count[1 + NSVCD_PLAN_CANCELLED], 0);
@@ -1538,22 +1801,28 @@ static void plan_troubles_end_well(void) {
   CHECK_GE(total, 1000);
 }
 
-// Steps of differences are no smaller than floats: far from zero the gradient is still that of the jacobian.
+// Steps of differences are no smaller than floats: far from zero the gradient is still that of the
+// jacobian.
 static void plan_differences_work_far_from_zero(void) {
   static plan_scene s;
   shapes_rng rng = {40};
   for (int n = 0; n < 20; n++) {
     const float far = (float)pow(10, n % 6);
     float control[12 * 3], gradient[2][12 * 3];
-    double norm = 0, difference = 0;
+    double norm = 0;
+    double difference = 0;
     plan_random_numbers(&rng, 36, 0.3, control);
     for (size_t k = 0; k < 36; k++) control[k] += far;
     for (int jacobian = 0; jacobian < 2; jacobian++) {
       plan_inside in;
       plan_begin(&s, PLAN_XYZ, 2);
-      for (size_t j = 0; j < 3; j++) s.low[j] = -1e6f, s.high[j] = 1e6f;
+      for (size_t j = 0; j < 3; j++) {
+        s.low[j] = -1e6f;
+        s.high[j] = 1e6f;
+      }
       s.rest[1] = query_pose((double)far, (double)far, (double)far);
-      s.problem.collision = plan_bump_collision, s.problem.jacobian = jacobian ? plan_jacobian : NULL;
+      s.problem.collision = plan_bump_collision;
+      s.problem.jacobian = jacobian ? plan_jacobian : NULL;
       plan_pair(&s, 0, 1);
       if (!plan_open(&s, &in)) return;
       nsvcd__cost_of(&in.planner, &in.planner.refine, control, INFINITY, gradient[jacobian], NULL);
@@ -1561,7 +1830,8 @@ static void plan_differences_work_far_from_zero(void) {
       plan_close(&in);
     }
     for (size_t k = 0; k < 36; k++) {
-      norm += pow((double)gradient[1][k], 2), difference += pow((double)gradient[1][k] - (double)gradient[0][k], 2);
+      norm += pow((double)gradient[1][k], 2);
+      difference += pow((double)gradient[1][k] - (double)gradient[0][k], 2);
     }
     CHECK_LE(sqrt(difference), 0.01 * sqrt(norm));
   }

@@ -83,8 +83,8 @@ static nsvcd_question proof_question(const attack *a, const nsvcd_sweep_options 
   return question;
 }
 
-// Takes as the fixed body the one that the library takes, so that certificates are about moving and fixed as they are
-// here.
+// Takes as the fixed body the one that the library takes, so that certificates are about moving and
+// fixed as they are here.
 static void proof_settle_sides(attack *a) {
   const nsvcd_sweep_options options = proof_options();
   const nsvcd_question question = proof_question(a, &options);
@@ -151,7 +151,8 @@ static void proof_shape(int kind, uint64_t seed, shapes_mesh *mesh) {
 static proof_body proof_make(int kind, uint64_t seed, size_t points, double scale) {
   shapes_mesh shape;
   nsvcd_result result;
-  const nsvcd_encode_options options = {.points = points, .open = kind == SHEET || kind == TRIANGLE};
+  const nsvcd_encode_options options = {.points = points,
+                                        .open = kind == SHEET || kind == TRIANGLE};
   proof_shape(kind, seed, &shape);
   const proof_body out = proof_encode(&shape, scale, &options, &result);
   shapes_free(&shape);
@@ -274,17 +275,22 @@ static int proof_scene(shapes_rng *rng, attack *a, double gap, double offset) {
   return 1;
 }
 
-// The moving body's scale over that of the fixed one, and the size of both, in the fixed mesh's units.
+// The moving body's scale over that of the fixed one, and the size of both, in the fixed mesh's
+// units.
 static double proof_ratio(const attack *a) {
   return (double)a->motion.moving.scale / (double)a->motion.fixed.scale;
 }
-static double proof_size(const attack *a) { return proof_ratio(a) * a->moving->size + a->fixed->size; }
+static double proof_size(const attack *a) {
+  return proof_ratio(a) * a->moving->size + a->fixed->size;
+}
 
-// Moves both bodies along: what one sees of the other stays what it is at its own poses, and, but for what slerps do
-// between these, at the times between. Now and then the other one has fewer poses, or more.
+// Moves both bodies along: what one sees of the other stays what it is at its own poses, and, but
+// for what slerps do between these, at the times between. Now and then the other one has fewer
+// poses, or more.
 static void proof_carry(shapes_rng *rng, attack *a, double angle, double way) {
   static const size_t others[4] = {2, 3, 7, 33};
-  proof_track *moving = &a->motion.moving, *fixed = &a->motion.fixed;
+  proof_track *moving = &a->motion.moving;
+  proof_track *fixed = &a->motion.fixed;
   const size_t count = shapes_pick(rng, 3) ? moving->count : others[shapes_pick(rng, 4)];
   const oracle_pose rest = fixed->poses[0];
   oracle_pose carried[PROOF_POSES], poses[PROOF_POSES];
@@ -323,7 +329,9 @@ typedef struct replay {
 // normal . (x(t) - y), least over the points of both sides.
 static double proof_gap(const double *normal, const proof_place *at, const double (*x)[3],
                         size_t xs, const double (*y)[3], size_t ys) {
-  double turned[3], lowest = DBL_MAX, highest = -DBL_MAX;
+  double turned[3];
+  double lowest = DBL_MAX;
+  double highest = -DBL_MAX;
   oracle_rotate_back(at->matrix, normal, turned);
   for (size_t i = 0; i < xs; i++) lowest = fmin(lowest, oracle_dot(turned, x[i]));
   for (size_t i = 0; i < ys; i++) highest = fmax(highest, oracle_dot(normal, y[i]));
@@ -337,7 +345,8 @@ static int proof_is_true(const attack *a, const proof_record *r, double t, repla
   const proof_patch *q = &a->fixed->patches[r->j];
   const proof_place at = proof_place_at(&a->motion, t);
   const double scale = oracle_length(r->normal);
-  double gap, allowed = 0;
+  double gap;
+  double allowed = 0;
   if (r->kind == NSVCD__BY_TRIANGLES) {
     const proof_listing *x = &a->moving->listings[r->a];
     const proof_listing *y = &a->fixed->listings[r->b];
@@ -454,7 +463,8 @@ static void proof_cover_at(const attack *a, const size_t *first, double t, repla
 // The points of both surfaces that are nearest to each other at t: they are apart, and so says each
 // plane on them.
 static void proof_nearest_at(const attack *a, const size_t *first, double t, replay *sum) {
-  if (a->motion.moving.scale < 1 || a->motion.moving.scale > 1) return;  // the oracle's meshes have no scale
+  // the oracle's meshes have no scale
+  if (a->motion.moving.scale < 1 || a->motion.moving.scale > 1) return;
   if (a->motion.fixed.scale < 1 || a->motion.fixed.scale > 1) return;
   const proof_place at = proof_place_at(&a->motion, t);
   const oracle_pose pose = proof_pose_at(&a->motion.moving, t);
@@ -522,7 +532,8 @@ static void proof_report(const char *name, const replay *sum) {
 
 static struct {
   size_t count;
-  int may_be_doubts;  // a doubt that ends in a contact is its beginning: then triangles are near each other
+  // a doubt that ends in a contact is its beginning: then triangles are near each other
+  int may_be_doubts;
   double worst_gap, worst_normal;  // over what is allowed
   size_t no_normal, off[3];  // normals that are 0, or off by more than 0.001, 0.01, 0.1 radians
 } witnesses;
@@ -573,7 +584,10 @@ static double proof_triangle_distance(const oracle_triangle *a, const oracle_tri
 // How far the normal of a stored triangle can be from that of the mesh's, radians: corners are off
 // by the quantum.
 static double proof_normal_error(const oracle_triangle *t, double quantum) {
-  double longest = 0, e0[3], e1[3], n[3];
+  double longest = 0;
+  double e0[3];
+  double e1[3];
+  double n[3];
   for (int k = 0; k < 3; k++) {
     double e[3];
     oracle_sub(t->v[(k + 1) % 3], t->v[k], e);
@@ -592,7 +606,8 @@ static void proof_check_normal(const attack *a, const oracle_triangle *y) {
   const double normal[3] = {(double)w->normal[0], (double)w->normal[1], (double)w->normal[2]};
   const double length = oracle_length(normal);
   const proof_patch *patch = &a->fixed->patches[w->patch_b];
-  double off[3], tolerance = 0;
+  double off[3];
+  double tolerance = 0;
   CHECK(length < 1e-6 || fabs(length - 1) < 1e-6);
   if (oracle_length(y->normal) < 0.5) return;
   for (size_t n = patch->first; n < patch->end; n++) {
@@ -615,9 +630,9 @@ static void proof_check_witness(const attack *a) {
   const nsvcd_answer *w = &a->answer;
   CHECK(w->triangle_a < a->moving->triangles && w->triangle_b < a->fixed->triangles);
   CHECK(w->contact_time >= 0 && w->contact_time <= 1 && w->collides == 1);
-  if (w->triangle_a >= a->moving->triangles || w->triangle_b >= a->fixed->triangles)
-    return;
-  const double scale = (double)a->motion.moving.scale, fixed_scale = (double)a->motion.fixed.scale;
+  if (w->triangle_a >= a->moving->triangles || w->triangle_b >= a->fixed->triangles) return;
+  const double scale = (double)a->motion.moving.scale;
+  const double fixed_scale = (double)a->motion.fixed.scale;
   const oracle_pose pose = proof_pose_at(&a->motion.moving, (double)w->contact_time);
   const oracle_pose fixed = proof_pose_at(&a->motion.fixed, (double)w->contact_time);
   const oracle_triangle x = proof_world_triangle(a->moving, w->triangle_a, &pose, scale);
@@ -636,7 +651,8 @@ static void proof_check_witness(const attack *a) {
   CHECK_LE(gap, allowed);
   CHECK_LE(proof_triangle_distance(&x, &point), (meets ? quantum_x : allowed) + moved + rounded);
   const double fixed_moved =
-      proof_track_speed(&a->motion.fixed, a->fixed->size, (double)w->contact_time, 3e-8) + 1e-12 * (size + far);
+      proof_track_speed(&a->motion.fixed, a->fixed->size, (double)w->contact_time, 3e-8) +
+      1e-12 * (size + far);
   CHECK_LE(proof_triangle_distance(&y, &point), quantum_y + rounded + fixed_moved);
   witnesses.count++;
   witnesses.worst_gap = fmax(witnesses.worst_gap, gap / allowed);
@@ -657,7 +673,9 @@ static int proof_edge_crosses(double a[3][3], double b[3][3], double clear, doub
   const double length = oracle_length(n);
   if (!(length > 0)) return 0;
   for (int k = 0; k < 3; k++) {
-    double from[3], to[3], least = DBL_MAX;
+    double from[3];
+    double to[3];
+    double least = DBL_MAX;
     oracle_sub(a[k], b[0], from);
     oracle_sub(a[(k + 1) % 3], b[0], to);
     const double h0 = oracle_dot(n, from) / length;
@@ -804,7 +822,8 @@ static void proof_cross_once(attack *a, shapes_rng *rng, crossing_sum *sum) {
   static const size_t counts[4] = {2, 3, 5, 17};
   const size_t x = shapes_next(rng) % a->moving->triangles;
   const size_t y = shapes_next(rng) % a->fixed->triangles;
-  const int ordinary = a->moving->size > 1e-6 && a->moving->size < 1e4;  // else scales may be refused
+  // else scales may be refused
+  const int ordinary = a->moving->size > 1e-6 && a->moving->size < 1e4;
   const int scaled = ordinary && shapes_pick(rng, 3) == 0;
   const float scale = scaled ? (float)pow(10, shapes_uniform(rng, -1, 1)) : 1;
   const float fixed_scale = scaled ? (float)pow(10, shapes_uniform(rng, -1, 1)) : 1;
@@ -840,7 +859,8 @@ static void proof_cross_once(attack *a, shapes_rng *rng, crossing_sum *sum) {
   attack carried = *a;
   proof_ask_crossing(a, x, y, t, 1, sum);
   if (shapes_pick(rng, 2)) return;
-  proof_carry(rng, &carried, shapes_uniform(rng, 0, 4 * SHAPES_PI), shapes_uniform(rng, 0, 3) * size);
+  proof_carry(rng, &carried, shapes_uniform(rng, 0, 4 * SHAPES_PI),
+              shapes_uniform(rng, 0, 3) * size);
   proof_ask_crossing(&carried, x, y, t, 2, sum);
 }
 
@@ -863,8 +883,8 @@ static void proof_crossings_are_never_free(void) {
   }
   static const char *const kinds[3] = {"poses", "motions", "motions of both"};
   for (int k = 0; k < 3; k++) {
-    printf("  %s: %zu crossings: witness %zu, inside %zu, undecided %zu, free %zu\n", kinds[k], sum.asked[k], sum.witness[k], sum.inside[k], sum.undecided[k],
-           sum.free[k]);
+    printf("  %s: %zu crossings: witness %zu, inside %zu, undecided %zu, free %zu\n", kinds[k],
+           sum.asked[k], sum.witness[k], sum.inside[k], sum.undecided[k], sum.free[k]);
     CHECK_EQ(sum.free[k], 0);
   }
   CHECK_EQ(sum.records, 0);
@@ -876,7 +896,8 @@ static void proof_crossings_are_never_free(void) {
 
 // The header's motion; bodies do not matter to it.
 static void proof_motion_init(const proof_motion *m, nsvcd__motion *motion) {
-  nsvcd_question question = question_of(NULL, m->moving.raw, m->moving.count, NULL, m->fixed.raw, NULL);
+  nsvcd_question question =
+      question_of(NULL, m->moving.raw, m->moving.count, NULL, m->fixed.raw, NULL);
   question.b.count = m->fixed.count;
   question.a.scale = m->moving.scale;
   question.b.scale = m->fixed.scale;
@@ -976,7 +997,8 @@ static nsvcd__span proof_any_arc(shapes_rng *rng, nsvcd__motion *motion, float l
   proof.motion = motion;
   proof.lengths = lengths;
   proof.arc.ticks = 0;
-  const uint32_t first = nsvcd__arc_and_share(motion, shapes_uniform(rng, 0, 1) * (double)motion->ticks, &u);
+  const uint32_t first =
+      nsvcd__arc_and_share(motion, shapes_uniform(rng, 0, 1) * (double)motion->ticks, &u);
   const double length = pow(2, -shapes_pick(rng, 12));
   const double start = shapes_uniform(rng, 0, 1 - length);
   return nsvcd__span_of_arc(&proof, first, start, start + length);
@@ -1033,7 +1055,10 @@ static double proof_direction_use(const proof_motion *m, const nsvcd__span *span
     const double t = span->t_start + share * (span->t_end - span->t_start);
     const proof_place at = proof_place_at(m, t);
     const nsvcd__f3 special[3] = {span->axis, span->way, nsvcd__f3_cross(span->axis, span->way)};
-    double x[3], place[3], n[3], off = 0;
+    double x[3];
+    double place[3];
+    double n[3];
+    double off = 0;
     shapes_direction(rng, x);
     shapes_direction(rng, n);
     for (int i = 0; i < 3; i++) x[i] *= reach;
@@ -1055,9 +1080,10 @@ static double proof_direction_use(const proof_motion *m, const nsvcd__span *span
       for (int j = 0; j < 3; j++) end += (double)span->end.rotation[3 * i + j] * x[j];
       off += n[i] / length * (place[i] - start - share * (end - start));
     }
-    const nsvcd__f3 unit = nsvcd__f3_of((float)(n[0] / length), (float)(n[1] / length),
-                                        (float)(n[2] / length));
-    const double allowed = (double)span->rounding + (double)nsvcd__deviation(span, unit, (float)reach);
+    const nsvcd__f3 unit =
+        nsvcd__f3_of((float)(n[0] / length), (float)(n[1] / length), (float)(n[2] / length));
+    const double allowed =
+        (double)span->rounding + (double)nsvcd__deviation(span, unit, (float)reach);
     const nsvcd__v_span spans = nsvcd__v_span_set(span);
     const nsvcd__v lanes = nsvcd__v_deviation(&spans, nsvcd__v3_set(unit), (float)reach);
     const double in_lanes = (double)span->rounding + (double)nsvcd__v_least(lanes);
@@ -1066,7 +1092,8 @@ static double proof_direction_use(const proof_motion *m, const nsvcd__span *span
   return worst;
 }
 
-// The turn's part alone, for the point that is off the most: |D^T n| over what is allowed for it, n the axis or any.
+// The turn's part alone, for the point that is off the most: |D^T n| over what is allowed for it, n
+// the axis or any.
 static double proof_turn_use(const proof_motion *m, const nsvcd__span *span, shapes_rng *rng) {
   double worst = 0;
   for (int k = 0; k < 8; k++) {
@@ -1098,10 +1125,12 @@ static double proof_turn_use(const proof_motion *m, const nsvcd__span *span, sha
   return worst;
 }
 
-// Four arcs to a segment, about axes on all sides of the segment's own: along that, samples and arcs stray alike.
+// Four arcs to a segment, about axes on all sides of the segment's own: along that, samples and
+// arcs stray alike.
 static void proof_zigzag_motion(shapes_rng *rng, proof_motion *m) {
   const size_t count = 65;
-  const double turn = shapes_uniform(rng, 0.02, 0.08), tilt = shapes_uniform(rng, 0, 1.2);
+  const double turn = shapes_uniform(rng, 0.02, 0.08);
+  const double tilt = shapes_uniform(rng, 0, 1.2);
   double axis[3], side[4][3], step[4];
   oracle_pose fixed, poses[PROOF_POSES];
   shapes_direction(rng, axis);
@@ -1156,11 +1185,13 @@ static void proof_wandering_motion(shapes_rng *rng, proof_motion *m) {
   proof_motion_set(m, poses, count, &fixed);
 }
 
-// What is said of directions: along the axis of a turn, and across the way, points hardly leave their chords.
+// What is said of directions: along the axis of a turn, and across the way, points hardly leave
+// their chords.
 static void proof_spans_hold_along_directions(void) {
   nsvcd__workspace *work = &any_query()->broad_phase;
   shapes_rng rng = {405};
-  double worst = 0, turned = 0;
+  double worst = 0;
+  double turned = 0;
   size_t segments = 0;
   for (size_t trial = 0; trial < 4000; trial++) {
     const float reach = (float)pow(10, shapes_uniform(&rng, -2, 0));
@@ -1186,8 +1217,9 @@ static void proof_spans_hold_along_directions(void) {
       turned = fmax(turned, proof_turn_use(&m, &span, &rng));
     }
   }
-  printf("  %zu segments: at most %.3g of what they allow along a direction, %.3g of that for turns\n", segments,
-         worst, turned);
+  printf(
+      "  %zu segments: at most %.3g of what they allow along a direction, %.3g of that for turns\n",
+      segments, worst, turned);
   CHECK_LE(worst, 1);
   CHECK_LE(turned, 1);
   CHECK_GE(worst, 0.5);  // else the bound says little, or the worst is not here
@@ -1211,11 +1243,13 @@ static double proof_track_rate(const proof_track *m, double size, double t, doub
   const size_t k = (size_t)(t * arcs) < m->count - 2 ? (size_t)(t * arcs) : m->count - 2;
   oracle_sub(m->poses[k + 1].position, m->poses[k].position, moved);
   *next = (double)(k + 1) / arcs;
-  return (oracle_length(moved) + size * oracle_quat_arc(m->poses[k].rotation, m->poses[k + 1].rotation, axis)) * arcs;
+  return (oracle_length(moved) +
+          size * oracle_quat_arc(m->poses[k].rotation, m->poses[k + 1].rotation, axis)) *
+         arcs;
 }
 
-// The first time from which it cannot be said that surfaces are farther apart than `clearance`: they come within that and
-// `hair` more. 2 if they never do.
+// The first time from which it cannot be said that surfaces are farther apart than `clearance`:
+// they come within that and `hair` more. 2 if they never do.
 static double proof_first_approach(const attack *a, double clearance, double hair) {
   for (double t = 0; t <= 1;) {
     double next, fixed_next;
@@ -1231,8 +1265,8 @@ static double proof_first_approach(const attack *a, double clearance, double hai
   return 2;
 }
 
-// Is there a time before `until` at which surfaces are within the clearance by more than `hair`? From the first approach
-// on at many times, not all.
+// Is there a time before `until` at which surfaces are within the clearance by more than `hair`?
+// From the first approach on at many times, not all.
 static int proof_comes_within(const attack *a, double clearance, double until, double hair) {
   const double from = proof_first_approach(a, clearance, hair);
   for (int k = 0; k <= 100 && from < until; k++) {
@@ -1258,7 +1292,8 @@ static void proof_count(timing_sum *sum, nsvcd_status status) {
 
 // Both bodies' quanta together, without their scales.
 static double proof_quanta(const attack *a) {
-  return (double)nsvcd_body_describe(a->moving->body).quantum + (double)nsvcd_body_describe(a->fixed->body).quantum;
+  return (double)nsvcd_body_describe(a->moving->body).quantum +
+         (double)nsvcd_body_describe(a->fixed->body).quantum;
 }
 
 static void proof_check_first(attack *a, float tolerance, timing_sum *sum) {
@@ -1298,7 +1333,8 @@ static void proof_check_first_in_haste(attack *a, size_t limit, timing_sum *sum)
   const nsvcd_answer *first = &a->answer;
   if (first->status != NSVCD_STATUS_UNDECIDED || !(first->free_until > 0)) return;
   sum->asked++;
-  sum->wrong += proof_comes_within(a, 0, (double)first->free_until, 1e-6 * (a->moving->size + a->fixed->size));
+  sum->wrong += proof_comes_within(a, 0, (double)first->free_until,
+                                   1e-6 * (a->moving->size + a->fixed->size));
 }
 
 // A scene in which bodies hit, or nearly, alone or carried along.
@@ -1308,7 +1344,8 @@ static int proof_timing_scene(shapes_rng *rng, attack *a) {
   const double gap = shapes_pick(rng, 2) ? -0.05 : pow(10, shapes_uniform(rng, -6, -1));
   if (!proof_scene(rng, a, gap, 0.3)) return 0;
   const double size = a->moving->size + a->fixed->size;
-  if (shapes_pick(rng, 2)) proof_carry(rng, a, shapes_uniform(rng, 0, 6), shapes_uniform(rng, 0, 2) * size);
+  if (shapes_pick(rng, 2))
+    proof_carry(rng, a, shapes_uniform(rng, 0, 6), shapes_uniform(rng, 0, 2) * size);
   return 1;
 }
 
@@ -1325,12 +1362,16 @@ static void proof_finds_first_contacts(void) {
     proof_check_first(&a, tolerances[shapes_pick(&rng, 4)], &sum);
     for (size_t limit = 2; limit < 300; limit *= 2) proof_check_first_in_haste(&a, limit, &hasty);
   }
-  printf("  with little work: %zu undecided but for their beginnings, %zu of those wrong\n", hasty.asked, hasty.wrong);
+  printf("  with little work: %zu undecided but for their beginnings, %zu of those wrong\n",
+         hasty.asked, hasty.wrong);
   CHECK_EQ(hasty.wrong, 0);
   CHECK_GE(hasty.asked, 20);
-  printf("  %zu questions: first contacts %zu, %zu of them at the start; free %zu, inside %zu, undecided %zu; %zu wrong; "
-         "late by %.3f of the tolerance\n",
-         sum.asked, sum.contacts, sum.at_start, sum.free, sum.inside, sum.undecided, sum.wrong, sum.worst);
+  printf(
+      "  %zu questions: first contacts %zu, %zu of them at the start; free %zu, inside %zu, "
+      "undecided %zu; %zu wrong; "
+      "late by %.3f of the tolerance\n",
+      sum.asked, sum.contacts, sum.at_start, sum.free, sum.inside, sum.undecided, sum.wrong,
+      sum.worst);
   CHECK_EQ(sum.wrong, 0);
   CHECK_GE(sum.contacts, sum.asked / 4);
   CHECK_GE(sum.at_start, 10);
@@ -1366,10 +1407,12 @@ static void proof_check_measure(attack *a, float tolerance, timing_sum *sum) {
   proof_count(sum, w->status);
   CHECK(w->clearance_low >= 0 && w->clearance_low <= w->clearance_high);
   if (w->status == NSVCD_STATUS_INSIDE) return;
-  if (w->clearance_low > 0) sum->wrong += proof_comes_within(a, (double)w->clearance_low, 1, 1e-6 * size);
+  if (w->clearance_low > 0)
+    sum->wrong += proof_comes_within(a, (double)w->clearance_low, 1, 1e-6 * size);
   const double moved = proof_speed_bound(a, (double)w->contact_time, 6e-8);
   if (w->clearance_high > 0) {
-    CHECK_LE(proof_distance_at(a, (double)w->contact_time), (double)w->clearance_high + moved + 1e-9 * size);
+    CHECK_LE(proof_distance_at(a, (double)w->contact_time),
+             (double)w->clearance_high + moved + 1e-9 * size);
   }
   const double quanta = proof_quanta(a);
   const double wide = (double)w->clearance_high - (double)w->clearance_low;
@@ -1390,8 +1433,9 @@ static void proof_keeps_clearances(void) {
   }
   for (int k = 0; k < 2; k++) {
     const timing_sum *sum = &sums[k];
-    printf("  %s: %zu questions, near %zu, free %zu, inside %zu, undecided %zu; %zu wrong", k ? "least" : "clearance",
-           sum->asked, sum->contacts, sum->free, sum->inside, sum->undecided, sum->wrong);
+    printf("  %s: %zu questions, near %zu, free %zu, inside %zu, undecided %zu; %zu wrong",
+           k ? "least" : "clearance", sum->asked, sum->contacts, sum->free, sum->inside,
+           sum->undecided, sum->wrong);
     printf(k ? "; brackets up to %.2f of the tolerance and eight quanta\n" : "\n", sum->worst);
     CHECK_EQ(sum->wrong, 0);
     CHECK_GE(sum->free, 50);
@@ -1410,7 +1454,8 @@ static proof_body proof_floor(int wall, int cuts) {
   nsvcd_result result;
   memset(&shape, 0, sizeof shape);
   shapes_box(&shape, 2, 2, 0.1, cuts);
-  for (size_t i = 0; i < shape.vertices; i++) shape.positions[3 * i + 2] -= 0.05;  // its top is z = 0
+  // its top is z = 0
+  for (size_t i = 0; i < shape.vertices; i++) shape.positions[3 * i + 2] -= 0.05;
   if (wall) shapes_box_at(&shape, 0.55, 0, 0.5, 0.1, 2, 1);
   proof_body b = proof_encode(&shape, 1, NULL, &result);
   CHECK_EQ(result, NSVCD_OK);
@@ -1428,11 +1473,13 @@ static proof_body proof_crate(int cuts) {
   return b;
 }
 
-// Asks about a crate whose lowest points go from z0 to z1 and which goes from x0 to x1; everything turned and moved along.
-static nsvcd_answer proof_push(attack *a, shapes_rng *rng, double x0, double x1, double z0, double z1, float skin,
-                               float clearance, float first) {
+// Asks about a crate whose lowest points go from z0 to z1 and which goes from x0 to x1; everything
+// turned and moved along.
+static nsvcd_answer proof_push(attack *a, shapes_rng *rng, double x0, double x1, double z0,
+                               double z1, float skin, float clearance, float first) {
   nsvcd_sweep_options options = proof_options();
-  oracle_pose fixed = {{0, 0, 0}, {0, 0, 0, 1}}, poses[3];
+  oracle_pose fixed = {{0, 0, 0}, {0, 0, 0, 1}};
+  oracle_pose poses[3];
   if (shapes_pick(rng, 2)) shapes_quaternion(rng, fixed.rotation);
   if (shapes_pick(rng, 2)) {
     for (int k = 0; k < 3; k++) fixed.position[k] = shapes_uniform(rng, -1, 1);
@@ -1451,7 +1498,8 @@ static nsvcd_answer proof_push(attack *a, shapes_rng *rng, double x0, double x1,
   return a->answer;
 }
 
-// A crate that rests on a floor, is pushed along it, lifted off it, pressed into it, pushed against a wall.
+// A crate that rests on a floor, is pushed along it, lifted off it, pressed into it, pushed against
+// a wall.
 static void proof_leaves_contacts(void) {
   const float skin = 1e-3f;
   shapes_rng rng = {90};
@@ -1462,16 +1510,20 @@ static void proof_leaves_contacts(void) {
     attack a;
     for (int trial = 0; trial < 12 * 12; trial++) {
       const int k = trial % 12;
-      static const double heights[12][2] = {{0, 0},       {0, 0},        {0, 0.1},   {-5e-4, -5e-4}, {-3e-3, -3e-3}, {0, -5e-3},
-                                            {2e-5, 2e-5}, {8e-4, 8e-4}, {0, 0},     {0, 0},         {-3e-3, 0.1},   {0, -5e-4}};
-      const float clearance = k == 7 || k == 9 ? 1e-3f : 0;  // there the skin is all of it: as near as touching
+      static const double heights[12][2] = {
+          {0, 0},       {0, 0},       {0, 0.1}, {-5e-4, -5e-4}, {-3e-3, -3e-3}, {0, -5e-3},
+          {2e-5, 2e-5}, {8e-4, 8e-4}, {0, 0},   {0, 0},         {-3e-3, 0.1},   {0, -5e-4}};
+      // there the skin is all of it: as near as touching
+      const float clearance = k == 7 || k == 9 ? 1e-3f : 0;
       const double far_end = k == 8 && wall ? 0.45 : 0.2;
       a.moving = &crate;
       a.fixed = &floor;
-      const nsvcd_answer answer = proof_push(&a, &rng, k == 1 ? -0.3 : 0, k == 1 ? -0.3 : far_end, heights[k][0],
-                                             heights[k][1], k == 9 ? 2 * skin : skin, clearance, 0.01f);
-      const double lift = sqrt((double)(answer.lift[0] * answer.lift[0] + answer.lift[1] * answer.lift[1] +
-                                        answer.lift[2] * answer.lift[2]));
+      const nsvcd_answer answer =
+          proof_push(&a, &rng, k == 1 ? -0.3 : 0, k == 1 ? -0.3 : far_end, heights[k][0],
+                     heights[k][1], k == 9 ? 2 * skin : skin, clearance, 0.01f);
+      const double lift =
+          sqrt((double)(answer.lift[0] * answer.lift[0] + answer.lift[1] * answer.lift[1] +
+                        answer.lift[2] * answer.lift[2]));
       const int pressed = k == 4 || k == 10;
       const int hits = pressed || k == 5 || (k == 8 && wall);
       CHECK_EQ(answer.collides, hits);
@@ -1501,10 +1553,14 @@ static double proof_lifted_distance(const attack *a, const double *lift, double 
   return oracle_distance(&a->moving->oracle, &pose, &a->fixed->oracle, &fixed, NULL, NULL);
 }
 
-// Any bodies that touch at the start: what is said to be free is free when lifted, and the lift is short.
+// Any bodies that touch at the start: what is said to be free is free when lifted, and the lift is
+// short.
 static void proof_lifts_are_true(void) {
   shapes_rng rng = {91};
-  size_t asked = 0, lifted = 0, free_then = 0, wrong = 0;
+  size_t asked = 0;
+  size_t lifted = 0;
+  size_t free_then = 0;
+  size_t wrong = 0;
   while (asked < 600) {
     attack a;
     a.moving = proof_shared(0, (size_t)shapes_pick(&rng, MAKES));
@@ -1520,7 +1576,8 @@ static void proof_lifts_are_true(void) {
     if (!proof_near_contact(&rng, &a, &fixed, gap * size, &pose, point, away)) continue;
     for (int n = 0; n < 3; n++) {  // away from it, and a little along
       poses[n] = pose;
-      for (int k = 0; k < 3; k++) poses[n].position[k] += 0.1 * n * size * (away[k] + 0.5 * away[(k + 1) % 3]);
+      for (int k = 0; k < 3; k++)
+        poses[n].position[k] += 0.1 * n * size * (away[k] + 0.5 * away[(k + 1) % 3]);
     }
     proof_motion_set(&a.motion, poses, 3, &fixed);
     if (shapes_pick(&rng, 2)) proof_carry(&rng, &a, 1, size);
@@ -1534,7 +1591,8 @@ static void proof_lifts_are_true(void) {
     free_then++;
     for (int k = 0; k <= 20; k++) wrong += !(proof_lifted_distance(&a, lift, k / 20.0) > 0);
   }
-  printf("  %zu bodies that touch: %zu lifted, %zu free then; %zu wrong\n", asked, lifted, free_then, wrong);
+  printf("  %zu bodies that touch: %zu lifted, %zu free then; %zu wrong\n", asked, lifted,
+         free_then, wrong);
   CHECK_EQ(wrong, 0);
   CHECK_GE(lifted, asked / 3);
   CHECK_GE(free_then, asked / 4);
@@ -1556,10 +1614,12 @@ static void proof_place_within(attack *a, shapes_rng *rng, double gap, int movin
   shapes_quaternion(rng, fixed.rotation);
   for (int k = 0; k < 3; k++) fixed.position[k] = shapes_uniform(rng, -1, 1) * size;
   if (!proof_near_contact(rng, a, &fixed, gap * size, &pose, point, away)) return;
-  const oracle_pose still[2] = {pose, pose};  // with two, the library looks at it from `fixed`, even if that is the smaller
+  // with two, the library looks at it from `fixed`, even if that is the smaller
+  const oracle_pose still[2] = {pose, pose};
   proof_motion_set(&a->motion, still, shapes_pick(rng, 2) ? 1 : 2, &fixed);
   const oracle_pose *at = &a->motion.moving.poses[0];
-  const oracle_mesh *x = &a->moving->oracle, *y = &a->fixed->oracle;
+  const oracle_mesh *x = &a->moving->oracle;
+  const oracle_mesh *y = &a->fixed->oracle;
   const double distance = oracle_distance(x, at, y, &a->motion.fixed.poses[0], NULL, NULL);
   if (distance < 1e-9 * size) return;
   const double moving_within = fixed_open ? 0 : oracle_inside(x, at, y, &a->motion.fixed.poses[0]);
@@ -1612,7 +1672,8 @@ static void proof_knows_what_is_within(void) {
   proof_body inner[INNER], outer[3];
   shapes_rng rng = {8};
   const proof_body *outers[OUTER];
-  within_sum near = {0, 0, 0, 0, 0, 0, 0}, any = near;
+  within_sum near = {0, 0, 0, 0, 0, 0, 0};
+  within_sum any = near;
   inner[0] = proof_make(BOX, 1, 8, 0.05);
   inner[1] = proof_make(SOLID, 5, 16, 0.1);
   inner[2] = proof_make(TRIANGLE, 1, 1, 0.01);
@@ -1663,9 +1724,8 @@ static int proof_same_answer(const nsvcd_answer *a, const nsvcd_answer *b) {
          memcmp(&a->contact_time, &b->contact_time, sizeof a->contact_time) == 0 &&
          memcmp(a->point, b->point, sizeof a->point) == 0 &&
          memcmp(a->normal, b->normal, sizeof a->normal) == 0 &&
-         memcmp(&a->logit, &b->logit, sizeof a->logit) == 0 &&
-         a->triangle_a == b->triangle_a && a->triangle_b == b->triangle_b &&
-         a->patch_a == b->patch_a && a->patch_b == b->patch_b;
+         memcmp(&a->logit, &b->logit, sizeof a->logit) == 0 && a->triangle_a == b->triangle_a &&
+         a->triangle_b == b->triangle_b && a->patch_a == b->patch_a && a->patch_b == b->patch_b;
 }
 
 static void proof_answers_are_the_same_again(void) {
@@ -1685,7 +1745,8 @@ static void proof_answers_are_the_same_again(void) {
   }
 }
 
-// Which body is a and which b does not matter: the other way round everything is said the other way round, and nothing else.
+// Which body is a and which b does not matter: the other way round everything is said the other way
+// round, and nothing else.
 static void proof_sides_do_not_matter(void) {
   shapes_rng rng = {25};
   size_t witnesses_seen = 0;
@@ -1706,7 +1767,8 @@ static void proof_sides_do_not_matter(void) {
     const size_t size = nsvcd_sweep_workspace_size(NULL);
     CHECK_EQ(nsvcd_sweep(&question, proof_workspace(), size, &a.answer), NSVCD_OK);
     CHECK_EQ(nsvcd_sweep(&turned, proof_workspace(), size, &other), NSVCD_OK);
-    const uint32_t triangle = other.triangle_a, patch = other.patch_a;
+    const uint32_t triangle = other.triangle_a;
+    const uint32_t patch = other.patch_a;
     other.triangle_a = other.triangle_b;
     other.triangle_b = triangle;
     other.patch_a = other.patch_b;
@@ -1718,13 +1780,15 @@ static void proof_sides_do_not_matter(void) {
     }
     CHECK(proof_same_answer(&a.answer, &other));
     CHECK_EQ(a.answer.free_until, other.free_until);
-    if (a.answer.status != NSVCD_STATUS_WITNESS || !(options.clearance > 0) || options.skin > 0) continue;
+    if (a.answer.status != NSVCD_STATUS_WITNESS || !(options.clearance > 0) || options.skin > 0)
+      continue;
     // The normal goes from b to a: along it a leaves b.
     const oracle_pose pose = proof_pose_at(&a.motion.moving, (double)a.answer.contact_time);
     const oracle_pose fixed = proof_pose_at(&a.motion.fixed, (double)a.answer.contact_time);
     const oracle_triangle x =
         proof_world_triangle(a.moving, a.answer.triangle_a, &pose, (double)a.motion.moving.scale);
-    const oracle_triangle y = proof_world_triangle(a.fixed, a.answer.triangle_b, &fixed, (double)a.motion.fixed.scale);
+    const oracle_triangle y =
+        proof_world_triangle(a.fixed, a.answer.triangle_b, &fixed, (double)a.motion.fixed.scale);
     oracle_triangle away = x;
     for (int k = 0; k < 9; k++) away.v[k / 3][k % 3] += 0.002 * (double)a.answer.normal[k % 3];
     if (proof_triangle_distance(&x, &y) < 1e-4) continue;
@@ -1739,7 +1803,10 @@ static void proof_sides_do_not_matter(void) {
 static void proof_keeps_its_limit(void) {
   shapes_rng rng = {22};
   attack a;
-  size_t asked = 0, undecided = 0, most = 0, other = 0;
+  size_t asked = 0;
+  size_t undecided = 0;
+  size_t most = 0;
+  size_t other = 0;
   for (size_t trial = 0; trial < 150; trial++) {
     nsvcd_sweep_options options = proof_options();
     a.moving = proof_shared(0, (size_t)shapes_pick(&rng, MAKES));
@@ -1821,7 +1888,8 @@ static void proof_refuses(void) {
   for (int k = 0; k < 4; k++) {
     for (int which = 0; which < 5; which++) {
       options = proof_options();
-      float *const numbers[5] = {&options.tolerance, &options.clearance, &options.measure, &options.skin, &options.first};
+      float *const numbers[5] = {&options.tolerance, &options.clearance, &options.measure,
+                                 &options.skin, &options.first};
       float *number = numbers[which];
       *number = bad[k];
       CHECK_EQ(proof_ask_with(&a, &options), NSVCD_ERROR_TOLERANCE);
@@ -1852,10 +1920,10 @@ static void proof_refuses(void) {
   CHECK_EQ(nsvcd_encode(&mesh, &bare, NULL, NULL, 0, &body), NSVCD_OK);
   options = proof_options();
   CHECK_EQ(ask(body, a.motion.moving.raw, 1, a.fixed->body, a.motion.fixed.raw, &options,
-                       proof_workspace(), nsvcd_sweep_workspace_size(NULL), &a.answer),
+               proof_workspace(), nsvcd_sweep_workspace_size(NULL), &a.answer),
            NSVCD_ERROR_BODY);
   CHECK_EQ(ask(a.fixed->body, a.motion.moving.raw, 1, body, a.motion.fixed.raw, &options,
-                       proof_workspace(), nsvcd_sweep_workspace_size(NULL), &a.answer),
+               proof_workspace(), nsvcd_sweep_workspace_size(NULL), &a.answer),
            NSVCD_ERROR_BODY);
   nsvcd_body_free(body, NULL);
   shapes_free(&shape);
@@ -1873,7 +1941,8 @@ static nsvcd_status proof_ask_place(attack *a, const oracle_pose *pose, const or
 // A body on itself: all surfaces meet. A little off, they cross.
 static void proof_bodies_on_themselves(void) {
   shapes_rng rng = {61};
-  size_t verdicts[6] = {0, 0, 0, 0, 0, 0}, off[6] = {0, 0, 0, 0, 0, 0};
+  size_t verdicts[6] = {0, 0, 0, 0, 0, 0};
+  size_t off[6] = {0, 0, 0, 0, 0, 0};
   for (size_t n = 0; n < MAKES; n++) {
     attack a;
     oracle_pose pose, moved;
@@ -1888,8 +1957,8 @@ static void proof_bodies_on_themselves(void) {
       moved = pose;
       for (int k = 0; k < 3; k++) moved.position[k] += shift * d[(k + 1) % 3];
       proof_ask_place(&a, &moved, &pose);
-      if (oracle_distance(&a.moving->oracle, &a.motion.moving.poses[0], &a.fixed->oracle, &a.motion.fixed.poses[0],
-                          NULL, NULL) > 0)
+      if (oracle_distance(&a.moving->oracle, &a.motion.moving.poses[0], &a.fixed->oracle,
+                          &a.motion.fixed.poses[0], NULL, NULL) > 0)
         continue;
       off[a.answer.status]++;
     }
@@ -1920,7 +1989,8 @@ static void proof_flat_on_flat(void) {
   for (int k = 0; k < 7; k++) {
     for (int slides = 0; slides < 2; slides++) {
       attack a;
-      oracle_pose fixed = {{0, 0, 0}, {0, 0, 0, 1}}, poses[2] = {fixed, fixed};
+      oracle_pose fixed = {{0, 0, 0}, {0, 0, 0, 1}};
+      oracle_pose poses[2] = {fixed, fixed};
       memcpy(fixed.rotation, still, sizeof still);
       poses[0].position[2] = poses[1].position[2] = 0.375 + gaps[k];
       poses[0].position[0] = -0.125;
@@ -1952,21 +2022,25 @@ static proof_body proof_flat_sheet(double x, double y, int cuts) {
   return proof_of_shape(&shape, 1, 16);
 }
 
-// Sheets that are parallel all the time, one of which passes through the other: they meet at a single time, which no
-// rounded number is. By a corner in a face (0), a face on a corner (1), edges over edges (2); past it (3); and there and
-// back, short of it by less than a quantum (4).
+// Sheets that are parallel all the time, one of which passes through the other: they meet at a
+// single time, which no rounded number is. By a corner in a face (0), a face on a corner (1), edges
+// over edges (2); past it (3); and there and back, short of it by less than a quantum (4).
 static void proof_faces_pass(void) {
   shapes_rng rng = {91};
-  proof_body small = proof_flat_sheet(0.125, 0.125, 2), large = proof_flat_sheet(0.5, 0.5, 2);
-  proof_body wide = proof_flat_sheet(0.5, 0.03125, 1), deep = proof_flat_sheet(0.03125, 0.5, 1);
+  proof_body small = proof_flat_sheet(0.125, 0.125, 2);
+  proof_body large = proof_flat_sheet(0.5, 0.5, 2);
+  proof_body wide = proof_flat_sheet(0.5, 0.03125, 1);
+  proof_body deep = proof_flat_sheet(0.03125, 0.5, 1);
   const proof_body *moving[5] = {&small, &large, &wide, &small, &small};
   const proof_body *fixed[5] = {&large, &small, &deep, &large, &large};
   for (int n = 0; n < 200; n++) {
     const int kind = n % 5;
     attack a;
-    oracle_pose still = {{0, 0, 0}, {0, 0, 0, 1}}, poses[3];
+    oracle_pose still = {{0, 0, 0}, {0, 0, 0, 1}};
+    oracle_pose poses[3];
     const double turn = kind == 2 ? shapes_uniform(&rng, -0.2, 0.2) : shapes_uniform(&rng, -3, 3);
-    const double from = shapes_uniform(&rng, 0.001, 0.1), to = shapes_uniform(&rng, 0.001, 0.1);
+    const double from = shapes_uniform(&rng, 0.001, 0.1);
+    const double to = shapes_uniform(&rng, 0.001, 0.1);
     for (int k = 0; k < 3; k++) {
       poses[k] = still;
       poses[k].position[0] = shapes_uniform(&rng, -0.05, 0.05) + (kind == 3 ? 0.5 : 0);
@@ -2185,7 +2259,8 @@ static void proof_forge_anything(const nsvcd_body *body, shapes_rng *rng, size_t
   options.work = 3000;
   if (!proof_load(&f)) {
     const proof_body *other = proof_shared(0, (size_t)shapes_pick(rng, MAKES));
-    nsvcd_pose poses[3], fixed = {{0, 0, 0}, {0, 0, 0, 1}};
+    nsvcd_pose poses[3];
+    nsvcd_pose fixed = {{0, 0, 0}, {0, 0, 0, 1}};
     nsvcd_answer answer;
     for (int n = 0; n < 3; n++) {
       double q[4];
@@ -2195,10 +2270,10 @@ static void proof_forge_anything(const nsvcd_body *body, shapes_rng *rng, size_t
     }
     (*accepted)++;
     CHECK_EQ(ask(f.body, poses, 3, other->body, &fixed, &options, proof_workspace(),
-                         nsvcd_sweep_workspace_size(NULL), &answer),
+                 nsvcd_sweep_workspace_size(NULL), &answer),
              NSVCD_OK);
     CHECK_EQ(ask(other->body, poses, 3, f.body, &fixed, &options, proof_workspace(),
-                         nsvcd_sweep_workspace_size(NULL), &answer),
+                 nsvcd_sweep_workspace_size(NULL), &answer),
              NSVCD_OK);
   }
   free(f.memory);
@@ -2296,7 +2371,8 @@ static void proof_certificates_hold_for_scaled_bodies(void) {
       one.motion = multiplied.motion;
       one.motion.moving.scale = scale;
       one.motion.fixed.scale = fixed_scale;
-      if (trial % 4 == 0) proof_carry(&rng, &one, shapes_uniform(&rng, 0, 6), moving.size + fixed.size);
+      if (trial % 4 == 0)
+        proof_carry(&rng, &one, shapes_uniform(&rng, 0, 6), moving.size + fixed.size);
       proof_replay(&one, &rng, &sum);
     }
     proof_free(&moving);

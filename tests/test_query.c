@@ -1,4 +1,5 @@
-// End to end through the public API: mesh -> body -> answer. Accuracy last, on a small labelled file.
+// End to end through the public API: mesh -> body -> answer. Accuracy last, on a small labelled
+// file.
 #define NSVCD_STATIC
 #define NEURALSVCD_IMPLEMENTATION
 #include "../neuralsvcd.h"
@@ -8,7 +9,7 @@
 
 void test_query(void);
 
-// ------------------------------------------------------------------------------------------------------ determinism
+// ------------------------------------------------------------------------------------- determinism
 
 static void query_bodies_are_the_same_to_the_bit(void) {
   for (uint64_t seed = 1; seed <= 5; seed++) {
@@ -19,7 +20,8 @@ static void query_bodies_are_the_same_to_the_bit(void) {
     const nsvcd_body *b = query_encode(&mesh, 200, &memory[1]);
     CHECK_EQ(nsvcd_body_describe(a).size, nsvcd_body_describe(b).size);
     CHECK(memcmp(a, b, nsvcd_body_describe(a).size) == 0);
-    query_release(&memory[0]), query_release(&memory[1]);
+    query_release(&memory[0]);
+    query_release(&memory[1]);
     nsvcd_mesh_free(&mesh, NULL);
   }
 }
@@ -28,7 +30,8 @@ static void query_answers_are_the_same_to_the_bit(void) {
   for (uint64_t seed = 1; seed <= 10; seed++) {
     query_scene s;
     query_scene_open(&s, seed);
-    memset(query_workspace(), 0xff, nsvcd_sweep_workspace_size(NULL));  // what the workspace holds must not matter
+    // what the workspace holds must not matter
+    memset(query_workspace(), 0xff, nsvcd_sweep_workspace_size(NULL));
     nsvcd_answer first = query_scene_ask(&s);
     memset(query_workspace(), 0, nsvcd_sweep_workspace_size(NULL));
     nsvcd_answer second = query_scene_ask(&s);
@@ -38,7 +41,8 @@ static void query_answers_are_the_same_to_the_bit(void) {
 }
 
 static void query_answers_make_sense(void) {
-  int certified = 0, answered = 0;
+  int certified = 0;
+  int answered = 0;
   for (uint64_t seed = 1; seed <= 40; seed++) {
     query_scene s;
     query_scene_open(&s, seed);
@@ -46,17 +50,20 @@ static void query_answers_make_sense(void) {
     CHECK(isfinite(a.logit) && fabsf(a.logit) <= NSVCD_LOGIT_CERTAIN);
     CHECK_EQ(a.collides, a.logit > 0);
     CHECK(a.contact_time >= 0 && a.contact_time <= 1);
-    CHECK(a.patch_a < nsvcd_body_describe(s.moving).points && a.patch_b < nsvcd_body_describe(s.fixed).points);
-    CHECK_EQ(a.status == NSVCD_STATUS_CERTIFIED_FREE, a.overlapping == 0 && a.status != NSVCD_STATUS_INSIDE);
+    CHECK(a.patch_a < nsvcd_body_describe(s.moving).points &&
+          a.patch_b < nsvcd_body_describe(s.fixed).points);
+    CHECK_EQ(a.status == NSVCD_STATUS_CERTIFIED_FREE,
+             a.overlapping == 0 && a.status != NSVCD_STATUS_INSIDE);
     CHECK_EQ(a.status == NSVCD_STATUS_LIMIT, a.overlapping > 8 && a.status != NSVCD_STATUS_INSIDE);
-    certified += a.status == NSVCD_STATUS_CERTIFIED_FREE, answered += a.overlapping > 0;
+    certified += a.status == NSVCD_STATUS_CERTIFIED_FREE;
+    answered += a.overlapping > 0;
     query_scene_close(&s);
   }
   CHECK_GE(certified, 1);  // else this test saw only one kind
   CHECK_GE(answered, 10);
 }
 
-// ------------------------------------------------------------------------------------------------------------ bodies
+// ------------------------------------------------------------------------------------------ bodies
 
 static void query_a_blob_survives_a_file(void) {
   for (uint64_t seed = 1; seed <= 5; seed++) {
@@ -106,11 +113,15 @@ static void query_facts_contain_the_mesh(void) {
     nsvcd_body_facts facts = nsvcd_body_describe(body);
     double farthest = 0;
     for (size_t i = 0; i < mesh.vertex_count; i++) {
-      double d = 0, nearest = HUGE_VAL;
-      for (int k = 0; k < 3; k++) d += pow((double)(mesh.positions[3 * i + (size_t)k] - facts.centre[k]), 2);
+      double d = 0;
+      double nearest = HUGE_VAL;
+      for (int k = 0; k < 3; k++)
+        d += pow((double)(mesh.positions[3 * i + (size_t)k] - facts.centre[k]), 2);
       farthest = fmax(farthest, sqrt(d));
       for (uint32_t p = 0; p < facts.points; p++) {  // every vertex lies in a patch's sphere
-        float centre[3] = {0, 0, 0}, radius = 0, away = 0;
+        float centre[3] = {0, 0, 0};
+        float radius = 0;
+        float away = 0;
         CHECK(nsvcd_body_patch(body, p, centre, &radius));
         for (int k = 0; k < 3; k++) away += powf(mesh.positions[3 * i + (size_t)k] - centre[k], 2);
         nearest = fmin(nearest, (double)(sqrtf(away) - radius));
@@ -139,7 +150,8 @@ static void query_patch_radius_is_honoured(void) {
     if (body) {
       nsvcd_body_facts facts = nsvcd_body_describe(body);
       CHECK_LE(facts.points, fewer - 1);  // larger patches, fewer of them
-      CHECK(facts.mean_patch_radius > 0.6f * wanted[i] && facts.mean_patch_radius < 1.6f * wanted[i]);
+      CHECK(facts.mean_patch_radius > 0.6f * wanted[i] &&
+            facts.mean_patch_radius < 1.6f * wanted[i]);
       fewer = facts.points;
     }
     query_release(&memory);
@@ -147,10 +159,10 @@ static void query_patch_radius_is_honoured(void) {
   nsvcd_mesh_free(&mesh, NULL);
 }
 
-// -------------------------------------------------------------------------------------------------------- invariance
+// -------------------------------------------------------------------------------------- invariance
 
-// The network sees only invariants; what remains is the rounding of poses: a metre away 6e-8 m, 3e-6 of a patch of 2
-// cm, which the network amplifies somewhat. Measured: 2e-6 of 1 + |logit|.
+// The network sees only invariants; what remains is the rounding of poses: a metre away 6e-8 m,
+// 3e-6 of a patch of 2 cm, which the network amplifies somewhat. Measured: 2e-6 of 1 + |logit|.
 #define QUERY_RIGID_TOLERANCE 1e-4
 
 static void query_logit_is_invariant_under_rigid_motion(void) {
@@ -173,8 +185,8 @@ static void query_logit_is_invariant_under_rigid_motion(void) {
   CHECK_GE(compared, 10);
 }
 
-// Powers of two scale floats exactly, so that even the rounding is the same, and the logit may not move at all: no
-// constant of the query has a unit.
+// Powers of two scale floats exactly, so that even the rounding is the same, and the logit may not
+// move at all: no constant of the query has a unit.
 static void query_logit_is_invariant_under_scale(void) {
   const float scales[4] = {0.25f, 0.5f, 2, 16};
   int compared = 0;
@@ -184,14 +196,16 @@ static void query_logit_is_invariant_under_scale(void) {
     nsvcd_answer before = query_scene_ask(&s);
     float scale = scales[seed % 4];
     scaled = s;
-    const nsvcd_body *from[2] = {s.moving, s.fixed}, *to[2] = {NULL, NULL};
+    const nsvcd_body *from[2] = {s.moving, s.fixed};
+    const nsvcd_body *to[2] = {NULL, NULL};
     query_memory memory[2];
     for (int b = 0; b < 2; b++) {
       size_t size = nsvcd_body_describe(from[b]).size;
       memory[b] = query_reserve(size);
       CHECK_EQ(nsvcd_body_scale(from[b], scale, memory[b].at, size, &to[b]), NSVCD_OK);
     }
-    scaled.moving = to[0], scaled.fixed = to[1];
+    scaled.moving = to[0];
+    scaled.fixed = to[1];
     for (int k = 0; k < 3; k++) {
       scaled.fixed_pose.position[k] *= scale;
       for (int i = 0; i < QUERY_POSES; i++) scaled.motion[i].position[k] *= scale;
@@ -202,25 +216,31 @@ static void query_logit_is_invariant_under_scale(void) {
       CHECK_EQ(before.status, after.status);
     }
     compared += before.overlapping > 0;
-    query_release(&memory[0]), query_release(&memory[1]);
+    query_release(&memory[0]);
+    query_release(&memory[1]);
     query_scene_close(&s);
   }
   CHECK_GE(compared, 8);
 }
 
-// A scaled body against the body of a scaled mesh. By a power of two the patches agree to the bit, and so do bodies; by
-// other factors sampling may round differently, and a latent is quantised to 1/127.
+// A scaled body against the body of a scaled mesh. By a power of two the patches agree to the bit,
+// and so do bodies; by other factors sampling may round differently, and a latent is quantised to
+// 1/127.
 static void query_scaled_bodies_are_bodies_of_scaled_meshes(void) {
-  int close = 0, compared = 0;
+  int close = 0;
+  int compared = 0;
   for (uint64_t seed = 1; seed <= 12; seed++) {
     float scale = seed % 2 ? 0.5f : 1.3f;
     query_scene s;
     query_scene_open(&s, seed);
     nsvcd_mesh mesh = query_solid(2 * seed, 0.2);
     for (size_t i = 0; i < 3 * mesh.vertex_count; i++) mesh.positions[i] *= scale;
-    query_memory encoded_memory, scaled_memory = query_reserve(nsvcd_body_describe(s.moving).size);
-    const nsvcd_body *encoded = query_encode(&mesh, QUERY_POINTS, &encoded_memory), *scaled = NULL;
-    CHECK_EQ(nsvcd_body_scale(s.moving, scale, scaled_memory.at, nsvcd_body_describe(s.moving).size, &scaled),
+    query_memory encoded_memory;
+    query_memory scaled_memory = query_reserve(nsvcd_body_describe(s.moving).size);
+    const nsvcd_body *encoded = query_encode(&mesh, QUERY_POINTS, &encoded_memory);
+    const nsvcd_body *scaled = NULL;
+    CHECK_EQ(nsvcd_body_scale(s.moving, scale, scaled_memory.at, nsvcd_body_describe(s.moving).size,
+                              &scaled),
              NSVCD_OK);
     if (encoded && scaled) {
       nsvcd_answer a = query_ask(encoded, s.motion, QUERY_POSES, s.fixed, &s.fixed_pose, NULL);
@@ -228,23 +248,26 @@ static void query_scaled_bodies_are_bodies_of_scaled_meshes(void) {
       int near = fabs((double)(a.logit - b.logit)) <= 0.05 * (1 + fabs((double)a.logit));
       CHECK_EQ(a.status, b.status);
       if (seed % 2) CHECK(near);
-      close += near, compared++;
+      close += near;
+      compared++;
       CHECK_NEAR(nsvcd_body_describe(encoded).radius / nsvcd_body_describe(scaled).radius, 1, 1e-3);
     }
-    query_release(&encoded_memory), query_release(&scaled_memory);
+    query_release(&encoded_memory);
+    query_release(&scaled_memory);
     nsvcd_mesh_free(&mesh, NULL);
     query_scene_close(&s);
   }
   CHECK_GE(close, compared - 1);  // one may tip over in the choice of patches
 }
 
-// ------------------------------------------------------------------------------------------------- what must be right
+// ------------------------------------------------------------------------------ what must be right
 
 static void query_far_apart_is_certified(void) {
   nsvcd_mesh mesh = query_box(0.1, 0.1, 0.1);
   query_memory memory;
   const nsvcd_body *body = query_encode(&mesh, 0, &memory);
-  nsvcd_pose poses[2] = {query_pose(1, 0, 0), query_pose(0, 1, 0)}, origin = query_pose(0, 0, 0);
+  nsvcd_pose poses[2] = {query_pose(1, 0, 0), query_pose(0, 1, 0)};
+  nsvcd_pose origin = query_pose(0, 0, 0);
   nsvcd_answer a = query_ask(body, poses, 2, body, &origin, NULL);
   CHECK_EQ(a.status, NSVCD_STATUS_CERTIFIED_FREE);
   CHECK_EQ(a.logit, -NSVCD_LOGIT_CERTAIN);
@@ -261,10 +284,13 @@ static void query_far_apart_is_certified(void) {
 
 // Surfaces far apart, one body within the other, at the start: not the network's to see.
 static void query_inside_is_inside(void) {
-  nsvcd_mesh small = query_box(0.02, 0.02, 0.02), large = query_box(0.4, 0.4, 0.4);
+  nsvcd_mesh small = query_box(0.02, 0.02, 0.02);
+  nsvcd_mesh large = query_box(0.4, 0.4, 0.4);
   query_memory memory[2];
-  const nsvcd_body *inner = query_encode(&small, 0, &memory[0]), *outer = query_encode(&large, 0, &memory[1]);
-  nsvcd_pose poses[2] = {query_pose(0.01, 0, 0), query_pose(0, 0.02, 0)}, origin = query_pose(0, 0, 0);
+  const nsvcd_body *inner = query_encode(&small, 0, &memory[0]);
+  const nsvcd_body *outer = query_encode(&large, 0, &memory[1]);
+  nsvcd_pose poses[2] = {query_pose(0.01, 0, 0), query_pose(0, 0.02, 0)};
+  nsvcd_pose origin = query_pose(0, 0, 0);
   nsvcd_answer a = query_ask(inner, poses, 2, outer, &origin, NULL);
   CHECK_EQ(a.status, NSVCD_STATUS_INSIDE);
   CHECK_EQ(a.collides, 1);
@@ -274,18 +300,25 @@ static void query_inside_is_inside(void) {
   CHECK_EQ(a.status, NSVCD_STATUS_INSIDE);
   a = query_ask(inner, poses, 1, outer, &origin, NULL);  // one pose
   CHECK_EQ(a.status, NSVCD_STATUS_INSIDE);
-  poses[0] = query_pose(0.3, 0, 0), poses[1] = query_pose(0.3, 0.02, 0);  // beside it
+  poses[0] = query_pose(0.3, 0, 0);
+  poses[1] = query_pose(0.3, 0.02, 0);  // beside it
   a = query_ask(inner, poses, 2, outer, &origin, NULL);
   CHECK_EQ(a.status, NSVCD_STATUS_CERTIFIED_FREE);
-  query_release(&memory[0]), query_release(&memory[1]);
-  nsvcd_mesh_free(&small, NULL), nsvcd_mesh_free(&large, NULL);
+  query_release(&memory[0]);
+  query_release(&memory[1]);
+  nsvcd_mesh_free(&small, NULL);
+  nsvcd_mesh_free(&large, NULL);
 }
 
 // Of an open body there is no inside.
 static void query_inside_an_open_body(void) {
-  nsvcd_mesh small = query_box(0.02, 0.02, 0.02), large = query_box(0.4, 0.4, 0.4);
-  query_memory memory[2] = {query_reserve(nsvcd_body_size(512)), query_reserve(nsvcd_body_size(512))};
-  const nsvcd_body *inner = NULL, *outer = NULL, *loaded = NULL;
+  nsvcd_mesh small = query_box(0.02, 0.02, 0.02);
+  nsvcd_mesh large = query_box(0.4, 0.4, 0.4);
+  query_memory memory[2] = {query_reserve(nsvcd_body_size(512)),
+                            query_reserve(nsvcd_body_size(512))};
+  const nsvcd_body *inner = NULL;
+  const nsvcd_body *outer = NULL;
+  const nsvcd_body *loaded = NULL;
   nsvcd_encode_options open = {.points = 512, .open = 1, .no_triangles = 1};
   CHECK_EQ(nsvcd_encode(&small, &open, NULL, memory[0].at, nsvcd_body_size(512), &inner), NSVCD_OK);
   CHECK_EQ(nsvcd_encode(&large, &open, NULL, memory[1].at, nsvcd_body_size(512), &outer), NSVCD_OK);
@@ -293,27 +326,35 @@ static void query_inside_an_open_body(void) {
   nsvcd_pose origin = query_pose(0, 0, 0);
   nsvcd_answer a = query_ask(inner, &origin, 1, loaded, &origin, NULL);
   CHECK_EQ(a.status, NSVCD_STATUS_CERTIFIED_FREE);
-  query_release(&memory[0]), query_release(&memory[1]);
-  nsvcd_mesh_free(&small, NULL), nsvcd_mesh_free(&large, NULL);
+  query_release(&memory[0]);
+  query_release(&memory[1]);
+  nsvcd_mesh_free(&small, NULL);
+  nsvcd_mesh_free(&large, NULL);
 }
 
 // Winding the wrong way round turns the sign of the winding number, not the answer.
 static void query_inside_an_inside_out_body(void) {
-  nsvcd_mesh small = query_box(0.02, 0.02, 0.02), large = query_box(0.4, 0.4, 0.4);
+  nsvcd_mesh small = query_box(0.02, 0.02, 0.02);
+  nsvcd_mesh large = query_box(0.4, 0.4, 0.4);
   for (size_t t = 0; t < large.triangle_count; t++) {
     uint32_t first = large.indices[3 * t];
-    large.indices[3 * t] = large.indices[3 * t + 1], large.indices[3 * t + 1] = first;
+    large.indices[3 * t] = large.indices[3 * t + 1];
+    large.indices[3 * t + 1] = first;
   }
   query_memory memory[2];
-  const nsvcd_body *inner = query_encode(&small, 0, &memory[0]), *outer = query_encode(&large, 0, &memory[1]);
+  const nsvcd_body *inner = query_encode(&small, 0, &memory[0]);
+  const nsvcd_body *outer = query_encode(&large, 0, &memory[1]);
   nsvcd_pose origin = query_pose(0, 0, 0);
   nsvcd_answer a = query_ask(inner, &origin, 1, outer, &origin, NULL);
   CHECK_EQ(a.status, NSVCD_STATUS_INSIDE);
-  query_release(&memory[0]), query_release(&memory[1]);
-  nsvcd_mesh_free(&small, NULL), nsvcd_mesh_free(&large, NULL);
+  query_release(&memory[0]);
+  query_release(&memory[1]);
+  nsvcd_mesh_free(&small, NULL);
+  nsvcd_mesh_free(&large, NULL);
 }
 
-// From the smallest body there may be to the largest: one cube through the other hits, and beside it does not.
+// From the smallest body there may be to the largest: one cube through the other hits, and beside
+// it does not.
 static void query_sizes_at_the_limits(void) {
   const double sizes[4] = {4e-12, 1e-6, 1e3, 8e5};  // edges
   for (int i = 0; i < 4; i++) {
@@ -321,20 +362,28 @@ static void query_sizes_at_the_limits(void) {
     nsvcd_mesh cube = query_box(a, a, a);
     query_memory memory[2] = {query_reserve(nsvcd_body_size(NSVCD_SMALL_POINTS)),
                               query_reserve(nsvcd_body_size(NSVCD_SMALL_POINTS))};
-    const nsvcd_body *body = NULL, *same = NULL;
-    CHECK_EQ(nsvcd_encode(&cube, &query_latents, NULL, memory[0].at, nsvcd_body_size(NSVCD_SMALL_POINTS), &body), NSVCD_OK);
-    CHECK_EQ(nsvcd_body_scale(body, 1, memory[1].at, nsvcd_body_size(NSVCD_SMALL_POINTS), &same), NSVCD_OK);
-    nsvcd_pose through[2] = {query_pose(-0.9 * a, 0, 0), query_pose(0.9 * a, 0, 0)}, origin = query_pose(0, 0, 0);
+    const nsvcd_body *body = NULL;
+    const nsvcd_body *same = NULL;
+    CHECK_EQ(nsvcd_encode(&cube, &query_latents, NULL, memory[0].at,
+                          nsvcd_body_size(NSVCD_SMALL_POINTS), &body),
+             NSVCD_OK);
+    CHECK_EQ(nsvcd_body_scale(body, 1, memory[1].at, nsvcd_body_size(NSVCD_SMALL_POINTS), &same),
+             NSVCD_OK);
+    nsvcd_pose through[2] = {query_pose(-0.9 * a, 0, 0), query_pose(0.9 * a, 0, 0)};
+    nsvcd_pose origin = query_pose(0, 0, 0);
     CHECK_EQ(query_ask(body, through, 2, same, &origin, NULL).collides, 1);
     for (int k = 0; k < 2; k++) through[k].position[1] = (float)(1.1 * a);  // a gap of a tenth
     CHECK_EQ(query_ask(body, through, 2, same, &origin, NULL).collides, 0);
-    query_release(&memory[0]), query_release(&memory[1]);
+    query_release(&memory[0]);
+    query_release(&memory[1]);
     nsvcd_mesh_free(&cube, NULL);
   }
   nsvcd_mesh speck = query_box(1e-13, 1e-13, 1e-13);
   query_memory memory = query_reserve(nsvcd_body_size(NSVCD_SMALL_POINTS));
   const nsvcd_body *body = NULL;
-  CHECK_EQ(nsvcd_encode(&speck, &query_latents, NULL, memory.at, nsvcd_body_size(NSVCD_SMALL_POINTS), &body), NSVCD_ERROR_NUMBER);
+  CHECK_EQ(nsvcd_encode(&speck, &query_latents, NULL, memory.at,
+                        nsvcd_body_size(NSVCD_SMALL_POINTS), &body),
+           NSVCD_ERROR_NUMBER);
   CHECK(body == NULL);
   query_release(&memory);
   nsvcd_mesh_free(&speck, NULL);
@@ -345,14 +394,20 @@ static void query_a_cavity_is_not_inside(void) {
   shapes_mesh shape;
   memset(&shape, 0, sizeof shape);
   shapes_shell(&shape, 0.4, 0.4, 0.4, 0.02, 0, 16);
-  nsvcd_mesh small = query_box(0.02, 0.02, 0.02), shell = query_mesh(&shape, 1);
+  nsvcd_mesh small = query_box(0.02, 0.02, 0.02);
+  nsvcd_mesh shell = query_mesh(&shape, 1);
   query_memory memory[2];
-  const nsvcd_body *inner = query_encode(&small, 0, &memory[0]), *outer = query_encode(&shell, 0, &memory[1]);
-  nsvcd_pose poses[2] = {query_pose(0.01, 0, 0), query_pose(0, 0.02, 0)}, origin = query_pose(0, 0, 0);
+  const nsvcd_body *inner = query_encode(&small, 0, &memory[0]);
+  const nsvcd_body *outer = query_encode(&shell, 0, &memory[1]);
+  nsvcd_pose poses[2] = {query_pose(0.01, 0, 0), query_pose(0, 0.02, 0)};
+  nsvcd_pose origin = query_pose(0, 0, 0);
   nsvcd_answer a = query_ask(inner, poses, 2, outer, &origin, NULL);
   CHECK_EQ(a.status, NSVCD_STATUS_CERTIFIED_FREE);
-  query_release(&memory[0]), query_release(&memory[1]);
-  nsvcd_mesh_free(&small, NULL), nsvcd_mesh_free(&shell, NULL), shapes_free(&shape);
+  query_release(&memory[0]);
+  query_release(&memory[1]);
+  nsvcd_mesh_free(&small, NULL);
+  nsvcd_mesh_free(&shell, NULL);
+  shapes_free(&shape);
 }
 
 // One pose, the same pose twice and a motion that stands still are the same question.
@@ -370,8 +425,8 @@ static void query_standing_still_is_one_pose(void) {
 }
 
 // A scene in which both move: what it was, carried along by a common motion.
-static nsvcd_question query_carried(const query_scene *s, uint64_t seed, double angle, nsvcd_pose *poses,
-                                    nsvcd_pose *others) {
+static nsvcd_question query_carried(const query_scene *s, uint64_t seed, double angle,
+                                    nsvcd_pose *poses, nsvcd_pose *others) {
   shapes_rng rng = {seed};
   nsvcd_question question = question_of(s->moving, poses, QUERY_POSES, s->fixed, others, NULL);
   double axis[3], along[3];
@@ -379,7 +434,8 @@ static nsvcd_question query_carried(const query_scene *s, uint64_t seed, double 
   shapes_direction(&rng, axis);
   shapes_direction(&rng, along);
   for (int i = 0; i < QUERY_POSES; i++) {
-    const double t = (double)i / (QUERY_POSES - 1), half = 0.5 * angle * t;
+    const double t = (double)i / (QUERY_POSES - 1);
+    const double half = 0.5 * angle * t;
     nsvcd_pose common;
     for (int k = 0; k < 3; k++) common.position[k] = (float)(0.5 * t * along[k]);
     for (int k = 0; k < 3; k++) common.rotation[k] = (float)(sin(half) * axis[k]);
@@ -390,10 +446,11 @@ static nsvcd_question query_carried(const query_scene *s, uint64_t seed, double 
   return question;
 }
 
-// Carried along without a turn, two bodies are to each other what they were; with one, at their poses, and hardly
-// otherwise between these.
+// Carried along without a turn, two bodies are to each other what they were; with one, at their
+// poses, and hardly otherwise between these.
 static void query_both_may_move(void) {
-  size_t same = 0, compared = 0;
+  size_t same = 0;
+  size_t compared = 0;
   for (uint64_t seed = 1; seed <= 60; seed++) {
     query_scene s;
     nsvcd_pose poses[QUERY_POSES], others[QUERY_POSES];
@@ -402,11 +459,14 @@ static void query_both_may_move(void) {
     const nsvcd_answer before = query_scene_ask(&s);
     const double angle = seed % 2 ? 1.6 : 0;
     const nsvcd_question question = query_carried(&s, seed, angle, poses, others);
-    CHECK_EQ(nsvcd_sweep(&question, query_workspace(), nsvcd_sweep_workspace_size(NULL), &answer), NSVCD_OK);
-    if (before.overlapping > 0 && !nsvcd__is_swapped(&question.a, &question.b)) {  // seen from the same body
+    CHECK_EQ(nsvcd_sweep(&question, query_workspace(), nsvcd_sweep_workspace_size(NULL), &answer),
+             NSVCD_OK);
+    // seen from the same body
+    if (before.overlapping > 0 && !nsvcd__is_swapped(&question.a, &question.b)) {
       compared++;
       same += answer.collides == before.collides;
-      if (seed % 2 == 0) CHECK_NEAR(answer.logit, before.logit, 1e-3 * (1 + fabs((double)before.logit)));
+      if (seed % 2 == 0)
+        CHECK_NEAR(answer.logit, before.logit, 1e-3 * (1 + fabs((double)before.logit)));
     }
     query_scene_close(&s);
   }
@@ -427,10 +487,12 @@ static void query_sides_do_not_matter(void) {
     if (seed % 4 == 2) question.b.body = question.a.body;
     if (seed % 8 == 3) question.a.scale = 1.5f;
     const nsvcd_mover a = question.a;
-    CHECK_EQ(nsvcd_sweep(&question, query_workspace(), nsvcd_sweep_workspace_size(NULL), &one), NSVCD_OK);
+    CHECK_EQ(nsvcd_sweep(&question, query_workspace(), nsvcd_sweep_workspace_size(NULL), &one),
+             NSVCD_OK);
     question.a = question.b;
     question.b = a;
-    CHECK_EQ(nsvcd_sweep(&question, query_workspace(), nsvcd_sweep_workspace_size(NULL), &other), NSVCD_OK);
+    CHECK_EQ(nsvcd_sweep(&question, query_workspace(), nsvcd_sweep_workspace_size(NULL), &other),
+             NSVCD_OK);
     const uint32_t patch = other.patch_a;
     other.patch_a = other.patch_b;
     other.patch_b = patch;
@@ -445,7 +507,8 @@ static void query_scales_in_the_question(void) {
     query_scene s;
     nsvcd_answer one, other;
     query_scene_open(&s, seed);
-    nsvcd_question question = question_of(s.moving, s.motion, QUERY_POSES, s.fixed, &s.fixed_pose, NULL);
+    nsvcd_question question =
+        question_of(s.moving, s.motion, QUERY_POSES, s.fixed, &s.fixed_pose, NULL);
     const float scales[2] = {seed % 2 ? 1 : 1.3f, seed % 3 ? 0.8f : 1};
     query_memory memory[2];
     for (int b = 0; b < 2; b++) {
@@ -454,14 +517,17 @@ static void query_scales_in_the_question(void) {
       memory[b] = query_reserve(size);
       mover->scale = scales[b];
     }
-    CHECK_EQ(nsvcd_sweep(&question, query_workspace(), nsvcd_sweep_workspace_size(NULL), &one), NSVCD_OK);
+    CHECK_EQ(nsvcd_sweep(&question, query_workspace(), nsvcd_sweep_workspace_size(NULL), &one),
+             NSVCD_OK);
     for (int b = 0; b < 2; b++) {
       nsvcd_mover *mover = b ? &question.b : &question.a;
       const size_t size = nsvcd_body_describe(mover->body).size;
-      CHECK_EQ(nsvcd_body_scale(mover->body, scales[b], memory[b].at, size, &mover->body), NSVCD_OK);
+      CHECK_EQ(nsvcd_body_scale(mover->body, scales[b], memory[b].at, size, &mover->body),
+               NSVCD_OK);
       mover->scale = 0;
     }
-    CHECK_EQ(nsvcd_sweep(&question, query_workspace(), nsvcd_sweep_workspace_size(NULL), &other), NSVCD_OK);
+    CHECK_EQ(nsvcd_sweep(&question, query_workspace(), nsvcd_sweep_workspace_size(NULL), &other),
+             NSVCD_OK);
     CHECK_EQ(one.status, other.status);
     CHECK_NEAR(one.logit, other.logit, 1e-3 * (1 + fabs((double)one.logit)));
     query_release(&memory[0]);
@@ -470,18 +536,21 @@ static void query_scales_in_the_question(void) {
   }
 }
 
-// Once every pair that overlaps is looked at, a greater K changes nothing, to the bit. This for all models.
+// Once every pair that overlaps is looked at, a greater K changes nothing, to the bit. This for all
+// models.
 static void query_all_pairs_are_enough(void) {
   int compared = 0;
   for (uint64_t seed = 1; seed <= 40; seed++) {
     query_scene s;
     query_scene_open(&s, seed);
     for (int model = NSVCD_MODEL_TINY; model <= NSVCD_MODEL_BASE; model++) {
-      nsvcd_sweep_options few = query_options(NSVCD_MAX_PAIRS / 2, (nsvcd_model)model, 0), many = few;
+      nsvcd_sweep_options few = query_options(NSVCD_MAX_PAIRS / 2, (nsvcd_model)model, 0);
+      nsvcd_sweep_options many = few;
       many.pairs = NSVCD_MAX_PAIRS;
       nsvcd_answer a = query_ask(s.moving, s.motion, QUERY_POSES, s.fixed, &s.fixed_pose, &few);
       nsvcd_answer b = query_ask(s.moving, s.motion, QUERY_POSES, s.fixed, &s.fixed_pose, &many);
-      if (a.overlapping > few.pairs) {  // then the searches keep different pairs, and may end at different times
+      // then the searches keep different pairs, and may end at different times
+      if (a.overlapping > few.pairs) {
         CHECK_GE(b.overlapping, few.pairs + 1);
         continue;
       }
@@ -496,7 +565,8 @@ static void query_all_pairs_are_enough(void) {
   CHECK_GE(compared, 15);
 }
 
-// The tiny decoder takes pairs in the broad phase's order: what it has seen with few pairs, it sees with more.
+// The tiny decoder takes pairs in the broad phase's order: what it has seen with few pairs, it sees
+// with more.
 static void query_more_pairs_never_lose_a_collision(void) {
   int collisions = 0;
   for (uint64_t seed = 1; seed <= 20; seed++) {
@@ -507,7 +577,8 @@ static void query_more_pairs_never_lose_a_collision(void) {
       nsvcd_sweep_options options = query_options(pairs, NSVCD_MODEL_TINY, 0);
       nsvcd_answer a = query_ask(s.moving, s.motion, QUERY_POSES, s.fixed, &s.fixed_pose, &options);
       CHECK_GE(a.collides, before);
-      before = a.collides, collisions += a.collides;
+      before = a.collides;
+      collisions += a.collides;
     }
     query_scene_close(&s);
   }
@@ -529,7 +600,7 @@ static void query_recall_raises_the_logit(void) {
   query_scene_close(&s);
 }
 
-// ------------------------------------------------------------------------------------------------------------ errors
+// ------------------------------------------------------------------------------------------ errors
 
 static nsvcd_answer query_untouched(void) {
   nsvcd_answer a;
@@ -537,11 +608,13 @@ static nsvcd_answer query_untouched(void) {
   return a;
 }
 // Asks with one thing wrong; the answer must stay as it was.
-static void query_refuses(const query_scene *s, const nsvcd_pose *poses, size_t count, const nsvcd_pose *fixed_pose,
-                          const nsvcd_sweep_options *options, nsvcd_result expected) {
-  nsvcd_answer answer = query_untouched(), before = query_untouched();
+static void query_refuses(const query_scene *s, const nsvcd_pose *poses, size_t count,
+                          const nsvcd_pose *fixed_pose, const nsvcd_sweep_options *options,
+                          nsvcd_result expected) {
+  nsvcd_answer answer = query_untouched();
+  nsvcd_answer before = query_untouched();
   CHECK_EQ(ask(s->moving, poses, count, s->fixed, fixed_pose, options, query_workspace(),
-                       nsvcd_sweep_workspace_size(NULL), &answer),
+               nsvcd_sweep_workspace_size(NULL), &answer),
            expected);
   CHECK(memcmp(&answer, &before, sizeof answer) == 0);
 }
@@ -551,13 +624,16 @@ static void query_refuses_bad_arguments(void) {
   query_scene_open(&s, 1);
   query_refuses(&s, NULL, QUERY_POSES, &s.fixed_pose, NULL, NSVCD_ERROR_ARGUMENT);
   query_refuses(&s, s.motion, 0, &s.fixed_pose, NULL, NSVCD_ERROR_ARGUMENT);
-  query_refuses(&s, s.motion, (size_t)NSVCD_MAX_POSES + 1, &s.fixed_pose, NULL, NSVCD_ERROR_ARGUMENT);
-  query_scene no_moving = s, no_fixed = s;
-  no_moving.moving = NULL, no_fixed.fixed = NULL;
+  query_refuses(&s, s.motion, (size_t)NSVCD_MAX_POSES + 1, &s.fixed_pose, NULL,
+                NSVCD_ERROR_ARGUMENT);
+  query_scene no_moving = s;
+  query_scene no_fixed = s;
+  no_moving.moving = NULL;
+  no_fixed.fixed = NULL;
   query_refuses(&no_moving, s.motion, QUERY_POSES, &s.fixed_pose, NULL, NSVCD_ERROR_ARGUMENT);
   query_refuses(&no_fixed, s.motion, QUERY_POSES, &s.fixed_pose, NULL, NSVCD_ERROR_ARGUMENT);
   CHECK_EQ(ask(s.moving, s.motion, QUERY_POSES, s.fixed, &s.fixed_pose, NULL, query_workspace(),
-                       nsvcd_sweep_workspace_size(NULL), NULL),
+               nsvcd_sweep_workspace_size(NULL), NULL),
            NSVCD_ERROR_ARGUMENT);
 
   nsvcd_sweep_options bad[7];
@@ -569,14 +645,17 @@ static void query_refuses_bad_arguments(void) {
   bad[5] = query_options(0, NSVCD_MODEL_DEFAULT, NAN);
   bad[6] = query_options(0, NSVCD_MODEL_DEFAULT, 0);
   bad[6].precision = (nsvcd_precision)(NSVCD_PRECISION_INT8 + 1);
-  for (int i = 0; i < 7; i++) query_refuses(&s, s.motion, QUERY_POSES, &s.fixed_pose, &bad[i], NSVCD_ERROR_ARGUMENT);
+  for (int i = 0; i < 7; i++)
+    query_refuses(&s, s.motion, QUERY_POSES, &s.fixed_pose, &bad[i], NSVCD_ERROR_ARGUMENT);
   query_scene_close(&s);
 }
 
 // The same with a question.
 static void query_refuses_question(const nsvcd_question *question, nsvcd_result expected) {
-  nsvcd_answer answer = query_untouched(), before = query_untouched();
-  CHECK_EQ(nsvcd_sweep(question, query_workspace(), nsvcd_sweep_workspace_size(NULL), &answer), expected);
+  nsvcd_answer answer = query_untouched();
+  nsvcd_answer before = query_untouched();
+  CHECK_EQ(nsvcd_sweep(question, query_workspace(), nsvcd_sweep_workspace_size(NULL), &answer),
+           expected);
   CHECK(memcmp(&answer, &before, sizeof answer) == 0);
 }
 
@@ -584,7 +663,8 @@ static void query_refuses_bad_questions(void) {
   const float scales[8] = {NAN, INFINITY, -INFINITY, -1, -1e-30f, 1e-7f, 1e7f, 1e30f};
   query_scene s;
   query_scene_open(&s, 1);
-  const nsvcd_question good = question_of(s.moving, s.motion, QUERY_POSES, s.fixed, &s.fixed_pose, NULL);
+  const nsvcd_question good =
+      question_of(s.moving, s.motion, QUERY_POSES, s.fixed, &s.fixed_pose, NULL);
   nsvcd_question bad;
   memset(&bad, 0, sizeof bad);
   query_refuses_question(&bad, NSVCD_ERROR_ARGUMENT);
@@ -609,7 +689,8 @@ static void query_refuses_bad_questions(void) {
   bad.b.poses = &elsewhere;  // the same body at another place is a question like any other
   bad.b.count = 1;
   nsvcd_answer answer;
-  CHECK_EQ(nsvcd_sweep(&bad, query_workspace(), nsvcd_sweep_workspace_size(NULL), &answer), NSVCD_OK);
+  CHECK_EQ(nsvcd_sweep(&bad, query_workspace(), nsvcd_sweep_workspace_size(NULL), &answer),
+           NSVCD_OK);
   query_scene_close(&s);
 }
 
@@ -619,18 +700,24 @@ static void query_refuses_bad_poses(void) {
   query_scene_open(&s, 1);
   for (int i = 0; i < 3; i++)
     for (size_t k = 0; k < 7; k++) {
-      nsvcd_pose motion[QUERY_POSES], fixed = s.fixed_pose;
+      nsvcd_pose motion[QUERY_POSES];
+      nsvcd_pose fixed = s.fixed_pose;
       memcpy(motion, s.motion, sizeof motion);
-      *(k < 3 ? &motion[QUERY_POSES - 1].position[k] : &motion[QUERY_POSES - 1].rotation[k - 3]) = numbers[i];
+      *(k < 3 ? &motion[QUERY_POSES - 1].position[k] : &motion[QUERY_POSES - 1].rotation[k - 3]) =
+          numbers[i];
       *(k < 3 ? &fixed.position[k] : &fixed.rotation[k - 3]) = numbers[i];
       query_refuses(&s, motion, QUERY_POSES, &s.fixed_pose, NULL, NSVCD_ERROR_POSE);
       query_refuses(&s, s.motion, QUERY_POSES, &fixed, NULL, NSVCD_ERROR_POSE);
     }
   const float lengths[4] = {0, 0.5f, 1.0005f, -0.999f};
   for (int i = 0; i < 4; i++) {
-    nsvcd_pose motion[QUERY_POSES], fixed = s.fixed_pose;
+    nsvcd_pose motion[QUERY_POSES];
+    nsvcd_pose fixed = s.fixed_pose;
     memcpy(motion, s.motion, sizeof motion);
-    for (size_t k = 0; k < 4; k++) motion[2].rotation[k] *= lengths[i], fixed.rotation[k] *= lengths[i];
+    for (size_t k = 0; k < 4; k++) {
+      motion[2].rotation[k] *= lengths[i];
+      fixed.rotation[k] *= lengths[i];
+    }
     query_refuses(&s, motion, QUERY_POSES, &s.fixed_pose, NULL, NSVCD_ERROR_POSE);
     query_refuses(&s, s.motion, QUERY_POSES, &fixed, NULL, NSVCD_ERROR_POSE);
   }
@@ -643,14 +730,18 @@ static void query_refuses_bad_poses(void) {
 static void query_refuses_a_bad_workspace(void) {
   query_scene s;
   query_scene_open(&s, 1);
-  const nsvcd_question question = question_of(s.moving, s.motion, QUERY_POSES, s.fixed, &s.fixed_pose, NULL);
+  const nsvcd_question question =
+      question_of(s.moving, s.motion, QUERY_POSES, s.fixed, &s.fixed_pose, NULL);
   size_t size = nsvcd_sweep_workspace_size(&question);
   query_memory memory = query_reserve(size + QUERY_ALIGN);
   for (int i = 0; i < 4; i++) {
-    void *workspace = i == 0 ? NULL : i == 1 ? memory.at : (void *)((char *)memory.at + (i == 2 ? 1 : 4));
-    nsvcd_answer answer = query_untouched(), before = query_untouched();
+    void *workspace = i == 0   ? NULL
+                      : i == 1 ? memory.at
+                               : (void *)((char *)memory.at + (i == 2 ? 1 : 4));
+    nsvcd_answer answer = query_untouched();
+    nsvcd_answer before = query_untouched();
     CHECK_EQ(ask(s.moving, s.motion, QUERY_POSES, s.fixed, &s.fixed_pose, NULL, workspace,
-                         i == 1 ? size - 1 : size, &answer),
+                 i == 1 ? size - 1 : size, &answer),
              NSVCD_ERROR_WORKSPACE);
     CHECK(memcmp(&answer, &before, sizeof answer) == 0);
   }
@@ -659,9 +750,10 @@ static void query_refuses_a_bad_workspace(void) {
 }
 
 // nsvcd_encode with one thing wrong leaves *body alone.
-static void query_encode_refuses(const nsvcd_mesh *mesh, const nsvcd_encode_options *options, void *memory,
-                                 size_t capacity, nsvcd_result expected) {
-  const nsvcd_body *const mark = (const nsvcd_body *)(const void *)&expected, *body = mark;
+static void query_encode_refuses(const nsvcd_mesh *mesh, const nsvcd_encode_options *options,
+                                 void *memory, size_t capacity, nsvcd_result expected) {
+  const nsvcd_body *const mark = (const nsvcd_body *)(const void *)&expected;
+  const nsvcd_body *body = mark;
   CHECK_EQ(nsvcd_encode(mesh, options, NULL, memory, capacity, &body), expected);
   CHECK(body == mark);
 }
@@ -687,11 +779,15 @@ static void query_encode_allocates(void) {
 }
 
 static void query_encode_refuses_bad_input(void) {
-  nsvcd_mesh mesh = query_box(0.1, 0.1, 0.1), bad = mesh;
+  nsvcd_mesh mesh = query_box(0.1, 0.1, 0.1);
+  nsvcd_mesh bad = mesh;
   size_t size = nsvcd_body_size(64);
   query_memory memory = query_reserve(nsvcd_body_size(NSVCD_SMALL_POINTS) + QUERY_ALIGN);
-  nsvcd_encode_options options = {.points = 64, .no_triangles = 1}, too_many = {.points = NSVCD_MAX_POINTS + 1, .no_triangles = 1}, both = {.latents = 1, .no_latents = 1}, negative = {.patch_radius = -1, .no_triangles = 1},
-                       nan = {.patch_radius = NAN, .no_triangles = 1};
+  nsvcd_encode_options options = {.points = 64, .no_triangles = 1};
+  nsvcd_encode_options too_many = {.points = NSVCD_MAX_POINTS + 1, .no_triangles = 1};
+  nsvcd_encode_options both = {.latents = 1, .no_latents = 1};
+  nsvcd_encode_options negative = {.patch_radius = -1, .no_triangles = 1};
+  nsvcd_encode_options nan = {.patch_radius = NAN, .no_triangles = 1};
   query_encode_refuses(NULL, &options, memory.at, size, NSVCD_ERROR_ARGUMENT);
   query_encode_refuses(&mesh, &too_many, memory.at, size, NSVCD_ERROR_ARGUMENT);
   query_encode_refuses(&mesh, &both, memory.at, size, NSVCD_ERROR_ARGUMENT);
@@ -702,9 +798,11 @@ static void query_encode_refuses_bad_input(void) {
   CHECK_EQ(nsvcd_encode(&mesh, &options, NULL, memory.at, size, NULL), NSVCD_ERROR_ARGUMENT);
   bad.triangle_count = 0;
   query_encode_refuses(&bad, &options, memory.at, size, NSVCD_ERROR_EMPTY);
-  bad = mesh, bad.positions = NULL;
+  bad = mesh;
+  bad.positions = NULL;
   query_encode_refuses(&bad, &options, memory.at, size, NSVCD_ERROR_ARGUMENT);
-  bad = mesh, bad.vertex_count = 5;  // indices beyond
+  bad = mesh;
+  bad.vertex_count = 5;  // indices beyond
   query_encode_refuses(&bad, &options, memory.at, size, NSVCD_ERROR_INDEX);
   float kept = mesh.positions[4];
   mesh.positions[4] = NAN;
@@ -720,26 +818,31 @@ static void query_encode_refuses_bad_input(void) {
 
 static void query_scale_refuses_bad_input(void) {
   nsvcd_mesh mesh = query_box(0.1, 0.1, 0.1);
-  query_memory memory, out = query_reserve(nsvcd_body_size(NSVCD_DEFAULT_NETWORK_POINTS));
-  const nsvcd_body *body = query_encode(&mesh, 0, &memory), *scaled = body;
+  query_memory memory;
+  query_memory out = query_reserve(nsvcd_body_size(NSVCD_DEFAULT_NETWORK_POINTS));
+  const nsvcd_body *body = query_encode(&mesh, 0, &memory);
+  const nsvcd_body *scaled = body;
   size_t size = nsvcd_body_describe(body).size;
   const float bad[5] = {0, -1, NAN, INFINITY, 1e30f};
-  for (int i = 0; i < 5; i++) CHECK(nsvcd_body_scale(body, bad[i], out.at, size, &scaled) != NSVCD_OK);
+  for (int i = 0; i < 5; i++)
+    CHECK(nsvcd_body_scale(body, bad[i], out.at, size, &scaled) != NSVCD_OK);
   CHECK_EQ(nsvcd_body_scale(NULL, 1, out.at, size, &scaled), NSVCD_ERROR_ARGUMENT);
   CHECK_EQ(nsvcd_body_scale(body, 1, NULL, size, &scaled), NSVCD_ERROR_ARGUMENT);
   CHECK_EQ(nsvcd_body_scale(body, 1, out.at, size - 1, &scaled), NSVCD_ERROR_WORKSPACE);
   CHECK(scaled == body);
-  query_release(&memory), query_release(&out);
+  query_release(&memory);
+  query_release(&out);
   nsvcd_mesh_free(&mesh, NULL);
 }
 
-// -------------------------------------------------------------------------------------------------------- allocation
+// -------------------------------------------------------------------------------------- allocation
 
 static void query_encode_survives_every_failed_allocation(void) {
   nsvcd_mesh mesh = query_solid(5, 0.3);
   nsvcd_encode_options options = {.points = 32, .no_triangles = 1};
   size_t size = nsvcd_body_size(32);
-  query_memory memory = query_reserve(size), undisturbed = query_reserve(size);
+  query_memory memory = query_reserve(size);
+  query_memory undisturbed = query_reserve(size);
   const nsvcd_body *expected = NULL;
   CHECK_EQ(nsvcd_encode(&mesh, &options, NULL, undisturbed.at, size, &expected), NSVCD_OK);
   int failures = 0;
@@ -760,15 +863,18 @@ static void query_encode_survives_every_failed_allocation(void) {
     if (failures > 1000) break;
   }
   CHECK(failures >= 1 && failures < 1000);
-  query_release(&memory), query_release(&undisturbed);
+  query_release(&memory);
+  query_release(&undisturbed);
   nsvcd_mesh_free(&mesh, NULL);
 }
 
-// --------------------------------------------------------------------------------------------------------- accuracy
+// ---------------------------------------------------------------------------------------- accuracy
 
-// A regression guard, not the measurement (`make accuracy`): 460 small problems of tests/make_data.py.
-// What the project promises on the large sets (`make accuracy`); this file is a small one, so a guard, not the
-// measurement: the shipped weights get 99.0, 99.0 and 100 % here, one error being 0.33, 1 and 1.7 points.
+// A regression guard, not the measurement (`make accuracy`): 460 small problems of
+// tests/make_data.py.
+// What the project promises on the large sets (`make accuracy`); this file is a small one, so a
+// guard, not the measurement: the shipped weights get 99.0, 99.0 and 100 % here, one error being
+// 0.33, 1 and 1.7 points.
 #define QUERY_LEAST_STANDARD 0.985  // share of right answers
 #define QUERY_LEAST_HOLLOW 0.95
 #define QUERY_LEAST_INSIDE 0.98
@@ -798,15 +904,18 @@ static void query_add_mesh(query_library *library, const char *name, const char 
   library->count++;
   nsvcd_mesh_free(&mesh, NULL);
 }
-static const nsvcd_body *query_scaled(const query_library *library, const char *name, float scale, void *memory) {
+static const nsvcd_body *query_scaled(const query_library *library, const char *name, float scale,
+                                      void *memory) {
   const nsvcd_body *scaled = NULL;
   for (size_t i = 0; i < library->count; i++)
     if (strcmp(library->names[i], name) == 0)
-      nsvcd_body_scale(library->bodies[i], scale, memory, nsvcd_body_size(NSVCD_DEFAULT_NETWORK_POINTS), &scaled);
+      nsvcd_body_scale(library->bodies[i], scale, memory,
+                       nsvcd_body_size(NSVCD_DEFAULT_NETWORK_POINTS), &scaled);
   return scaled;
 }
 static int query_read_pose(FILE *file, nsvcd_pose *pose) {
-  float *p = pose->position, *q = pose->rotation;
+  float *p = pose->position;
+  float *q = pose->rotation;
   return fscanf(file, "%f %f %f %f %f %f %f", p, p + 1, p + 2, q, q + 1, q + 2, q + 3) == 7;
 }
 
@@ -817,15 +926,19 @@ typedef struct query_score {
 } query_score;
 
 // The rest of a problem line and its motion; 0 if it cannot be read. svcd.c has the strict reader.
-static int query_answer_problem(FILE *file, const query_library *library, void *const *memory, query_score *scores) {
+static int query_answer_problem(FILE *file, const query_library *library, void *const *memory,
+                                query_score *scores) {
   char id[64], names[2][64];
   float scales[2];
   double margin;
   int label;
   size_t count;
   nsvcd_pose fixed_pose, motion[64];
-  if (fscanf(file, "%63s %63s %f %63s %f", id, names[0], &scales[0], names[1], &scales[1]) != 5) return 0;
-  if (!query_read_pose(file, &fixed_pose) || fscanf(file, "%d %lf %zu", &label, &margin, &count) != 3) return 0;
+  if (fscanf(file, "%63s %63s %f %63s %f", id, names[0], &scales[0], names[1], &scales[1]) != 5)
+    return 0;
+  if (!query_read_pose(file, &fixed_pose) ||
+      fscanf(file, "%d %lf %zu", &label, &margin, &count) != 3)
+    return 0;
   if (count > 64 || label < 0 || label > 1) return 0;
   for (size_t i = 0; i < count; i++)
     if (!query_read_pose(file, &motion[i])) return 0;
@@ -835,21 +948,24 @@ static int query_answer_problem(FILE *file, const query_library *library, void *
   nsvcd_answer a = query_ask(moving, motion, count, fixed, &fixed_pose, NULL);
   CHECK_EQ(a.collides, a.logit > 0);
   for (int i = 0; i < 3; i++)
-    if (strncmp(id, scores[i].set, strlen(scores[i].set)) == 0) scores[i].counts[label][a.collides]++;
+    if (strncmp(id, scores[i].set, strlen(scores[i].set)) == 0)
+      scores[i].counts[label][a.collides]++;
   return 1;
 }
 
 static void query_judge(const query_score *scores) {
-  size_t misses = 0, alarms = 0;
+  size_t misses = 0;
+  size_t alarms = 0;
   for (int i = 0; i < 3; i++) {
     const size_t(*c)[2] = scores[i].counts;
     size_t total = c[0][0] + c[0][1] + c[1][0] + c[1][1];
     double right = (double)(c[0][0] + c[1][1]) / (double)total;
-    printf("  %-9s %zu problems, %.2f %% right, %zu collisions missed, %zu false alarms\n", scores[i].set, total,
-           100 * right, c[1][0], c[0][1]);
+    printf("  %-9s %zu problems, %.2f %% right, %zu collisions missed, %zu false alarms\n",
+           scores[i].set, total, 100 * right, c[1][0], c[0][1]);
     CHECK_GE(total, 60);
     CHECK_GE(right, scores[i].least);
-    misses += c[1][0], alarms += c[0][1];
+    misses += c[1][0];
+    alarms += c[0][1];
   }
   CHECK_LE((double)misses, QUERY_MOST_MISSES_PER_ALARM * ((double)alarms + 1));
   CHECK_LE((double)alarms, QUERY_MOST_MISSES_PER_ALARM * ((double)misses + 1));
@@ -884,10 +1000,12 @@ static void accuracy_on_a_labelled_file(void) {
   fclose(file);
   query_judge(scores);
   for (size_t i = 0; i < library.count; i++) query_release(&library.memory[i]);
-  query_release(&memory[0]), query_release(&memory[1]);
+  query_release(&memory[0]);
+  query_release(&memory[1]);
 }
 
-// The constants for arrays are enough, and not much more than that; what a workspace takes depends on what is asked.
+// The constants for arrays are enough, and not much more than that; what a workspace takes depends
+// on what is asked.
 static void query_sizes_are_what_is_asked(void) {
   static const size_t sizes[6] = {1, 64, 100, 192, 256, 512};
   const nsvcd_pose at = {{0, 0, 0}, {0, 0, 0, 1}};
@@ -910,7 +1028,8 @@ static void query_sizes_are_what_is_asked(void) {
       question.options.method = NSVCD_METHOD_NETWORK;
       question.options.pairs = 16;
       const size_t network = nsvcd_sweep_workspace_size(&question);
-      const size_t network_constant = NSVCD_NETWORK_WORKSPACE_BYTES(points[0], points[1], segments, 16);
+      const size_t network_constant =
+          NSVCD_NETWORK_WORKSPACE_BYTES(points[0], points[1], segments, 16);
       CHECK_LE(proof, proof_constant);
       CHECK_LE(proof_constant, 1.05 * (double)proof + 512);
       CHECK_LE(network, network_constant);
@@ -921,8 +1040,10 @@ static void query_sizes_are_what_is_asked(void) {
       query_memory memory = query_reserve(network + 64 + 16);
       nsvcd_answer one, other;
       CHECK_EQ(nsvcd_sweep(&question, memory.at, network - 1, &other), NSVCD_ERROR_WORKSPACE);
-      CHECK_EQ(nsvcd_sweep(&question, query_workspace(), nsvcd_sweep_workspace_size(NULL), &other), NSVCD_OK);
-      for (size_t from = 0; from < 64; from += NSVCD_ALIGNMENT) {  // wherever it begins, and no byte before or after
+      CHECK_EQ(nsvcd_sweep(&question, query_workspace(), nsvcd_sweep_workspace_size(NULL), &other),
+               NSVCD_OK);
+      // wherever it begins, and no byte before or after
+      for (size_t from = 0; from < 64; from += NSVCD_ALIGNMENT) {
         char *at_place = (char *)memory.at + from;
         memset(memory.at, 0x5a, network + 64 + 16);
         CHECK_EQ(nsvcd_sweep(&question, at_place, network, &one), NSVCD_OK);
@@ -962,15 +1083,18 @@ static void query_few_segments_are_as_right(void) {
     s.fixed_pose.position[2] += 0.08f * (float)(seed % 5);
     nsvcd_sweep_options options;
     memset(&options, 0, sizeof options);
-    const nsvcd_answer many = query_ask(bodies[0], spin, QUERY_POSES, bodies[1], &s.fixed_pose, &options);
+    const nsvcd_answer many =
+        query_ask(bodies[0], spin, QUERY_POSES, bodies[1], &s.fixed_pose, &options);
     options.segments = 16;
-    const nsvcd_answer few = query_ask(bodies[0], spin, QUERY_POSES, bodies[1], &s.fixed_pose, &options);
+    const nsvcd_answer few =
+        query_ask(bodies[0], spin, QUERY_POSES, bodies[1], &s.fixed_pose, &options);
     options.segments = 24;
     nsvcd_answer none = query_untouched();
-    CHECK_EQ(ask(bodies[0], spin, QUERY_POSES, bodies[1], &s.fixed_pose, &options, query_workspace(),
-                 nsvcd_sweep_workspace_size(NULL), &none),
+    CHECK_EQ(ask(bodies[0], spin, QUERY_POSES, bodies[1], &s.fixed_pose, &options,
+                 query_workspace(), nsvcd_sweep_workspace_size(NULL), &none),
              NSVCD_ERROR_ARGUMENT);
-    if (many.status != NSVCD_STATUS_UNDECIDED && few.status != NSVCD_STATUS_UNDECIDED) CHECK_EQ(many.collides, few.collides);
+    if (many.status != NSVCD_STATUS_UNDECIDED && few.status != NSVCD_STATUS_UNDECIDED)
+      CHECK_EQ(many.collides, few.collides);
     CHECK(many.status == NSVCD_STATUS_WITNESS || many.status == NSVCD_STATUS_CERTIFIED_FREE ||
           many.status == NSVCD_STATUS_INSIDE);
     hits += (size_t)many.collides;

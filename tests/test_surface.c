@@ -14,7 +14,7 @@
 
 void test_surface(void);
 
-// -------------------------------------------------------------------------------------------------- vectors
+// ----------------------------------------------------------------------------------------- vectors
 
 typedef struct vec {
   double x, y, z;
@@ -34,7 +34,7 @@ static vec vec_cross(vec a, vec b) {
   return vec_of(a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x);
 }
 
-// -------------------------------------------------------------------------------------------------- meshes
+// ------------------------------------------------------------------------------------------ meshes
 
 static nsvcd_mesh surface_mesh(size_t vertices, size_t triangles) {
   nsvcd_mesh mesh;
@@ -215,7 +215,7 @@ static vec surface_corner(const nsvcd_mesh *mesh, size_t t, size_t i) {
   return vec_load(mesh->positions + 3 * (size_t)mesh->indices[3 * t + i]);
 }
 
-// ------------------------------------------------------------------------------------- topology, by sorting
+// ---------------------------------------------------------------------------- topology, by sorting
 
 typedef struct place {
   float p[3];
@@ -246,9 +246,9 @@ static int edge_order(const void *a, const void *b) {
 }
 
 typedef struct shells {
-  uint32_t *part;    // (vertices) the component of a vertex, by a label
-  uint8_t *closed;   // (vertices) of a label
-  size_t count;      // components with triangles
+  uint32_t *part;   // (vertices) the component of a vertex, by a label
+  uint8_t *closed;  // (vertices) of a label
+  size_t count;     // components with triangles
 } shells;
 
 static shells shells_of(const nsvcd_mesh *mesh) {
@@ -322,7 +322,7 @@ static void shells_free(shells *s) {
   free(s->closed);
 }
 
-// ------------------------------------------------------------------------------------- distances
+// --------------------------------------------------------------------------------------- distances
 
 static double segment_distance(vec a, vec b, vec x) {
   const vec d = vec_sub(b, a);
@@ -419,17 +419,18 @@ static int hull_reaches(const vec *points, size_t count, vec x, double reach) {
   return any_triangle_reaches(points, count, x, reach) || any_tetrahedron_holds(points, count, x);
 }
 
-// ------------------------------------------------------------------------------------- reading the result
+// ------------------------------------------------------------------------------ reading the result
 
 typedef struct reader {
   const nsvcd_mesh *mesh;
   nsvcd__surface surface;
-  double patch_radius;  // mean of the patches that it is made from; 0 where there are several regions
-  vec *vertices;      // (V)
-  size_t *listings;   // (T + 1) listings of a triangle
-  uint32_t *sorted;   // (L) by triangle
-  uint32_t *patch;    // (L) of a listing
-  double tolerance;   // 1e-12 of the greatest coordinate: of this test's own roundings
+  // mean of the patches that it is made from; 0 where there are several regions
+  double patch_radius;
+  vec *vertices;     // (V)
+  size_t *listings;  // (T + 1) listings of a triangle
+  uint32_t *sorted;  // (L) by triangle
+  uint32_t *patch;   // (L) of a listing
+  double tolerance;  // 1e-12 of the greatest coordinate: of this test's own roundings
 } reader;
 
 static uint32_t reader_id(const reader *r, size_t listing) {
@@ -461,8 +462,8 @@ static void reader_index(reader *r) {
 }
 
 // The surface of a mesh, as nsvcd_encode makes it.
-static nsvcd_result surface_of(const nsvcd_mesh *mesh, size_t points, const nsvcd_allocator *allocator,
-                               nsvcd__surface *surface) {
+static nsvcd_result surface_of(const nsvcd_mesh *mesh, size_t points,
+                               const nsvcd_allocator *allocator, nsvcd__surface *surface) {
   nsvcd__plan plan;
   nsvcd__parts parts;
   memset(&plan, 0, sizeof plan);
@@ -482,7 +483,8 @@ static int reader_open(reader *r, const nsvcd_mesh *mesh, size_t points) {
   if (points <= NSVCD_SMALL_POINTS) {
     nsvcd__patches patches;
     CHECK_EQ(nsvcd__patches_build(mesh, points, NULL, &patches), NSVCD_OK);
-    for (size_t i = 0; i < patches.count; i++) r->patch_radius += (double)patches.radii[i] / (double)patches.count;
+    for (size_t i = 0; i < patches.count; i++)
+      r->patch_radius += (double)patches.radii[i] / (double)patches.count;
     nsvcd__patches_free(&patches, NULL);
   }
   const nsvcd_result result = surface_of(mesh, points, NULL, &r->surface);
@@ -643,8 +645,8 @@ static vec area_vector(const vec *c) {
   return vec_scale(vec_cross(vec_sub(c[1], c[0]), vec_sub(c[2], c[0])), 0.5);
 }
 
-// Does a listing of the same triangle before number k list the same corners? Halves of large triangles, whole where
-// several patches share them.
+// Does a listing of the same triangle before number k list the same corners? Halves of large
+// triangles, whole where several patches share them.
 static int is_listed_before(const reader *r, size_t first, size_t k) {
   vec own[3];
   reader_corners(r, r->sorted[k], own);
@@ -660,8 +662,8 @@ static int is_listed_before(const reader *r, size_t first, size_t k) {
   return 0;
 }
 
-// The listings that enclose are those of closed components, and each triangle is there whole, or all of its parts are:
-// per triangle the vector of areas, over all of them the volume.
+// The listings that enclose are those of closed components, and each triangle is there whole, or
+// all of its parts are: per triangle the vector of areas, over all of them the volume.
 static void check_enclosing(const reader *r) {
   const nsvcd_mesh *mesh = r->mesh;
   shells parts = shells_of(mesh);
@@ -761,9 +763,10 @@ static void check_all(const nsvcd_mesh *mesh, size_t points, shapes_rng *rng, si
   }
 }
 
-// ------------------------------------------------------------------------------------- tests
+// ------------------------------------------------------------------------------------------- tests
 
-static const size_t surface_points[8] = {1, 2, 17, 64, 256, 512, 513, 2100};  // the last two in several regions
+// the last two in several regions
+static const size_t surface_points[8] = {1, 2, 17, 64, 256, 512, 513, 2100};
 
 static void surface_is_covered(void) {
   shapes_rng rng = {1};

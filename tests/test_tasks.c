@@ -1,5 +1,5 @@
-// The planning tasks of examples/tasks.h: robots against closed formulas, episodes against what they promise, the judge
-// against trajectories that are wrong in one way each.
+// The planning tasks of examples/tasks.h: robots against closed formulas, episodes against what
+// they promise, the judge against trajectories that are wrong in one way each.
 #include "../examples/tasks.h"
 
 #include "check.h"
@@ -12,16 +12,23 @@ static int tasks_make(task_scene *scene, int task, uint64_t seed) {
                      : task_mining_episode(scene, seed);
 }
 
-// ------------------------------------------------------------------------------------------------------------ robots
+// ------------------------------------------------------------------------------------------ robots
 
-// The product of the six Denavit-Hartenberg matrices, Rz(theta) Tz(d) Tx(a) Rx(alpha), row-major (3, 4).
+// The product of the six Denavit-Hartenberg matrices, Rz(theta) Tz(d) Tx(a) Rx(alpha), row-major
+// (3, 4).
 static void tasks_ur5_formula(const double *q, double *out) {
-  const double d[6] = {0.089159, 0, 0, 0.10915, 0.09465, 0.0823}, a[6] = {0, -0.425, -0.39225, 0, 0, 0};
+  const double d[6] = {0.089159, 0, 0, 0.10915, 0.09465, 0.0823};
+  const double a[6] = {0, -0.425, -0.39225, 0, 0, 0};
   const double alpha[6] = {TASK_PI / 2, 0, 0, TASK_PI / 2, -TASK_PI / 2, 0};
   double t[12] = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0};
   for (int i = 0; i < 6; i++) {
-    double c = cos(q[i]), s = sin(q[i]), ca = cos(alpha[i]), sa = sin(alpha[i]), next[12];
-    const double m[16] = {c, -s * ca, s * sa, a[i] * c, s, c * ca, -c * sa, a[i] * s, 0, sa, ca, d[i], 0, 0, 0, 1};
+    double c = cos(q[i]);
+    double s = sin(q[i]);
+    double ca = cos(alpha[i]);
+    double sa = sin(alpha[i]);
+    double next[12];
+    const double m[16] = {c, -s * ca, s * sa, a[i] * c, s, c * ca, -c * sa, a[i] * s,
+                          0, sa,      ca,     d[i],     0, 0,      0,       1};
     for (int r = 0; r < 3; r++)
       for (int k = 0; k < 4; k++) {
         next[4 * r + k] = 0;
@@ -33,7 +40,10 @@ static void tasks_ur5_formula(const double *q, double *out) {
 }
 static void tasks_ur5_is_where_the_formula_says(void) {
   static task_scene scene;
-  double q[TASK_MAX_JOINTS] = {0}, expected[12], m[9], flange[3];
+  double q[TASK_MAX_JOINTS] = {0};
+  double expected[12];
+  double m[9];
+  double flange[3];
   const double tool[3] = {0, 0, 0.0823};
   oracle_pose links[TASK_MAX_JOINTS + 1];
   task_begin(&scene, "", 5);
@@ -58,7 +68,8 @@ static void tasks_ur5_is_where_the_formula_says(void) {
 static void tasks_armada_is_symmetric(void) {
   static task_scene scene;
   task_begin(&scene, "", 6);
-  task_add_armada_arm(&scene, 0), task_add_armada_arm(&scene, 1);
+  task_add_armada_arm(&scene, 0);
+  task_add_armada_arm(&scene, 1);
   for (int n = 0; n < 100; n++) {
     double q[TASK_MAX_JOINTS], left[3], right[3];
     oracle_pose links[TASK_MAX_JOINTS + 1];
@@ -67,7 +78,8 @@ static void tasks_armada_is_symmetric(void) {
     for (int j = 0; j < 6; j++) q[6 + j] = -q[j];
     CHECK(task_in_limits(&scene, q));
     task_links(&scene, q, links);
-    oracle_transform(&links[6], tool[0], left), oracle_transform(&links[12], tool[1], right);
+    oracle_transform(&links[6], tool[0], left);
+    oracle_transform(&links[12], tool[1], right);
     for (int k = 0; k < 3; k++) CHECK_NEAR(left[k], k == 1 ? -right[k] : right[k], 1e-12);
   }
   task_free(&scene);
@@ -97,7 +109,7 @@ static void tasks_inverse_kinematics(void) {
   task_free(&scene);
 }
 
-// ---------------------------------------------------------------------------------------------------------- episodes
+// ---------------------------------------------------------------------------------------- episodes
 
 static void tasks_repeat_from_their_seed(void) {
   for (int task = 0; task < 3; task++) {
@@ -107,7 +119,9 @@ static void tasks_repeat_from_their_seed(void) {
     CHECK_EQ(memcmp(a.settled, b.settled, sizeof a.settled), 0);
     CHECK_EQ(memcmp(a.pairs, b.pairs, sizeof a.pairs), 0);
     CHECK(memcmp(a.problems, other.problems, sizeof a.problems));
-    task_free(&a), task_free(&b), task_free(&other);
+    task_free(&a);
+    task_free(&b);
+    task_free(&other);
   }
 }
 static void tasks_bodies_are_closed(void) {
@@ -118,8 +132,10 @@ static void tasks_bodies_are_closed(void) {
       for (int i = 0; i < scene.body_count; i++) {
         const nsvcd_mesh *mesh = &scene.bodies[i].mesh;
         double *positions = (double *)malloc(3 * mesh->vertex_count * sizeof *positions);
-        for (size_t k = 0; k < 3 * mesh->vertex_count; k++) positions[k] = (double)mesh->positions[k];
-        int closed = oracle_is_closed(positions, mesh->vertex_count, mesh->indices, mesh->triangle_count);
+        for (size_t k = 0; k < 3 * mesh->vertex_count; k++)
+          positions[k] = (double)mesh->positions[k];
+        int closed =
+            oracle_is_closed(positions, mesh->vertex_count, mesh->indices, mesh->triangle_count);
         if (!closed) printf("%s: not closed\n", scene.bodies[i].name);
         CHECK(closed);
         double volume = 0;  // positive: wound outwards
@@ -141,7 +157,8 @@ static void tasks_starts_and_goals_are_free(void) {
       static task_scene scene;
       CHECK(tasks_make(&scene, task, seed));
       for (int i = 0; i < scene.problem_count; i++) {
-        const float *ends[3] = {scene.problems[i].start, scene.problems[i].goal, scene.problems[i].approach};
+        const float *ends[3] = {scene.problems[i].start, scene.problems[i].goal,
+                                scene.problems[i].approach};
         task_select(&scene, i);
         CHECK(scene.pair_count > 0);
         for (int end = 0; end < 3; end++) {
@@ -153,7 +170,8 @@ static void tasks_starts_and_goals_are_free(void) {
       task_free(&scene);
     }
 }
-// Every dish rests on the rack once it is in: 1 mm lower, it touches; and no settled dishes touch. Its goal is above.
+// Every dish rests on the rack once it is in: 1 mm lower, it touches; and no settled dishes touch.
+// Its goal is above.
 static void tasks_dishes_settle(void) {
   for (uint64_t seed = 30; seed < 38; seed++) {
     static task_scene scene;
@@ -162,15 +180,19 @@ static void tasks_dishes_settle(void) {
     while (strcmp(scene.bodies[rack].name, "rack")) rack++;
     for (int i = 0; i < 3; i++) {
       const oracle_mesh *dish = &scene.bodies[scene.held[i]].exact;
-      oracle_pose lower = scene.settled[i], links[TASK_MAX_JOINTS + 1];
+      oracle_pose lower = scene.settled[i];
+      oracle_pose links[TASK_MAX_JOINTS + 1];
       lower.position[2] -= 0.001;
       const oracle_pose *rack_pose = &scene.bodies[rack].offset;
-      CHECK(oracle_distance(dish, &scene.settled[i], &scene.bodies[rack].exact, rack_pose, NULL, NULL) > 0);
-      CHECK_LE(oracle_distance(dish, &scene.settled[i], &scene.bodies[rack].exact, rack_pose, NULL, NULL), 1e-4);
+      CHECK(oracle_distance(dish, &scene.settled[i], &scene.bodies[rack].exact, rack_pose, NULL,
+                            NULL) > 0);
+      CHECK_LE(oracle_distance(dish, &scene.settled[i], &scene.bodies[rack].exact, rack_pose, NULL,
+                               NULL),
+               1e-4);
       CHECK_EQ(oracle_distance(dish, &lower, &scene.bodies[rack].exact, rack_pose, NULL, NULL), 0);
       for (int k = 0; k < i; k++)
-        CHECK(oracle_distance(dish, &scene.settled[i], &scene.bodies[scene.held[k]].exact, &scene.settled[k], NULL,
-                              NULL) > 0.01);
+        CHECK(oracle_distance(dish, &scene.settled[i], &scene.bodies[scene.held[k]].exact,
+                              &scene.settled[k], NULL, NULL) > 0.01);
       double q[TASK_MAX_JOINTS];
       task_select(&scene, i);
       for (int j = 0; j < scene.joint_count; j++) q[j] = (double)scene.problems[i].goal[j];
@@ -182,7 +204,8 @@ static void tasks_dishes_settle(void) {
     task_free(&scene);
   }
 }
-// A dish is absent, then in the hand, then in the rack; only the one in the hand moves, and absent ones have no pairs.
+// A dish is absent, then in the hand, then in the rack; only the one in the hand moves, and absent
+// ones have no pairs.
 static void tasks_attach_and_release(void) {
   static task_scene scene;
   static nsvcd_pose at_start[TASK_MAX_BODIES], at_goal[TASK_MAX_BODIES];
@@ -193,8 +216,10 @@ static void tasks_attach_and_release(void) {
     task_place(&scene, scene.problems[selected].start, at_start);
     task_place(&scene, scene.problems[selected].goal, at_goal);
     for (int i = 0; i < 3; i++) {
-      int body = scene.held[i], pairs = 0;
-      for (int k = 0; k < scene.pair_count; k++) pairs += scene.pairs[k][0] == body || scene.pairs[k][1] == body;
+      int body = scene.held[i];
+      int pairs = 0;
+      for (int k = 0; k < scene.pair_count; k++)
+        pairs += scene.pairs[k][0] == body || scene.pairs[k][1] == body;
       CHECK_EQ(pairs > 0, i <= selected);
       CHECK_EQ(memcmp(&at_start[body], &at_goal[body], sizeof at_goal[0]) != 0, i == selected);
       if (i < selected) CHECK_NEAR(at_goal[body].position[2], scene.settled[i].position[2], 1e-6);
@@ -203,7 +228,7 @@ static void tasks_attach_and_release(void) {
   task_free(&scene);
 }
 
-// ------------------------------------------------------------------------------------------------------------- judge
+// ------------------------------------------------------------------------------------------- judge
 
 // Standing at the goal succeeds; what is wrong with the others is known.
 static void tasks_judge(void) {
@@ -231,10 +256,12 @@ static void tasks_judge(void) {
     scene.joints[n - 1].high = limit;
 
     // Into something for one sample between free ones: a joint turns until something is hit.
-    double q[TASK_MAX_JOINTS], hit = 0;
+    double q[TASK_MAX_JOINTS];
+    double hit = 0;
     for (int j = 0; j < n; j++) q[j] = (double)problem->goal[j];
     int joint = task == 2 ? 0 : task == 1 ? 5 : 1;
-    for (; hit < 1.5 && task_configuration_free(&scene, q, 0); hit += 0.02) q[joint] += task == 1 ? -0.02 : 0.02;
+    for (; hit < 1.5 && task_configuration_free(&scene, q, 0); hit += 0.02)
+      q[joint] += task == 1 ? -0.02 : 0.02;
     CHECK(hit < 1.5);
     path[10 * n + joint] = (float)q[joint];
     CHECK(!task_check(&scene, path, 21, &verdict) && !verdict.free && verdict.at_goal);
@@ -245,13 +272,16 @@ static void tasks_judge(void) {
 }
 // Against brute force: the judge's verdict on straight lines is that of distances at many poses.
 static void tasks_judge_agrees_with_distances(void) {
-  int collisions = 0, problems = 0;
+  int collisions = 0;
+  int problems = 0;
   for (int task = 0; task < 3; task++)
     for (uint64_t seed = 40; seed < 44; seed++) {
       static task_scene scene;
-      double line[2 * TASK_MAX_JOINTS], least = HUGE_VAL;
+      double line[2 * TASK_MAX_JOINTS];
+      double least = HUGE_VAL;
       CHECK(tasks_make(&scene, task, seed));
-      const int n = scene.joint_count, steps = 60;
+      const int n = scene.joint_count;
+      const int steps = 60;
       for (int j = 0; j < n; j++) {  // the last stretch: near the goal, where the verdict is hard
         line[n + j] = (double)scene.problems[0].goal[j];
         line[j] = 0.9 * line[n + j] + 0.1 * (double)scene.problems[0].start[j];
@@ -262,16 +292,20 @@ static void tasks_judge_agrees_with_distances(void) {
         for (int j = 0; j < n; j++) q[j] = line[j] + (line[n + j] - line[j]) * s / steps;
         task_links(&scene, q, links);
         for (int p = 0; p < scene.pair_count && least > 0; p++) {
-          int a = scene.pairs[p][0], b = scene.pairs[p][1];
-          oracle_pose pose_a = task_body_pose(&scene, a, links), pose_b = task_body_pose(&scene, b, links);
-          double d = oracle_distance(&scene.bodies[a].exact, &pose_a, &scene.bodies[b].exact, &pose_b, NULL, NULL);
+          int a = scene.pairs[p][0];
+          int b = scene.pairs[p][1];
+          oracle_pose pose_a = task_body_pose(&scene, a, links);
+          oracle_pose pose_b = task_body_pose(&scene, b, links);
+          double d = oracle_distance(&scene.bodies[a].exact, &pose_a, &scene.bodies[b].exact,
+                                     &pose_b, NULL, NULL);
           least = fmin(least, d);
         }
       }
       int free_line = task_keeps(&scene, line, 2, 0, NULL);
       if (least <= 0) CHECK(!free_line);      // a collision that sampling sees, the judge sees
       if (!free_line) CHECK_LE(least, 0.02);  // and none where nothing is near
-      collisions += !free_line, problems++;
+      collisions += !free_line;
+      problems++;
       task_free(&scene);
     }
   CHECK(collisions > 0 && collisions < problems);
