@@ -455,7 +455,7 @@ typedef struct nsvcd_answer {
   nsvcd_status status;
   // network: pairs of patches whose spheres meet, each counted once per stretch of time, until the
   // search ends
-  size_t overlapping;
+  size_t candidates;
   // WITNESS: where the triangles meet at that time; INSIDE: what is inside; in the world
   float point[3];
   // WITNESS: unit normal of one of the triangles, from b to a, in the world; else, and where that
@@ -1337,7 +1337,8 @@ typedef struct nsvcd__polygon {
 
 // Twice the area of abc, positive if counter-clockwise. In double a difference of floats is as good
 // as exact.
-static double nsvcd__turn(const nsvcd__corner *a, const nsvcd__corner *b, const nsvcd__corner *c) {
+static double nsvcd__corner_cross(const nsvcd__corner *a, const nsvcd__corner *b,
+                                  const nsvcd__corner *c) {
   return (b->x - a->x) * (c->y - b->y) - (b->y - a->y) * (c->x - b->x);
 }
 static int nsvcd__same_place(const nsvcd__corner *a, const nsvcd__corner *b) {
@@ -1381,7 +1382,7 @@ static void nsvcd__polygon_project(nsvcd__corner *corners, uint32_t count, const
 static void nsvcd__polygon_update(nsvcd__polygon *polygon, uint32_t i) {
   nsvcd__corner *corners = polygon->corners;
   nsvcd__corner *c = &corners[i];
-  uint32_t reflex = nsvcd__turn(&corners[c->previous], c, &corners[c->next]) < 0;
+  uint32_t reflex = nsvcd__corner_cross(&corners[c->previous], c, &corners[c->next]) < 0;
   polygon->reflex_count += reflex - c->reflex;
   c->reflex = reflex;
   if (c->queued) return;
@@ -1397,11 +1398,11 @@ static int nsvcd__polygon_is_ear(const nsvcd__polygon *polygon, uint32_t i) {
   const nsvcd__corner *b = &corners[i];
   const nsvcd__corner *a = &corners[b->previous];
   const nsvcd__corner *c = &corners[b->next];
-  if (nsvcd__turn(a, b, c) <= 0) return 0;
+  if (nsvcd__corner_cross(a, b, c) <= 0) return 0;
   if (polygon->reflex_count == 0 || polygon->count > NSVCD__MAX_CONCAVE_CORNERS) return 1;
   for (const nsvcd__corner *p = &corners[c->next]; p != a; p = &corners[p->next]) {
-    if (!p->reflex || nsvcd__turn(a, b, p) < 0 || nsvcd__turn(b, c, p) < 0 ||
-        nsvcd__turn(c, a, p) < 0)
+    if (!p->reflex || nsvcd__corner_cross(a, b, p) < 0 || nsvcd__corner_cross(b, c, p) < 0 ||
+        nsvcd__corner_cross(c, a, p) < 0)
       continue;
     if (!nsvcd__same_place(p, a) && !nsvcd__same_place(p, b) && !nsvcd__same_place(p, c)) return 0;
   }
@@ -3972,7 +3973,7 @@ static nsvcd_result nsvcd__surface_add(const nsvcd__region *region, const nsvcd_
 // A decoder: `layers` linear layers with ReLU between them, sizes multiples of 4 and, but for the
 // inputs, of 16. Offsets instead of pointers: nothing needs relocation, so that all of it stays in
 // read-only memory.
-typedef struct nsvcd__head {
+typedef struct nsvcd__decoder {
   size_t layers;    // 0: compiled out
   size_t sizes[6];  // (layers + 1)
   // of its matrices: per layer (sizes[l], sizes[l + 1]) floats in nsvcd_w_decoder, and the same
@@ -3980,7 +3981,7 @@ typedef struct nsvcd__head {
   size_t weights;
   // of its outputs: per layer (sizes[l + 1]) in nsvcd_w_decoder_bias, _scale and _sum (of the int8)
   size_t outputs;
-} nsvcd__head;
+} nsvcd__decoder;
 
 #include "weights.h"
 
@@ -4201,7 +4202,7 @@ static void nsvcd__encode_patch(const float *points, const float *normals, size_
 
 // numbers of a latent's vectors: (3, CHANNELS), then (5, CHANNELS)
 #define NSVCD__VECTORS (8 * NSVCD_W_CHANNELS)
-#define NSVCD__TURN 34  // numbers of D: (3, 3), then (5, 5)
+#define NSVCD__WIGNER 34  // numbers of D: (3, 3), then (5, 5)
 
 // D of a slice of matrices m, lane by lane, times `scale`: (TURN, SLICE). Column k of degree 2 is
 // the image of basis vector k, a degree2 of m's columns.
@@ -4239,8 +4240,8 @@ static void nsvcd__wigner(const nsvcd__v *m, nsvcd__v scale, float (*out)[NSVCD_
 
 // One degree: out (size, CHANNELS) = D (size * size, SLICE) of lane l times latent (size,
 // CHANNELS).
-NSVCD__INLINE void nsvcd__turn_degree(const float *latent, float (*turn)[NSVCD__SLICE], size_t l,
-                                      size_t size, float *out) {
+NSVCD__INLINE void nsvcd__rotate_degree(const float *latent, float (*turn)[NSVCD__SLICE], size_t l,
+                                        size_t size, float *out) {
   for (size_t i = 0; i < size; i++) {
     float sum[NSVCD_W_CHANNELS] = {0};
     for (size_t k = 0; k < size; k++) {
@@ -4253,16 +4254,16 @@ NSVCD__INLINE void nsvcd__turn_degree(const float *latent, float (*turn)[NSVCD__
 
 // A stored latent, turned by D (TURN, SLICE) of lane l, to its place of two (0, 1) in a row of the
 // decoder's inputs: vectors (2, 8, CHANNELS), then scalars (2, SCALARS).
-static void nsvcd__turn_latent(const int8_t *z, float (*turn)[NSVCD__SLICE], size_t l, size_t place,
-                               float *row) {
+static void nsvcd__rotate_latent(const int8_t *z, float (*turn)[NSVCD__SLICE], size_t l,
+                                 size_t place, float *row) {
   float *vectors = row + NSVCD__VECTORS * place;
   float *scalars = row + 2 * NSVCD__VECTORS + NSVCD_W_SCALARS * place;
   float degree[5 * NSVCD_W_CHANNELS];  // one after the other: it is the deepest place of a query
   for (size_t k = 0; k < 3 * NSVCD_W_CHANNELS; k++) degree[k] = (float)z[k];
-  nsvcd__turn_degree(degree, turn, l, 3, vectors);
+  nsvcd__rotate_degree(degree, turn, l, 3, vectors);
   z += 3 * NSVCD_W_CHANNELS;
   for (size_t k = 0; k < 5 * NSVCD_W_CHANNELS; k++) degree[k] = (float)z[k];
-  nsvcd__turn_degree(degree, turn + 9, l, 5, vectors + 3 * NSVCD_W_CHANNELS);
+  nsvcd__rotate_degree(degree, turn + 9, l, 5, vectors + 3 * NSVCD_W_CHANNELS);
   z += 5 * NSVCD_W_CHANNELS;
   for (size_t k = 0; k < NSVCD_W_SCALARS; k++) scalars[k] = (float)z[k] * (1.0f / 127);
 }
@@ -5894,15 +5895,15 @@ static void nsvcd__motion_pose(const nsvcd__motion *motion, float t, float *rota
 #define NSVCD__MAX_SEGMENTS 64
 #define NSVCD__SEGMENT_TURN 0.349f  // radians, 20 degrees
 #define NSVCD__FINE_TURN 0.131f     // radians, 7.5 degrees: nothing is gained by shorter segments
-// radians, 45 degrees: a run is cut before it turns more, for the decoder's twist
-#define NSVCD__RUN_TURN 0.785f
+// radians, 45 degrees: an interval is cut before it turns more, for the decoder's twist
+#define NSVCD__INTERVAL_TURN 0.785f
 #define NSVCD__BLOCKS (NSVCD__MAX_SEGMENTS / NSVCD__LANES)
 // Of the lengths that go into a difference of places: about 15 float operations of 6e-8 each,
 // doubled.
 #define NSVCD__ROUNDING 2e-6f
 
-// A run: the patches `moving` and `fixed` overlap from t_enter to t_exit (both with the deviation
-// added).
+// A contact interval: the patches `moving` and `fixed` overlap from t_enter to t_exit (both with
+// the deviation added).
 typedef struct nsvcd__candidate {
   uint16_t moving, fixed;
   float t_enter, t_exit;
@@ -5980,7 +5981,7 @@ typedef struct nsvcd__needs {
   int proof;
 } nsvcd__needs;
 
-typedef struct nsvcd__workspace {
+typedef struct nsvcd__search {
   size_t segments;       // S
   size_t most_segments;  // that there is room for
   float scale;           // of the moving body
@@ -6014,7 +6015,7 @@ typedef struct nsvcd__workspace {
   uint64_t posed;  // segments for which members[] is filled
   // no part of these members is farther from the body's origin
   float remote;
-} nsvcd__workspace;
+} nsvcd__search;
 
 // Vectors that cross cache lines take longer: the arrays of 16 lanes begin with one, where there
 // are vectors. Up to so many bytes are passed over for that; where base is NULL, all of them are
@@ -6026,41 +6027,41 @@ static void nsvcd__take_to_line(char *base, uint64_t *used) {
 }
 
 // Lays a workspace out in base, or, where that is NULL, only counts.
-static void nsvcd__workspace_layout(const nsvcd__needs *needs, char *base, uint64_t *used,
-                                    nsvcd__workspace *work) {
+static void nsvcd__search_layout(const nsvcd__needs *needs, char *base, uint64_t *used,
+                                 nsvcd__search *search) {
   const size_t s = needs->segments;
   const size_t blocks = s / NSVCD__LANES;
   const size_t members = s * sizeof(nsvcd__chords);
   const size_t gathered = needs->large ? 4 * NSVCD__TILE_SLOTS : 0;
-  work->most_segments = s;
-  work->begin = (uint32_t *)nsvcd__take(base, used, s + 1, sizeof(uint32_t));
-  work->time = (float *)nsvcd__take(base, used, s + 1, sizeof(float));
-  work->turn = (float *)nsvcd__take(base, used, s + 1, sizeof(float));
+  search->most_segments = s;
+  search->begin = (uint32_t *)nsvcd__take(base, used, s + 1, sizeof(uint32_t));
+  search->time = (float *)nsvcd__take(base, used, s + 1, sizeof(float));
+  search->turn = (float *)nsvcd__take(base, used, s + 1, sizeof(float));
   nsvcd__take_to_line(base, used);
-  work->blocks = (nsvcd__segments *)nsvcd__take(base, used, blocks, sizeof(nsvcd__segments));
-  work->group = (nsvcd__chords *)nsvcd__take(base, used, blocks, sizeof(nsvcd__chords));
-  work->members = (nsvcd__chords *)nsvcd__take(
+  search->blocks = (nsvcd__segments *)nsvcd__take(base, used, blocks, sizeof(nsvcd__segments));
+  search->group = (nsvcd__chords *)nsvcd__take(base, used, blocks, sizeof(nsvcd__chords));
+  search->members = (nsvcd__chords *)nsvcd__take(
       base, used, 1, members > sizeof(nsvcd__cut) ? members : sizeof(nsvcd__cut));
-  work->cut = (nsvcd__cut *)(void *)work->members;
-  work->nearby_stride = needs->fixed_groups;
-  work->nearby = (uint64_t *)nsvcd__take(base, used, needs->moving_groups * needs->fixed_groups,
-                                         sizeof(uint64_t));
-  work->moving_tile.gathered = (float *)nsvcd__take(base, used, gathered, sizeof(float));
-  work->fixed_tile.gathered = (float *)nsvcd__take(base, used, gathered, sizeof(float));
+  search->cut = (nsvcd__cut *)(void *)search->members;
+  search->nearby_stride = needs->fixed_groups;
+  search->nearby = (uint64_t *)nsvcd__take(base, used, needs->moving_groups * needs->fixed_groups,
+                                           sizeof(uint64_t));
+  search->moving_tile.gathered = (float *)nsvcd__take(base, used, gathered, sizeof(float));
+  search->fixed_tile.gathered = (float *)nsvcd__take(base, used, gathered, sizeof(float));
 }
 
 // What the members of a group will be posed in serves until then, so that it need not come from the
 // stack.
-static nsvcd__chords *nsvcd__spare_chords(const nsvcd__workspace *work) {
-  return &work->members[0];
+static nsvcd__chords *nsvcd__spare_chords(const nsvcd__search *search) {
+  return &search->members[0];
 }
-static nsvcd__boxes *nsvcd__spare_boxes(const nsvcd__workspace *work) {
-  return (nsvcd__boxes *)(void *)&work->members[1];
+static nsvcd__boxes *nsvcd__spare_boxes(const nsvcd__search *search) {
+  return (nsvcd__boxes *)(void *)&search->members[1];
 }
 
 // The segments in which group g of the moving tile meets each one of the fixed tile.
-static uint64_t *nsvcd__nearby(const nsvcd__workspace *work, size_t g) {
-  return work->nearby + g * work->nearby_stride;
+static uint64_t *nsvcd__nearby(const nsvcd__search *search, size_t g) {
+  return search->nearby + g * search->nearby_stride;
 }
 
 // Not less than the angle between two rotations, unit to 1e-4, and hardly more where it is small: 4
@@ -6465,52 +6466,53 @@ static void nsvcd__cut_block(const nsvcd__motion *motion, const uint32_t *begin,
 }
 
 // Chooses the segments: how many, and when they begin.
-static void nsvcd__choose_segments(nsvcd__motion *motion, nsvcd__workspace *work) {
+static void nsvcd__choose_segments(nsvcd__motion *motion, nsvcd__search *search) {
   uint32_t parts;
   nsvcd__motion_set_ticks(motion, 1);
-  work->segments = nsvcd__segment_count(motion, work->most_segments, &parts);
-  work->scale = motion->scale;
+  search->segments = nsvcd__segment_count(motion, search->most_segments, &parts);
+  search->scale = motion->scale;
   nsvcd__motion_set_ticks(motion, parts);
-  const uint32_t segments = (uint32_t)work->segments;
+  const uint32_t segments = (uint32_t)search->segments;
   const uint32_t each = motion->ticks / segments;
   const uint32_t over = motion->ticks % segments;
   const double per_tick = 1 / (double)motion->ticks;
   uint32_t tick = 0;
   uint32_t rest = 0;
   for (size_t s = 0; s <= segments; s++) {
-    work->begin[s] = tick;
-    work->time[s] = (float)((double)tick * per_tick);
+    search->begin[s] = tick;
+    search->time[s] = (float)((double)tick * per_tick);
     rest += over;
     tick += each + (rest >= segments);
     rest -= rest >= segments ? segments : 0;
   }
-  work->time[segments] = 1;
+  search->time[segments] = 1;
 }
 
 // Fills workspace: the chosen segments' poses in the fixed body's frame, and deviations. `lengths`:
 // the bodies' extents; clearance: spheres that come so near are to count as meeting.
 static void nsvcd__cut_segments(const nsvcd__motion *motion, float lengths, float clearance,
-                                nsvcd__workspace *work) {
-  work->turn[0] = 0;
-  for (size_t first = 0; first < work->segments; first += NSVCD__LANES) {
-    const size_t left = work->segments - first;
+                                nsvcd__search *search) {
+  search->turn[0] = 0;
+  for (size_t first = 0; first < search->segments; first += NSVCD__LANES) {
+    const size_t left = search->segments - first;
     const size_t count = left < NSVCD__LANES ? left : NSVCD__LANES;
     uint32_t ends[NSVCD__LANES + 1];
     float turn[NSVCD__LANES];
     for (size_t l = 0; l <= NSVCD__LANES; l++)
-      ends[l] = work->begin[first + (l < count ? l : count)];
-    nsvcd__segments *block = &work->blocks[first / NSVCD__LANES];
-    nsvcd__cut_block(motion, ends, count, lengths, block, work->cut, turn);
+      ends[l] = search->begin[first + (l < count ? l : count)];
+    nsvcd__segments *block = &search->blocks[first / NSVCD__LANES];
+    nsvcd__cut_block(motion, ends, count, lengths, block, search->cut, turn);
     for (size_t l = 0; l < count; l++) block->spread[l] += clearance;
-    for (size_t l = 0; l < count; l++) work->turn[first + l + 1] = work->turn[first + l] + turn[l];
+    for (size_t l = 0; l < count; l++)
+      search->turn[first + l + 1] = search->turn[first + l] + turn[l];
   }
 }
 
 #ifndef NSVCD_NO_NETWORK
 static NSVCD__APART void nsvcd__cut_motion(nsvcd__motion *motion, float lengths,
-                                           nsvcd__workspace *work) {
-  nsvcd__choose_segments(motion, work);
-  nsvcd__cut_segments(motion, lengths, 0, work);
+                                           nsvcd__search *search) {
+  nsvcd__choose_segments(motion, search);
+  nsvcd__cut_segments(motion, lengths, 0, search);
 }
 #endif
 
@@ -6640,16 +6642,17 @@ static uint64_t nsvcd__meet_in(const nsvcd__chords *chords, uint64_t wanted, flo
 }
 
 #ifndef NSVCD_NO_NETWORK
-// ---- runs, for the network
+// ---- intervals, for the network
 
-// The candidates kept so far: a heap with the shallowest at its root, and the count of all runs.
+// The candidates kept so far: a heap with the shallowest at its root, and the count of all
+// intervals.
 typedef struct nsvcd__candidates {
   nsvcd__candidate *items;  // (limit), the caller's
   size_t limit, count;
-  size_t total;  // runs found, kept or not; 0: certified free
+  size_t total;  // intervals found, kept or not; 0: certified free
 } nsvcd__candidates;
 
-// A total order, so that ties do not depend on the order in which runs were found.
+// A total order, so that ties do not depend on the order in which intervals were found.
 static int nsvcd__is_shallower(const nsvcd__candidate *a, const nsvcd__candidate *b) {
   if (a->depth < b->depth || a->depth > b->depth) return a->depth < b->depth;
   if (a->moving != b->moving) return a->moving > b->moving;
@@ -6685,54 +6688,54 @@ static void nsvcd__candidates_add(nsvcd__candidates *kept, const nsvcd__candidat
   }
 }
 
-// Runs of a slice that are still growing, one per lane. Places on a segment's line are counted in
-// segments from its start: `nearest` on the whole line, `half2` the square of what it is from there
-// to where the spheres first touch.
-typedef struct nsvcd__runs {
+// Contact intervals of a slice that are still growing, one per lane. Places on a segment's line are
+// counted in segments from its start: `nearest` on the whole line, `half2` the square of what it is
+// from there to where the spheres first touch.
+typedef struct nsvcd__intervals {
   uint32_t open;  // lanes
   // segments: in which the oldest of them began, and the last that all of them reach
   size_t oldest, last;
-  nsvcd__v fresh;  // 1 in lanes without a run, else 0
+  nsvcd__v fresh;  // 1 in lanes without an interval, else 0
   nsvcd__v first, first_nearest, first_half2, last_nearest, last_half2;
   nsvcd__v square, least_segment, least;  // of the least distance: its square, and where
-} nsvcd__runs;
+} nsvcd__intervals;
 
-// Ends the runs of `lanes` of a slice and hands them on. Its first lane is patch i of the moving
-// body; j: the patch of the fixed one.
-static void nsvcd__runs_close(nsvcd__runs *runs, uint32_t lanes, const nsvcd__workspace *work,
-                              const nsvcd_body *moving, size_t i, const nsvcd_body *fixed, size_t j,
-                              nsvcd__candidates *kept) {
-  const float *time = work->time;
+// Ends the intervals of `lanes` of a slice and hands them on. Its first lane is patch i of the
+// moving body; j: the patch of the fixed one.
+static void nsvcd__intervals_close(nsvcd__intervals *intervals, uint32_t lanes,
+                                   const nsvcd__search *search, const nsvcd_body *moving, size_t i,
+                                   const nsvcd_body *fixed, size_t j, nsvcd__candidates *kept) {
+  const float *time = search->time;
   const nsvcd__v zero = nsvcd__v_set(0);
   const nsvcd__v one = nsvcd__v_set(1);
   const nsvcd__v r =
-      nsvcd__v_mul(nsvcd__v_set(work->scale), nsvcd__v_load(nsvcd__body_r(moving) + i));
+      nsvcd__v_mul(nsvcd__v_set(search->scale), nsvcd__v_load(nsvcd__body_r(moving) + i));
   const nsvcd__v radii =
       nsvcd__v_max(nsvcd__v_add(r, nsvcd__v_set(nsvcd__body_r(fixed)[j])), nsvcd__v_set(1e-30f));
   float first[NSVCD__SLICE], enter[NSVCD__SLICE], leave[NSVCD__SLICE], least_segment[NSVCD__SLICE],
       least[NSVCD__SLICE], depth[NSVCD__SLICE];
-  runs->open &= ~lanes;
+  intervals->open &= ~lanes;
   if (kept->count == kept->limit) {  // most are shallower than all that is kept: only counted
     const float share = kept->limit ? (1 - kept->items[0].depth) * 1.000001f : 0;
     const nsvcd__v most = nsvcd__v_mul(radii, nsvcd__v_set(share > 0 ? share : 0));
     const uint32_t deep =
-        kept->limit ? lanes & nsvcd__v_le(runs->square, nsvcd__v_mul(most, most)) : 0;
+        kept->limit ? lanes & nsvcd__v_le(intervals->square, nsvcd__v_mul(most, most)) : 0;
     kept->total += nsvcd__bit_count(lanes & ~deep);
     lanes = deep;
     if (!lanes) return;
   }
-  const nsvcd__v before = nsvcd__v_sqrt(nsvcd__v_max(runs->first_half2, zero));
-  const nsvcd__v after = nsvcd__v_sqrt(nsvcd__v_max(runs->last_half2, zero));
-  nsvcd__v_store(first, runs->first);
-  nsvcd__v_store(least_segment, runs->least_segment);
-  nsvcd__v_store(enter, nsvcd__v_max(nsvcd__v_sub(runs->first_nearest, before), zero));
-  nsvcd__v_store(leave, nsvcd__v_min(nsvcd__v_add(runs->last_nearest, after), one));
-  nsvcd__v_store(least, runs->least);
-  nsvcd__v_store(depth, nsvcd__v_sub(one, nsvcd__v_div(nsvcd__v_sqrt(runs->square), radii)));
+  const nsvcd__v before = nsvcd__v_sqrt(nsvcd__v_max(intervals->first_half2, zero));
+  const nsvcd__v after = nsvcd__v_sqrt(nsvcd__v_max(intervals->last_half2, zero));
+  nsvcd__v_store(first, intervals->first);
+  nsvcd__v_store(least_segment, intervals->least_segment);
+  nsvcd__v_store(enter, nsvcd__v_max(nsvcd__v_sub(intervals->first_nearest, before), zero));
+  nsvcd__v_store(leave, nsvcd__v_min(nsvcd__v_add(intervals->last_nearest, after), one));
+  nsvcd__v_store(least, intervals->least);
+  nsvcd__v_store(depth, nsvcd__v_sub(one, nsvcd__v_div(nsvcd__v_sqrt(intervals->square), radii)));
   for (; lanes; lanes &= lanes - 1) {
     const size_t l = nsvcd__lowest_bit(lanes);
     const size_t a = (size_t)first[l];
-    const size_t b = runs->last;
+    const size_t b = intervals->last;
     const size_t c = (size_t)least_segment[l];
     nsvcd__candidate candidate = {(uint16_t)(i + l),
                                   (uint16_t)j,
@@ -6748,21 +6751,22 @@ static void nsvcd__runs_close(nsvcd__runs *runs, uint32_t lanes, const nsvcd__wo
   }
 }
 
-// The segments before which all runs of the members of a group against patch j of the fixed body
-// are cut: the oldest of them would turn too far, or a segment is left out in between. Asked for
-// all 16 beforehand, so that machines with narrower slices find the same runs.
-static uint64_t nsvcd__run_cuts(const nsvcd__workspace *work, const nsvcd_body *fixed, size_t j,
-                                uint64_t wanted) {
+// The segments before which all contact intervals of the members of a group against patch j of the
+// fixed body are cut: the oldest of them would turn too far, or a segment is left out in between.
+// Asked for all 16 beforehand, so that machines with narrower slices find the same intervals.
+static uint64_t nsvcd__interval_cuts(const nsvcd__search *search, const nsvcd_body *fixed, size_t j,
+                                     uint64_t wanted) {
   uint64_t cuts = wanted & ~(wanted << 1);  // where the segment before is left out
   uint32_t open = 0;
   size_t oldest = 0;
-  if (!(work->turn[work->segments] > NSVCD__RUN_TURN)) return cuts;
+  if (!(search->turn[search->segments] > NSVCD__INTERVAL_TURN)) return cuts;
   for (; wanted; wanted &= wanted - 1) {
     const size_t s = nsvcd__lowest_bit(wanted);
     const uint32_t met =
-        nsvcd__meet(&work->members[s], nsvcd__body_x(fixed)[j], nsvcd__body_y(fixed)[j],
+        nsvcd__meet(&search->members[s], nsvcd__body_x(fixed)[j], nsvcd__body_y(fixed)[j],
                     nsvcd__body_z(fixed)[j], nsvcd__body_r(fixed)[j]);
-    if (open && work->turn[s + 1] - work->turn[oldest] > NSVCD__RUN_TURN) cuts |= (uint64_t)1 << s;
+    if (open && search->turn[s + 1] - search->turn[oldest] > NSVCD__INTERVAL_TURN)
+      cuts |= (uint64_t)1 << s;
     if (cuts >> s & 1) open = 0;
     open &= met;
     if (!open) oldest = s;
@@ -6772,9 +6776,9 @@ static uint64_t nsvcd__run_cuts(const nsvcd__workspace *work, const nsvcd_body *
 }
 
 // A slice of the members of moving group g, from lane l on, against patch j of the fixed body, in
-// the segments `wanted`. cuts: see nsvcd__run_cuts; where a slice is all of them, it finds that
-// itself.
-static void nsvcd__slice_against_patch(const nsvcd__workspace *work, const nsvcd_body *moving,
+// the segments `wanted`. cuts: see nsvcd__interval_cuts; where a slice is all of them, it finds
+// that itself.
+static void nsvcd__slice_against_patch(const nsvcd__search *search, const nsvcd_body *moving,
                                        size_t g, size_t l, const nsvcd_body *fixed, size_t j,
                                        uint64_t wanted, uint64_t cuts, nsvcd__candidates *kept) {
   const size_t i = NSVCD__GROUP * g + l;
@@ -6785,10 +6789,10 @@ static void nsvcd__slice_against_patch(const nsvcd__workspace *work, const nsvcd
   const nsvcd__v centre[3] = {nsvcd__v_set(nsvcd__body_x(fixed)[j]),
                               nsvcd__v_set(nsvcd__body_y(fixed)[j]),
                               nsvcd__v_set(nsvcd__body_z(fixed)[j])};
-  nsvcd__runs runs = {0, 0, 0, one, zero, zero, zero, zero, zero, zero, zero, zero};
+  nsvcd__intervals intervals = {0, 0, 0, one, zero, zero, zero, zero, zero, zero, zero, zero};
   for (; wanted; wanted &= wanted - 1) {
     const size_t s = nsvcd__lowest_bit(wanted);
-    const nsvcd__chords *c = &work->members[s];
+    const nsvcd__chords *c = &search->members[s];
     const nsvcd__v d[3] = {nsvcd__v_sub(nsvcd__v_load(c->x + l), centre[0]),
                            nsvcd__v_sub(nsvcd__v_load(c->y + l), centre[1]),
                            nsvcd__v_sub(nsvcd__v_load(c->z + l), centre[2])};
@@ -6802,18 +6806,19 @@ static void nsvcd__slice_against_patch(const nsvcd__workspace *work, const nsvcd
     for (size_t k = 0; k < 3; k++) chord[k] = nsvcd__v_fma(tau, v[k], d[k]);
     const nsvcd__v square = nsvcd__v_dot3(chord, chord);
     const uint32_t met = nsvcd__v_le(square, limit);
-    uint32_t ended = runs.open & ~met;
+    uint32_t ended = intervals.open & ~met;
     const int by_itself = NSVCD__SLICE == NSVCD__LANES;
-    const int turns = by_itself && work->turn[s + 1] - work->turn[runs.oldest] > NSVCD__RUN_TURN;
+    const int turns =
+        by_itself && search->turn[s + 1] - search->turn[intervals.oldest] > NSVCD__INTERVAL_TURN;
     const int is_cut =
-        by_itself ? runs.open && (runs.last + 1 != s || turns) : (int)(cuts >> s & 1);
+        by_itself ? intervals.open && (intervals.last + 1 != s || turns) : (int)(cuts >> s & 1);
     if (is_cut) {
-      ended = runs.open;
-      runs.fresh = one;
+      ended = intervals.open;
+      intervals.fresh = one;
     }
-    if (ended) nsvcd__runs_close(&runs, ended, work, moving, i, fixed, j, kept);
+    if (ended) nsvcd__intervals_close(&intervals, ended, search, moving, i, fixed, j, kept);
     if (!met) {
-      runs.fresh = one;
+      intervals.fresh = one;
       continue;
     }
     // |d + tau v| = reach, solved from the nearest point of the line outwards: b^2 - ac would
@@ -6821,48 +6826,53 @@ static void nsvcd__slice_against_patch(const nsvcd__workspace *work, const nsvcd
     for (size_t k = 0; k < 3; k++) line[k] = nsvcd__v_fma(nearest, v[k], d[k]);
     const nsvcd__v half2 = nsvcd__v_mul(nsvcd__v_sub(nsvcd__v_dot3(line, line), limit), inverse);
     const nsvcd__v now = nsvcd__v_set((float)s);
-    const nsvcd__v before = nsvcd__v_pick(half, runs.fresh, nsvcd__v_set(1e38f), runs.square);
-    runs.first = nsvcd__v_pick(half, runs.fresh, now, runs.first);
-    runs.first_nearest = nsvcd__v_pick(half, runs.fresh, nearest, runs.first_nearest);
-    runs.first_half2 = nsvcd__v_pick(half, runs.fresh, half2, runs.first_half2);
-    runs.last_nearest = nearest;
-    runs.last_half2 = half2;
-    runs.least_segment = nsvcd__v_pick(square, before, now, runs.least_segment);
-    runs.least = nsvcd__v_pick(square, before, tau, runs.least);
-    runs.square = nsvcd__v_min(square, before);
-    runs.fresh = nsvcd__v_pick(square, limit, zero, one);
-    if (!runs.open) runs.oldest = s;
-    runs.open = met;
-    runs.last = s;
+    const nsvcd__v before =
+        nsvcd__v_pick(half, intervals.fresh, nsvcd__v_set(1e38f), intervals.square);
+    intervals.first = nsvcd__v_pick(half, intervals.fresh, now, intervals.first);
+    intervals.first_nearest =
+        nsvcd__v_pick(half, intervals.fresh, nearest, intervals.first_nearest);
+    intervals.first_half2 = nsvcd__v_pick(half, intervals.fresh, half2, intervals.first_half2);
+    intervals.last_nearest = nearest;
+    intervals.last_half2 = half2;
+    intervals.least_segment = nsvcd__v_pick(square, before, now, intervals.least_segment);
+    intervals.least = nsvcd__v_pick(square, before, tau, intervals.least);
+    intervals.square = nsvcd__v_min(square, before);
+    intervals.fresh = nsvcd__v_pick(square, limit, zero, one);
+    if (!intervals.open) intervals.oldest = s;
+    intervals.open = met;
+    intervals.last = s;
   }
-  if (runs.open) nsvcd__runs_close(&runs, runs.open, work, moving, i, fixed, j, kept);
+  if (intervals.open)
+    nsvcd__intervals_close(&intervals, intervals.open, search, moving, i, fixed, j, kept);
 }
 
 // The 16 members of moving group g against patch j of the fixed body, in the segments `wanted`.
-static void nsvcd__members_against_patch(const nsvcd__workspace *work, const nsvcd_body *moving,
+static void nsvcd__members_against_patch(const nsvcd__search *search, const nsvcd_body *moving,
                                          size_t g, const nsvcd_body *fixed, size_t j,
                                          uint64_t wanted, nsvcd__candidates *kept) {
   NSVCD__TALLY(tests, nsvcd__bit_count(wanted));
-  const uint64_t cuts = NSVCD__SLICE < NSVCD__LANES ? nsvcd__run_cuts(work, fixed, j, wanted) : 0;
-  NSVCD__EACH_SLICE(l) nsvcd__slice_against_patch(work, moving, g, l, fixed, j, wanted, cuts, kept);
+  const uint64_t cuts =
+      NSVCD__SLICE < NSVCD__LANES ? nsvcd__interval_cuts(search, fixed, j, wanted) : 0;
+  NSVCD__EACH_SLICE(l)
+  nsvcd__slice_against_patch(search, moving, g, l, fixed, j, wanted, cuts, kept);
 }
 
 #endif  // NSVCD_NO_NETWORK
 
 // ---- the search
 
-// Chords of a sphere of the moving body in all segments, into work->group.
-static void nsvcd__chords_in_all(nsvcd__workspace *work, const float *centre, float radius) {
-  for (size_t b = 0; NSVCD__LANES * b < work->segments; b++) {
-    nsvcd__chords_of_sphere(&work->blocks[b], centre[0], centre[1], centre[2], work->scale * radius,
-                            &work->group[b]);
+// Chords of a sphere of the moving body in all segments, into search->group.
+static void nsvcd__chords_in_all(nsvcd__search *search, const float *centre, float radius) {
+  for (size_t b = 0; NSVCD__LANES * b < search->segments; b++) {
+    nsvcd__chords_of_sphere(&search->blocks[b], centre[0], centre[1], centre[2],
+                            search->scale * radius, &search->group[b]);
   }
 }
 
-static void nsvcd__chords_of_group(nsvcd__workspace *work, const nsvcd_body *moving, size_t g) {
+static void nsvcd__chords_of_group(nsvcd__search *search, const nsvcd_body *moving, size_t g) {
   const float centre[3] = {nsvcd__body_group(moving, 0)[g], nsvcd__body_group(moving, 1)[g],
                            nsvcd__body_group(moving, 2)[g]};
-  nsvcd__chords_in_all(work, centre, nsvcd__body_group(moving, 3)[g]);
+  nsvcd__chords_in_all(search, centre, nsvcd__body_group(moving, 3)[g]);
 }
 
 // Grows a slice of boxes, from lane l on, by chords where they are near the fixed body.
@@ -6891,10 +6901,10 @@ static void nsvcd__boxes_grow(const nsvcd__chords *c, size_t l, const nsvcd_body
 // Boxes in which 16 groups of the moving tile, from `first`, stay as long as they are near the
 // fixed body: its axes, metres. Empty ones, low above high, for those that never are. wanted: the
 // segments to look at.
-static void nsvcd__boxes_of_groups(const nsvcd__workspace *work, const nsvcd_body *moving,
+static void nsvcd__boxes_of_groups(const nsvcd__search *search, const nsvcd_body *moving,
                                    size_t first, const nsvcd_body *fixed, uint64_t wanted,
                                    nsvcd__boxes *out) {
-  const nsvcd__tile *tile = &work->moving_tile;
+  const nsvcd__tile *tile = &search->moving_tile;
   NSVCD__TALLY(tests, nsvcd__bit_count(wanted));
   for (size_t n = 0; n < 3 * NSVCD__LANES; n++) {
     out->low[n / NSVCD__LANES][n % NSVCD__LANES] = -NSVCD__NOWHERE;
@@ -6902,10 +6912,10 @@ static void nsvcd__boxes_of_groups(const nsvcd__workspace *work, const nsvcd_bod
   }
   for (; wanted; wanted &= wanted - 1) {
     const size_t s = nsvcd__lowest_bit(wanted);
-    nsvcd__chords *c = nsvcd__spare_chords(work);
-    nsvcd__chords_of_members(&work->blocks[s / NSVCD__LANES], s % NSVCD__LANES,
+    nsvcd__chords *c = nsvcd__spare_chords(search);
+    nsvcd__chords_of_members(&search->blocks[s / NSVCD__LANES], s % NSVCD__LANES,
                              tile->spheres[0] + first, tile->spheres[1] + first,
-                             tile->spheres[2] + first, tile->spheres[3] + first, work->scale,
+                             tile->spheres[2] + first, tile->spheres[3] + first, search->scale,
                              moving->extent, c);
     NSVCD__EACH_SLICE(l) nsvcd__boxes_grow(c, l, fixed, out);
   }
@@ -6946,17 +6956,17 @@ static uint32_t nsvcd__groups_at_box(const nsvcd__boxes *boxes, size_t l, const 
 
 // Fills nearby[g] with the segments in which group g of the moving tile meets each one of the fixed
 // tile, of those `groups`. Returns how many they are over all groups.
-static size_t nsvcd__group_against_tile(nsvcd__workspace *work, const nsvcd_body *moving, size_t g,
+static size_t nsvcd__group_against_tile(nsvcd__search *search, const nsvcd_body *moving, size_t g,
                                         uint32_t groups) {
-  const nsvcd__tile *tile = &work->fixed_tile;
-  const uint64_t all = ~(uint64_t)0 >> (NSVCD__MAX_SEGMENTS - work->segments);
-  uint64_t *nearby = nsvcd__nearby(work, g);
+  const nsvcd__tile *tile = &search->fixed_tile;
+  const uint64_t all = ~(uint64_t)0 >> (NSVCD__MAX_SEGMENTS - search->segments);
+  uint64_t *nearby = nsvcd__nearby(search, g);
   size_t meetings = 0;
-  nsvcd__chords_of_group(work, moving, work->moving_tile.groups[g]);
+  nsvcd__chords_of_group(search, moving, search->moving_tile.groups[g]);
   memset(nearby, 0, tile->count * sizeof *nearby);
   for (; groups; groups &= groups - 1) {
     const size_t h = nsvcd__lowest_bit(groups);
-    nearby[h] = nsvcd__meet_in(work->group, all, tile->spheres[0][h], tile->spheres[1][h],
+    nearby[h] = nsvcd__meet_in(search->group, all, tile->spheres[0][h], tile->spheres[1][h],
                                tile->spheres[2][h], tile->spheres[3][h]);
     meetings += nsvcd__bit_count(nearby[h]);
   }
@@ -6965,26 +6975,26 @@ static size_t nsvcd__group_against_tile(nsvcd__workspace *work, const nsvcd_body
 
 // Puts the steps of the search of both tiles in order. wanted: segments in which the bodies'
 // spheres meet.
-static void nsvcd__search_tile(nsvcd__workspace *work, const nsvcd_body *moving,
+static void nsvcd__search_tile(nsvcd__search *search, const nsvcd_body *moving,
                                const nsvcd_body *fixed, uint64_t wanted) {
   uint16_t meetings[NSVCD__TILE_SLOTS];
-  nsvcd__boxes *boxes = nsvcd__spare_boxes(work);
-  work->steps = 0;
-  work->step = 0;
-  work->waiting = 0;
-  for (size_t g = 0; g < work->moving_tile.count; g++) {
-    if (g % NSVCD__LANES == 0) nsvcd__boxes_of_groups(work, moving, g, fixed, wanted, boxes);
-    const uint32_t groups = nsvcd__groups_at_box(boxes, g % NSVCD__LANES, &work->fixed_tile);
-    const size_t count = groups ? nsvcd__group_against_tile(work, moving, g, groups) : 0;
-    size_t at = work->steps;
+  nsvcd__boxes *boxes = nsvcd__spare_boxes(search);
+  search->steps = 0;
+  search->step = 0;
+  search->waiting = 0;
+  for (size_t g = 0; g < search->moving_tile.count; g++) {
+    if (g % NSVCD__LANES == 0) nsvcd__boxes_of_groups(search, moving, g, fixed, wanted, boxes);
+    const uint32_t groups = nsvcd__groups_at_box(boxes, g % NSVCD__LANES, &search->fixed_tile);
+    const size_t count = groups ? nsvcd__group_against_tile(search, moving, g, groups) : 0;
+    size_t at = search->steps;
     if (!count) continue;
     for (; at > 0 && meetings[at - 1] < count; at--) {
       meetings[at] = meetings[at - 1];
-      work->order[at] = work->order[at - 1];
+      search->order[at] = search->order[at - 1];
     }
     meetings[at] = (uint16_t)count;
-    work->order[at] = (uint16_t)g;
-    work->steps++;
+    search->order[at] = (uint16_t)g;
+    search->steps++;
   }
 }
 
@@ -7028,53 +7038,53 @@ static uint32_t nsvcd__exists(const void *what, const float *x, const float *y, 
 // Spheres of the moving body that meet that of the fixed one.
 static uint32_t nsvcd__comes_near(const void *what, const float *x, const float *y, const float *z,
                                   const float *r) {
-  const nsvcd__workspace *work = (const nsvcd__workspace *)what;
-  const nsvcd_body *fixed = work->fixed_walk.body;
-  const float extent = work->moving_walk.body->extent;
+  const nsvcd__search *search = (const nsvcd__search *)what;
+  const nsvcd_body *fixed = search->fixed_walk.body;
+  const float extent = search->moving_walk.body->extent;
   uint32_t met = 0;
-  for (uint64_t wanted = work->near_segments; wanted; wanted &= wanted - 1) {
+  for (uint64_t wanted = search->near_segments; wanted; wanted &= wanted - 1) {
     const size_t s = nsvcd__lowest_bit(wanted);
-    nsvcd__chords *chords = nsvcd__spare_chords(work);
-    nsvcd__chords_of_members(&work->blocks[s / NSVCD__LANES], s % NSVCD__LANES, x, y, z, r,
-                             work->scale, extent, chords);
+    nsvcd__chords *chords = nsvcd__spare_chords(search);
+    nsvcd__chords_of_members(&search->blocks[s / NSVCD__LANES], s % NSVCD__LANES, x, y, z, r,
+                             search->scale, extent, chords);
     met |= nsvcd__meet(chords, fixed->centre[0], fixed->centre[1], fixed->centre[2], fixed->radius);
   }
   return met;
 }
 
-// Spheres of the fixed body that meet that of the moving tile, whose chords are work->group.
+// Spheres of the fixed body that meet that of the moving tile, whose chords are search->group.
 static uint32_t nsvcd__is_approached(const void *what, const float *x, const float *y,
                                      const float *z, const float *r) {
-  const nsvcd__workspace *work = (const nsvcd__workspace *)what;
-  const uint32_t nearby = nsvcd__spheres_at_box(work->near_low, work->near_high, x, y, z, r);
+  const nsvcd__search *search = (const nsvcd__search *)what;
+  const uint32_t nearby = nsvcd__spheres_at_box(search->near_low, search->near_high, x, y, z, r);
   uint32_t met = 0;
-  for (uint64_t wanted = work->near_segments; wanted && nearby & ~met; wanted &= wanted - 1) {
+  for (uint64_t wanted = search->near_segments; wanted && nearby & ~met; wanted &= wanted - 1) {
     const size_t s = nsvcd__lowest_bit(wanted);
-    met |=
-        nearby & nsvcd__meet_members(&work->group[s / NSVCD__LANES], s % NSVCD__LANES, x, y, z, r);
+    met |= nearby &
+           nsvcd__meet_members(&search->group[s / NSVCD__LANES], s % NSVCD__LANES, x, y, z, r);
   }
   return met;
 }
 
-// Poses the sphere over all groups of the moving tile, into work->group.
-static void nsvcd__chords_of_tile(nsvcd__workspace *work, const nsvcd_body *moving) {
-  const nsvcd__tile *tile = &work->moving_tile;
+// Poses the sphere over all groups of the moving tile, into search->group.
+static void nsvcd__chords_of_tile(nsvcd__search *search, const nsvcd_body *moving) {
+  const nsvcd__tile *tile = &search->moving_tile;
   float sphere[4] = {moving->centre[0], moving->centre[1], moving->centre[2], moving->radius};
   if (nsvcd__is_large(moving)) {
     nsvcd__cover_spheres(tile->count, tile->spheres[0], tile->spheres[1], tile->spheres[2],
                          tile->spheres[3], sphere);
   }
-  nsvcd__chords_in_all(work, sphere, sphere[3]);
+  nsvcd__chords_in_all(search, sphere, sphere[3]);
 }
 
-// Puts a box about the chords of work->group.
-static void nsvcd__box_of_way(nsvcd__workspace *work) {
+// Puts a box about the chords of search->group.
+static void nsvcd__box_of_way(nsvcd__search *search) {
   float least[6] = {HUGE_VALF, HUGE_VALF, HUGE_VALF, HUGE_VALF, HUGE_VALF, HUGE_VALF};
-  for (size_t b = 0; NSVCD__LANES * b < work->segments; b++) {
-    const nsvcd__chords *c = &work->group[b];
+  for (size_t b = 0; NSVCD__LANES * b < search->segments; b++) {
+    const nsvcd__chords *c = &search->group[b];
     const float *starts[3] = {c->x, c->y, c->z};
     const float *ways[3] = {c->vx, c->vy, c->vz};
-    for (size_t l = 0; l < NSVCD__LANES && NSVCD__LANES * b + l < work->segments; l++) {
+    for (size_t l = 0; l < NSVCD__LANES && NSVCD__LANES * b + l < search->segments; l++) {
       for (size_t k = 0; k < 3; k++) {
         const float start = starts[k][l];
         const float end = start + ways[k][l];
@@ -7084,35 +7094,35 @@ static void nsvcd__box_of_way(nsvcd__workspace *work) {
     }
   }
   for (size_t k = 0; k < 3; k++) {
-    work->near_low[k] = least[k];
-    work->near_high[k] = -least[3 + k];
+    search->near_low[k] = least[k];
+    search->near_high[k] = -least[3 + k];
   }
 }
 
 // Finds the next moving tile, an empty one if there is none, and starts the walk through the fixed
 // body's groups that come near it.
-static void nsvcd__search_moving_tile(nsvcd__workspace *work, const nsvcd_body *moving,
+static void nsvcd__search_moving_tile(nsvcd__search *search, const nsvcd_body *moving,
                                       const nsvcd_body *fixed) {
-  nsvcd__tile_fill(&work->moving_tile, &work->moving_walk);
-  if (work->moving_tile.count == 0) return;
-  nsvcd__chords_of_tile(work, moving);
-  nsvcd__box_of_way(work);
-  nsvcd__walk_begin(&work->fixed_walk, fixed, nsvcd__is_approached, work);
+  nsvcd__tile_fill(&search->moving_tile, &search->moving_walk);
+  if (search->moving_tile.count == 0) return;
+  nsvcd__chords_of_tile(search, moving);
+  nsvcd__box_of_way(search);
+  nsvcd__walk_begin(&search->fixed_walk, fixed, nsvcd__is_approached, search);
 }
 
 // Goes on to the next tile that has a step. 0 if there is none.
-static int nsvcd__search_next_tile(nsvcd__workspace *work, const nsvcd_body *moving,
+static int nsvcd__search_next_tile(nsvcd__search *search, const nsvcd_body *moving,
                                    const nsvcd_body *fixed) {
   if (!nsvcd__is_large(moving) && !nsvcd__is_large(fixed)) return 0;
-  while (work->moving_tile.count > 0) {
-    nsvcd__chords_of_tile(work, moving);
-    nsvcd__tile_fill(&work->fixed_tile, &work->fixed_walk);
-    if (work->fixed_tile.count == 0) {
-      nsvcd__search_moving_tile(work, moving, fixed);
+  while (search->moving_tile.count > 0) {
+    nsvcd__chords_of_tile(search, moving);
+    nsvcd__tile_fill(&search->fixed_tile, &search->fixed_walk);
+    if (search->fixed_tile.count == 0) {
+      nsvcd__search_moving_tile(search, moving, fixed);
       continue;
     }
-    nsvcd__search_tile(work, moving, fixed, work->near_segments);
-    if (work->steps > 0) return 1;
+    nsvcd__search_tile(search, moving, fixed, search->near_segments);
+    if (search->steps > 0) return 1;
   }
   return 0;
 }
@@ -7120,59 +7130,59 @@ static int nsvcd__search_next_tile(nsvcd__workspace *work, const nsvcd_body *mov
 // Starts the search of a motion that has been cut. Returns 0 if the groups' spheres never meet:
 // then there is no step to take.
 static int nsvcd__search_begin(const nsvcd_body *moving, const nsvcd_body *fixed,
-                               nsvcd__workspace *work) {
-  nsvcd__chords_in_all(work, moving->centre, moving->radius);
-  uint64_t wanted = ~(uint64_t)0 >> (NSVCD__MAX_SEGMENTS - work->segments);
-  wanted = nsvcd__meet_in(work->group, wanted, fixed->centre[0], fixed->centre[1], fixed->centre[2],
-                          fixed->radius);
-  work->near_segments = wanted;
-  work->wanted = ~(uint64_t)0;
-  work->steps = work->step = 0;
-  work->waiting = 0;
+                               nsvcd__search *search) {
+  nsvcd__chords_in_all(search, moving->centre, moving->radius);
+  uint64_t wanted = ~(uint64_t)0 >> (NSVCD__MAX_SEGMENTS - search->segments);
+  wanted = nsvcd__meet_in(search->group, wanted, fixed->centre[0], fixed->centre[1],
+                          fixed->centre[2], fixed->radius);
+  search->near_segments = wanted;
+  search->wanted = ~(uint64_t)0;
+  search->steps = search->step = 0;
+  search->waiting = 0;
   if (!nsvcd__is_large(moving) && !nsvcd__is_large(fixed)) {
-    nsvcd__tile_fill_all(&work->moving_tile, moving);
-    nsvcd__tile_fill_all(&work->fixed_tile, fixed);
-    if (wanted) nsvcd__search_tile(work, moving, fixed, wanted);
-    return work->steps > 0;
+    nsvcd__tile_fill_all(&search->moving_tile, moving);
+    nsvcd__tile_fill_all(&search->fixed_tile, fixed);
+    if (wanted) nsvcd__search_tile(search, moving, fixed, wanted);
+    return search->steps > 0;
   }
-  work->moving_tile.count = 0;
+  search->moving_tile.count = 0;
   if (!wanted) return 0;
-  work->fixed_walk.body = fixed;  // the filters below ask for them
-  work->moving_walk.body = moving;
-  nsvcd__walk_begin(&work->moving_walk, moving,
-                    nsvcd__is_large(moving) ? nsvcd__comes_near : nsvcd__exists, work);
-  nsvcd__search_moving_tile(work, moving, fixed);
-  return nsvcd__search_next_tile(work, moving, fixed);
+  search->fixed_walk.body = fixed;  // the filters below ask for them
+  search->moving_walk.body = moving;
+  nsvcd__walk_begin(&search->moving_walk, moving,
+                    nsvcd__is_large(moving) ? nsvcd__comes_near : nsvcd__exists, search);
+  nsvcd__search_moving_tile(search, moving, fixed);
+  return nsvcd__search_next_tile(search, moving, fixed);
 }
 
 // Fills members[] with what is missing of the segments `wanted`.
-static void nsvcd__pose_members(nsvcd__workspace *work, const nsvcd_body *moving, size_t g,
+static void nsvcd__pose_members(nsvcd__search *search, const nsvcd_body *moving, size_t g,
                                 uint64_t wanted) {
   const size_t i = NSVCD__GROUP * g;
-  if (!(wanted & ~work->posed)) return;
+  if (!(wanted & ~search->posed)) return;
   const float centre[3] = {nsvcd__body_group(moving, 0)[g], nsvcd__body_group(moving, 1)[g],
                            nsvcd__body_group(moving, 2)[g]};
-  work->remote = 1.000002f * (nsvcd__length3(centre) + nsvcd__body_group(moving, 3)[g]);
-  for (uint64_t missing = wanted & ~work->posed; missing; missing &= missing - 1) {
+  search->remote = 1.000002f * (nsvcd__length3(centre) + nsvcd__body_group(moving, 3)[g]);
+  for (uint64_t missing = wanted & ~search->posed; missing; missing &= missing - 1) {
     const size_t s = nsvcd__lowest_bit(missing);
-    nsvcd__chords_of_members(&work->blocks[s / NSVCD__LANES], s % NSVCD__LANES,
+    nsvcd__chords_of_members(&search->blocks[s / NSVCD__LANES], s % NSVCD__LANES,
                              nsvcd__body_x(moving) + i, nsvcd__body_y(moving) + i,
-                             nsvcd__body_z(moving) + i, nsvcd__body_r(moving) + i, work->scale,
-                             work->remote, &work->members[s]);
+                             nsvcd__body_z(moving) + i, nsvcd__body_r(moving) + i, search->scale,
+                             search->remote, &search->members[s]);
   }
-  work->posed |= wanted;
+  search->posed |= wanted;
 }
 
 // Patches of group h of the fixed body that moving group g meets, and in which segments, of those
 // `wanted`.
-static uint32_t nsvcd__group_against_members(const nsvcd__workspace *work, const nsvcd_body *fixed,
+static uint32_t nsvcd__group_against_members(const nsvcd__search *search, const nsvcd_body *fixed,
                                              size_t h, uint64_t wanted,
                                              uint64_t *segments) {  // (GROUP)
   const size_t first = NSVCD__GROUP * h;
   uint32_t met = 0;
   for (; wanted; wanted &= wanted - 1) {
     const size_t s = nsvcd__lowest_bit(wanted);
-    uint32_t bits = nsvcd__meet_members(&work->group[s / NSVCD__LANES], s % NSVCD__LANES,
+    uint32_t bits = nsvcd__meet_members(&search->group[s / NSVCD__LANES], s % NSVCD__LANES,
                                         nsvcd__body_x(fixed) + first, nsvcd__body_y(fixed) + first,
                                         nsvcd__body_z(fixed) + first, nsvcd__body_r(fixed) + first);
     for (; bits; bits &= bits - 1) {
@@ -7186,58 +7196,59 @@ static uint32_t nsvcd__group_against_members(const nsvcd__workspace *work, const
 
 // Turns to the moving group that is next in order. Returns the fixed group, its place in the tile,
 // that it meets for the longest time.
-static size_t nsvcd__search_group(nsvcd__workspace *work, const nsvcd_body *moving) {
-  const size_t g = work->order[work->step];
-  const uint64_t *nearby = nsvcd__nearby(work, g);
+static size_t nsvcd__search_group(nsvcd__search *search, const nsvcd_body *moving) {
+  const size_t g = search->order[search->step];
+  const uint64_t *nearby = nsvcd__nearby(search, g);
   size_t longest = 0;
   size_t most = 0;
-  for (size_t h = 0; h < work->fixed_tile.count; h++) {
-    const size_t count = nsvcd__bit_count(nearby[h] & work->wanted);
-    if (count > 0) work->waiting |= (uint32_t)1 << h;
+  for (size_t h = 0; h < search->fixed_tile.count; h++) {
+    const size_t count = nsvcd__bit_count(nearby[h] & search->wanted);
+    if (count > 0) search->waiting |= (uint32_t)1 << h;
     if (count > most) {
       most = count;
       longest = h;
     }
   }
-  if (work->waiting) nsvcd__chords_of_group(work, moving, work->moving_tile.groups[g]);
-  work->posed = 0;
+  if (search->waiting) nsvcd__chords_of_group(search, moving, search->moving_tile.groups[g]);
+  search->posed = 0;
   return longest;
 }
 
 #ifndef NSVCD_NO_NETWORK
-// A step of the search: all runs of one pair of groups. Returns 1 if there are more steps to take.
-static NSVCD__APART int nsvcd__search_step(nsvcd__workspace *work, const nsvcd_body *moving,
+// A step of the search: all contact intervals of one pair of groups. Returns 1 if there are more
+// steps to take.
+static NSVCD__APART int nsvcd__search_step(nsvcd__search *search, const nsvcd_body *moving,
                                            const nsvcd_body *fixed, nsvcd__candidates *kept) {
   const size_t at =
-      work->waiting ? nsvcd__lowest_bit(work->waiting) : nsvcd__search_group(work, moving);
-  const size_t turn = work->order[work->step];
-  const size_t g = work->moving_tile.groups[turn];
-  const size_t h = work->fixed_tile.groups[at];
+      search->waiting ? nsvcd__lowest_bit(search->waiting) : nsvcd__search_group(search, moving);
+  const size_t next = search->order[search->step];
+  const size_t g = search->moving_tile.groups[next];
+  const size_t h = search->fixed_tile.groups[at];
   uint64_t segments[NSVCD__GROUP];
   uint32_t met =
-      nsvcd__group_against_members(work, fixed, h, nsvcd__nearby(work, turn)[at], segments);
+      nsvcd__group_against_members(search, fixed, h, nsvcd__nearby(search, next)[at], segments);
   for (; met; met &= met - 1) {
     const size_t l = nsvcd__lowest_bit(met);
-    nsvcd__pose_members(work, moving, g, segments[l]);
-    nsvcd__members_against_patch(work, moving, g, fixed, NSVCD__GROUP * h + l, segments[l], kept);
+    nsvcd__pose_members(search, moving, g, segments[l]);
+    nsvcd__members_against_patch(search, moving, g, fixed, NSVCD__GROUP * h + l, segments[l], kept);
   }
-  work->waiting &= ~((uint32_t)1 << at);
-  if (!work->waiting) work->step++;
-  return work->step < work->steps || nsvcd__search_next_tile(work, moving, fixed);
+  search->waiting &= ~((uint32_t)1 << at);
+  if (!search->waiting) search->step++;
+  return search->step < search->steps || nsvcd__search_next_tile(search, moving, fixed);
 }
 
-// Instead of a search, in a motion that has been cut: all runs of one moving group and one patch of
-// the fixed body.
-static void nsvcd__search_patch(nsvcd__workspace *work, const nsvcd_body *moving, size_t g,
+// Instead of a search, in a motion that has been cut: all contact intervals of one moving group and
+// one patch of the fixed body.
+static void nsvcd__search_patch(nsvcd__search *search, const nsvcd_body *moving, size_t g,
                                 const nsvcd_body *fixed, size_t j, nsvcd__candidates *kept) {
-  const uint64_t all = ~(uint64_t)0 >> (NSVCD__MAX_SEGMENTS - work->segments);
-  nsvcd__chords_of_group(work, moving, g);
+  const uint64_t all = ~(uint64_t)0 >> (NSVCD__MAX_SEGMENTS - search->segments);
+  nsvcd__chords_of_group(search, moving, g);
   const uint64_t wanted =
-      nsvcd__meet_in(work->group, all, nsvcd__body_x(fixed)[j], nsvcd__body_y(fixed)[j],
+      nsvcd__meet_in(search->group, all, nsvcd__body_x(fixed)[j], nsvcd__body_y(fixed)[j],
                      nsvcd__body_z(fixed)[j], nsvcd__body_r(fixed)[j]);
-  work->posed = 0;
-  nsvcd__pose_members(work, moving, g, wanted);
-  nsvcd__members_against_patch(work, moving, g, fixed, j, wanted, kept);
+  search->posed = 0;
+  nsvcd__pose_members(search, moving, g, wanted);
+  nsvcd__members_against_patch(search, moving, g, fixed, j, wanted, kept);
 }
 
 static void nsvcd__candidates_start(nsvcd__candidates *kept, nsvcd__candidate *items,
@@ -7747,9 +7758,9 @@ static double nsvcd__time_in_arc(const nsvcd__proof *p, double u) {
   return nsvcd__time_of(p, (double)p->arc.first + u * (double)p->arc.ticks);
 }
 
-static nsvcd__span nsvcd__span_of_segment(const nsvcd__motion *motion, const nsvcd__workspace *work,
+static nsvcd__span nsvcd__span_of_segment(const nsvcd__motion *motion, const nsvcd__search *search,
                                           size_t s) {
-  const nsvcd__segments *block = &work->blocks[s / NSVCD__LANES];
+  const nsvcd__segments *block = &search->blocks[s / NSVCD__LANES];
   const size_t l = s % NSVCD__LANES;
   nsvcd__span span;
   for (size_t i = 0; i < 9; i++) {
@@ -7769,16 +7780,16 @@ static nsvcd__span nsvcd__span_of_segment(const nsvcd__motion *motion, const nsv
   span.bulge_along_axis = block->bulge_along_axis[l];
   span.drift_along_axis = block->drift_along_axis[l];
   span.drift_off_way = block->drift_off_way[l];
-  span.t_start = (double)work->begin[s] / (double)motion->ticks;
-  span.t_end = (double)work->begin[s + 1] / (double)motion->ticks;
+  span.t_start = (double)search->begin[s] / (double)motion->ticks;
+  span.t_end = (double)search->begin[s + 1] / (double)motion->ticks;
   return span;
 }
 
 // Kept once it has been made.
-static const nsvcd__span *nsvcd__segment_span(nsvcd__proof *p, const nsvcd__workspace *work,
+static const nsvcd__span *nsvcd__segment_span(nsvcd__proof *p, const nsvcd__search *search,
                                               size_t s) {
   if (!(p->spans_known >> s & 1)) {
-    p->spans[s] = nsvcd__span_of_segment(p->motion, work, s);
+    p->spans[s] = nsvcd__span_of_segment(p->motion, search, s);
     p->spans[s].t_end = fmin(p->spans[s].t_end, nsvcd__time_of(p, p->end));
   }
   p->spans_known |= (uint64_t)1 << s;
@@ -8191,7 +8202,7 @@ static uint32_t nsvcd__groups_apart(nsvcd__segments *block, const nsvcd__chords 
 #ifdef NSVCD__CERTIFIES
 // All pairs of members of two groups, in the segments `apart` of a slice that begins with segment
 // `first`.
-static void nsvcd__certify_groups(const nsvcd__proof *p, const nsvcd__workspace *work, size_t first,
+static void nsvcd__certify_groups(const nsvcd__proof *p, const nsvcd__search *search, size_t first,
                                   size_t g, size_t h, uint32_t apart, const nsvcd__v3 *planes,
                                   const uint32_t *below) {
   float lanes[2][3][NSVCD__LANES];
@@ -8202,7 +8213,7 @@ static void nsvcd__certify_groups(const nsvcd__proof *p, const nsvcd__workspace 
     const float sign = below[which] >> l & 1 ? -1.0f : 1.0f;
     const float normal[3] = {sign * lanes[which][0][l], sign * lanes[which][1][l],
                              sign * lanes[which][2][l]};
-    const nsvcd__span span = nsvcd__span_of_segment(p->motion, work, first + l);
+    const nsvcd__span span = nsvcd__span_of_segment(p->motion, search, first + l);
     for (size_t k = 0; k < NSVCD__GROUP * NSVCD__GROUP; k++) {
       const size_t i = NSVCD__GROUP * g + k / NSVCD__GROUP;
       const size_t j = NSVCD__GROUP * h + k % NSVCD__GROUP;
@@ -8220,25 +8231,25 @@ static void nsvcd__certify_groups(const nsvcd__proof *p, const nsvcd__workspace 
 
 // Clears the segments in which discs part moving group g from the resting ones that it meets, its
 // chords being those in the workspace.
-static void nsvcd__part_groups(const nsvcd__proof *p, nsvcd__workspace *work) {
+static void nsvcd__part_groups(const nsvcd__proof *p, nsvcd__search *search) {
   const nsvcd_body *moving = p->moving.body;
   const nsvcd_body *fixed = p->fixed.body;
-  const size_t turn = work->order[work->step];
-  const size_t g = work->moving_tile.groups[turn];
+  const size_t next = search->order[search->step];
+  const size_t g = search->moving_tile.groups[next];
   const nsvcd__disc own =
       nsvcd__disc_at(p->moving.group_discs, nsvcd__group_slots(moving->padded), g);
   const float centre[3] = {nsvcd__body_group(moving, 0)[g], nsvcd__body_group(moving, 1)[g],
                            nsvcd__body_group(moving, 2)[g]};
   const float reach = 1.000002f * (nsvcd__length3(centre) + nsvcd__body_group(moving, 3)[g]);
-  for (uint32_t waiting = work->waiting; waiting; waiting &= waiting - 1) {
+  for (uint32_t waiting = search->waiting; waiting; waiting &= waiting - 1) {
     const size_t at = nsvcd__lowest_bit(waiting);
-    const size_t h = work->fixed_tile.groups[at];
+    const size_t h = search->fixed_tile.groups[at];
     const nsvcd__disc disc =
         nsvcd__disc_at(p->fixed.group_discs, nsvcd__group_slots(fixed->padded), h);
     const nsvcd__f3 fixed_centre =
         nsvcd__f3_of(nsvcd__body_group(fixed, 0)[h], nsvcd__body_group(fixed, 1)[h],
                      nsvcd__body_group(fixed, 2)[h]);
-    uint64_t *met = &nsvcd__nearby(work, turn)[at];
+    uint64_t *met = &nsvcd__nearby(search, next)[at];
     for (size_t b = 0; b < NSVCD__BLOCKS && *met >> (NSVCD__LANES * b); b++) {
       const uint32_t there = (uint32_t)(*met >> (NSVCD__LANES * b)) & 0xffff;
       if (!there) continue;
@@ -8249,14 +8260,14 @@ static void nsvcd__part_groups(const nsvcd__proof *p, nsvcd__workspace *work) {
         uint32_t below[3];
         if (!wanted) continue;
         const uint32_t parted =
-            nsvcd__groups_apart(&work->blocks[b], &work->group[b], l, &own, &disc, fixed_centre,
-                                work->scale, reach, nsvcd__clearance_of(p), planes, below);
+            nsvcd__groups_apart(&search->blocks[b], &search->group[b], l, &own, &disc, fixed_centre,
+                                search->scale, reach, nsvcd__clearance_of(p), planes, below);
         const uint32_t apart = wanted & parted;
-        NSVCD__CERTIFY_GROUPS(p, work, NSVCD__LANES * b + l, g, h, apart, planes, below);
+        NSVCD__CERTIFY_GROUPS(p, search, NSVCD__LANES * b + l, g, h, apart, planes, below);
         *met &= ~((uint64_t)apart << (NSVCD__LANES * b + l));
       }
     }
-    if (!*met) work->waiting &= ~((uint32_t)1 << at);
+    if (!*met) search->waiting &= ~((uint32_t)1 << at);
   }
 }
 
@@ -9196,10 +9207,10 @@ static uint32_t nsvcd__arc_and_share(const nsvcd__motion *motion, double at, dou
 
 // Looks for a contact of an item where its spheres are nearest, if that still matters. FREE: there
 // is none.
-static nsvcd__verdict nsvcd__seek_item(nsvcd__proof *p, const nsvcd__workspace *work,
+static nsvcd__verdict nsvcd__seek_item(nsvcd__proof *p, const nsvcd__search *search,
                                        nsvcd__item *item) {
-  const double start = (double)work->begin[item->segment];
-  const double end = fmin((double)work->begin[item->segment + 1u], p->clipped_end);
+  const double start = (double)search->begin[item->segment];
+  const double end = fmin((double)search->begin[item->segment + 1u], p->clipped_end);
   const double tick = start + (double)item->share * (end - start);
   double u;
   item->sought = 1;
@@ -9332,11 +9343,11 @@ static nsvcd__verdict nsvcd__settle_arc(nsvcd__proof *p, const nsvcd__item *item
 }
 
 // An item that no plane parts over its segment, arc by arc.
-static nsvcd__verdict nsvcd__settle_item(nsvcd__proof *p, const nsvcd__workspace *work,
+static nsvcd__verdict nsvcd__settle_item(nsvcd__proof *p, const nsvcd__search *search,
                                          const nsvcd__item *item) {
-  const uint32_t end = work->begin[item->segment + 1u];
+  const uint32_t end = search->begin[item->segment + 1u];
   nsvcd__verdict verdict = NSVCD__FREE;
-  for (uint32_t at = work->begin[item->segment]; at < end && (double)at < p->end;) {
+  for (uint32_t at = search->begin[item->segment]; at < end && (double)at < p->end;) {
     double u0;
     const uint32_t first = nsvcd__arc_and_share(p->motion, (double)at, &u0);
     const uint32_t knot = nsvcd__next_knot(p->motion, first);
@@ -9391,9 +9402,9 @@ static float nsvcd__greatest_height(nsvcd__proof *p, size_t j) {
 }
 
 // Does a plane with the normal that held last part an item's patches over its segment?
-static int nsvcd__held_again(nsvcd__proof *p, const nsvcd__workspace *work,
+static int nsvcd__held_again(nsvcd__proof *p, const nsvcd__search *search,
                              const nsvcd__item *item) {
-  const nsvcd__span *span = nsvcd__segment_span(p, work, item->segment);
+  const nsvcd__span *span = nsvcd__segment_span(p, search, item->segment);
   const float least = nsvcd__least_height(p, span, item->moving, item->segment);
   const float clearance = nsvcd__clearance_of(p) * nsvcd__f3_length(p->held);
   if (!(least > nsvcd__greatest_height(p, item->fixed) + clearance)) return 0;
@@ -9402,18 +9413,18 @@ static int nsvcd__held_again(nsvcd__proof *p, const nsvcd__workspace *work,
 }
 
 // Is there any plane that does?
-static int nsvcd__item_is_parted(nsvcd__proof *p, const nsvcd__workspace *work,
+static int nsvcd__item_is_parted(nsvcd__proof *p, const nsvcd__search *search,
                                  const nsvcd__item *item) {
-  const nsvcd__span *span = nsvcd__segment_span(p, work, item->segment);
+  const nsvcd__span *span = nsvcd__segment_span(p, search, item->segment);
   if (!nsvcd__hulls_are_apart(p, item->moving, item->fixed, span)) return 0;
   nsvcd__certify_item(p, span, item);
   return 1;
 }
 
 // Is there one for each pair of their triangles?
-static int nsvcd__triangles_are_parted(nsvcd__proof *p, const nsvcd__workspace *work,
+static int nsvcd__triangles_are_parted(nsvcd__proof *p, const nsvcd__search *search,
                                        const nsvcd__item *item) {
-  const nsvcd__span *span = nsvcd__segment_span(p, work, item->segment);
+  const nsvcd__span *span = nsvcd__segment_span(p, search, item->segment);
   return nsvcd__settle_triangles(p, item->moving, item->fixed, span, 0, 0, 0) == NSVCD__FREE;
 }
 
@@ -9432,21 +9443,21 @@ static void nsvcd__sort_items(const nsvcd__proof *p, nsvcd__item *items, size_t 
 }
 
 // Does a segment still matter?
-static int nsvcd__matters(const nsvcd__proof *p, const nsvcd__workspace *work, size_t segment) {
-  return (double)work->begin[segment] < p->end;
+static int nsvcd__matters(const nsvcd__proof *p, const nsvcd__search *search, size_t segment) {
+  return (double)search->begin[segment] < p->end;
 }
 
 // Where the end of what matters lies within a segment, that segment is cut off there. What leaves a
 // chord by some length leaves that of a part of the time by no more than twice that, along any
 // direction.
-static NSVCD__APART void nsvcd__clip_segment(nsvcd__proof *p, nsvcd__workspace *work) {
+static NSVCD__APART void nsvcd__clip_segment(nsvcd__proof *p, nsvcd__search *search) {
   size_t s = 0;
   double u;
   if (!(p->end < p->clipped_end)) return;
   p->clipped_end = p->end;
-  while (s < work->segments && !((double)work->begin[s + 1] > p->end)) s++;
-  if (s == work->segments || !((double)work->begin[s] < p->end)) return;
-  nsvcd__segments *block = &work->blocks[s / NSVCD__LANES];
+  while (s < search->segments && !((double)search->begin[s + 1] > p->end)) s++;
+  if (s == search->segments || !((double)search->begin[s] < p->end)) return;
+  nsvcd__segments *block = &search->blocks[s / NSVCD__LANES];
   const size_t l = s % NSVCD__LANES;
   const uint32_t first = nsvcd__arc_and_share(p->motion, p->end, &u);
   const nsvcd__placement at = nsvcd__placement_at(nsvcd__arc_at(p, first), u);
@@ -9464,20 +9475,21 @@ static NSVCD__APART void nsvcd__clip_segment(nsvcd__proof *p, nsvcd__workspace *
   }
   p->clipped |= (uint64_t)1 << s;
   p->spans_known &= ~((uint64_t)1 << s);
-  work->posed &= ~((uint64_t)1 << s);
+  search->posed &= ~((uint64_t)1 << s);
   p->plane += p->plane > 0;  // heights over the plane that held last are not what they were
 }
 
 // Settles the items that no plane parts, the best first.
-static NSVCD__APART nsvcd__verdict nsvcd__settle_items(nsvcd__proof *p, nsvcd__workspace *work) {
+static NSVCD__APART nsvcd__verdict nsvcd__settle_items(nsvcd__proof *p, nsvcd__search *search) {
   nsvcd__sort_items(p, p->of.items, p->count);
   for (size_t n = 0; n < p->count; n++) {
     if (p->work > p->limit) return NSVCD__UNDECIDED;
-    nsvcd__clip_segment(p, work);
-    if (!nsvcd__matters(p, work, p->of.items[n].segment)) continue;
-    if (p->clipped >> p->of.items[n].segment & 1 && nsvcd__item_is_parted(p, work, &p->of.items[n]))
+    nsvcd__clip_segment(p, search);
+    if (!nsvcd__matters(p, search, p->of.items[n].segment)) continue;
+    if (p->clipped >> p->of.items[n].segment & 1 &&
+        nsvcd__item_is_parted(p, search, &p->of.items[n]))
       continue;
-    if (nsvcd__settle_item(p, work, &p->of.items[n]) == NSVCD__MEETS) return NSVCD__MEETS;
+    if (nsvcd__settle_item(p, search, &p->of.items[n]) == NSVCD__MEETS) return NSVCD__MEETS;
   }
   p->count = 0;
   return p->work > p->limit ? NSVCD__UNDECIDED : NSVCD__FREE;
@@ -9486,32 +9498,32 @@ static NSVCD__APART nsvcd__verdict nsvcd__settle_items(nsvcd__proof *p, nsvcd__w
 // Looks at fresh items, the best first: parts those that planes can part, looks for a witness in
 // the others, and keeps them. The last plane that held is tried on all before anything else: it
 // often holds for neighbours.
-static NSVCD__APART nsvcd__verdict nsvcd__sift_items(nsvcd__proof *p, nsvcd__workspace *work) {
+static NSVCD__APART nsvcd__verdict nsvcd__sift_items(nsvcd__proof *p, nsvcd__search *search) {
   size_t count = 0;
-  nsvcd__clip_segment(p, work);
+  nsvcd__clip_segment(p, search);
   for (size_t n = 0; n < p->fresh_count; n++) {
-    if (p->plane && nsvcd__held_again(p, work, &p->fresh[n])) continue;
+    if (p->plane && nsvcd__held_again(p, search, &p->fresh[n])) continue;
     p->fresh[count++] = p->fresh[n];
   }
   p->fresh_count = 0;
   nsvcd__sort_items(p, p->fresh, count);
   if (count > 0 && p->fresh[0].depth > NSVCD__DEEP &&
-      nsvcd__seek_item(p, work, &p->fresh[0]) == NSVCD__MEETS) {
+      nsvcd__seek_item(p, search, &p->fresh[0]) == NSVCD__MEETS) {
     return NSVCD__MEETS;
   }
 
   for (size_t n = 0; n < count; n++) {
     nsvcd__item *item = &p->fresh[n];
     if (p->work > p->limit) return NSVCD__UNDECIDED;
-    nsvcd__clip_segment(p, work);
-    if (!nsvcd__matters(p, work, item->segment)) continue;
-    if (p->plane && nsvcd__held_again(p, work, item)) continue;
-    if (nsvcd__item_is_parted(p, work, item)) continue;
-    if (p->misses >= NSVCD__HOPE && nsvcd__triangles_are_parted(p, work, item)) continue;
-    if (!item->sought && nsvcd__seek_item(p, work, item) == NSVCD__MEETS) return NSVCD__MEETS;
+    nsvcd__clip_segment(p, search);
+    if (!nsvcd__matters(p, search, item->segment)) continue;
+    if (p->plane && nsvcd__held_again(p, search, item)) continue;
+    if (nsvcd__item_is_parted(p, search, item)) continue;
+    if (p->misses >= NSVCD__HOPE && nsvcd__triangles_are_parted(p, search, item)) continue;
+    if (!item->sought && nsvcd__seek_item(p, search, item) == NSVCD__MEETS) return NSVCD__MEETS;
     p->misses++;
     if (p->count == NSVCD__ITEMS) {
-      const nsvcd__verdict verdict = nsvcd__settle_items(p, work);
+      const nsvcd__verdict verdict = nsvcd__settle_items(p, search);
       if (verdict != NSVCD__FREE) return verdict;
     }
     p->of.items[p->count++] = *item;
@@ -9941,26 +9953,26 @@ static NSVCD__APART int nsvcd__starts_within(nsvcd__proof *p) {
 // ---- all of it
 
 // Segments that are searched now, and still matter.
-static uint64_t nsvcd__segments_that_matter(const nsvcd__proof *p, const nsvcd__workspace *work) {
-  size_t s = work->segments;
-  if (!(p->first > 0) || !p->has_contact) return work->wanted;
-  while (s > 0 && !nsvcd__matters(p, work, s - 1)) s--;
-  return s == 64 ? work->wanted : work->wanted & (((uint64_t)1 << s) - 1);
+static uint64_t nsvcd__segments_that_matter(const nsvcd__proof *p, const nsvcd__search *search) {
+  size_t s = search->segments;
+  if (!(p->first > 0) || !p->has_contact) return search->wanted;
+  while (s > 0 && !nsvcd__matters(p, search, s - 1)) s--;
+  return s == 64 ? search->wanted : search->wanted & (((uint64_t)1 << s) - 1);
 }
 
 // Adds the items of moving group g and resting patch j in the segments `left`, and clears these, as
 // long as there is room for 16 more.
-static void nsvcd__collect_items(nsvcd__proof *p, const nsvcd__workspace *work, size_t g, size_t j,
+static void nsvcd__collect_items(nsvcd__proof *p, const nsvcd__search *search, size_t g, size_t j,
                                  uint64_t *left) {
   const nsvcd_body *moving = p->moving.body;
   const nsvcd_body *fixed = p->fixed.body;
   const nsvcd__f3 place = nsvcd__facet_centre(&p->fixed, j);
   const float radius = nsvcd__body_r(fixed)[j];
   const float *own = nsvcd__body_r(moving) + NSVCD__GROUP * g;
-  *left &= nsvcd__segments_that_matter(p, work);
+  *left &= nsvcd__segments_that_matter(p, search);
   for (; *left && p->fresh_count + NSVCD__GROUP <= NSVCD__FRESH; *left &= *left - 1) {
     const size_t s = nsvcd__lowest_bit(*left);
-    const nsvcd__chords *c = &work->members[s];
+    const nsvcd__chords *c = &search->members[s];
     float squares[NSVCD__LANES];
     float share[NSVCD__LANES];
     uint32_t met = 0;
@@ -9981,12 +9993,12 @@ static void nsvcd__collect_items(nsvcd__proof *p, const nsvcd__workspace *work, 
     }
     NSVCD__TALLY(tests, 1);
     if (!met) continue;
-    met = nsvcd__discs_meet(p, c, g, j, nsvcd__segment_span(p, work, s), work->remote, met);
+    met = nsvcd__discs_meet(p, c, g, j, nsvcd__segment_span(p, search, s), search->remote, met);
     for (; met; met &= met - 1) {
       const size_t l = nsvcd__lowest_bit(met);
       const size_t i = NSVCD__GROUP * g + l;
       if (p->moving.hull_counts[i] == 0) continue;
-      const float radii = work->scale * own[l] + radius;
+      const float radii = search->scale * own[l] + radius;
       const float depth = 1 - sqrtf(squares[l]) / (radii > 1e-30f ? radii : 1e-30f);
       const nsvcd__item item = {(uint16_t)i, (uint16_t)j, (uint16_t)s, 0, depth, share[l]};
       p->fresh[p->fresh_count++] = item;
@@ -9996,35 +10008,35 @@ static void nsvcd__collect_items(nsvcd__proof *p, const nsvcd__workspace *work, 
 
 // Goes on with the search of a tile until there are fresh items enough for a look. 0 when it has
 // come to its end.
-static NSVCD__APART int nsvcd__collect(nsvcd__proof *p, nsvcd__workspace *work) {
+static NSVCD__APART int nsvcd__collect(nsvcd__proof *p, nsvcd__search *search) {
   const nsvcd_body *moving = p->moving.body;
   const nsvcd_body *fixed = p->fixed.body;
-  for (; work->step < work->steps; work->step++) {
-    const size_t turn = work->order[work->step];
-    const size_t g = work->moving_tile.groups[turn];
+  for (; search->step < search->steps; search->step++) {
+    const size_t next = search->order[search->step];
+    const size_t g = search->moving_tile.groups[next];
     if (!p->in_group) {
-      nsvcd__search_group(work, moving);
-      nsvcd__part_groups(p, work);
+      nsvcd__search_group(search, moving);
+      nsvcd__part_groups(p, search);
       p->in_group = 1;
     }
-    while (work->waiting) {
-      const size_t at = nsvcd__lowest_bit(work->waiting);
-      const size_t h = work->fixed_tile.groups[at];
+    while (search->waiting) {
+      const size_t at = nsvcd__lowest_bit(search->waiting);
+      const size_t h = search->fixed_tile.groups[at];
       if (!p->in_pair) {
         const uint64_t wanted =
-            nsvcd__nearby(work, turn)[at] & nsvcd__segments_that_matter(p, work);
-        p->met = nsvcd__group_against_members(work, fixed, h, wanted, p->met_in);
+            nsvcd__nearby(search, next)[at] & nsvcd__segments_that_matter(p, search);
+        p->met = nsvcd__group_against_members(search, fixed, h, wanted, p->met_in);
         p->in_pair = 1;
       }
       for (; p->met; p->met &= p->met - 1) {
         const size_t l = nsvcd__lowest_bit(p->met);
         const size_t j = NSVCD__GROUP * h + l;
         if (p->fixed.hull_counts[j] == 0) continue;
-        nsvcd__pose_members(work, moving, g, p->met_in[l]);
-        nsvcd__collect_items(p, work, g, j, &p->met_in[l]);
+        nsvcd__pose_members(search, moving, g, p->met_in[l]);
+        nsvcd__collect_items(p, search, g, j, &p->met_in[l]);
         if (p->met_in[l]) return 1;
       }
-      work->waiting &= work->waiting - 1;
+      search->waiting &= search->waiting - 1;
       p->in_pair = 0;
       if (p->fresh_count >= NSVCD__NEWS) return 1;
     }
@@ -10069,15 +10081,15 @@ static void nsvcd__patches_towards(const nsvcd__facets *f, nsvcd__f3 place, size
 
 // How near the bodies come for certain, and a little more: the least distance between the vertices
 // of two patches that are near each other at a time when the bodies are. Where `measure` begins.
-static NSVCD__APART double nsvcd__guess_clearance(nsvcd__proof *p, const nsvcd__workspace *work) {
+static NSVCD__APART double nsvcd__guess_clearance(nsvcd__proof *p, const nsvcd__search *search) {
   const nsvcd__d3 centre = nsvcd__d3_load(p->moving.body->centre);
   const nsvcd__d3 other = nsvcd__d3_load(p->fixed.body->centre);
   double least = HUGE_VAL;
   nsvcd__placement nearest;
   memset(&nearest, 0, sizeof nearest);
-  for (size_t s = 0; s <= work->segments; s++) {
+  for (size_t s = 0; s <= search->segments; s++) {
     double u;
-    const uint32_t first = nsvcd__arc_and_share(p->motion, (double)work->begin[s], &u);
+    const uint32_t first = nsvcd__arc_and_share(p->motion, (double)search->begin[s], &u);
     const nsvcd__placement at = nsvcd__placement_at(nsvcd__arc_at(p, first), u);
     const double square = nsvcd__d3_gap(nsvcd__place_point(&at, centre), other);
     if (square < least) nearest = at;
@@ -10131,69 +10143,71 @@ static NSVCD__APART double nsvcd__guess_clearance(nsvcd__proof *p, const nsvcd__
 }
 
 // All that has been found in the segments that are wanted.
-static nsvcd__verdict nsvcd__prove_segments(nsvcd__proof *p, nsvcd__workspace *work) {
+static nsvcd__verdict nsvcd__prove_segments(nsvcd__proof *p, nsvcd__search *search) {
   nsvcd__verdict verdict = NSVCD__FREE;
   for (int more = 1; more && verdict == NSVCD__FREE;) {
-    more = nsvcd__collect(p, work);
-    verdict = nsvcd__sift_items(p, work);
+    more = nsvcd__collect(p, search);
+    verdict = nsvcd__sift_items(p, search);
   }
-  return verdict == NSVCD__FREE ? nsvcd__settle_items(p, work) : verdict;
+  return verdict == NSVCD__FREE ? nsvcd__settle_items(p, search) : verdict;
 }
 
 // The same, tile after tile.
-static nsvcd__verdict nsvcd__prove_tiles(nsvcd__proof *p, nsvcd__workspace *work) {
+static nsvcd__verdict nsvcd__prove_tiles(nsvcd__proof *p, nsvcd__search *search) {
   nsvcd__verdict verdict;
   do {
-    verdict = nsvcd__prove_segments(p, work);
-  } while (verdict == NSVCD__FREE && nsvcd__search_next_tile(work, p->moving.body, p->fixed.body));
+    verdict = nsvcd__prove_segments(p, search);
+  } while (verdict == NSVCD__FREE &&
+           nsvcd__search_next_tile(search, p->moving.body, p->fixed.body));
   return verdict;
 }
 
 // Some segments after the other, until there is a contact: then it is the first one of the tile.
-static nsvcd__verdict nsvcd__prove_tile_in_order(nsvcd__proof *p, nsvcd__workspace *work) {
+static nsvcd__verdict nsvcd__prove_tile_in_order(nsvcd__proof *p, nsvcd__search *search) {
   const uint64_t few = ((uint64_t)1 << NSVCD__IN_ORDER) - 1;
   nsvcd__verdict verdict = NSVCD__FREE;
   p->settled = 0;
-  for (size_t s = 0; s < work->segments && verdict == NSVCD__FREE; s += NSVCD__IN_ORDER) {
-    if (!nsvcd__matters(p, work, s)) break;
-    work->wanted = few << s;
-    work->step = 0;
-    work->waiting = 0;
+  for (size_t s = 0; s < search->segments && verdict == NSVCD__FREE; s += NSVCD__IN_ORDER) {
+    if (!nsvcd__matters(p, search, s)) break;
+    search->wanted = few << s;
+    search->step = 0;
+    search->waiting = 0;
     p->in_group = p->in_pair = 0;
-    verdict = nsvcd__prove_segments(p, work);
-    const size_t next = s + NSVCD__IN_ORDER < work->segments ? s + NSVCD__IN_ORDER : work->segments;
-    if (verdict == NSVCD__FREE && !p->has_contact) p->settled = (double)work->begin[next];
+    verdict = nsvcd__prove_segments(p, search);
+    const size_t next =
+        s + NSVCD__IN_ORDER < search->segments ? s + NSVCD__IN_ORDER : search->segments;
+    if (verdict == NSVCD__FREE && !p->has_contact) p->settled = (double)search->begin[next];
   }
   return verdict;
 }
 
 // The same, tile after tile. What is settled in one of several tells nothing of the others.
-static nsvcd__verdict nsvcd__prove_in_order(nsvcd__proof *p, nsvcd__workspace *work) {
+static nsvcd__verdict nsvcd__prove_in_order(nsvcd__proof *p, nsvcd__search *search) {
   const nsvcd_body *moving = p->moving.body;
   const nsvcd_body *fixed = p->fixed.body;
   nsvcd__verdict verdict;
   do {
-    verdict = nsvcd__prove_tile_in_order(p, work);
-  } while (verdict == NSVCD__FREE && nsvcd__search_next_tile(work, moving, fixed));
+    verdict = nsvcd__prove_tile_in_order(p, search);
+  } while (verdict == NSVCD__FREE && nsvcd__search_next_tile(search, moving, fixed));
   if (nsvcd__is_large(moving) || nsvcd__is_large(fixed)) p->settled = 0;
   return verdict;
 }
 
-static nsvcd__verdict nsvcd__prove(nsvcd__proof *p, nsvcd__workspace *work) {
+static nsvcd__verdict nsvcd__prove(nsvcd__proof *p, nsvcd__search *search) {
   const float lifted =
       nsvcd__f3_length(nsvcd__f3_of(p->motion->lift[0], p->motion->lift[1], p->motion->lift[2]));
   const float apart = p->lengths + nsvcd__clearance_of(p) + 1.0001f * lifted;
   if (!(p->measure > 0) && nsvcd__motion_is_far(p->motion, apart)) {
     return NSVCD__FREE;
   }
-  nsvcd__choose_segments(p->motion, work);
+  nsvcd__choose_segments(p->motion, search);
   p->first *= (double)p->motion->ticks;
   if (nsvcd__starts_within(p)) return NSVCD__WITHIN;
-  if (p->measure > 0) p->clearance = nsvcd__guess_clearance(p, work);
-  nsvcd__cut_segments(p->motion, p->lengths, nsvcd__clearance_of(p), work);
-  nsvcd__search_begin(p->moving.body, p->fixed.body, work);
+  if (p->measure > 0) p->clearance = nsvcd__guess_clearance(p, search);
+  nsvcd__cut_segments(p->motion, p->lengths, nsvcd__clearance_of(p), search);
+  nsvcd__search_begin(p->moving.body, p->fixed.body, search);
   const nsvcd__verdict verdict =
-      p->first > 0 ? nsvcd__prove_in_order(p, work) : nsvcd__prove_tiles(p, work);
+      p->first > 0 ? nsvcd__prove_in_order(p, search) : nsvcd__prove_tiles(p, search);
   if (p->lost) p->settled = 0;  // whether one is within the other, at the start
   p->lost |= verdict == NSVCD__UNDECIDED;
   // a doubt that ends in a contact is its beginning
@@ -10235,17 +10249,18 @@ static void nsvcd__proof_restart(nsvcd__proof *p) {
 // held from opposite sides, and is hit as ever. v is constant as the fixed body sees it.
 
 // Gathers what the moving body touches at the start, or as much of it as can be looked at together.
-static void nsvcd__gather_contacts(nsvcd__proof *p, nsvcd__workspace *work) {
+static void nsvcd__gather_contacts(nsvcd__proof *p, nsvcd__search *search) {
   p->touch_count = 0;
-  nsvcd__choose_segments(p->motion, work);
-  nsvcd__cut_segments(p->motion, p->lengths, nsvcd__clearance_of(p), work);
-  nsvcd__search_begin(p->moving.body, p->fixed.body, work);
+  nsvcd__choose_segments(p->motion, search);
+  nsvcd__cut_segments(p->motion, p->lengths, nsvcd__clearance_of(p), search);
+  nsvcd__search_begin(p->moving.body, p->fixed.body, search);
   for (int more = 1; more && p->touch_count < NSVCD__TOUCHES && p->work <= p->limit;) {
-    more = nsvcd__collect(p, work) || nsvcd__search_next_tile(work, p->moving.body, p->fixed.body);
+    more =
+        nsvcd__collect(p, search) || nsvcd__search_next_tile(search, p->moving.body, p->fixed.body);
     for (size_t n = 0; n < p->fresh_count && p->touch_count < NSVCD__TOUCHES; n++) {
       const nsvcd__item *item = &p->fresh[n];
-      if (p->plane && nsvcd__held_again(p, work, item)) continue;
-      if (nsvcd__item_is_parted(p, work, item)) continue;
+      if (p->plane && nsvcd__held_again(p, search, item)) continue;
+      if (nsvcd__item_is_parted(p, search, item)) continue;
       (void)nsvcd__find_witness(p, item->moving, item->fixed, 0, 0);
     }
     p->fresh_count = 0;
@@ -10323,7 +10338,7 @@ static nsvcd__d3 nsvcd__lift_off(const nsvcd__proof *p) {
 }
 
 // Lifts the motion off what it touches at its start.
-static NSVCD__APART void nsvcd__lift_motion(nsvcd__proof *p, nsvcd__workspace *work) {
+static NSVCD__APART void nsvcd__lift_motion(nsvcd__proof *p, nsvcd__search *search) {
   nsvcd__motion *whole = p->motion;
   nsvcd__motion start = *whole;
   start.moving.count = start.fixed.count = 1;
@@ -10337,7 +10352,7 @@ static NSVCD__APART void nsvcd__lift_motion(nsvcd__proof *p, nsvcd__workspace *w
   // as many times as there are too many contacts to look at at once
   for (int more = 1; more && liftable;) {
     nsvcd__proof_restart(p);
-    nsvcd__gather_contacts(p, work);
+    nsvcd__gather_contacts(p, search);
     more = p->touch_count > 0;
     liftable = nsvcd__choose_lifts(p);
   }
@@ -10361,7 +10376,7 @@ static NSVCD__APART void nsvcd__lift_motion(nsvcd__proof *p, nsvcd__workspace *w
 //   w(x) = sum_i A_i . (p_i - x) / (4 pi |p_i - x|^3)     1 inside, 0 outside
 // Near the surface it is not: a flat disc seen from its covering radius gives 0.25 where 0.146 is
 // true, from half of it 1.0 where 0.28 is true. So the place asked about is the patch centre of the
-// inner body (of NSVCD__PROBES) that is farthest from the outer patches in units of their radii,
+// inner body (of NSVCD__PLACES) that is farthest from the outer patches in units of their radii,
 // and below NSVCD__CLEARANCE the answer is no: then it lies in a covering sphere, the broad phase
 // has candidates, and the network is asked. Measured at a million places about spheres of 32 to 512
 // patches, the worst error of w is 0.55 from 0.75 radii on, 0.52 from 1, 0.06 from 1.5; from 1 on,
@@ -10369,10 +10384,10 @@ static NSVCD__APART void nsvcd__lift_motion(nsvcd__proof *p, nsvcd__workspace *w
 // In bodies of more than a tile's patches the sums of area vectors stand for those of whole groups,
 // and of what is above them, where the place is farther than NSVCD__DIPOLE of their spheres' radii:
 // w is then within 0.05 of the sum over all patches (tests/test_level.c).
-// Cost: at most NSVCD__PROBES * N distances each way, where one body's centres lie in the other's
+// Cost: at most NSVCD__PLACES * N distances each way, where one body's centres lie in the other's
 // sphere; of large bodies only those of groups nearby.
 
-#define NSVCD__PROBES NSVCD__LANES
+#define NSVCD__PLACES NSVCD__LANES
 #define NSVCD__CLEARANCE 1.0f
 // no place needs more clearance than this, and what is farther away is not looked at
 #define NSVCD__AMPLE 2.0f
@@ -10383,12 +10398,12 @@ typedef struct nsvcd__places {
   float centre[3], radius;
 } nsvcd__places;
 
-static nsvcd__places nsvcd__places_of(float (*places)[NSVCD__PROBES]) {
+static nsvcd__places nsvcd__places_of(float (*places)[NSVCD__PLACES]) {
   nsvcd__places out = {{0, 0, 0}, 0};
   for (size_t n = 0; n < 3; n++) {
     float low = places[n][0];
     float high = low;
-    for (size_t k = 1; k < NSVCD__PROBES; k++) {
+    for (size_t k = 1; k < NSVCD__PLACES; k++) {
       low = fminf(low, places[n][k]);
       high = fmaxf(high, places[n][k]);
     }
@@ -10442,11 +10457,11 @@ static nsvcd__v nsvcd__clearance2(const nsvcd_body *body, size_t group, const ns
 
 // The same over all patches of a body, but NSVCD__AMPLE, squared, is the most it says. out:
 // (PROBES).
-static void nsvcd__clearances(const nsvcd_body *body, float (*places)[NSVCD__PROBES], float *out) {
+static void nsvcd__clearances(const nsvcd_body *body, float (*places)[NSVCD__PLACES], float *out) {
   const nsvcd__places near_to = nsvcd__places_of(places);
   nsvcd__walk walk;
   size_t g;
-  for (size_t k = 0; k < NSVCD__PROBES; k++) out[k] = NSVCD__AMPLE * NSVCD__AMPLE;
+  for (size_t k = 0; k < NSVCD__PLACES; k++) out[k] = NSVCD__AMPLE * NSVCD__AMPLE;
   nsvcd__walk_begin(&walk, body, nsvcd__may_be_close, &near_to);
   while (nsvcd__walk_next(&walk, &g)) {
     NSVCD__EACH_SLICE(l) {
@@ -10530,11 +10545,11 @@ static float nsvcd__winding_number(const nsvcd_body *body, const float *point) {
 // inside it.
 static int nsvcd__is_inside(const nsvcd_body *inner, const nsvcd_body *outer, float scale,
                             const float *rotation, const float *position) {
-  float places[3][NSVCD__PROBES], clearance[NSVCD__PROBES], point[3];
+  float places[3][NSVCD__PLACES], clearance[NSVCD__PLACES], point[3];
   if (outer->open) return 0;
-  for (size_t k = 0; k < NSVCD__PROBES; k++) {
+  for (size_t k = 0; k < NSVCD__PLACES; k++) {
     // neighbours are stored together: equal steps spread over it
-    const size_t i = k * inner->points / NSVCD__PROBES;
+    const size_t i = k * inner->points / NSVCD__PLACES;
     const float p[3] = {nsvcd__body_x(inner)[i], nsvcd__body_y(inner)[i], nsvcd__body_z(inner)[i]};
     nsvcd__mul33_vec(rotation, p, point);
     for (size_t n = 0; n < 3; n++) places[n][k] = scale * point[n] + position[n];
@@ -10550,7 +10565,7 @@ static int nsvcd__is_inside(const nsvcd_body *inner, const nsvcd_body *outer, fl
   if (within != 0xffff) return 0;
   nsvcd__clearances(outer, places, clearance);
   size_t best = 0;
-  for (size_t k = 1; k < NSVCD__PROBES; k++) best = clearance[k] > clearance[best] ? k : best;
+  for (size_t k = 1; k < NSVCD__PLACES; k++) best = clearance[k] > clearance[best] ? k : best;
   if (clearance[best] < NSVCD__CLEARANCE * NSVCD__CLEARANCE) return 0;
   for (size_t n = 0; n < 3; n++) point[n] = places[n][best];
   return fabsf(nsvcd__winding_number(outer, point)) > 0.5f;  // -1 where the mesh is inside out
@@ -10935,18 +10950,18 @@ static NSVCD__APART void nsvcd__scenes_of(const nsvcd__pairs *pairs, size_t coun
 // geometry.
 static NSVCD__APART void nsvcd__invariants(const nsvcd__pairs *pairs, size_t count, float *x) {
   nsvcd__scenes scene;
-  float latent_turn[NSVCD__TURN][NSVCD__SLICE];
+  float wigner[NSVCD__WIGNER][NSVCD__SLICE];
   const nsvcd__v step = nsvcd__v_set(1.0f / 127);
   nsvcd__scenes_of(pairs, count, &scene);
-  nsvcd__wigner(scene.turn1, nsvcd__v_mul(scene.k1, step), latent_turn);
+  nsvcd__wigner(scene.turn1, nsvcd__v_mul(scene.k1, step), wigner);
   for (size_t l = 0; l < count; l++) {
-    nsvcd__turn_latent(pairs->z1[l], latent_turn, l, scene.keep >> l & 1 ? 0 : 1,
-                       x + NSVCD__DECODER_IN * l);
+    nsvcd__rotate_latent(pairs->z1[l], wigner, l, scene.keep >> l & 1 ? 0 : 1,
+                         x + NSVCD__DECODER_IN * l);
   }
-  nsvcd__wigner(scene.turn2, nsvcd__v_mul(scene.k2, step), latent_turn);
+  nsvcd__wigner(scene.turn2, nsvcd__v_mul(scene.k2, step), wigner);
   for (size_t l = 0; l < count; l++, x += NSVCD__DECODER_IN) {
     float *scalars = x + 2 * NSVCD__VECTORS;
-    nsvcd__turn_latent(pairs->z2[l], latent_turn, l, scene.keep >> l & 1 ? 1 : 0, x);
+    nsvcd__rotate_latent(pairs->z2[l], wigner, l, scene.keep >> l & 1 ? 1 : 0, x);
     for (size_t k = 0; k < NSVCD__FACTS; k++) scalars[2 * NSVCD_W_SCALARS + k] = scene.facts[k][l];
     for (size_t k = NSVCD__INPUTS; k < NSVCD__DECODER_IN; k++) x[k] = 0;
   }
@@ -10998,8 +11013,8 @@ NSVCD__INLINE void nsvcd__layer_tile(const float *w, const float *bias, size_t i
 }
 
 // One layer for `rows` pairs, a multiple of 4. outputs: a multiple of 16. The weights of the
-// largest head do not fit into the first cache, so the more rows at a time the better: 8 by 2 or 4
-// by 4 sums in 32 registers, 4 by 16 outputs, or by 4 slices where that is less, in fewer.
+// largest decoder do not fit into the first cache, so the more rows at a time the better: 8 by 2 or
+// 4 by 4 sums in 32 registers, 4 by 16 outputs, or by 4 slices where that is less, in fewer.
 #define NSVCD__TILES (NSVCD__LANES / NSVCD__SLICE < 4 ? NSVCD__LANES / NSVCD__SLICE : 4)
 static void nsvcd__layer(const float *w, const float *bias, size_t inputs, size_t outputs,
                          size_t rows, const float *x, size_t from, float *y, size_t to, int relu) {
@@ -11143,19 +11158,19 @@ static void nsvcd__from_dots(const int32_t *dot, const float *sum, const float *
 }
 #endif
 
-// As nsvcd__head_logits, in int8 arithmetic. A row is bytes before its outputs are written: they
+// As nsvcd__decoder_logits, in int8 arithmetic. A row is bytes before its outputs are written: they
 // may take its place.
-static NSVCD__APART void nsvcd__head_by_bytes(const nsvcd__head *head, const float *x, size_t count,
-                                              float *logits) {
-  const float *bias = nsvcd_w_decoder_bias + head->outputs;
+static NSVCD__APART void nsvcd__decoder_by_bytes(const nsvcd__decoder *decoder, const float *x,
+                                                 size_t count, float *logits) {
+  const float *bias = nsvcd_w_decoder_bias + decoder->outputs;
   float y[NSVCD__ROWS * NSVCD__WIDEST];
   size_t from = NSVCD__DECODER_IN;
-  size_t weights = head->weights;
-  size_t output = head->outputs;
-  for (size_t l = 0; l < head->layers; l++) {
-    const size_t inputs = head->sizes[l];
-    const size_t outputs = head->sizes[l + 1];
-    const int relu = l + 1 < head->layers;
+  size_t weights = decoder->weights;
+  size_t output = decoder->outputs;
+  for (size_t l = 0; l < decoder->layers; l++) {
+    const size_t inputs = decoder->sizes[l];
+    const size_t outputs = decoder->sizes[l + 1];
+    const int relu = l + 1 < decoder->layers;
     for (size_t first = 0; first < count; first += NSVCD__BYTE_ROWS) {
       uint8_t bytes[NSVCD__BYTE_ROWS * NSVCD__MOST_INPUTS];
       int32_t dot[NSVCD__BYTE_ROWS * NSVCD__WIDEST];
@@ -11181,20 +11196,20 @@ static NSVCD__APART void nsvcd__head_by_bytes(const nsvcd__head *head, const flo
 #endif  // NSVCD_NO_INT8
 
 #ifndef NSVCD_NO_FLOAT
-// As nsvcd__head_logits, in fp32.
-static NSVCD__APART void nsvcd__head_by_floats(const nsvcd__head *head, const float *x,
-                                               size_t count, float *logits) {
-  const float *bias = nsvcd_w_decoder_bias + head->outputs;
+// As nsvcd__decoder_logits, in fp32.
+static NSVCD__APART void nsvcd__decoder_by_floats(const nsvcd__decoder *decoder, const float *x,
+                                                  size_t count, float *logits) {
+  const float *bias = nsvcd_w_decoder_bias + decoder->outputs;
   float a[NSVCD__ROWS * NSVCD__WIDEST];
   float b[NSVCD__ROWS * NSVCD__WIDEST];
   float *to = a;
   size_t from = NSVCD__DECODER_IN;
-  size_t weights = head->weights;
-  for (size_t l = 0; l < head->layers; l++) {
-    const size_t inputs = head->sizes[l];
-    const size_t outputs = head->sizes[l + 1];
+  size_t weights = decoder->weights;
+  for (size_t l = 0; l < decoder->layers; l++) {
+    const size_t inputs = decoder->sizes[l];
+    const size_t outputs = decoder->sizes[l + 1];
     const size_t rows = nsvcd__round_up(count, NSVCD__ROW_STEP);
-    const int relu = l + 1 < head->layers;
+    const int relu = l + 1 < decoder->layers;
     nsvcd__layer(nsvcd_w_decoder + weights, bias, inputs, outputs, rows, x, from, to, NSVCD__WIDEST,
                  relu);
     bias += outputs;
@@ -11207,21 +11222,21 @@ static NSVCD__APART void nsvcd__head_by_floats(const nsvcd__head *head, const fl
 }
 #endif  // NSVCD_NO_FLOAT
 
-// x (ROWS, DECODER_IN) -> the logits of the first `count` pairs by `head`, in fp32 or int8
+// x (ROWS, DECODER_IN) -> the logits of the first `count` pairs by a decoder, in fp32 or int8
 // arithmetic. Some rows at a time: x must hold numbers up to a multiple of ROW_STEP.
-static void nsvcd__head_logits(const nsvcd__head *head, const float *x, size_t count, int int8,
-                               float *logits) {
+static void nsvcd__decoder_logits(const nsvcd__decoder *decoder, const float *x, size_t count,
+                                  int int8, float *logits) {
   (void)int8;
 #ifndef NSVCD_NO_INT8
 #ifndef NSVCD_NO_FLOAT
   if (!int8) {
-    nsvcd__head_by_floats(head, x, count, logits);
+    nsvcd__decoder_by_floats(decoder, x, count, logits);
     return;
   }
 #endif
-  nsvcd__head_by_bytes(head, x, count, logits);
+  nsvcd__decoder_by_bytes(decoder, x, count, logits);
 #else
-  nsvcd__head_by_floats(head, x, count, logits);
+  nsvcd__decoder_by_floats(decoder, x, count, logits);
 #endif
 }
 
@@ -11570,21 +11585,22 @@ NSVCDDEF const char *nsvcd_status_string(nsvcd_status status) {
 #define NSVCD__LARGEST_MODEL NSVCD_MODEL_TINY
 #endif
 
-#define NSVCD__SHORTLIST 4  // times K: the deepest pairs, from which the tiny head chooses
-// a verdict this positive needs no second pair, and one this clear no second head
+#define NSVCD__SHORTLIST 4  // times K: the deepest pairs, from which the tiny decoder chooses
+// a verdict this positive needs no second pair, and one this clear no second decoder
 #define NSVCD__CLEAR_LOGIT 3.0f
-#define NSVCD__PORTION 4  // pairs that the chosen head sees at once
+#define NSVCD__PORTION 4  // pairs that the chosen decoder sees at once
 // times the shortlist: pairs to look at before the search is done, at most
 #define NSVCD__LOOKS 2
 // new pairs that are worth a first look before the search is done; later a full batch
-#define NSVCD__PROBE 8
+#define NSVCD__FIRST_LOOK 8
 
 #endif  // NSVCD_NO_NETWORK
 
 #ifndef NSVCD_NO_NETWORK
 
-// The threshold to subtract from the logit. weights.h has one per head, recall and N = 32, 64, ...,
-// 512; between those, and for two bodies that differ, it is interpolated at the mean of log2 N.
+// The threshold to subtract from the logit. weights.h has one per decoder, recall and N = 32, 64,
+// ..., 512; between those, and for two bodies that differ, it is interpolated at the mean of log2
+// N.
 // Returns 0 for any other recall.
 static int nsvcd__threshold(size_t model, float recall, size_t points1, size_t points2,
                             float *threshold) {
@@ -11602,10 +11618,10 @@ static int nsvcd__threshold(size_t model, float recall, size_t points1, size_t p
   return 0;
 }
 
-// Scores of `count` candidates, 1 to 16, by a head.
+// Scores of `count` candidates, 1 to 16, by a decoder.
 static void nsvcd__decode(const nsvcd_body *moving, const nsvcd_body *fixed,
                           const nsvcd__motion *motion, nsvcd__candidate *const *candidates,
-                          size_t count, const nsvcd__head *head, int int8) {
+                          size_t count, const nsvcd__decoder *decoder, int int8) {
   for (size_t first = 0; first < count; first += NSVCD__ROWS) {
     const size_t rows = count - first < NSVCD__ROWS ? count - first : NSVCD__ROWS;
     float x[NSVCD__ROWS * NSVCD__DECODER_IN];
@@ -11614,7 +11630,7 @@ static void nsvcd__decode(const nsvcd_body *moving, const nsvcd_body *fixed,
     // The layers take some rows at a time.
     const size_t unused = nsvcd__round_up(rows, NSVCD__ROW_STEP) - rows;
     memset(x + NSVCD__DECODER_IN * rows, 0, unused * NSVCD__DECODER_IN * sizeof *x);
-    nsvcd__head_logits(head, x, rows, int8, logits);
+    nsvcd__decoder_logits(decoder, x, rows, int8, logits);
     for (size_t k = 0; k < rows; k++) candidates[first + k]->score = logits[k];
   }
 }
@@ -11622,15 +11638,15 @@ static void nsvcd__decode(const nsvcd_body *moving, const nsvcd_body *fixed,
 // Options with the defaults filled in.
 typedef struct nsvcd__settings {
   size_t pairs, shortlist;
-  const nsvcd__head *head, *ranker;
+  const nsvcd__decoder *decoder, *ranker;
   int int8;
   float threshold;
 } nsvcd__settings;
 
-// The candidate that an answer is about, and the head that gave its logit.
+// The candidate that an answer is about, and the decoder that gave its logit.
 typedef struct nsvcd__decisive {
   nsvcd__candidate candidate;
-  const nsvcd__head *head;
+  const nsvcd__decoder *decoder;
 } nsvcd__decisive;
 
 #endif  // NSVCD_NO_NETWORK
@@ -11653,7 +11669,7 @@ typedef struct nsvcd__task {
 } nsvcd__task;
 
 typedef struct nsvcd__query {
-  nsvcd__workspace broad_phase;
+  nsvcd__search broad_phase;
   nsvcd__task task;
   // In one place, for one method follows the other:
 #ifndef NSVCD_NO_NETWORK
@@ -11700,7 +11716,7 @@ static size_t nsvcd__query_layout(const nsvcd__needs *needs, char *base) {
   uint64_t used = 0;
   void *at = nsvcd__take(base, &used, 1, sizeof(nsvcd__query));
   nsvcd__query *query = at ? (nsvcd__query *)at : &counted;
-  nsvcd__workspace_layout(needs, base, &used, &query->broad_phase);
+  nsvcd__search_layout(needs, base, &used, &query->broad_phase);
   uint64_t end = used;
 #ifndef NSVCD_NO_NETWORK
   uint64_t network = used;
@@ -11740,11 +11756,11 @@ static nsvcd_result nsvcd__settings_of(const nsvcd_sweep_options *options, size_
     return NSVCD_ERROR_ARGUMENT;
   const size_t model =
       (size_t)(o->model ? o->model : NSVCD__LARGEST_MODEL) - (size_t)NSVCD_MODEL_TINY;
-  if (!nsvcd_w_heads[model].layers) return NSVCD_ERROR_ARGUMENT;  // compiled out
+  if (!nsvcd_w_decoders[model].layers) return NSVCD_ERROR_ARGUMENT;  // compiled out
   settings->pairs = o->pairs ? o->pairs : NSVCD_DEFAULT_PAIRS;
   settings->shortlist = model == 0 ? settings->pairs : NSVCD__SHORTLIST * settings->pairs;
-  settings->head = &nsvcd_w_heads[model];
-  settings->ranker = &nsvcd_w_heads[0];
+  settings->decoder = &nsvcd_w_decoders[model];
+  settings->ranker = &nsvcd_w_decoders[0];
 #ifdef NSVCD_NO_FLOAT
   settings->int8 = 1;
 #else
@@ -11802,25 +11818,25 @@ static void nsvcd__best_first(nsvcd__candidate *items, size_t count, size_t of) 
 }
 
 static void nsvcd__answer_with(const nsvcd__task *ask, const nsvcd__candidate *candidate,
-                               const nsvcd__head *head, nsvcd_answer *answer) {
+                               const nsvcd__decoder *decoder, nsvcd_answer *answer) {
   answer->logit = candidate->score - ask->settings.threshold;
   answer->contact_time = candidate->t_least;
   answer->patch_a = candidate->moving;
   answer->patch_b = candidate->fixed;
   if (ask->decisive) {
     ask->decisive->candidate = *candidate;
-    ask->decisive->head = head;
+    ask->decisive->decoder = decoder;
   }
 }
 
-// Does the tiny head see no collision there, clearly?
+// Does the tiny decoder see no collision there, clearly?
 static int nsvcd__is_harmless(const nsvcd__candidate *candidate, float threshold) {
   return candidate->score < (threshold < 0 ? threshold : 0) - NSVCD__CLEAR_LOGIT;
 }
 
 // Is the most suspicious of the candidates scored so far clearly a collision, or, where they are
-// all, clearly none? Then no other head needs to look: 35,000 answers on the validation sets, N =
-// 128 to 512, are the same as with twice the margin, but for one, which is better.
+// all, clearly none? Then no other decoder needs to look: 35,000 answers on the validation sets, N
+// = 128 to 512, are the same as with twice the margin, but for one, which is better.
 static int nsvcd__is_clear(const nsvcd__task *ask, const nsvcd__candidates *kept, int all,
                            nsvcd_answer *answer) {
   const float threshold = ask->settings.threshold;
@@ -11845,14 +11861,14 @@ static void nsvcd__judge(const nsvcd__task *ask, nsvcd__candidates *kept, nsvcd_
     nsvcd__candidate *batch[NSVCD__PORTION] = {NULL};
     const size_t size = count - first < NSVCD__PORTION ? count - first : NSVCD__PORTION;
     for (size_t k = 0; k < size; k++) batch[k] = &kept->items[first + k];
-    if (settings->head != settings->ranker) {
+    if (settings->decoder != settings->ranker) {
       NSVCD__TALLY(judged, size);
-      nsvcd__decode(ask->moving, ask->fixed, &ask->motion, batch, size, settings->head,
+      nsvcd__decode(ask->moving, ask->fixed, &ask->motion, batch, size, settings->decoder,
                     settings->int8);
     }
     for (size_t k = 0; k < size; k++) {
       if (first + k > 0 && !(batch[k]->score - settings->threshold > answer->logit)) continue;
-      nsvcd__answer_with(ask, batch[k], settings->head, answer);
+      nsvcd__answer_with(ask, batch[k], settings->decoder, answer);
     }
   }
 }
@@ -11873,10 +11889,10 @@ static NSVCD__APART int nsvcd__collides_again(const nsvcd__task *ask, const nsvc
   nsvcd__search_patch(&query->broad_phase, ask->moving, hint->moving / NSVCD__GROUP, ask->fixed,
                       hint->fixed, &kept);
   if (!nsvcd__score(ask, &kept, 1, kept.count)) return 0;
-  answer->overlapping = kept.total;
+  answer->candidates = kept.total;
   answer->status = kept.total > settings->pairs ? NSVCD_STATUS_LIMIT : NSVCD_STATUS_OK;
   if (nsvcd__is_clear(ask, &kept, 0, answer)) return 1;
-  if (settings->head == settings->ranker) return 0;
+  if (settings->decoder == settings->ranker) return 0;
   nsvcd__judge(ask, &kept, answer);
   return answer->logit >= NSVCD__CLEAR_LOGIT;
 }
@@ -11885,23 +11901,24 @@ static NSVCD__APART int nsvcd__collides_again(const nsvcd__task *ask, const nsvc
 // all are known.
 static NSVCD__APART void nsvcd__search_and_judge(nsvcd__task *ask, nsvcd__query *query,
                                                  nsvcd_answer *answer) {
-  nsvcd__workspace *work = &query->broad_phase;
+  nsvcd__search *search = &query->broad_phase;
   nsvcd__candidates kept;
-  size_t worth = ask->settings.shortlist < NSVCD__PROBE ? ask->settings.shortlist : NSVCD__PROBE;
+  size_t worth =
+      ask->settings.shortlist < NSVCD__FIRST_LOOK ? ask->settings.shortlist : NSVCD__FIRST_LOOK;
   size_t left = NSVCD__LOOKS * ask->settings.shortlist;
   int clear = 0;
-  int more = nsvcd__search_begin(ask->moving, ask->fixed, work);
+  int more = nsvcd__search_begin(ask->moving, ask->fixed, search);
   nsvcd__candidates_start(&kept, query->kept, ask->settings.shortlist);
   while (more && !clear) {
-    more = nsvcd__search_step(work, ask->moving, ask->fixed, &kept);
+    more = nsvcd__search_step(search, ask->moving, ask->fixed, &kept);
     // A deep collision shows early. What is scored now need not be scored later, so that looking
     // costs little.
     if (!more || left < worth || !nsvcd__score(ask, &kept, worth, worth)) continue;
     left -= worth;
     clear = nsvcd__is_clear(ask, &kept, 0, answer);
-    if (worth == NSVCD__PROBE) worth = NSVCD__BATCH;
+    if (worth == NSVCD__FIRST_LOOK) worth = NSVCD__BATCH;
   }
-  answer->overlapping = kept.total;
+  answer->candidates = kept.total;
   if (kept.total > 0)
     answer->status = kept.total > ask->settings.pairs ? NSVCD_STATUS_LIMIT : NSVCD_STATUS_OK;
   if (clear || kept.count == 0) return;
@@ -11910,8 +11927,8 @@ static NSVCD__APART void nsvcd__search_and_judge(nsvcd__task *ask, nsvcd__query 
 }
 
 // Asks the network about a motion that has been prepared. hint: NULL, or that of a batch.
-static void nsvcd__answer(nsvcd__task *ask, nsvcd__query *query, nsvcd__hint *hint,
-                          nsvcd_answer *answer) {
+static void nsvcd__answer_by_network(nsvcd__task *ask, nsvcd__query *query, nsvcd__hint *hint,
+                                     nsvcd_answer *answer) {
   // checked before
   (void)nsvcd__settings_of(ask->options, ask->moving->points, ask->fixed->points, &ask->settings);
   nsvcd__answer_free(answer);
@@ -12001,7 +12018,7 @@ static void nsvcd__answer_with_bounds(const nsvcd__proof *p, nsvcd__verdict verd
 }
 
 // A contact so early that it may be one at the start already: then it is that.
-static NSVCD__APART nsvcd__verdict nsvcd__prove_start(nsvcd__proof *p, nsvcd__workspace *work) {
+static NSVCD__APART nsvcd__verdict nsvcd__prove_start(nsvcd__proof *p, nsvcd__search *search) {
   nsvcd__motion *whole = p->motion;
   nsvcd__motion start = *whole;
   const nsvcd__contact found = p->found;
@@ -12011,7 +12028,7 @@ static NSVCD__APART nsvcd__verdict nsvcd__prove_start(nsvcd__proof *p, nsvcd__wo
   p->motion = &start;
   p->first = 0;
   nsvcd__proof_restart(p);
-  nsvcd__verdict verdict = nsvcd__prove(p, work);
+  nsvcd__verdict verdict = nsvcd__prove(p, search);
   if (verdict != NSVCD__MEETS && verdict != NSVCD__WITHIN) {
     p->found = found;
     verdict = NSVCD__MEETS;
@@ -12105,7 +12122,7 @@ static void nsvcd__answer_task(nsvcd__task *ask, nsvcd__query *query, void *hint
     const int has_opinion = ask->moving->weights_id && ask->fixed->weights_id && is_plain;
     if (answer->status == NSVCD_STATUS_UNDECIDED && has_opinion) {
       const nsvcd_answer proof = *answer;
-      nsvcd__answer(ask, query, NULL, answer);
+      nsvcd__answer_by_network(ask, query, NULL, answer);
       answer->status = NSVCD_STATUS_UNDECIDED;
       answer->work = proof.work;
       answer->free_until = proof.free_until;
@@ -12116,7 +12133,7 @@ static void nsvcd__answer_task(nsvcd__task *ask, nsvcd__query *query, void *hint
   }
 #endif
 #ifndef NSVCD_NO_NETWORK
-  if (!proven) nsvcd__answer(ask, query, (nsvcd__hint *)hint, answer);
+  if (!proven) nsvcd__answer_by_network(ask, query, (nsvcd__hint *)hint, answer);
 #endif
   (void)hint;
   (void)proven;
@@ -12317,7 +12334,7 @@ NSVCDDEF nsvcd_result nsvcd_sweep_batch(const nsvcd_question *questions, size_t 
 // step by step from the end, over one pair and in scalars; `by_x` is the derivative of the logit by
 // x:
 //
-//   head        by the decoder's inputs
+//   decoder     by the decoder's inputs
 //   pair        by the line between the centres, the velocity, and the rotations, over the frame
 //               and the facts
 //   instants    by the moving body's poses at t_enter, t_exit and in the middle, and by these times
@@ -12364,7 +12381,7 @@ static void nsvcd__add_turned3(const float *a, const float *n, float along, floa
   nsvcd__add_cross3(side, a, out);
 }
 
-// ---- head
+// ---- decoder
 
 // The weights of a layer from input i to outputs o .. o + SLICE - 1. weights, output: where the
 // layer's begin.
@@ -12382,19 +12399,19 @@ NSVCD__INLINE nsvcd__v nsvcd__weights_at(size_t weights, size_t output, size_t o
 #endif
 }
 
-// The derivative of a head's logit by its inputs: x, by_x (DECODER_IN). That of ReLU at 0 is 0.
-static NSVCD__APART void nsvcd__head_gradient(const nsvcd__head *head, const float *x,
-                                              float *by_x) {
+// The derivative of a decoder's logit by its inputs: x, by_x (DECODER_IN). That of ReLU at 0 is 0.
+static NSVCD__APART void nsvcd__decoder_gradient(const nsvcd__decoder *decoder, const float *x,
+                                                 float *by_x) {
   float values[5][NSVCD__WIDEST];
   float by[NSVCD__MOST_INPUTS] = {1};
   float by_inputs[NSVCD__MOST_INPUTS];
   float lanes[NSVCD__LANES];
-  size_t weights = head->weights;
-  size_t output = head->outputs;
+  size_t weights = decoder->weights;
+  size_t output = decoder->outputs;
   size_t l = 0;
-  for (; l + 1 < head->layers; l++) {
-    const size_t inputs = head->sizes[l];
-    const size_t outputs = head->sizes[l + 1];
+  for (; l + 1 < decoder->layers; l++) {
+    const size_t inputs = decoder->sizes[l];
+    const size_t outputs = decoder->sizes[l + 1];
     const float *in = l > 0 ? values[l - 1] : x;
     float *y = values[l];
     memcpy(y, nsvcd_w_decoder_bias + output, outputs * sizeof *y);
@@ -12411,8 +12428,8 @@ static NSVCD__APART void nsvcd__head_gradient(const nsvcd__head *head, const flo
     output += outputs;
   }
   for (;; l--) {
-    const size_t inputs = head->sizes[l];
-    const size_t outputs = head->sizes[l + 1];
+    const size_t inputs = decoder->sizes[l];
+    const size_t outputs = decoder->sizes[l + 1];
     for (size_t i = 0; i < inputs; i++) {
       by_inputs[i] = 0;
       if (l > 0 && !(values[l - 1][i] > 0)) continue;
@@ -12428,7 +12445,7 @@ static NSVCD__APART void nsvcd__head_gradient(const nsvcd__head *head, const flo
     }
     memcpy(by, by_inputs, inputs * sizeof *by);
     if (l == 0) break;
-    weights -= head->sizes[l - 1] * inputs;
+    weights -= decoder->sizes[l - 1] * inputs;
     output -= inputs;
   }
   memcpy(by_x, by, NSVCD__DECODER_IN * sizeof *by_x);
@@ -12761,7 +12778,7 @@ static void nsvcd__gradient(const nsvcd__task *ask, const nsvcd__decisive *decis
   float x[NSVCD__DECODER_IN], by_x[NSVCD__DECODER_IN], w[3], n[3], centre[3], arm[3];
   nsvcd__pairs_of(ask->moving, ask->fixed, &ask->motion, &one, 1, &pairs);
   nsvcd__invariants(&pairs, 1, x);
-  nsvcd__head_gradient(decisive->head, x, by_x);
+  nsvcd__decoder_gradient(decisive->decoder, x, by_x);
   nsvcd__by_invariants(&pairs, x, by_x, &by);
   nsvcd__instants_of(ask, &candidate, time, &at);
   nsvcd__first_lanes(pairs.w, 3, w);
@@ -12937,10 +12954,10 @@ static void nsvcd__solve_upper(const double *l, size_t n, double *x) {  // x = L
 #define NSVCD__LIMIT_COST 1e5f
 // of which this share of the range is kept free where start and goal allow it
 #define NSVCD__LIMIT_MARGIN 0.005f
-#define NSVCD__RUN 8      // segments asked about at once, at first
-#define NSVCD__HISTORY 8  // L-BFGS: steps remembered
-#define NSVCD__STEPS 5    // step lengths tried
-#define NSVCD__PUSHES 3   // refinements more, where the proof finds a hit
+#define NSVCD__ASKED_AT_ONCE 8  // segments asked about at once, at first
+#define NSVCD__HISTORY 8        // L-BFGS: steps remembered
+#define NSVCD__STEPS 5          // step lengths tried
+#define NSVCD__PUSHES 3         // refinements more, where the proof finds a hit
 
 // What culling knows of a body at each sample: TRACK arrays of (samples).
 enum { NSVCD__CENTRE = 0, NSVCD__ORIGIN = 3, NSVCD__AXES = 6, NSVCD__BEND = 15, NSVCD__TRACK = 16 };
@@ -13310,7 +13327,7 @@ static nsvcd_answer nsvcd__ask(nsvcd__planner *p, uint32_t k, size_t first, size
   const nsvcd_body_pair *pair = &p->problem->pairs[k];
   const nsvcd_body *a = p->problem->bodies[pair->a];
   const nsvcd_body *b = p->problem->bodies[pair->b];
-  nsvcd_pose motion[NSVCD__RUN + 1];
+  nsvcd_pose motion[NSVCD__ASKED_AT_ONCE + 1];
   nsvcd_question question;
   nsvcd_answer answer;
   nsvcd__answer_free(&answer);
@@ -13355,11 +13372,12 @@ static float nsvcd__network_cost(nsvcd__planner *p, size_t samples, float limit,
       // Several segments at once: if they are far from a collision, that is all. The last check
       // looks closer.
       if (stride && !worst && s >= checked) {
-        size_t run = 1;
-        while (run < NSVCD__RUN && s + run + 1 < samples && p->meets[s + run]) run++;
-        checked = s + run;
-        if (run > 1 && nsvcd__ask(p, k, s, run, 0, NULL).logit <= -p->options.margin) {
-          s += run - 1;
+        size_t ahead = 1;
+        while (ahead < NSVCD__ASKED_AT_ONCE && s + ahead + 1 < samples && p->meets[s + ahead])
+          ahead++;
+        checked = s + ahead;
+        if (ahead > 1 && nsvcd__ask(p, k, s, ahead, 0, NULL).logit <= -p->options.margin) {
+          s += ahead - 1;
           continue;
         }
       }

@@ -10078,7 +10078,7 @@ static const float nsvcd_w_decoder_bias[] = {
 };
 
 // tiny, small, base
-static const nsvcd__head nsvcd_w_heads[3] = {
+static const nsvcd__decoder nsvcd_w_decoders[3] = {
     {3, {96, 32, 16, 16}, 0, 0},
 #ifndef NSVCD_NO_SMALL
     {3, {96, 96, 32, 16}, 3840, 64},

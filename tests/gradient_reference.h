@@ -22,7 +22,7 @@ typedef struct reference_pair {
   double to_fixed[9];
   // in which the spheres meet, and part: from, to; the distance at which they do
   double segment[2][2], reach[2];
-  const nsvcd__head *head;
+  const nsvcd__decoder *head;
   size_t count;
 } reference_pair;
 
@@ -180,7 +180,7 @@ static double reference_weight(size_t weights, size_t output, size_t outputs, si
 #endif
 }
 
-static double reference_head(const nsvcd__head *head, const double *x) {
+static double reference_head(const nsvcd__decoder *head, const double *x) {
   double in[256] = {0};
   double out[256];
   size_t weights = head->weights;
@@ -343,8 +343,9 @@ static void reference_gradient(const reference_pair *pair, const reference_pose 
 // What a query in float decided, for the reference, and its poses. work: as that query left it.
 static void reference_open(const nsvcd_body *moving, const nsvcd_pose *poses, size_t count,
                            const nsvcd_body *fixed, const nsvcd_pose *fixed_pose,
-                           const nsvcd__workspace *work, const nsvcd__candidate *candidate,
-                           const nsvcd__head *head, reference_pair *pair, reference_pose *exact) {
+                           const nsvcd__search *work, const nsvcd__candidate *candidate,
+                           const nsvcd__decoder *head, reference_pair *pair,
+                           reference_pose *exact) {
   const size_t i = candidate->moving;
   const size_t j = candidate->fixed;
   double q[4], m[9];

@@ -54,7 +54,7 @@ block's boxes at the start only|nsvcd__block_box(p, 2);|nsvcd__block_box(p, 1);
 last triangle skipped|size_t patience) {\n  const size_t moving_end = p->moving.first_triangle[i + 1];|size_t patience) {\n  const size_t moving_end = p->moving.first_triangle[i + 1] - 1;
 containment one way|if (outer->open) return 0;\n  if (e->inner->components|if (outer->open + !e->inner_moves) return 0;\n  if (e->inner->components
 first arc only|at < end \&\& (double)at < p->end;) {|at < end \&\& at == work->begin[item->segment];) {
-a segment dropped|        p->met = nsvcd__group_against_members(work, fixed, h, wanted, p->met_in);\n|        p->met = nsvcd__group_against_members(work, fixed, h, wanted, p->met_in);\n        for (size_t l = 0; l < NSVCD__GROUP; l++) {\n          if (p->met_in[l] \& (p->met_in[l] - 1)) p->met_in[l] \&= p->met_in[l] - 1;\n        }\n
+a segment dropped|        p->met = nsvcd__group_against_members(search, fixed, h, wanted, p->met_in);\n|        p->met = nsvcd__group_against_members(search, fixed, h, wanted, p->met_in);\n        for (size_t l = 0; l < NSVCD__GROUP; l++) {\n          if (p->met_in[l] \& (p->met_in[l] - 1)) p->met_in[l] \&= p->met_in[l] - 1;\n        }\n
 a full buffer forgotten|        if (p->met_in[l]) return 1;\n|
 passing not seen|      if (passage == NSVCD__MEETS) return passage;\n|
 passing without a change of sides|  const int falls = before > least_before \&\& after < -least_after;|  const int falls = before != 0;
@@ -65,7 +65,7 @@ arcs of both, twist forgotten|(arc->turn * arc->turn + twist);|(arc->turn * arc-
 arcs of both, no swing|(2 * across + angle * swing);|(2 * across);
 arcs of both, half of the way|(2 * across + angle * swing);|(across + angle * swing);
 knots of one body only|return after_a < after_b ? after_a : after_b;|return after_a;
-group without scale|centre[0], centre[1], centre[2], work->scale * radius,|centre[0], centre[1], centre[2], radius,
+group without scale|search->scale * radius, &search->group[b]);|radius, &search->group[b]);
 members without scale|nsvcd__v_fma(nsvcd__v_set(scale), nsvcd__v_load(r + l), nsvcd__v_set(deviation))|nsvcd__v_add(nsvcd__v_load(r + l), nsvcd__v_set(deviation))
 discs without scale|nsvcd__v_mul(scale, nsvcd__v3_dot(w, w)), nsvcd__v_mul(scale, turned));|nsvcd__v3_dot(w, w), turned);
 disc without clearance|const float deviation = a->clearance + span->rounding + nsvcd__deviation|const float deviation = span->rounding + nsvcd__deviation
@@ -74,7 +74,7 @@ groups without clearance|nsvcd__v_add(spans.rounding, nsvcd__v_set(clearance));|
 held plane without clearance|nsvcd__greatest_height(p, item->fixed) + clearance)) return 0;|nsvcd__greatest_height(p, item->fixed) + 0 * clearance)) return 0;
 search without clearance|block->spread[l] += clearance;|block->spread[l] += 0 * clearance;
 clipped without twice the bulge|    block->bulge[l] *= 2;\n    block->drift[l] *= 2;\n|    block->bulge[l] *= 0.1f;\n
-clipped too early|return (double)work->begin[segment] < p->end;|return (double)work->begin[segment] < 0.9 * p->end;
+clipped too early|return (double)search->begin[segment] < p->end;|return (double)search->begin[segment] < 0.9 * p->end;
 every other segment|s += NSVCD__IN_ORDER) {|s += 2 * NSVCD__IN_ORDER) {
 contacts end too much|p->end = fmin(p->found.tick - p->first, p->unsure);|p->end = fmin(0.9 * p->found.tick - p->first, p->unsure);
 a start that is not asked|  if (verdict == NSVCD__MEETS \&\& p->first > 0 \&\& p->found.tick > 0 \&\& p->end <= 0) {|  if (0) {
@@ -84,9 +84,9 @@ exact poses not lifted|at.position = nsvcd__d3_add(at.position, arc->lift);|at.p
 lift the wrong way|if (lacks > 0) lift = nsvcd__d3_add(|if (lacks > 0) lift = nsvcd__d3_sub(
 a window of another patch|p->window > 0 \&\& p->fixed_blocks[0].first == first|p->window > 0
 tile: every other group|nsvcd__walk_next(walk, \&g)) {\n    float *to|nsvcd__walk_next(walk, \&g) \&\& nsvcd__walk_next(walk, \&g)) {\n    float *to
-tile: the first only|nsvcd__search_next_tile(work, p->moving.body, p->fixed.body));\n  return verdict;|0);\n  return verdict;
-tile: the first only, in order|nsvcd__search_next_tile(work, moving, fixed));\n  if (nsvcd__is_large|0);\n  if (nsvcd__is_large
-tile: skins of the first only|nsvcd__search_next_tile(work, p->moving.body, p->fixed.body);\n    for (size_t n|0;\n    for (size_t n
+tile: the first only|nsvcd__search_next_tile(search, p->moving.body, p->fixed.body));\n  return verdict;|0);\n  return verdict;
+tile: the first only, in order|nsvcd__search_next_tile(search, moving, fixed));\n  if (nsvcd__is_large|0);\n  if (nsvcd__is_large
+tile: skins of the first only|nsvcd__search_next_tile(search, p->moving.body, p->fixed.body);\n    for (size_t n|0;\n    for (size_t n
 tile: way without reach|fminf(start, end) - c->reach[l]|fminf(start, end)
 tile: approached in the first segment|wanted \&\& nearby \& ~met; wanted \&= wanted - 1) {|wanted \&\& nearby \& ~met; wanted = 0) {
 level: near groups as dipoles|#define NSVCD__DIPOLE 3.0f|#define NSVCD__DIPOLE 0.8f

@@ -20,12 +20,13 @@ static struct { size_t tests, ranked, judged, planes, pairs, tries, numbers, col
 #include "ask.h"
 
 enum { INIT, CUT, BEGIN, STEPS, PAIRS, INVARIANTS, TINY, BASE, BASE_INT8, INSIDE, ALL, STAGES };
-static const char *const names[STAGES] = {"poses checked",          "motion cut",
-                                          "groups against groups",  "runs of all moving groups",
-                                          "16 pairs: geometry",     "16 pairs: invariants",
-                                          "16 pairs: tiny decoder", "8 pairs: base decoder",
-                                          "8 pairs: base in int8",  "containment",
-                                          "a query, whole"};
+static const char *const names[STAGES] = {
+    "poses checked",          "motion cut",
+    "groups against groups",  "intervals of all moving groups",
+    "16 pairs: geometry",     "16 pairs: invariants",
+    "16 pairs: tiny decoder", "8 pairs: base decoder",
+    "8 pairs: base in int8",  "containment",
+    "a query, whole"};
 
 typedef struct question {
   const nsvcd_body *moving, *fixed;
@@ -38,11 +39,11 @@ static void keep_least(double *times, size_t stage, double since) {
 }
 
 // Any number of pairs, as many at a time as nsvcd__decode takes.
-static void logits_of(const nsvcd__head *head, const float *x, size_t count, int int8,
+static void logits_of(const nsvcd__decoder *head, const float *x, size_t count, int int8,
                       float *logits) {
   for (size_t first = 0; first < count; first += NSVCD__ROWS) {
     const size_t rows = count - first < NSVCD__ROWS ? count - first : NSVCD__ROWS;
-    nsvcd__head_logits(head, x + NSVCD__DECODER_IN * first, rows, int8, logits + first);
+    nsvcd__decoder_logits(head, x + NSVCD__DECODER_IN * first, rows, int8, logits + first);
   }
 }
 
@@ -88,13 +89,13 @@ static void run_stages(const question *q, nsvcd__query *work, double *times) {
   }
   keep_least(times, INVARIANTS, start);
   start = seconds();
-  logits_of(&nsvcd_w_heads[0], x, 16, 0, logits);
+  logits_of(&nsvcd_w_decoders[0], x, 16, 0, logits);
   keep_least(times, TINY, start);
   start = seconds();
-  logits_of(&nsvcd_w_heads[2], x, 8, 0, logits);
+  logits_of(&nsvcd_w_decoders[2], x, 8, 0, logits);
   keep_least(times, BASE, start);
   start = seconds();
-  logits_of(&nsvcd_w_heads[2], x, 8, 1, logits);
+  logits_of(&nsvcd_w_decoders[2], x, 8, 1, logits);
   keep_least(times, BASE_INT8, start);
 }
 
@@ -200,7 +201,7 @@ static double peak_gflops(void) {
 // Batches of `rows` pairs through a head, GFLOP/s.
 static double head_gflops(size_t model, size_t rows, int int8) {
   static float x[NSVCD__BATCH * NSVCD__DECODER_IN], logits[NSVCD__BATCH];
-  const nsvcd__head *head = &nsvcd_w_heads[model];
+  const nsvcd__decoder *head = &nsvcd_w_decoders[model];
   double flops = 0;
   double best = 0;
   for (size_t k = 0; k < NSVCD__BATCH * NSVCD__DECODER_IN; k++) x[k] = (float)(k % 7) / 7 - 0.5f;

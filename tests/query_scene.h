@@ -170,7 +170,8 @@ static void query_scene_open(query_scene *s, uint64_t seed) {
   query_scene_motion(s, &rng);
 }
 static void query_scene_close(query_scene *s) {
-  query_release(&s->memory[0]), query_release(&s->memory[1]);
+  query_release(&s->memory[0]);
+  query_release(&s->memory[1]);
 }
 
 static nsvcd_answer query_scene_ask(const query_scene *s) {
@@ -180,7 +181,7 @@ static int query_same_answer(const nsvcd_answer *a, const nsvcd_answer *b) {  //
   return memcmp(&a->logit, &b->logit, sizeof a->logit) == 0 &&
          memcmp(&a->contact_time, &b->contact_time, sizeof a->contact_time) == 0 &&
          a->collides == b->collides && a->patch_a == b->patch_a && a->patch_b == b->patch_b &&
-         a->status == b->status && a->overlapping == b->overlapping;
+         a->status == b->status && a->candidates == b->candidates;
 }
 
 #endif

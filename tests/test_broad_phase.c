@@ -259,7 +259,7 @@ static nsvcd_result motion_init(const nsvcd_pose *samples, size_t count,
 }
 
 static nsvcd_pose poses[NSVCD_MAX_POSES];
-static nsvcd__workspace *work;
+static nsvcd__search *work;
 static nsvcd__candidate items[1 << 20], few[64];
 
 static int deepest_first(const void *a, const void *b) {
@@ -268,7 +268,7 @@ static int deepest_first(const void *a, const void *b) {
 
 // The whole search: counts all runs, keeps the `limit` deepest in `found`, deepest first.
 static void search(const nsvcd_body *moving, const nsvcd_body *fixed, nsvcd__motion *motion,
-                   nsvcd__workspace *space, nsvcd__candidate *found, size_t limit,
+                   nsvcd__search *space, nsvcd__candidate *found, size_t limit,
                    nsvcd__candidates *kept) {
   nsvcd__cut_motion(motion, moving->extent + fixed->extent, space);
   int more = nsvcd__search_begin(moving, fixed, space);
@@ -816,9 +816,9 @@ static void containment(void) {
         way[k] = rotation[3 * k];
         at[k] = (float)distance * way[k];
       }
-      float places[3][NSVCD__PROBES], lanes[NSVCD__PROBES];
-      for (int k = 0; k < 3 * NSVCD__PROBES; k++)
-        places[k / NSVCD__PROBES][k % NSVCD__PROBES] = at[k / NSVCD__PROBES];
+      float places[3][NSVCD__PLACES], lanes[NSVCD__PLACES];
+      for (int k = 0; k < 3 * NSVCD__PLACES; k++)
+        places[k / NSVCD__PLACES][k % NSVCD__PLACES] = at[k / NSVCD__PLACES];
       nsvcd__clearances(outer, places, lanes);
       double clearance = sqrt((double)lanes[7]);
       int bin = clearance < 1 ? 0 : clearance < 1.5 ? 1 : clearance < 2 ? 2 : 3;

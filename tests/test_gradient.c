@@ -123,7 +123,7 @@ static int decisive_centres(const scene *s, double *moving, double *fixed) {
   if (!decide(s, &answer, &decisive)) return 0;
   reference_open(s->moving, s->poses, s->count, s->fixed, &s->fixed_pose,
                  &((nsvcd__query *)query_workspace())->broad_phase, &decisive.candidate,
-                 decisive.head, &pair, poses);
+                 decisive.decoder, &pair, poses);
   reference_place(&pair, poses, 0.5, in_fixed[0]);
   memcpy(in_fixed[1], pair.c2, sizeof pair.c2);
   for (int k = 0; k < 4; k++) q[k] = (double)s->fixed_pose.rotation[k];
@@ -497,7 +497,7 @@ static void gradient_matches_the_reference(void) {
       if (!scene_of(f, n, &s, &answer, &decisive)) continue;
       reference_open(s.moving, s.poses, s.count, s.fixed, &s.fixed_pose,
                      &((nsvcd__query *)query_workspace())->broad_phase, &decisive.candidate,
-                     decisive.head, &pair, poses);
+                     decisive.decoder, &pair, poses);
       CHECK_EQ(ask_gradient(&s, &answer, gradient), NSVCD_OK);
       const double length = (double)s.moving->extent;
       const double metres = 1e-8 * pair.unit;
@@ -599,7 +599,8 @@ static void gradient_follows_the_logit(void) {
           const scene moved = displaced(&s, side ? 5e-4 : -5e-4, along);
           nsvcd_answer there = ask_sweep(&moved);
           same = same && there.patch_a == answer.patch_a && there.patch_b == answer.patch_b &&
-                 decide(&moved, &there, &beside[side]) && beside[side].head == decisive.head &&
+                 decide(&moved, &there, &beside[side]) &&
+                 beside[side].decoder == decisive.decoder &&
                  fabsf(beside[side].candidate.t_least - decisive.candidate.t_least) < 0.1f;
           logit[side] = (double)there.logit;
         }
@@ -821,7 +822,7 @@ static void gradient_takes_microseconds(void) {
       nsvcd__decisive decisive;
       float gradient[6 * REFERENCE_POSES];
       if (!scene_of(head ? SHALLOW : 0, n, &s, &answer, &decisive)) continue;
-      if (decisive.head != &nsvcd_w_heads[head]) continue;
+      if (decisive.decoder != &nsvcd_w_decoders[head]) continue;
       double least[2] = {1e9, 1e9};
       for (int run = 0; run < 10; run++) {
         const int turns = 20;

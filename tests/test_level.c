@@ -450,17 +450,17 @@ static void level_winding_numbers_are_those_of_the_patches(void) {
   size_t clear = 0;
   shapes_rng rng = {9};
   for (int trial = 0; trial < 1000; trial++) {
-    float places[3][NSVCD__PROBES], clearances[NSVCD__PROBES];
+    float places[3][NSVCD__PLACES], clearances[NSVCD__PLACES];
     const double spread = pow(10, shapes_uniform(&rng, -2, 0.5));
     double middle[3];
     for (int k = 0; k < 3; k++)
       middle[k] = k == 2 ? shapes_uniform(&rng, -1.2, 2) : shapes_uniform(&rng, -10.5, 10.5);
-    for (size_t n = 0; n < NSVCD__PROBES; n++) {
+    for (size_t n = 0; n < NSVCD__PLACES; n++) {
       for (int k = 0; k < 3; k++)
         places[k][n] = (float)(middle[k] + spread * shapes_uniform(&rng, -0.5, 0.5));
     }
     nsvcd__clearances(body, places, clearances);
-    for (size_t n = 0; n < NSVCD__PROBES; n++) {
+    for (size_t n = 0; n < NSVCD__PLACES; n++) {
       const float place[3] = {places[0][n], places[1][n], places[2][n]};
       double least = (double)(NSVCD__AMPLE * NSVCD__AMPLE);
       double w = 0;

@@ -63,28 +63,28 @@ static void inputs_of(const pair_data *pair, float *x) {
   inputs_in_lane(pair, 5 % NSVCD__SLICE, x);
 }
 
-static float head_logit(const nsvcd__head *head, const float *x, int int8) {
+static float head_logit(const nsvcd__decoder *head, const float *x, int int8) {
   static float batch[NSVCD__ROWS * NSVCD__DECODER_IN];
   const size_t rows = NSVCD__ROWS < 7 ? NSVCD__ROWS : 7;
   float logits[NSVCD__ROWS];
   for (size_t p = 0; p < rows; p++)
     memcpy(batch + NSVCD__DECODER_IN * p, x, NSVCD__DECODER_IN * sizeof *x);
-  nsvcd__head_logits(head, batch, rows, int8, logits);
+  nsvcd__decoder_logits(head, batch, rows, int8, logits);
   return logits[rows - 1];
 }
 
 // D(R) as floats: (9 + 25).
 static void wigner(const float *r, float *d) {
   nsvcd__v m[9];
-  float lanes[NSVCD__TURN][NSVCD__SLICE];
+  float lanes[NSVCD__WIGNER][NSVCD__SLICE];
   for (size_t k = 0; k < 9; k++) m[k] = nsvcd__v_set(r[k]);
   nsvcd__wigner(m, nsvcd__v_set(1), lanes);
-  for (size_t k = 0; k < NSVCD__TURN; k++) d[k] = lanes[k][3 % NSVCD__SLICE];
+  for (size_t k = 0; k < NSVCD__WIGNER; k++) d[k] = lanes[k][3 % NSVCD__SLICE];
 }
 
 // D(R) z of a latent's vectors: (3, CHANNELS), then (5, CHANNELS).
 static void rotate_latent(const float *r, const float *z, float *turned) {
-  float d[NSVCD__TURN];
+  float d[NSVCD__WIGNER];
   wigner(r, d);
   for (size_t i = 0; i < 8; i++) {
     for (size_t c = 0; c < NSVCD_W_CHANNELS; c++) {
@@ -101,7 +101,7 @@ static void rotate_latent(const float *r, const float *z, float *turned) {
 static void heads_fit_their_buffers(void) {
   const size_t widest[3] = {NSVCD__WIDEST_TINY, NSVCD__WIDEST_SMALL, NSVCD__WIDEST};
   for (size_t h = 0; h < 3; h++) {
-    const nsvcd__head *head = &nsvcd_w_heads[h];
+    const nsvcd__decoder *head = &nsvcd_w_decoders[h];
     for (size_t l = 1; l <= head->layers; l++) CHECK(head->sizes[l] <= widest[h]);
   }
 }
@@ -149,7 +149,7 @@ static void heads_match_the_trainer(void) {
     golden_inputs(n, x);
     for (size_t h = 0; h < 3; h++) {
       float expected = golden_pair[GOLDEN_ROW * n + 18 + h];
-      CHECK_NEAR(head_logit(&nsvcd_w_heads[h], x, 0), expected,
+      CHECK_NEAR(head_logit(&nsvcd_w_decoders[h], x, 0), expected,
                  1e-4 * fmax(1, fabs((double)expected)));
     }
   }
@@ -163,9 +163,9 @@ static void int8_heads_follow_fp32(void) {
     float x[NSVCD__DECODER_IN];
     golden_inputs(n, x);
     for (size_t h = 0; h < 3; h++) {
-      double exact = (double)head_logit(&nsvcd_w_heads[h], x, 0);
+      double exact = (double)head_logit(&nsvcd_w_decoders[h], x, 0);
       double error =
-          fabs((double)head_logit(&nsvcd_w_heads[h], x, 1) - exact) / fmax(1, fabs(exact));
+          fabs((double)head_logit(&nsvcd_w_decoders[h], x, 1) - exact) / fmax(1, fabs(exact));
       worst = fmax(worst, error);
       sum += error / (3 * GOLDEN_PAIRS);
     }
@@ -320,7 +320,7 @@ static void degenerate_pairs_are_finite(void) {
     float x[NSVCD__DECODER_IN];
     inputs_of(&pair, x);
     for (size_t k = 0; k < NSVCD__DECODER_IN; k++) CHECK(nsvcd__is_finite(x[k]));
-    for (size_t h = 0; h < 3; h++) CHECK(nsvcd__is_finite(head_logit(&nsvcd_w_heads[h], x, 0)));
+    for (size_t h = 0; h < 3; h++) CHECK(nsvcd__is_finite(head_logit(&nsvcd_w_decoders[h], x, 0)));
   }
 }
 

@@ -972,7 +972,7 @@ static void proof_any_motion_of_both(shapes_rng *rng, proof_motion *m) {
 }
 
 // A segment that is cut off somewhere, as where a first contact ends the motion.
-static nsvcd__span proof_any_clip(shapes_rng *rng, nsvcd__motion *motion, nsvcd__workspace *work) {
+static nsvcd__span proof_any_clip(shapes_rng *rng, nsvcd__motion *motion, nsvcd__search *work) {
   static nsvcd__proof proof;
   static nsvcd__span spans[NSVCD__MAX_SEGMENTS];
   size_t s = 0;
@@ -1007,7 +1007,7 @@ static nsvcd__span proof_any_arc(shapes_rng *rng, nsvcd__motion *motion, float l
 // Part 3 of the theorem, by itself: between the ends of a segment every point is as near to its
 // chord as the span says.
 static void proof_spans_hold_the_motion(void) {
-  nsvcd__workspace *work = &any_query()->broad_phase;
+  nsvcd__search *work = &any_query()->broad_phase;
   shapes_rng rng = {404};
   double worst[5] = {0, 0, 0, 0, 0};
   size_t segments = 0;
@@ -1188,7 +1188,7 @@ static void proof_wandering_motion(shapes_rng *rng, proof_motion *m) {
 // What is said of directions: along the axis of a turn, and across the way, points hardly leave
 // their chords.
 static void proof_spans_hold_along_directions(void) {
-  nsvcd__workspace *work = &any_query()->broad_phase;
+  nsvcd__search *work = &any_query()->broad_phase;
   shapes_rng rng = {405};
   double worst = 0;
   double turned = 0;

@@ -53,10 +53,10 @@ static void query_answers_make_sense(void) {
     CHECK(a.patch_a < nsvcd_body_describe(s.moving).points &&
           a.patch_b < nsvcd_body_describe(s.fixed).points);
     CHECK_EQ(a.status == NSVCD_STATUS_CERTIFIED_FREE,
-             a.overlapping == 0 && a.status != NSVCD_STATUS_INSIDE);
-    CHECK_EQ(a.status == NSVCD_STATUS_LIMIT, a.overlapping > 8 && a.status != NSVCD_STATUS_INSIDE);
+             a.candidates == 0 && a.status != NSVCD_STATUS_INSIDE);
+    CHECK_EQ(a.status == NSVCD_STATUS_LIMIT, a.candidates > 8 && a.status != NSVCD_STATUS_INSIDE);
     certified += a.status == NSVCD_STATUS_CERTIFIED_FREE;
-    answered += a.overlapping > 0;
+    answered += a.candidates > 0;
     query_scene_close(&s);
   }
   CHECK_GE(certified, 1);  // else this test saw only one kind
@@ -179,7 +179,7 @@ static void query_logit_is_invariant_under_rigid_motion(void) {
     nsvcd_answer after = query_scene_ask(&s);
     CHECK_NEAR(before.logit, after.logit, QUERY_RIGID_TOLERANCE * (1 + fabs((double)before.logit)));
     if (fabsf(before.logit) > 0.01f) CHECK_EQ(before.collides, after.collides);
-    compared += before.overlapping > 0;
+    compared += before.candidates > 0;
     query_scene_close(&s);
   }
   CHECK_GE(compared, 10);
@@ -215,7 +215,7 @@ static void query_logit_is_invariant_under_scale(void) {
       CHECK_EQ(before.logit, after.logit);
       CHECK_EQ(before.status, after.status);
     }
-    compared += before.overlapping > 0;
+    compared += before.candidates > 0;
     query_release(&memory[0]);
     query_release(&memory[1]);
     query_scene_close(&s);
@@ -272,12 +272,12 @@ static void query_far_apart_is_certified(void) {
   CHECK_EQ(a.status, NSVCD_STATUS_CERTIFIED_FREE);
   CHECK_EQ(a.logit, -NSVCD_LOGIT_CERTAIN);
   CHECK_EQ(a.collides, 0);
-  CHECK_EQ(a.overlapping, 0);
+  CHECK_EQ(a.candidates, 0);
   CHECK_EQ(a.patch_a + a.patch_b, 0);
   poses[1] = query_pose(-1, 0, 0);  // right through: the spheres must meet
   a = query_ask(body, poses, 2, body, &origin, NULL);
   CHECK(a.status == NSVCD_STATUS_OK || a.status == NSVCD_STATUS_LIMIT);
-  CHECK_GE(a.overlapping, 1);
+  CHECK_GE(a.candidates, 1);
   query_release(&memory);
   nsvcd_mesh_free(&mesh, NULL);
 }
@@ -462,7 +462,7 @@ static void query_both_may_move(void) {
     CHECK_EQ(nsvcd_sweep(&question, query_workspace(), nsvcd_sweep_workspace_size(NULL), &answer),
              NSVCD_OK);
     // seen from the same body
-    if (before.overlapping > 0 && !nsvcd__is_swapped(&question.a, &question.b)) {
+    if (before.candidates > 0 && !nsvcd__is_swapped(&question.a, &question.b)) {
       compared++;
       same += answer.collides == before.collides;
       if (seed % 2 == 0)
@@ -550,12 +550,12 @@ static void query_all_pairs_are_enough(void) {
       nsvcd_answer a = query_ask(s.moving, s.motion, QUERY_POSES, s.fixed, &s.fixed_pose, &few);
       nsvcd_answer b = query_ask(s.moving, s.motion, QUERY_POSES, s.fixed, &s.fixed_pose, &many);
       // then the searches keep different pairs, and may end at different times
-      if (a.overlapping > few.pairs) {
-        CHECK_GE(b.overlapping, few.pairs + 1);
+      if (a.candidates > few.pairs) {
+        CHECK_GE(b.candidates, few.pairs + 1);
         continue;
       }
-      CHECK_EQ(a.overlapping, b.overlapping);
-      if (a.overlapping == 0) continue;
+      CHECK_EQ(a.candidates, b.candidates);
+      if (a.candidates == 0) continue;
       CHECK(query_same_answer(&a, &b));
       CHECK(a.status != NSVCD_STATUS_LIMIT);
       compared++;

@@ -148,7 +148,7 @@ def write_weights(net: Network, saved: dict, thresholds: list[list[list[float]]]
     lines += ["#ifndef NSVCD_NO_INT8", heads_array("nsvcd_w_decoder_int8", "int8_t", rows), heads_array("nsvcd_w_decoder_scale", "float", scales),
               heads_array("nsvcd_w_decoder_sum", "float", sums), "#endif  // NSVCD_NO_INT8", ""]
     lines += [heads_array("nsvcd_w_decoder_bias", "float", biases)]
-    lines += ["// tiny, small, base", "static const nsvcd__head nsvcd_w_heads[3] = {", *table]
+    lines += ["// tiny, small, base", "static const nsvcd__decoder nsvcd_w_decoders[3] = {", *table]
     lines += ["};", "", "#endif  // NSVCD_WEIGHTS_H", ""]
     path.write_text("\n".join(lines))
 
