@@ -101,6 +101,58 @@
 //   motion can reach (nsvcd_mesh_cut), in 99 %. For the proof the size of patches decides only what
 //   an answer costs.
 //   NaN and infinity are refused on the bits, also under -ffast-math.
+//
+// CONTENTS: a section's name ends a line of dashes. Each calls only those above it.
+//   results           codes, and what they say
+//   allocation        the caller's allocator
+//   meshes            OBJ files, parts of a mesh
+//   bodies            encoding, loading, scaling, facts
+//   queries           poses, movers, questions, options, answers; nsvcd_sweep and its kin
+//   trajectories      splines, planning problems; nsvcd_plan
+//   math              vectors, quaternions, matrices; bits and sizes
+//   vectors           16 lanes on AVX-512, AVX2, SSE2, NEON or plain C; rotations of lanes
+//   memory            where it comes from: the allocator, the rows of a workspace
+//   mesh              checks, cuts at a box; polygons into triangles; OBJ
+//   patches           surface points, farthest point sampling; balls that cover the surface
+//   regions           welded vertices, components; a large mesh in parts
+//   surface           of each patch a ball, a disc, a hull, its triangles: all rounded outwards
+//   weights           does weights.h fit?
+//   encoder           a patch -> its latent
+//   latent rotation   Wigner matrices of degree 1 and 2, and latents turned by them
+//   body              the blob: balls in groups of 16, and levels of spheres above
+//   facets            the blob of the proof: discs, hulls, triangles; load, trust, scale, describe
+//   encoding          nsvcd_encode
+//   motion            the moving body's poses as the fixed one sees them
+//   broad phase       segments and chords; which groups and patches meet, and when
+//   proof             spans; planes of discs, of hulls, of triangles; witnesses; containment; skins
+//   winding number    what is inside of what, for the network
+//   decoder           pairs of patches -> invariants -> logits, in float or int8
+//   query             nsvcd_sweep: checks, workspace; an answer by the network, by proof
+//   gradient          of the logit by the poses
+//   spline            quintic Hermite
+//   optimizer         MPPI, then L-BFGS; nsvcd_plan
+//
+// GLOSSARY
+//   patch             a part of the surface about a representative point; N of them make a body
+//   ball              of a patch: a sphere that contains it
+//   group, level      16 neighbouring patches; spheres over 16 groups each, 16 of these, ...
+//   tile              up to 32 groups of a body that are searched together
+//   lane, slice       one of 16 numbers that are worked on together; those that fill a register
+//   latent            what the encoder makes of a patch: vectors of degree 1 and 2, and scalars
+//   moving, fixed     the bodies of a query: all is reckoned in the fixed one's frame
+//   segment           a part of the motion, up to 20 degrees of turn; 64 at most
+//   chord             of a point: the straight line from its start to its end in a segment
+//   deviation         how far a point may stray from its chord: by bulge (rotation) and drift
+//   candidate         two patches and a contact interval, in which their balls meet
+//   ranker            the tiny decoder, which chooses the candidates that the chosen one sees
+//   item              two patches that the proof has yet to part in a segment
+//   disc              of a patch: what it reaches along a normal, and across
+//   hull, slack       of a patch: 16 vertices at most, and how far the surface sticks out
+//   listing           a triangle, or a part of one, that a patch stores
+//   quantum           how far a stored triangle may be off the mesh's
+//   span              a segment, or a part of one, as the proof bounds its motion
+//   knot, tick        where one of the poses given is reached; the motion's whole number of time
+//   work              units that a proof takes
 #ifndef NEURALSVCD_H
 #define NEURALSVCD_H
 
@@ -828,6 +880,99 @@ static inline nsvcd__d3 nsvcd__d3_widen(nsvcd__f3 a) {
   return nsvcd__d3_of((double)a.x, (double)a.y, (double)a.z);
 }
 
+// ---- quaternions and matrices
+
+static void nsvcd__quat_normalize(const float *q, float *out) {
+  float scale = 1 / sqrtf(q[0] * q[0] + q[1] * q[1] + q[2] * q[2] + q[3] * q[3]);
+  for (size_t k = 0; k < 4; k++) out[k] = q[k] * scale;
+}
+
+static void nsvcd__transpose33(const float *m, float *out) {  // may not alias
+  for (size_t i = 0; i < 3; i++) {
+    for (size_t j = 0; j < 3; j++) out[3 * i + j] = m[3 * j + i];
+  }
+}
+
+// out = a b, may not alias
+static inline void nsvcd__mul33(const float *a, const float *b, float *out) {
+  for (size_t i = 0; i < 3; i++) {
+    for (size_t j = 0; j < 3; j++)
+      out[3 * i + j] = a[3 * i] * b[j] + a[3 * i + 1] * b[3 + j] + a[3 * i + 2] * b[6 + j];
+  }
+}
+
+// Is the shorter arc from a to b the one to -b? Products of floats are exact in double, so that
+// every machine and the exact poses of the proof say the same, also where the arcs are equally long
+// to rounding.
+static int nsvcd__is_opposed(const float *a, const float *b) {
+  double dot = 0;
+  for (size_t k = 0; k < 4; k++) dot += (double)a[k] * (double)b[k];
+  return dot < 0;
+}
+
+// Puts b on the side of a from which the arc is the shorter one; returns its length in quaternion
+// space, [0, pi/2]: half the angle of rotation. From the chord, because acos of a dot product near
+// 1 has no digits left.
+static float nsvcd__quat_half_angle(const float *a, float *b, int opposed) {
+  float chord = 0;
+  for (size_t k = 0; k < 4; k++) {
+    if (opposed) b[k] = -b[k];
+    chord += (a[k] - b[k]) * (a[k] - b[k]);
+  }
+  return 2 * asinf(0.5f * sqrtf(chord));
+}
+
+// a, b: unit to 1e-4.
+static void nsvcd__slerp(const float *a, const float *b, float u, float *out) {
+  float start[4];
+  float end[4];
+  float wa = 1 - u;
+  float wb = u;
+  nsvcd__quat_normalize(a, start);
+  nsvcd__quat_normalize(b, end);
+  const float angle = nsvcd__quat_half_angle(start, end, nsvcd__is_opposed(a, b));
+  if (angle > 1e-3f) {  // below, the difference is less than rounding
+    wa = sinf((1 - u) * angle);
+    wb = sinf(u * angle);
+  }
+  for (size_t k = 0; k < 4; k++) end[k] = wa * start[k] + wb * end[k];
+  nsvcd__quat_normalize(end, out);
+}
+
+// ---- bits and sizes
+
+// Index of the lowest bit that is set, of a number that is not 0; how many are set.
+static size_t nsvcd__lowest_bit(uint64_t bits) {
+#if defined(__GNUC__) || defined(__clang__)
+  return (size_t)__builtin_ctzll(bits);
+#else
+  size_t n = 0;
+  while (!(bits >> n & 1)) n++;
+  return n;
+#endif
+}
+
+static size_t nsvcd__bit_count(uint64_t bits) {
+#if defined(__GNUC__) || defined(__clang__)
+  return (size_t)__builtin_popcountll(bits);
+#else
+  size_t n = 0;
+  for (; bits; bits &= bits - 1) n++;
+  return n;
+#endif
+}
+
+static size_t nsvcd__round_up(size_t n, size_t multiple) {
+  return (n + multiple - 1) / multiple * multiple;
+}
+
+// |x| as bits, in the order of |x|; infinity and NaN are above all numbers.
+static uint32_t nsvcd__magnitude(float x) {
+  uint32_t bits;
+  memcpy(&bits, &x, sizeof bits);
+  return bits & 0x7fffffffu;
+}
+
 // ----------------------------------------------------------------------------------------- vectors
 // 16 floats side by side, lane by lane, for the sweep and the decoder. One set of operations over
 // what the compiler was told the processor has; the plain path says what they mean. They differ in
@@ -1136,7 +1281,61 @@ NSVCD__INLINE nsvcd__v3 nsvcd__v3_transform(const nsvcd__transform *t, nsvcd__v3
   return nsvcd__v3_fma(a.x, column0, nsvcd__v3_fma(a.y, column1, sum));
 }
 
-// ----------------------------------------------------------------------------- results, allocation
+// ---- rotations, lane by lane
+
+// Rotation matrices of quaternions of any length but 0, lane by lane.
+static void nsvcd__v_matrix(const nsvcd__v *q, nsvcd__v *m) {
+  const nsvcd__v one = nsvcd__v_set(1);
+  nsvcd__v square = nsvcd__v_mul(q[3], q[3]);
+  nsvcd__v s[4];
+  square = nsvcd__v_add(square, nsvcd__v_dot3(q, q));
+  const nsvcd__v scale = nsvcd__v_div(nsvcd__v_set(2), square);
+  for (size_t k = 0; k < 4; k++) s[k] = nsvcd__v_mul(scale, q[k]);
+  const nsvcd__v xx = nsvcd__v_mul(s[0], q[0]);
+  const nsvcd__v yy = nsvcd__v_mul(s[1], q[1]);
+  const nsvcd__v zz = nsvcd__v_mul(s[2], q[2]);
+  const nsvcd__v xy = nsvcd__v_mul(s[0], q[1]);
+  const nsvcd__v yz = nsvcd__v_mul(s[1], q[2]);
+  const nsvcd__v xz = nsvcd__v_mul(s[0], q[2]);
+  const nsvcd__v xw = nsvcd__v_mul(s[0], q[3]);
+  const nsvcd__v yw = nsvcd__v_mul(s[1], q[3]);
+  const nsvcd__v zw = nsvcd__v_mul(s[2], q[3]);
+  m[0] = nsvcd__v_sub(one, nsvcd__v_add(yy, zz));
+  m[1] = nsvcd__v_sub(xy, zw);
+  m[2] = nsvcd__v_add(xz, yw);
+  m[3] = nsvcd__v_add(xy, zw);
+  m[4] = nsvcd__v_sub(one, nsvcd__v_add(xx, zz));
+  m[5] = nsvcd__v_sub(yz, xw);
+  m[6] = nsvcd__v_sub(xz, yw);
+  m[7] = nsvcd__v_add(yz, xw);
+  m[8] = nsvcd__v_sub(one, nsvcd__v_add(xx, yy));
+}
+
+// The product of quaternions a b, lane by lane.
+// may not alias
+static void nsvcd__v_quat_mul(const nsvcd__v *a, const nsvcd__v *b, nsvcd__v *out) {
+  for (size_t k = 0; k < 3; k++) {
+    const size_t i = (k + 1) % 3;
+    const size_t j = (k + 2) % 3;
+    const nsvcd__v cross = nsvcd__v_sub(nsvcd__v_mul(a[i], b[j]), nsvcd__v_mul(a[j], b[i]));
+    out[k] = nsvcd__v_add(cross, nsvcd__v_fma(a[3], b[k], nsvcd__v_mul(a[k], b[3])));
+  }
+  out[3] = nsvcd__v_sub(nsvcd__v_mul(a[3], b[3]), nsvcd__v_dot3(a, b));
+}
+
+// may not alias
+static void nsvcd__v_mul33_vec(const nsvcd__v *m, const nsvcd__v *x, nsvcd__v *out) {
+  for (size_t i = 0; i < 3; i++) out[i] = nsvcd__v_dot3(m + 3 * i, x);
+}
+
+static void nsvcd__v_quat_normalize(nsvcd__v *q) {
+  nsvcd__v square = nsvcd__v_mul(q[0], q[0]);
+  for (size_t k = 1; k < 4; k++) square = nsvcd__v_fma(q[k], q[k], square);
+  const nsvcd__v length = nsvcd__v_sqrt(square);
+  for (size_t k = 0; k < 4; k++) q[k] = nsvcd__v_div(q[k], length);
+}
+
+// ------------------------------------------------------------------------------------------ memory
 
 // A sentence without a full stop, for a person; never NULL.
 NSVCDDEF const char *nsvcd_result_string(nsvcd_result result) {
@@ -4321,29 +4520,6 @@ struct nsvcd_body {
   uint32_t inner;           // bytes from here to the body of triangles within; 0: there is none
 };
 
-// Index of the lowest bit that is set, of a number that is not 0; how many are set.
-static size_t nsvcd__lowest_bit(uint64_t bits) {
-#if defined(__GNUC__) || defined(__clang__)
-  return (size_t)__builtin_ctzll(bits);
-#else
-  size_t n = 0;
-  while (!(bits >> n & 1)) n++;
-  return n;
-#endif
-}
-static size_t nsvcd__bit_count(uint64_t bits) {
-#if defined(__GNUC__) || defined(__clang__)
-  return (size_t)__builtin_popcountll(bits);
-#else
-  size_t n = 0;
-  for (; bits; bits &= bits - 1) n++;
-  return n;
-#endif
-}
-
-static size_t nsvcd__round_up(size_t n, size_t multiple) {
-  return (n + multiple - 1) / multiple * multiple;
-}
 static size_t nsvcd__group_slots(size_t padded) {
   return nsvcd__round_up(padded / NSVCD__GROUP, NSVCD__GROUP);
 }
@@ -5490,6 +5666,322 @@ NSVCDDEF nsvcd_result nsvcd_body_scale(const nsvcd_body *body, float scale, void
   return NSVCD_OK;
 }
 
+NSVCDDEF nsvcd_body_facts nsvcd_body_describe(const nsvcd_body *body) {
+  nsvcd_body_facts facts;
+  memset(&facts, 0, sizeof facts);
+  facts.size = body->size;
+  facts.points = body->points;
+  memcpy(facts.centre, body->centre, sizeof facts.centre);
+  facts.radius = body->radius;
+  facts.latents = body->weights_id != 0;
+  for (size_t i = 0; i < body->points; i++)
+    facts.mean_patch_radius += nsvcd__body_r(body)[i] / (float)body->points;
+#ifndef NSVCD_NO_PROOF
+  const nsvcd_body *triangles = nsvcd__triangles_of(body);
+  if (triangles) {
+    const nsvcd__facets f = nsvcd__facets_of(triangles);
+    facts.triangles = triangles->triangles;
+    facts.listed = f.listed;
+    facts.quantum = nsvcd__widest_quantum(&f);
+  }
+#endif
+  return facts;
+}
+
+NSVCDDEF int nsvcd_body_patch(const nsvcd_body *body, uint32_t patch, float centre[3],
+                              float *radius) {
+  if (!body || patch >= body->points) return 0;
+  centre[0] = nsvcd__body_x(body)[patch];
+  centre[1] = nsvcd__body_y(body)[patch];
+  centre[2] = nsvcd__body_z(body)[patch];
+  *radius = nsvcd__body_r(body)[patch];
+  return 1;
+}
+
+// ---------------------------------------------------------------------------------------- encoding
+// In: a mesh. Out: a body. Region by region the surface becomes patches, and these latents and
+// triangles; then all of them one blob, neighbours side by side.
+
+#ifndef NSVCD_NO_ENCODER
+// What a body is built of.
+typedef struct nsvcd__parts {
+  const nsvcd_mesh *mesh;
+  int open;
+  size_t count;                      // N
+  float *centres;                    // (N, 3)
+  size_t latents_size, facets_size;  // bytes; 0: without
+#ifndef NSVCD_NO_NETWORK
+  // Of a body with latents, else NULL:
+  float *radii;     // (N)
+  float *areas;     // (N, 3)
+  int8_t *latents;  // (N, LATENT)
+#endif
+#ifndef NSVCD_NO_PROOF
+  nsvcd__surface surface;
+  uint32_t counts[NSVCD__FACET_COUNTS];
+#endif
+} nsvcd__parts;
+
+static void nsvcd__parts_free(nsvcd__parts *parts, const nsvcd_allocator *allocator) {
+#ifndef NSVCD_NO_NETWORK
+  nsvcd__free(allocator, parts->radii);
+  nsvcd__free(allocator, parts->areas);
+  nsvcd__free(allocator, parts->latents);
+#endif
+#ifndef NSVCD_NO_PROOF
+  nsvcd__surface_free(&parts->surface, allocator);
+#endif
+  nsvcd__free(allocator, parts->centres);
+}
+
+// What encoding does, with the defaults filled in.
+typedef struct nsvcd__plan {
+  size_t points;  // N
+  int open, latents, triangles;
+  nsvcd_progress *progress;
+  void *user;
+} nsvcd__plan;
+
+static int nsvcd__is_cancelled(const nsvcd__plan *plan, double done) {
+  return plan->progress && plan->progress((float)done, plan->user);
+}
+
+// Room for all patches; 0 without memory, and the caller frees.
+static int nsvcd__parts_alloc(const nsvcd__plan *plan, size_t components,
+                              const nsvcd_allocator *allocator, nsvcd__parts *parts) {
+  parts->centres = (float *)nsvcd__alloc_array(allocator, plan->points, 3 * sizeof(float));
+  if (!parts->centres) return 0;
+#ifndef NSVCD_NO_NETWORK
+  if (plan->latents) {
+    parts->radii = (float *)nsvcd__alloc_array(allocator, plan->points, sizeof(float));
+    parts->areas = (float *)nsvcd__alloc_array(allocator, plan->points, 3 * sizeof(float));
+    parts->latents = (int8_t *)nsvcd__alloc_array(allocator, plan->points, NSVCD__LATENT);
+    if (!parts->radii || !parts->areas || !parts->latents) return 0;
+  }
+#endif
+#ifndef NSVCD_NO_PROOF
+  if (plan->triangles &&
+      !nsvcd__surface_begin(plan->points, components, allocator, &parts->surface))
+    return 0;
+#endif
+  (void)components;
+  return 1;
+}
+
+#ifndef NSVCD_NO_NETWORK
+// Adds the latents of one region's patches. margin: metres by which the surface may stick out of
+// their balls.
+static void nsvcd__parts_add_latents(const nsvcd__patches *patches, double margin,
+                                     nsvcd__parts *parts) {
+  float *radii = parts->radii + parts->count;
+  float *areas = parts->areas + 3 * parts->count;
+  int8_t *latents = parts->latents + NSVCD__LATENT * parts->count;
+  memcpy(areas, patches->area_vectors, 3 * patches->count * sizeof *areas);
+  for (size_t i = 0; i < patches->count; i++) {
+    const size_t first = patches->offsets[i];
+    const size_t count = patches->offsets[i + 1] - first;
+    float latent[NSVCD__LATENT];
+    nsvcd__encode_patch(patches->points + 3 * first, patches->normals + 3 * first, count,
+                        patches->centres + 3 * i, patches->radii[i], latent);
+    for (size_t k = 0; k < NSVCD__LATENT; k++)
+      latents[NSVCD__LATENT * i + k] = (int8_t)lrintf(127 * latent[k]);
+    radii[i] =
+        margin > 0 ? (float)(((double)patches->radii[i] + margin) * (1 + 1e-7)) : patches->radii[i];
+  }
+}
+#endif
+
+// Adds one region's patches.
+static nsvcd_result nsvcd__parts_add(nsvcd__regions *regions, size_t n, size_t points,
+                                     const nsvcd_allocator *allocator, nsvcd__parts *parts) {
+  nsvcd__region region;
+  nsvcd__patches patches;
+  nsvcd_result result = nsvcd__region_begin(regions, n, allocator, &region);
+  if (result) return result == NSVCD_ERROR_EMPTY ? NSVCD_OK : result;
+  result = nsvcd__patches_build(&region.mesh, points, allocator, &patches);
+  if (!result) {
+    memcpy(parts->centres + 3 * parts->count, patches.centres, 3 * patches.count * sizeof(float));
+#ifndef NSVCD_NO_PROOF
+    if (parts->surface.balls)
+      result = nsvcd__surface_add(&region, &patches, allocator, &parts->surface);
+#endif
+#ifndef NSVCD_NO_NETWORK
+    // The mesh has the cuts rounded: each coordinate by half a unit in the last place, at most.
+    const double margin = region.cut_count > 0 ? 1.1e-7 * region.greatest : 0;
+    if (parts->latents) nsvcd__parts_add_latents(&patches, margin, parts);
+#endif
+    parts->count += patches.count;
+    nsvcd__patches_free(&patches, allocator);
+  }
+  nsvcd__region_end(regions, &region, allocator);
+  return result;
+}
+
+// Everything but the blob, region by region.
+static nsvcd_result nsvcd__parts_describe(const nsvcd__plan *plan, nsvcd__regions *regions,
+                                          const nsvcd_allocator *allocator, nsvcd__parts *parts) {
+  if (!nsvcd__parts_alloc(plan, regions->component_count, allocator, parts))
+    return NSVCD_ERROR_MEMORY;
+  for (size_t n = 0; n < regions->count; n++) {
+    if (nsvcd__is_cancelled(plan, (double)(n + 1) / (double)(regions->count + 2)))
+      return NSVCD_ERROR_CANCELLED;
+    const size_t points =
+        plan->points * (n + 1) / regions->count - plan->points * n / regions->count;
+    const nsvcd_result result = nsvcd__parts_add(regions, n, points, allocator, parts);
+    if (result) return result;
+  }
+#ifndef NSVCD_NO_NETWORK
+  if (plan->latents) parts->latents_size = nsvcd_body_size(parts->count);
+#endif
+#ifndef NSVCD_NO_PROOF
+  if (!plan->triangles) return NSVCD_OK;
+  nsvcd__facets_count(&parts->surface, parts->counts);
+  parts->facets_size = nsvcd__facets_size(parts->count, parts->counts);
+  if (!parts->facets_size) return NSVCD_ERROR_TOO_LARGE;
+#endif
+  return NSVCD_OK;
+}
+
+// On success release with nsvcd__parts_free.
+static nsvcd_result nsvcd__parts_build(const nsvcd_mesh *mesh, const nsvcd__plan *plan,
+                                       const nsvcd_allocator *allocator, nsvcd__parts *parts) {
+  nsvcd__regions regions;
+  memset(parts, 0, sizeof *parts);
+  parts->mesh = mesh;
+  parts->open = plan->open;
+  if (nsvcd__is_cancelled(plan, 0)) return NSVCD_ERROR_CANCELLED;
+  if (!nsvcd__regions_build(mesh, plan->points, allocator, &regions)) return NSVCD_ERROR_MEMORY;
+  const nsvcd_result result = nsvcd__parts_describe(plan, &regions, allocator, parts);
+  nsvcd__regions_free(&regions, allocator);
+  if (result) nsvcd__parts_free(parts, allocator);
+  return result;
+}
+
+// Writes the blob, (latents_size + facets_size) bytes, its patches in the given order (N).
+static nsvcd_result nsvcd__parts_write(const nsvcd__parts *parts, const uint16_t *order,
+                                       void *memory, const nsvcd_body **body) {
+  nsvcd_body *b = (nsvcd_body *)memory;
+  nsvcd_result result = NSVCD_OK;
+#ifndef NSVCD_NO_NETWORK
+  const nsvcd_body *built;
+  if (parts->latents_size) {
+    result = nsvcd__body_build(parts->count, parts->centres, parts->radii, parts->areas,
+                               parts->latents, order, NSVCD_WEIGHTS_ID, parts->open, memory,
+                               parts->latents_size, &built);
+  }
+#endif
+#ifndef NSVCD_NO_PROOF
+  if (!result && parts->facets_size) {
+    result =
+        nsvcd__facets_build(parts->mesh, &parts->surface, parts->counts, parts->centres, order,
+                            parts->open, (char *)memory + parts->latents_size, parts->facets_size);
+  }
+#endif
+  if (result) return result;
+  if (parts->latents_size && parts->facets_size) {
+    b->triangles = (uint32_t)parts->mesh->triangle_count;
+    b->inner = (uint32_t)parts->latents_size;
+    b->size = (uint32_t)(parts->latents_size + parts->facets_size);
+    b->checksum = nsvcd__body_checksum(b);
+  }
+  *body = b;
+  return NSVCD_OK;
+}
+
+// Puts the patches in order and writes the blob. MEMORY if there is none for that.
+static nsvcd_result nsvcd__parts_order_and_write(const nsvcd__parts *parts,
+                                                 const nsvcd_allocator *allocator, void *memory,
+                                                 const nsvcd_body **body) {
+  uint16_t *order = (uint16_t *)nsvcd__alloc_array(allocator, 2 * parts->count, sizeof(uint16_t));
+  if (!order) return NSVCD_ERROR_MEMORY;
+  for (size_t i = 0; i < parts->count; i++) order[i] = (uint16_t)i;
+  nsvcd__body_order(parts->count, parts->centres, order, order + parts->count);
+  const nsvcd_result result = nsvcd__parts_write(parts, order, memory, body);
+  nsvcd__free(allocator, order);
+  return result;
+}
+
+// How many patches, where the options do not say.
+static size_t nsvcd__points_for(const nsvcd_mesh *mesh, const nsvcd_encode_options *o, double area,
+                                int triangles) {
+  const size_t most = NSVCD_MAX_POINTS;
+  if (o->patch_radius > 0) {
+    // N balls of radius r cover about N r^2 / 0.45 of surface: measured, on the real meshes, for N
+    // = 32 to 512.
+    const double count = ceil(0.45 * area / ((double)o->patch_radius * (double)o->patch_radius));
+    return count >= (double)most ? most : count >= 1 ? (size_t)count : 1;
+  }
+  if (!triangles) return NSVCD_DEFAULT_NETWORK_POINTS;
+  if (mesh->triangle_count <= NSVCD_FEW_TRIANGLES) return NSVCD_DEFAULT_POINTS;
+  if (mesh->triangle_count <= NSVCD_MANY_TRIANGLES) return NSVCD_SMALL_POINTS;
+  const size_t fine = mesh->triangle_count / NSVCD_LEVEL_TRIANGLES;
+  return fine < NSVCD_MAX_POINTS ? fine : NSVCD_MAX_POINTS;
+}
+
+// Options with the defaults filled in. mesh: checked.
+static nsvcd_result nsvcd__plan_of(const nsvcd_mesh *mesh, const nsvcd_encode_options *options,
+                                   nsvcd__plan *plan) {
+  nsvcd_encode_options none;
+  const nsvcd_encode_options *o = options ? options : &none;
+  memset(&none, 0, sizeof none);
+  memset(plan, 0, sizeof *plan);
+  plan->open = o->open;
+  plan->progress = o->progress;
+  plan->user = o->user;
+#ifndef NSVCD_NO_PROOF
+  plan->triangles = !o->no_triangles;
+#endif
+#ifndef NSVCD_NO_NETWORK
+  plan->latents = !o->no_latents;
+#endif
+  if (!plan->triangles && !plan->latents) return NSVCD_ERROR_ARGUMENT;  // nothing would be left
+  if (!nsvcd__is_finite(o->patch_radius) || o->patch_radius < 0 || o->points > NSVCD_MAX_POINTS)
+    return NSVCD_ERROR_ARGUMENT;
+  if (o->latents && o->no_latents) return NSVCD_ERROR_ARGUMENT;
+  const nsvcd_result checked = nsvcd__mesh_check(mesh);
+  if (checked) return checked;
+  const double area = nsvcd__mesh_area(mesh);
+  if (!(area > 0)) return NSVCD_ERROR_EMPTY;
+  plan->points = o->points ? o->points : nsvcd__points_for(mesh, o, area, plan->triangles);
+  if (plan->triangles && plan->points > NSVCD_SMALL_POINTS)
+    plan->latents = plan->latents && o->latents;
+  return NSVCD_OK;
+}
+
+NSVCDDEF nsvcd_result nsvcd_encode(const nsvcd_mesh *mesh, const nsvcd_encode_options *options,
+                                   const nsvcd_allocator *allocator, void *memory, size_t capacity,
+                                   const nsvcd_body **body) {
+  if (!body) return NSVCD_ERROR_ARGUMENT;
+  if (memory && !nsvcd__is_aligned(memory)) return NSVCD_ERROR_WORKSPACE;
+  nsvcd__plan plan;
+  nsvcd__parts parts;
+  nsvcd_result result = nsvcd__plan_of(mesh, options, &plan);
+  if (!result) result = nsvcd__parts_build(mesh, &plan, allocator, &parts);
+  if (result) return result;
+  const int fits = parts.facets_size <= 0xffffffffu - parts.latents_size;
+  const size_t size = parts.latents_size + parts.facets_size;
+  void *to = memory || !fits ? memory : nsvcd__alloc(allocator, size);
+  if (!fits) {
+    result = NSVCD_ERROR_TOO_LARGE;
+  } else if (!to) {
+    result = NSVCD_ERROR_MEMORY;
+  } else if ((memory && capacity < size) || !nsvcd__is_aligned(to)) {
+    result = NSVCD_ERROR_WORKSPACE;
+  } else {
+    result = nsvcd__parts_order_and_write(&parts, allocator, to, body);
+  }
+  if (result && !memory) nsvcd__free(allocator, to);
+  nsvcd__parts_free(&parts, allocator);
+  return result;
+}
+
+NSVCDDEF void nsvcd_body_free(const nsvcd_body *body, const nsvcd_allocator *allocator) {
+  void *memory;
+  memcpy(&memory, &body, sizeof memory);  // a cast would take away a const
+  nsvcd__free(allocator, memory);
+}
+#endif
+
 // ------------------------------------------------------------------------------------------ motion
 // In: two movers: bodies, their scales, and their poses, uniform in t in [0,1]; between poses the
 // position is linear and the rotation a slerp on the shorter arc. Out: the pose of one of them,
@@ -5527,13 +6019,6 @@ typedef struct nsvcd__motion {
   float lift[3];
 } nsvcd__motion;
 
-// |x| as bits, in the order of |x|; infinity and NaN are above all numbers.
-static uint32_t nsvcd__magnitude(float x) {
-  uint32_t bits;
-  memcpy(&bits, &x, sizeof bits);
-  return bits & 0x7fffffffu;
-}
-
 // Are all numbers in range and all quaternions of unit length, to 1e-4?
 static int nsvcd__poses_are_valid(const nsvcd_pose *poses, size_t count) {
   const float *numbers = poses->position;  // 7 to a pose
@@ -5552,63 +6037,6 @@ static int nsvcd__poses_are_valid(const nsvcd_pose *poses, size_t count) {
     longest = square > longest ? square : longest;
   }
   return shortest >= 0.9998f && longest <= 1.0002f;
-}
-
-static void nsvcd__quat_normalize(const float *q, float *out) {
-  float scale = 1 / sqrtf(q[0] * q[0] + q[1] * q[1] + q[2] * q[2] + q[3] * q[3]);
-  for (size_t k = 0; k < 4; k++) out[k] = q[k] * scale;
-}
-
-static void nsvcd__transpose33(const float *m, float *out) {  // may not alias
-  for (size_t i = 0; i < 3; i++) {
-    for (size_t j = 0; j < 3; j++) out[3 * i + j] = m[3 * j + i];
-  }
-}
-
-// out = a b, may not alias
-static inline void nsvcd__mul33(const float *a, const float *b, float *out) {
-  for (size_t i = 0; i < 3; i++) {
-    for (size_t j = 0; j < 3; j++)
-      out[3 * i + j] = a[3 * i] * b[j] + a[3 * i + 1] * b[3 + j] + a[3 * i + 2] * b[6 + j];
-  }
-}
-
-// Is the shorter arc from a to b the one to -b? Products of floats are exact in double, so that
-// every machine and the exact poses of the proof say the same, also where the arcs are equally long
-// to rounding.
-static int nsvcd__is_opposed(const float *a, const float *b) {
-  double dot = 0;
-  for (size_t k = 0; k < 4; k++) dot += (double)a[k] * (double)b[k];
-  return dot < 0;
-}
-
-// Puts b on the side of a from which the arc is the shorter one; returns its length in quaternion
-// space, [0, pi/2]: half the angle of rotation. From the chord, because acos of a dot product near
-// 1 has no digits left.
-static float nsvcd__quat_half_angle(const float *a, float *b, int opposed) {
-  float chord = 0;
-  for (size_t k = 0; k < 4; k++) {
-    if (opposed) b[k] = -b[k];
-    chord += (a[k] - b[k]) * (a[k] - b[k]);
-  }
-  return 2 * asinf(0.5f * sqrtf(chord));
-}
-
-// a, b: unit to 1e-4.
-static void nsvcd__slerp(const float *a, const float *b, float u, float *out) {
-  float start[4];
-  float end[4];
-  float wa = 1 - u;
-  float wb = u;
-  nsvcd__quat_normalize(a, start);
-  nsvcd__quat_normalize(b, end);
-  const float angle = nsvcd__quat_half_angle(start, end, nsvcd__is_opposed(a, b));
-  if (angle > 1e-3f) {  // below, the difference is less than rounding
-    wa = sinf((1 - u) * angle);
-    wb = sinf(u * angle);
-  }
-  for (size_t k = 0; k < 4; k++) end[k] = wa * start[k] + wb * end[k];
-  nsvcd__quat_normalize(end, out);
 }
 
 // What a mover that is at rest at the origin is given.
@@ -5739,58 +6167,6 @@ static uint32_t nsvcd__next_knot(const nsvcd__motion *motion, uint32_t tick) {
   const uint32_t after_a = (tick / a + 1) * a;
   const uint32_t after_b = (tick / b + 1) * b;
   return after_a < after_b ? after_a : after_b;
-}
-
-// Rotation matrices of quaternions of any length but 0, lane by lane.
-static void nsvcd__v_matrix(const nsvcd__v *q, nsvcd__v *m) {
-  const nsvcd__v one = nsvcd__v_set(1);
-  nsvcd__v square = nsvcd__v_mul(q[3], q[3]);
-  nsvcd__v s[4];
-  square = nsvcd__v_add(square, nsvcd__v_dot3(q, q));
-  const nsvcd__v scale = nsvcd__v_div(nsvcd__v_set(2), square);
-  for (size_t k = 0; k < 4; k++) s[k] = nsvcd__v_mul(scale, q[k]);
-  const nsvcd__v xx = nsvcd__v_mul(s[0], q[0]);
-  const nsvcd__v yy = nsvcd__v_mul(s[1], q[1]);
-  const nsvcd__v zz = nsvcd__v_mul(s[2], q[2]);
-  const nsvcd__v xy = nsvcd__v_mul(s[0], q[1]);
-  const nsvcd__v yz = nsvcd__v_mul(s[1], q[2]);
-  const nsvcd__v xz = nsvcd__v_mul(s[0], q[2]);
-  const nsvcd__v xw = nsvcd__v_mul(s[0], q[3]);
-  const nsvcd__v yw = nsvcd__v_mul(s[1], q[3]);
-  const nsvcd__v zw = nsvcd__v_mul(s[2], q[3]);
-  m[0] = nsvcd__v_sub(one, nsvcd__v_add(yy, zz));
-  m[1] = nsvcd__v_sub(xy, zw);
-  m[2] = nsvcd__v_add(xz, yw);
-  m[3] = nsvcd__v_add(xy, zw);
-  m[4] = nsvcd__v_sub(one, nsvcd__v_add(xx, zz));
-  m[5] = nsvcd__v_sub(yz, xw);
-  m[6] = nsvcd__v_sub(xz, yw);
-  m[7] = nsvcd__v_add(yz, xw);
-  m[8] = nsvcd__v_sub(one, nsvcd__v_add(xx, yy));
-}
-
-// The product of quaternions a b, lane by lane.
-// may not alias
-static void nsvcd__v_quat_mul(const nsvcd__v *a, const nsvcd__v *b, nsvcd__v *out) {
-  for (size_t k = 0; k < 3; k++) {
-    const size_t i = (k + 1) % 3;
-    const size_t j = (k + 2) % 3;
-    const nsvcd__v cross = nsvcd__v_sub(nsvcd__v_mul(a[i], b[j]), nsvcd__v_mul(a[j], b[i]));
-    out[k] = nsvcd__v_add(cross, nsvcd__v_fma(a[3], b[k], nsvcd__v_mul(a[k], b[3])));
-  }
-  out[3] = nsvcd__v_sub(nsvcd__v_mul(a[3], b[3]), nsvcd__v_dot3(a, b));
-}
-
-// may not alias
-static void nsvcd__v_mul33_vec(const nsvcd__v *m, const nsvcd__v *x, nsvcd__v *out) {
-  for (size_t i = 0; i < 3; i++) out[i] = nsvcd__v_dot3(m + 3 * i, x);
-}
-
-static void nsvcd__v_quat_normalize(nsvcd__v *q) {
-  nsvcd__v square = nsvcd__v_mul(q[0], q[0]);
-  for (size_t k = 1; k < 4; k++) square = nsvcd__v_fma(q[k], q[k], square);
-  const nsvcd__v length = nsvcd__v_sqrt(square);
-  for (size_t k = 0; k < 4; k++) q[k] = nsvcd__v_div(q[k], length);
 }
 
 // Poses of both bodies at the times of one slice, in the world.
@@ -10368,7 +10744,7 @@ static NSVCD__APART void nsvcd__lift_motion(nsvcd__proof *p, nsvcd__search *sear
 #endif  // NSVCD_NO_PROOF
 
 #ifndef NSVCD_NO_NETWORK
-// ------------------------------------------------------------------------------------- containment
+// ---------------------------------------------------------------------------------- winding number
 // In: two bodies and a pose. Out: is one inside the other? A body wholly inside another never
 // crosses its surface, so surfaces cannot tell. The winding number of a closed surface can
 // (Jacobson et al. 2013), and far from the surface each patch is as good as a dipole of its area
@@ -11243,320 +11619,8 @@ static void nsvcd__decoder_logits(const nsvcd__decoder *decoder, const float *x,
 #endif  // NSVCD_NO_NETWORK
 
 // ------------------------------------------------------------------------------------------- query
-// In: a mesh -> a body; two bodies and a motion -> an answer, by proof (section *proof*) or by the
-// network (NeuralSVCD, algorithm 1).
-
-#ifndef NSVCD_NO_ENCODER
-// What a body is built of.
-typedef struct nsvcd__parts {
-  const nsvcd_mesh *mesh;
-  int open;
-  size_t count;                      // N
-  float *centres;                    // (N, 3)
-  size_t latents_size, facets_size;  // bytes; 0: without
-#ifndef NSVCD_NO_NETWORK
-  // Of a body with latents, else NULL:
-  float *radii;     // (N)
-  float *areas;     // (N, 3)
-  int8_t *latents;  // (N, LATENT)
-#endif
-#ifndef NSVCD_NO_PROOF
-  nsvcd__surface surface;
-  uint32_t counts[NSVCD__FACET_COUNTS];
-#endif
-} nsvcd__parts;
-
-static void nsvcd__parts_free(nsvcd__parts *parts, const nsvcd_allocator *allocator) {
-#ifndef NSVCD_NO_NETWORK
-  nsvcd__free(allocator, parts->radii);
-  nsvcd__free(allocator, parts->areas);
-  nsvcd__free(allocator, parts->latents);
-#endif
-#ifndef NSVCD_NO_PROOF
-  nsvcd__surface_free(&parts->surface, allocator);
-#endif
-  nsvcd__free(allocator, parts->centres);
-}
-
-// What encoding does, with the defaults filled in.
-typedef struct nsvcd__plan {
-  size_t points;  // N
-  int open, latents, triangles;
-  nsvcd_progress *progress;
-  void *user;
-} nsvcd__plan;
-
-static int nsvcd__is_cancelled(const nsvcd__plan *plan, double done) {
-  return plan->progress && plan->progress((float)done, plan->user);
-}
-
-// Room for all patches; 0 without memory, and the caller frees.
-static int nsvcd__parts_alloc(const nsvcd__plan *plan, size_t components,
-                              const nsvcd_allocator *allocator, nsvcd__parts *parts) {
-  parts->centres = (float *)nsvcd__alloc_array(allocator, plan->points, 3 * sizeof(float));
-  if (!parts->centres) return 0;
-#ifndef NSVCD_NO_NETWORK
-  if (plan->latents) {
-    parts->radii = (float *)nsvcd__alloc_array(allocator, plan->points, sizeof(float));
-    parts->areas = (float *)nsvcd__alloc_array(allocator, plan->points, 3 * sizeof(float));
-    parts->latents = (int8_t *)nsvcd__alloc_array(allocator, plan->points, NSVCD__LATENT);
-    if (!parts->radii || !parts->areas || !parts->latents) return 0;
-  }
-#endif
-#ifndef NSVCD_NO_PROOF
-  if (plan->triangles &&
-      !nsvcd__surface_begin(plan->points, components, allocator, &parts->surface))
-    return 0;
-#endif
-  (void)components;
-  return 1;
-}
-
-#ifndef NSVCD_NO_NETWORK
-// Adds the latents of one region's patches. margin: metres by which the surface may stick out of
-// their balls.
-static void nsvcd__parts_add_latents(const nsvcd__patches *patches, double margin,
-                                     nsvcd__parts *parts) {
-  float *radii = parts->radii + parts->count;
-  float *areas = parts->areas + 3 * parts->count;
-  int8_t *latents = parts->latents + NSVCD__LATENT * parts->count;
-  memcpy(areas, patches->area_vectors, 3 * patches->count * sizeof *areas);
-  for (size_t i = 0; i < patches->count; i++) {
-    const size_t first = patches->offsets[i];
-    const size_t count = patches->offsets[i + 1] - first;
-    float latent[NSVCD__LATENT];
-    nsvcd__encode_patch(patches->points + 3 * first, patches->normals + 3 * first, count,
-                        patches->centres + 3 * i, patches->radii[i], latent);
-    for (size_t k = 0; k < NSVCD__LATENT; k++)
-      latents[NSVCD__LATENT * i + k] = (int8_t)lrintf(127 * latent[k]);
-    radii[i] =
-        margin > 0 ? (float)(((double)patches->radii[i] + margin) * (1 + 1e-7)) : patches->radii[i];
-  }
-}
-#endif
-
-// Adds one region's patches.
-static nsvcd_result nsvcd__parts_add(nsvcd__regions *regions, size_t n, size_t points,
-                                     const nsvcd_allocator *allocator, nsvcd__parts *parts) {
-  nsvcd__region region;
-  nsvcd__patches patches;
-  nsvcd_result result = nsvcd__region_begin(regions, n, allocator, &region);
-  if (result) return result == NSVCD_ERROR_EMPTY ? NSVCD_OK : result;
-  result = nsvcd__patches_build(&region.mesh, points, allocator, &patches);
-  if (!result) {
-    memcpy(parts->centres + 3 * parts->count, patches.centres, 3 * patches.count * sizeof(float));
-#ifndef NSVCD_NO_PROOF
-    if (parts->surface.balls)
-      result = nsvcd__surface_add(&region, &patches, allocator, &parts->surface);
-#endif
-#ifndef NSVCD_NO_NETWORK
-    // The mesh has the cuts rounded: each coordinate by half a unit in the last place, at most.
-    const double margin = region.cut_count > 0 ? 1.1e-7 * region.greatest : 0;
-    if (parts->latents) nsvcd__parts_add_latents(&patches, margin, parts);
-#endif
-    parts->count += patches.count;
-    nsvcd__patches_free(&patches, allocator);
-  }
-  nsvcd__region_end(regions, &region, allocator);
-  return result;
-}
-
-// Everything but the blob, region by region.
-static nsvcd_result nsvcd__parts_describe(const nsvcd__plan *plan, nsvcd__regions *regions,
-                                          const nsvcd_allocator *allocator, nsvcd__parts *parts) {
-  if (!nsvcd__parts_alloc(plan, regions->component_count, allocator, parts))
-    return NSVCD_ERROR_MEMORY;
-  for (size_t n = 0; n < regions->count; n++) {
-    if (nsvcd__is_cancelled(plan, (double)(n + 1) / (double)(regions->count + 2)))
-      return NSVCD_ERROR_CANCELLED;
-    const size_t points =
-        plan->points * (n + 1) / regions->count - plan->points * n / regions->count;
-    const nsvcd_result result = nsvcd__parts_add(regions, n, points, allocator, parts);
-    if (result) return result;
-  }
-#ifndef NSVCD_NO_NETWORK
-  if (plan->latents) parts->latents_size = nsvcd_body_size(parts->count);
-#endif
-#ifndef NSVCD_NO_PROOF
-  if (!plan->triangles) return NSVCD_OK;
-  nsvcd__facets_count(&parts->surface, parts->counts);
-  parts->facets_size = nsvcd__facets_size(parts->count, parts->counts);
-  if (!parts->facets_size) return NSVCD_ERROR_TOO_LARGE;
-#endif
-  return NSVCD_OK;
-}
-
-// On success release with nsvcd__parts_free.
-static nsvcd_result nsvcd__parts_build(const nsvcd_mesh *mesh, const nsvcd__plan *plan,
-                                       const nsvcd_allocator *allocator, nsvcd__parts *parts) {
-  nsvcd__regions regions;
-  memset(parts, 0, sizeof *parts);
-  parts->mesh = mesh;
-  parts->open = plan->open;
-  if (nsvcd__is_cancelled(plan, 0)) return NSVCD_ERROR_CANCELLED;
-  if (!nsvcd__regions_build(mesh, plan->points, allocator, &regions)) return NSVCD_ERROR_MEMORY;
-  const nsvcd_result result = nsvcd__parts_describe(plan, &regions, allocator, parts);
-  nsvcd__regions_free(&regions, allocator);
-  if (result) nsvcd__parts_free(parts, allocator);
-  return result;
-}
-
-// Writes the blob, (latents_size + facets_size) bytes, its patches in the given order (N).
-static nsvcd_result nsvcd__parts_write(const nsvcd__parts *parts, const uint16_t *order,
-                                       void *memory, const nsvcd_body **body) {
-  nsvcd_body *b = (nsvcd_body *)memory;
-  nsvcd_result result = NSVCD_OK;
-#ifndef NSVCD_NO_NETWORK
-  const nsvcd_body *built;
-  if (parts->latents_size) {
-    result = nsvcd__body_build(parts->count, parts->centres, parts->radii, parts->areas,
-                               parts->latents, order, NSVCD_WEIGHTS_ID, parts->open, memory,
-                               parts->latents_size, &built);
-  }
-#endif
-#ifndef NSVCD_NO_PROOF
-  if (!result && parts->facets_size) {
-    result =
-        nsvcd__facets_build(parts->mesh, &parts->surface, parts->counts, parts->centres, order,
-                            parts->open, (char *)memory + parts->latents_size, parts->facets_size);
-  }
-#endif
-  if (result) return result;
-  if (parts->latents_size && parts->facets_size) {
-    b->triangles = (uint32_t)parts->mesh->triangle_count;
-    b->inner = (uint32_t)parts->latents_size;
-    b->size = (uint32_t)(parts->latents_size + parts->facets_size);
-    b->checksum = nsvcd__body_checksum(b);
-  }
-  *body = b;
-  return NSVCD_OK;
-}
-
-// Puts the patches in order and writes the blob. MEMORY if there is none for that.
-static nsvcd_result nsvcd__parts_order_and_write(const nsvcd__parts *parts,
-                                                 const nsvcd_allocator *allocator, void *memory,
-                                                 const nsvcd_body **body) {
-  uint16_t *order = (uint16_t *)nsvcd__alloc_array(allocator, 2 * parts->count, sizeof(uint16_t));
-  if (!order) return NSVCD_ERROR_MEMORY;
-  for (size_t i = 0; i < parts->count; i++) order[i] = (uint16_t)i;
-  nsvcd__body_order(parts->count, parts->centres, order, order + parts->count);
-  const nsvcd_result result = nsvcd__parts_write(parts, order, memory, body);
-  nsvcd__free(allocator, order);
-  return result;
-}
-
-// How many patches, where the options do not say.
-static size_t nsvcd__points_for(const nsvcd_mesh *mesh, const nsvcd_encode_options *o, double area,
-                                int triangles) {
-  const size_t most = NSVCD_MAX_POINTS;
-  if (o->patch_radius > 0) {
-    // N balls of radius r cover about N r^2 / 0.45 of surface: measured, on the real meshes, for N
-    // = 32 to 512.
-    const double count = ceil(0.45 * area / ((double)o->patch_radius * (double)o->patch_radius));
-    return count >= (double)most ? most : count >= 1 ? (size_t)count : 1;
-  }
-  if (!triangles) return NSVCD_DEFAULT_NETWORK_POINTS;
-  if (mesh->triangle_count <= NSVCD_FEW_TRIANGLES) return NSVCD_DEFAULT_POINTS;
-  if (mesh->triangle_count <= NSVCD_MANY_TRIANGLES) return NSVCD_SMALL_POINTS;
-  const size_t fine = mesh->triangle_count / NSVCD_LEVEL_TRIANGLES;
-  return fine < NSVCD_MAX_POINTS ? fine : NSVCD_MAX_POINTS;
-}
-
-// Options with the defaults filled in. mesh: checked.
-static nsvcd_result nsvcd__plan_of(const nsvcd_mesh *mesh, const nsvcd_encode_options *options,
-                                   nsvcd__plan *plan) {
-  nsvcd_encode_options none;
-  const nsvcd_encode_options *o = options ? options : &none;
-  memset(&none, 0, sizeof none);
-  memset(plan, 0, sizeof *plan);
-  plan->open = o->open;
-  plan->progress = o->progress;
-  plan->user = o->user;
-#ifndef NSVCD_NO_PROOF
-  plan->triangles = !o->no_triangles;
-#endif
-#ifndef NSVCD_NO_NETWORK
-  plan->latents = !o->no_latents;
-#endif
-  if (!plan->triangles && !plan->latents) return NSVCD_ERROR_ARGUMENT;  // nothing would be left
-  if (!nsvcd__is_finite(o->patch_radius) || o->patch_radius < 0 || o->points > NSVCD_MAX_POINTS)
-    return NSVCD_ERROR_ARGUMENT;
-  if (o->latents && o->no_latents) return NSVCD_ERROR_ARGUMENT;
-  const nsvcd_result checked = nsvcd__mesh_check(mesh);
-  if (checked) return checked;
-  const double area = nsvcd__mesh_area(mesh);
-  if (!(area > 0)) return NSVCD_ERROR_EMPTY;
-  plan->points = o->points ? o->points : nsvcd__points_for(mesh, o, area, plan->triangles);
-  if (plan->triangles && plan->points > NSVCD_SMALL_POINTS)
-    plan->latents = plan->latents && o->latents;
-  return NSVCD_OK;
-}
-
-NSVCDDEF nsvcd_result nsvcd_encode(const nsvcd_mesh *mesh, const nsvcd_encode_options *options,
-                                   const nsvcd_allocator *allocator, void *memory, size_t capacity,
-                                   const nsvcd_body **body) {
-  if (!body) return NSVCD_ERROR_ARGUMENT;
-  if (memory && !nsvcd__is_aligned(memory)) return NSVCD_ERROR_WORKSPACE;
-  nsvcd__plan plan;
-  nsvcd__parts parts;
-  nsvcd_result result = nsvcd__plan_of(mesh, options, &plan);
-  if (!result) result = nsvcd__parts_build(mesh, &plan, allocator, &parts);
-  if (result) return result;
-  const int fits = parts.facets_size <= 0xffffffffu - parts.latents_size;
-  const size_t size = parts.latents_size + parts.facets_size;
-  void *to = memory || !fits ? memory : nsvcd__alloc(allocator, size);
-  if (!fits) {
-    result = NSVCD_ERROR_TOO_LARGE;
-  } else if (!to) {
-    result = NSVCD_ERROR_MEMORY;
-  } else if ((memory && capacity < size) || !nsvcd__is_aligned(to)) {
-    result = NSVCD_ERROR_WORKSPACE;
-  } else {
-    result = nsvcd__parts_order_and_write(&parts, allocator, to, body);
-  }
-  if (result && !memory) nsvcd__free(allocator, to);
-  nsvcd__parts_free(&parts, allocator);
-  return result;
-}
-
-NSVCDDEF void nsvcd_body_free(const nsvcd_body *body, const nsvcd_allocator *allocator) {
-  void *memory;
-  memcpy(&memory, &body, sizeof memory);  // a cast would take away a const
-  nsvcd__free(allocator, memory);
-}
-#endif
-
-NSVCDDEF nsvcd_body_facts nsvcd_body_describe(const nsvcd_body *body) {
-  nsvcd_body_facts facts;
-  memset(&facts, 0, sizeof facts);
-  facts.size = body->size;
-  facts.points = body->points;
-  memcpy(facts.centre, body->centre, sizeof facts.centre);
-  facts.radius = body->radius;
-  facts.latents = body->weights_id != 0;
-  for (size_t i = 0; i < body->points; i++)
-    facts.mean_patch_radius += nsvcd__body_r(body)[i] / (float)body->points;
-#ifndef NSVCD_NO_PROOF
-  const nsvcd_body *triangles = nsvcd__triangles_of(body);
-  if (triangles) {
-    const nsvcd__facets f = nsvcd__facets_of(triangles);
-    facts.triangles = triangles->triangles;
-    facts.listed = f.listed;
-    facts.quantum = nsvcd__widest_quantum(&f);
-  }
-#endif
-  return facts;
-}
-
-NSVCDDEF int nsvcd_body_patch(const nsvcd_body *body, uint32_t patch, float centre[3],
-                              float *radius) {
-  if (!body || patch >= body->points) return 0;
-  centre[0] = nsvcd__body_x(body)[patch];
-  centre[1] = nsvcd__body_y(body)[patch];
-  centre[2] = nsvcd__body_z(body)[patch];
-  *radius = nsvcd__body_r(body)[patch];
-  return 1;
-}
+// In: two bodies and a motion. Out: an answer, by proof (section *proof*) or by the network
+// (NeuralSVCD, algorithm 1).
 
 NSVCDDEF const char *nsvcd_status_string(nsvcd_status status) {
   switch (status) {
