@@ -13534,19 +13534,12 @@ static void nsvcd__place(nsvcd__planner *p, const float *joints, size_t samples)
     nsvcd__quat_normalize(p->poses[k].rotation, p->poses[k].rotation);
 }
 
-// What the trajectory costs, up to `limit`: a sum beyond it is not finished. gradient: (M + 2, F),
-// written, or NULL.
-static nsvcd__cost nsvcd__cost_of(nsvcd__planner *p, const nsvcd__stage *stage,
-                                  const float *control, float limit, float *gradient,
-                                  nsvcd__worst *worst) {
-  const nsvcd_plan_problem *problem = p->problem;
-  const size_t f = problem->joints;
+// The smoothness of a trajectory; gradient: (M + 2, F), written, or NULL.
+static float nsvcd__smoothness(const nsvcd__planner *p, const nsvcd__stage *stage,
+                               const float *control, float *gradient) {
+  const size_t f = p->problem->joints;
   const size_t all = stage->via + 2;
-  const size_t samples = stage->samples;
-  const size_t bodies = problem->body_count;
-  nsvcd__cost cost = {0, 0, 0, 0, NSVCD_NONE};
   double smoothness = 0;
-  p->trajectories++;
   for (size_t j = 0; j < f; j++) {
     for (size_t i = 0; i < all; i++) {
       double sum = 0;
@@ -13555,53 +13548,94 @@ static nsvcd__cost nsvcd__cost_of(nsvcd__planner *p, const nsvcd__stage *stage,
       if (gradient) gradient[i * f + j] = (float)(2 * sum);
     }
   }
-  cost.smoothness = cost.total = (float)smoothness;
-  const float share = NSVCD__LIMIT_COST / (float)samples;
-  for (size_t s = 0; s < samples; s++) {
-    float *joints = p->path + s * f;
+  return (float)smoothness;
+}
+
+// By how much a joint is out of its limits, or nearer to them than the margin; with its sign.
+static float nsvcd__beyond_limits(const nsvcd_plan_problem *problem, size_t joint, float value) {
+  const float low = problem->low[joint];
+  const float high = problem->high[joint];
+  const float inner = NSVCD__LIMIT_MARGIN * (high - low);
+  if (value < low + inner) return value - low - inner;
+  if (value > high - inner) return value - high + inner;
+  return 0;
+}
+
+static int nsvcd__leaves_limits(const nsvcd_plan_problem *problem, size_t joint, float value) {
+  const float rounding = 1e-5f + 1e-6f * fabsf(value);
+  return value < problem->low[joint] - rounding || value > problem->high[joint] + rounding;
+}
+
+// Fills p->path with the samples of a trajectory, and adds what leaving the limits costs.
+static void nsvcd__add_limits(nsvcd__planner *p, const nsvcd__stage *stage, const float *control,
+                              float *gradient, nsvcd__cost *cost) {
+  const size_t f = p->problem->joints;
+  const size_t all = stage->via + 2;
+  const float share = NSVCD__LIMIT_COST / (float)stage->samples;
+  for (size_t s = 0; s < stage->samples; s++) {
     const float *w = stage->weights + s * all;
     for (size_t j = 0; j < f; j++) {
       float sum = 0;
       for (size_t k = 0; k < all; k++) sum += w[k] * control[k * f + j];
-      const float low = problem->low[j];
-      const float high = problem->high[j];
-      const float inner = NSVCD__LIMIT_MARGIN * (high - low);
-      const float out = sum < low + inner    ? sum - low - inner
-                        : sum > high - inner ? sum - high + inner
-                                             : 0;
-      joints[j] = sum;
-      cost.total += share * out * out;
-      const float rounding = 1e-5f + 1e-6f * fabsf(sum);
-      if (sum < low - rounding || sum > high + rounding) cost.joint = j;
+      const float out = nsvcd__beyond_limits(p->problem, j, sum);
+      p->path[s * f + j] = sum;
+      cost->total += share * out * out;
+      if (nsvcd__leaves_limits(p->problem, j, sum)) cost->joint = j;
       for (size_t k = 0; gradient && k < all; k++) gradient[k * f + j] += 2 * share * out * w[k];
     }
   }
-  if (cost.total > limit || p->error) return cost;
-  nsvcd__place(p, p->path, samples);
-  if (p->error) return cost;
-  float *wrenches = gradient ? p->wrenches : NULL;
-  if (gradient) memset(wrenches, 0, samples * bodies * 6 * sizeof *wrenches);
+}
+
+// Adds what collisions cost, of the samples in p->path, which p->poses are of. wrenches: those of
+// p->poses are written, or NULL.
+static void nsvcd__add_collision(nsvcd__planner *p, size_t samples, float limit, float *wrenches,
+                                 nsvcd__worst *worst, nsvcd__cost *cost) {
+  const nsvcd_plan_problem *problem = p->problem;
   const float weight = p->options.collision;
-  const float left = weight > 0 ? (limit - cost.total) / weight : INFINITY;
+  const float left = weight > 0 ? (limit - cost->total) / weight : INFINITY;
+  if (wrenches) memset(wrenches, 0, samples * problem->body_count * 6 * sizeof *wrenches);
   NSVCD__TALLY(collision, 0);  // begins
   if (problem->collision) {
-    cost.collision =
-        problem->collision(problem->user, p->poses, samples, left, &cost.collides, wrenches);
-    if (worst) worst->logit = cost.collision;
+    cost->collision =
+        problem->collision(problem->user, p->poses, samples, left, &cost->collides, wrenches);
+    if (worst) worst->logit = cost->collision;
   } else {
-    cost.collision = nsvcd__network_cost(p, samples, left, &cost.collides, wrenches, worst);
+    cost->collision = nsvcd__network_cost(p, samples, left, &cost->collides, wrenches, worst);
   }
   NSVCD__TALLY(collision, 1);  // ends
-  cost.total += weight * cost.collision;
-  for (size_t s = 0; gradient && s < samples; s++) {
-    const size_t row = s * bodies;
-    if (!nsvcd__by_joints(p, p->path + s * f, p->poses + row, wrenches + 6 * row, p->by_path))
-      continue;
+  cost->total += weight * cost->collision;
+}
+
+// Adds to the gradient by the control points what the wrenches of all samples say.
+static void nsvcd__add_wrenches(nsvcd__planner *p, const nsvcd__stage *stage, float *gradient) {
+  const size_t f = p->problem->joints;
+  const size_t all = stage->via + 2;
+  for (size_t s = 0; s < stage->samples; s++) {
+    const size_t row = s * p->problem->body_count;
+    const float *wrenches = p->wrenches + 6 * row;
+    if (!nsvcd__by_joints(p, p->path + s * f, p->poses + row, wrenches, p->by_path)) continue;
     for (size_t k = 0; k < all; k++) {
-      for (size_t j = 0; j < f; j++)
-        gradient[k * f + j] += weight * stage->weights[s * all + k] * p->by_path[j];
+      const float weight = p->options.collision * stage->weights[s * all + k];
+      for (size_t j = 0; j < f; j++) gradient[k * f + j] += weight * p->by_path[j];
     }
   }
+}
+
+// What the trajectory costs, up to `limit`: a sum beyond it is not finished. gradient: (M + 2, F),
+// written, or NULL.
+static nsvcd__cost nsvcd__cost_of(nsvcd__planner *p, const nsvcd__stage *stage,
+                                  const float *control, float limit, float *gradient,
+                                  nsvcd__worst *worst) {
+  nsvcd__cost cost = {0, 0, 0, 0, NSVCD_NONE};
+  p->trajectories++;
+  cost.smoothness = nsvcd__smoothness(p, stage, control, gradient);
+  cost.total = cost.smoothness;
+  nsvcd__add_limits(p, stage, control, gradient, &cost);
+  if (cost.total > limit || p->error) return cost;
+  nsvcd__place(p, p->path, stage->samples);
+  if (p->error) return cost;
+  nsvcd__add_collision(p, stage->samples, limit, gradient ? p->wrenches : NULL, worst, &cost);
+  if (gradient) nsvcd__add_wrenches(p, stage, gradient);
   if (!nsvcd__is_finite(cost.total)) p->error = NSVCD_ERROR_NUMBER;
   return cost;
 }
@@ -13680,79 +13714,118 @@ static void nsvcd__spread(const nsvcd__planner *p, float *deviations) {
   }
 }
 
+// Where MPPI is.
+typedef struct nsvcd__exploring {
+  float deviations[NSVCD_MAX_JOINTS];  // of the samples, joint by joint
+  float first[NSVCD_MAX_JOINTS];       // what they were
+  float temperature;                   // 0 at first
+  float least;                         // cost, of the last samples
+  nsvcd__cost best;                    // of all
+} nsvcd__exploring;
+
+// Draws a sample's offsets (M, F) from p->control: none, then the best so far, then noise.
+static void nsvcd__draw(nsvcd__planner *p, const nsvcd__exploring *at, size_t n, float *offset) {
+  const nsvcd__stage *stage = &p->explore;
+  const size_t f = p->problem->joints;
+  const size_t numbers = stage->via * f;
+  if (n > 0) nsvcd__smooth_noise(p, stage, at->deviations, offset);
+  if (n == 0) memset(offset, 0, numbers * sizeof *offset);
+  if (n == 1) {  // the best so far competes
+    for (size_t k = 0; k < numbers; k++) offset[k] = p->best[f + k] - p->control[f + k];
+  }
+  nsvcd__change(p, stage->via, p->control, offset, 1, p->trial);
+  for (size_t k = 0; k < numbers; k++) offset[k] = p->trial[f + k] - p->control[f + k];
+}
+
+// Draws samples about p->control and finds what they cost; the best of all goes to p->best.
+static void nsvcd__try_samples(nsvcd__planner *p, nsvcd__exploring *at) {
+  const nsvcd__stage *stage = &p->explore;
+  const size_t f = p->problem->joints;
+  at->least = INFINITY;
+  for (size_t n = 0; n < stage->count; n++) {
+    nsvcd__draw(p, at, n, p->tries + n * stage->via * f);
+    // What is 10 temperatures worse than another weighs nothing: its cost need not be known
+    // exactly.
+    const float limit = at->temperature > 0 ? at->least + 10 * at->temperature : INFINITY;
+    const nsvcd__cost cost = nsvcd__cost_of(p, stage, p->trial, limit, NULL, NULL);
+    p->costs[n] = cost.total;
+    if (cost.total < at->least) at->least = cost.total;
+    if (cost.total >= at->best.total || cost.total > limit) continue;
+    at->best = cost;
+    memcpy(p->best, p->trial, (stage->via + 2) * f * sizeof *p->best);
+  }
+}
+
+// Turns p->costs into weights, whose sum is 1, and p->sum into the mean of the offsets.
+static void nsvcd__weigh_samples(nsvcd__planner *p, nsvcd__exploring *at) {
+  const nsvcd__stage *stage = &p->explore;
+  const size_t numbers = stage->via * p->problem->joints;
+  const size_t elite = stage->count / 10;
+  const float spread = nsvcd__kth_cost(p->costs, stage->count, elite) - at->least;
+  float total = 0;
+  at->temperature = 0.5f * spread + 1e-6f * (1 + at->least);
+  memset(p->sum, 0, numbers * sizeof *p->sum);
+  for (size_t n = 0; n < stage->count; n++) {
+    p->costs[n] = expf((at->least - p->costs[n]) / at->temperature);
+    total += p->costs[n];
+  }
+  for (size_t n = 0; n < stage->count; n++) {
+    const float weight = p->costs[n] / total;
+    p->costs[n] = weight;
+    if (!(weight > 1e-9f)) continue;
+    for (size_t k = 0; k < numbers; k++) p->sum[k] += weight * p->tries[n * numbers + k];
+  }
+}
+
+// Takes the deviation of a joint towards that of the good samples about their mean, slowly.
+static void nsvcd__adapt_deviation(const nsvcd__planner *p, size_t joint, nsvcd__exploring *at) {
+  const nsvcd__stage *stage = &p->explore;
+  const size_t f = p->problem->joints;
+  const size_t numbers = stage->via * f;
+  const float now = at->deviations[joint];
+  const float least = 1e-3f * at->first[joint];
+  float square = 0;
+  for (size_t n = 0; n < stage->count; n++) {
+    const float weight = p->costs[n];
+    for (size_t k = joint; weight > 1e-9f && k < numbers; k += f) {
+      const float d = p->tries[n * numbers + k] - p->sum[k];
+      square += weight * d * d / (float)stage->via;
+    }
+  }
+  const float variance = 0.9f * now * now + 0.1f * 2 * square;
+  const float floor = least * at->first[joint];
+  at->deviations[joint] = sqrtf(variance > floor ? variance : floor);
+}
+
 // MPPI from p->control, the mean, on; leaves the best trajectory in p->best. *cancelled: by the
 // progress callback.
 static void nsvcd__explore(nsvcd__planner *p, size_t seed, nsvcd_plan_answer *answer,
                            int *cancelled) {
   const nsvcd__stage *stage = &p->explore;
   const size_t f = p->problem->joints;
-  const size_t via = stage->via;
-  const size_t numbers = via * f;
-  const size_t elite = stage->count / 10;
-  float deviations[NSVCD_MAX_JOINTS];
-  float first[NSVCD_MAX_JOINTS];
-  float temperature = 0;
-  nsvcd__cost best = nsvcd__cost_of(p, stage, p->control, INFINITY, NULL, NULL);
-  memcpy(p->best, p->control, (via + 2) * f * sizeof *p->best);
-  nsvcd__spread(p, first);
-  nsvcd__spread(p, deviations);
-  float before = best.total;
+  const size_t bytes = (stage->via + 2) * f * sizeof(float);
+  nsvcd__exploring at;
+  memset(&at, 0, sizeof at);
+  at.best = nsvcd__cost_of(p, stage, p->control, INFINITY, NULL, NULL);
+  memcpy(p->best, p->control, bytes);
+  nsvcd__spread(p, at.first);
+  nsvcd__spread(p, at.deviations);
+  float before = at.best.total;
   size_t waited = 0;
-  for (size_t i = 0; i < stage->iterations && !*cancelled && !p->error && waited < NSVCD__PATIENCE;
-       i++) {
-    float least = INFINITY;
-    float total = 0;
-    for (size_t n = 0; n < stage->count; n++) {
-      float *offset = p->tries + n * numbers;
-      if (n > 0) nsvcd__smooth_noise(p, stage, deviations, offset);
-      if (n == 0) memset(offset, 0, numbers * sizeof *offset);
-      if (n == 1) {  // the best so far competes
-        for (size_t k = 0; k < numbers; k++) offset[k] = p->best[f + k] - p->control[f + k];
-      }
-      nsvcd__change(p, via, p->control, offset, 1, p->trial);
-      for (size_t k = 0; k < numbers; k++) offset[k] = p->trial[f + k] - p->control[f + k];
-      // What is 10 temperatures worse than another weighs nothing: its cost need not be known
-      // exactly.
-      const float limit = i > 0 ? least + 10 * temperature : INFINITY;
-      const nsvcd__cost cost = nsvcd__cost_of(p, stage, p->trial, limit, NULL, NULL);
-      p->costs[n] = cost.total;
-      if (cost.total < least) least = cost.total;
-      if (cost.total >= best.total || cost.total > limit) continue;
-      best = cost;
-      memcpy(p->best, p->trial, (via + 2) * f * sizeof *p->best);
-    }
+  for (size_t i = 0; i < stage->iterations && waited < NSVCD__PATIENCE; i++) {
+    if (*cancelled || p->error) break;
+    nsvcd__try_samples(p, &at);
     if (p->error) break;
-    temperature =
-        0.5f * (nsvcd__kth_cost(p->costs, stage->count, elite) - least) + 1e-6f * (1 + least);
-    memset(p->sum, 0, numbers * sizeof *p->sum);
-    for (size_t n = 0; n < stage->count; n++) {
-      p->costs[n] = expf((least - p->costs[n]) / temperature);
-      total += p->costs[n];
-    }
-    for (size_t n = 0; n < stage->count; n++) {
-      const float weight = p->costs[n] / total;
-      for (size_t k = 0; weight > 1e-9f && k < numbers; k++)
-        p->sum[k] += weight * p->tries[n * numbers + k];
-    }
-    for (size_t j = 0; j < f; j++) {  // the spread of the good ones about their mean, slowly
-      float square = 0;
-      for (size_t n = 0; n < stage->count; n++) {
-        const float weight = p->costs[n] / total;
-        for (size_t k = j; weight > 1e-9f && k < numbers; k += f) {
-          const float d = p->tries[n * numbers + k] - p->sum[k];
-          square += weight * d * d / (float)via;
-        }
-      }
-      const float variance = 0.9f * deviations[j] * deviations[j] + 0.1f * 2 * square;
-      const float floor = 1e-3f * first[j];
-      deviations[j] = variance > floor * first[j] ? sqrtf(variance) : sqrtf(floor * first[j]);
-    }
-    nsvcd__change(p, via, p->control, p->sum, 0.9f, p->trial);
-    memcpy(p->control, p->trial, (via + 2) * f * sizeof *p->control);
+    nsvcd__weigh_samples(p, &at);
+    for (size_t j = 0; j < f; j++) nsvcd__adapt_deviation(p, j, &at);
+    nsvcd__change(p, stage->via, p->control, p->sum, 0.9f, p->trial);
+    memcpy(p->control, p->trial, bytes);
     answer->iterations++;
-    waited = !nsvcd__is_free(&best) || best.total < 0.99f * before ? 0 : waited + 1;
-    before = best.total < 0.99f * before ? best.total : before;
-    *cancelled = nsvcd__report(p, seed, i, stage, 0, &best);
+
+    const int better = at.best.total < 0.99f * before;
+    waited = !nsvcd__is_free(&at.best) || better ? 0 : waited + 1;
+    before = better ? at.best.total : before;
+    *cancelled = nsvcd__report(p, seed, i, stage, 0, &at.best);
   }
 }
 
@@ -13955,91 +14028,124 @@ NSVCDDEF size_t nsvcd_plan_workspace_size(const nsvcd_plan_problem *problem,
                                                              : 0;
 }
 
-NSVCDDEF nsvcd_result nsvcd_plan(const nsvcd_plan_problem *problem,
-                                 const nsvcd_plan_options *options, void *workspace,
-                                 size_t workspace_size, float *control, nsvcd_plan_answer *answer) {
-  nsvcd__planner planner;
-  nsvcd__planner *p = &planner;
-  nsvcd_plan_answer found = {
-      NSVCD_PLAN_CONVERGED, 0, NSVCD_NONE, NSVCD_NONE, 0, 0, 0, 0, 0, 0, 0, 0, 0};
-  int cancelled = 0;
-  if (!nsvcd__planner_settings(problem, options, p) || !control || !answer)
-    return NSVCD_ERROR_ARGUMENT;
-  const size_t needed = nsvcd__planner_memory(p, NULL);
-  if (needed == 0) return NSVCD_ERROR_TOO_LARGE;
-  if (!workspace || !nsvcd__is_aligned(workspace) || workspace_size < needed)
-    return NSVCD_ERROR_WORKSPACE;
-  (void)nsvcd__planner_memory(p, (char *)workspace);
-  const size_t f = problem->joints;
-  const size_t point = (p->refine.via + 2) * f * sizeof(float);
-  for (size_t j = 0; j < f; j++) {
-    const float numbers[4] = {problem->low[j], problem->high[j], problem->start[j],
-                              problem->goal[j]};
-    for (size_t k = 0; k < 4; k++) {
-      if (nsvcd__magnitude(numbers[k]) > nsvcd__magnitude(NSVCD_MAX_COORDINATE))
-        return NSVCD_ERROR_NUMBER;
-    }
-    if (problem->low[j] > problem->high[j]) return NSVCD_ERROR_ARGUMENT;
+// Are limits, start and goal finite and within bounds, and no lower limit above the upper one?
+static nsvcd_result nsvcd__limits_check(const nsvcd_plan_problem *problem) {
+  const uint32_t most = nsvcd__magnitude(NSVCD_MAX_COORDINATE);
+  for (size_t j = 0; j < problem->joints; j++) {
+    const float low = problem->low[j];
+    const float high = problem->high[j];
+    if (nsvcd__magnitude(low) > most || nsvcd__magnitude(high) > most) return NSVCD_ERROR_NUMBER;
+    if (nsvcd__magnitude(problem->start[j]) > most) return NSVCD_ERROR_NUMBER;
+    if (nsvcd__magnitude(problem->goal[j]) > most) return NSVCD_ERROR_NUMBER;
+    if (low > high) return NSVCD_ERROR_ARGUMENT;
   }
+  return NSVCD_OK;
+}
+
+// Makes the planner ready in its memory, and looks at start and goal: found->status.
+static void nsvcd__planner_begin(nsvcd__planner *p, nsvcd_plan_answer *found) {
+  const nsvcd_plan_problem *problem = p->problem;
   nsvcd__stage_init(&p->options, &p->explore);
   nsvcd__stage_init(&p->options, &p->refine);
   nsvcd__stage_init(&p->options, &p->check);
   nsvcd__find_boxes(p);
   for (size_t k = 0; k < problem->pair_count; k++) p->order[k] = (uint32_t)k;
   p->random = p->options.seed;
-  found.via_points = p->refine.via;
-  if (!nsvcd__is_good(p, problem->start, &found)) {
-    found.status = NSVCD_PLAN_START;
-  } else if (!nsvcd__is_good(p, problem->goal, &found)) {
-    found.status = NSVCD_PLAN_GOAL;
-    found.time = 1;
+  found->via_points = p->refine.via;
+  if (!nsvcd__is_good(p, problem->start, found)) {
+    found->status = NSVCD_PLAN_START;
+  } else if (!nsvcd__is_good(p, problem->goal, found)) {
+    found->status = NSVCD_PLAN_GOAL;
+    found->time = 1;
   }
   nsvcd__smoothest(p, &p->refine, p->best);
-  for (int more = found.status == NSVCD_PLAN_CONVERGED; more && !p->error;) {
-    const nsvcd__worst nowhere = {-NSVCD_LOGIT_CERTAIN, 0, NSVCD_NONE, 0};
-    nsvcd__worst worst = nowhere;
-    nsvcd__smoothest(p, &p->explore, p->control);
-    if (found.seeds > 0) {  // another start
-      float deviations[NSVCD_MAX_JOINTS];
-      nsvcd__spread(p, deviations);
-      nsvcd__smooth_noise(p, &p->explore, deviations, p->offset);
-      nsvcd__change(p, p->explore.via, p->control, p->offset, 1, p->trial);
-      memcpy(p->control, p->trial, (p->explore.via + 2) * f * sizeof(float));
-    }
-    nsvcd__explore(p, found.seeds, &found, &cancelled);
-    nsvcd__resample(p, p->explore.via, p->refine.via);
-    const float margin = p->options.margin;
-    nsvcd__cost cost;
-    int good = 0;
-    for (size_t push = 0; push <= NSVCD__PUSHES && (push == 0 || worst.proven); push++) {
-      worst = nowhere;
-      nsvcd__refine(p, found.seeds, &found, &cancelled);
-      cost = nsvcd__cost_of(p, &p->check, p->best, INFINITY, NULL, &worst);
-      good = nsvcd__is_free(&cost);
-      if (good || cancelled || p->error) break;
-      p->options.margin = 2 * p->options.margin + 0.5f;
-    }
-    p->options.margin = margin;
-    if (found.seeds == 0 || good || cost.total < found.cost) {
-      memcpy(p->result, p->best, point);
-      found.cost = cost.total;
-      found.smoothness = cost.smoothness;
-      found.collides = cost.collides;
-      found.joint = cost.joint;
-      found.logit = worst.logit;
-      found.time = worst.time;
-      found.pair = worst.pair;
-    }
-    found.seeds++;
-    more = !good && !cancelled && found.seeds < p->options.seeds;
-    found.status = cancelled ? NSVCD_PLAN_CANCELLED
-                   : good    ? NSVCD_PLAN_CONVERGED
-                             : NSVCD_PLAN_LIMIT;
+}
+
+// Fills p->control with where a seed starts from: the smoothest way, or a random one.
+static void nsvcd__start_seed(nsvcd__planner *p, size_t seed) {
+  float deviations[NSVCD_MAX_JOINTS];
+  const size_t numbers = (p->explore.via + 2) * p->problem->joints;
+  nsvcd__smoothest(p, &p->explore, p->control);
+  if (seed == 0) return;
+  nsvcd__spread(p, deviations);
+  nsvcd__smooth_noise(p, &p->explore, deviations, p->offset);
+  nsvcd__change(p, p->explore.via, p->control, p->offset, 1, p->trial);
+  memcpy(p->control, p->trial, numbers * sizeof(float));
+}
+
+// Refines p->best until the last check finds it free, with a wider margin each time that the proof
+// finds a hit. Returns the cost of that check.
+static nsvcd__cost nsvcd__refine_and_check(nsvcd__planner *p, nsvcd_plan_answer *found,
+                                           int *cancelled, nsvcd__worst *worst) {
+  const nsvcd__worst nowhere = {-NSVCD_LOGIT_CERTAIN, 0, NSVCD_NONE, 0};
+  const float margin = p->options.margin;
+  nsvcd__cost cost = {0, 0, 0, 0, NSVCD_NONE};
+  for (size_t push = 0; push <= NSVCD__PUSHES; push++) {
+    *worst = nowhere;
+    nsvcd__refine(p, found->seeds, found, cancelled);
+    cost = nsvcd__cost_of(p, &p->check, p->best, INFINITY, NULL, worst);
+    if (nsvcd__is_free(&cost) || *cancelled || p->error || !worst->proven) break;
+    p->options.margin = 2 * p->options.margin + 0.5f;
   }
-  if (p->error) return p->error;
-  memcpy(control, found.seeds ? p->result : p->best, point);
-  found.trajectories = p->trajectories;
-  found.sweeps = p->sweeps;
+  p->options.margin = margin;
+  return cost;
+}
+
+// Searches from one more start; keeps what it finds in p->result if that is the best so far.
+// Returns 1 if there is reason to go on.
+static int nsvcd__try_seed(nsvcd__planner *p, nsvcd_plan_answer *found) {
+  const size_t bytes = (p->refine.via + 2) * p->problem->joints * sizeof(float);
+  nsvcd__worst worst;
+  int cancelled = 0;
+  nsvcd__start_seed(p, found->seeds);
+  nsvcd__explore(p, found->seeds, found, &cancelled);
+  nsvcd__resample(p, p->explore.via, p->refine.via);
+  const nsvcd__cost cost = nsvcd__refine_and_check(p, found, &cancelled, &worst);
+  const int good = nsvcd__is_free(&cost);
+  if (found->seeds == 0 || good || cost.total < found->cost) {
+    memcpy(p->result, p->best, bytes);
+    found->cost = cost.total;
+    found->smoothness = cost.smoothness;
+    found->collides = cost.collides;
+    found->joint = cost.joint;
+    found->logit = worst.logit;
+    found->time = worst.time;
+    found->pair = worst.pair;
+  }
+  found->seeds++;
+  found->status = NSVCD_PLAN_LIMIT;
+  if (good) found->status = NSVCD_PLAN_CONVERGED;
+  if (cancelled) found->status = NSVCD_PLAN_CANCELLED;
+  return !good && !cancelled && !p->error && found->seeds < p->options.seeds;
+}
+
+NSVCDDEF nsvcd_result nsvcd_plan(const nsvcd_plan_problem *problem,
+                                 const nsvcd_plan_options *options, void *workspace,
+                                 size_t workspace_size, float *control, nsvcd_plan_answer *answer) {
+  nsvcd__planner planner;
+  nsvcd_plan_answer found;
+  if (!nsvcd__planner_settings(problem, options, &planner)) return NSVCD_ERROR_ARGUMENT;
+  if (!control || !answer) return NSVCD_ERROR_ARGUMENT;
+  const size_t needed = nsvcd__planner_memory(&planner, NULL);
+  if (needed == 0) return NSVCD_ERROR_TOO_LARGE;
+  if (!workspace || !nsvcd__is_aligned(workspace)) return NSVCD_ERROR_WORKSPACE;
+  if (workspace_size < needed) return NSVCD_ERROR_WORKSPACE;
+  const nsvcd_result checked = nsvcd__limits_check(problem);
+  if (checked) return checked;
+
+  (void)nsvcd__planner_memory(&planner, (char *)workspace);
+  memset(&found, 0, sizeof found);
+  found.joint = NSVCD_NONE;
+  found.pair = NSVCD_NONE;
+  nsvcd__planner_begin(&planner, &found);
+  int more = found.status == NSVCD_PLAN_CONVERGED && !planner.error;
+  while (more) more = nsvcd__try_seed(&planner, &found);
+  if (planner.error) return planner.error;
+
+  const size_t bytes = (planner.refine.via + 2) * problem->joints * sizeof(float);
+  memcpy(control, found.seeds ? planner.result : planner.best, bytes);
+  found.trajectories = planner.trajectories;
+  found.sweeps = planner.sweeps;
   *answer = found;
   return NSVCD_OK;
 }
