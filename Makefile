@@ -26,7 +26,7 @@ ifeq ($(BENCH),quick)
 COUNT ?= 200
 endif
 
-.PHONY: firmware check-firmware bench-asks bench-level bench-scale race mutants bench-plan preview profile instructions sizes bench check-extremes all demo test assets problems accuracy weights format clean help check-header check-tiles check-32 check-examples check-problems check-gradient check-motions
+.PHONY: firmware check-firmware bench-asks bench-level bench-scale race mutants bench-plan preview profile instructions sizes bench check-extremes all demo test assets problems accuracy weights format clean help check-header check-tiles check-32 check-examples check-problems check-gradient check-motions check-text
 .DELETE_ON_ERROR:
 
 PLANNERS = build/dish_insertion build/bimanual_insertion build/mining_site
@@ -140,7 +140,7 @@ check-motions: build/check_motions build/game build/problems build/svcd  ## firs
 check-extremes: build/problems build/svcd  # tiny, huge, far, thin, spinning ...
 	tests/extremes.sh
 
-test: build/tests check-header check-gradient check-examples check-tiles check-32 check-firmware check-motions check-problems check-extremes  ## everything; the last line is `N passed, N failed`
+test: build/tests check-text check-header check-gradient check-examples check-tiles check-32 check-firmware check-motions check-problems check-extremes  ## everything; the last line is `N passed, N failed`
 	build/tests
 
 # ---------------------------------------------------------------------------------------------------------- accuracy
@@ -310,6 +310,11 @@ weights: $(CHECKPOINT) $(CALIBRATION)/standard.txt $(CALIBRATION)/hollow.txt  ##
 FORMATTED = neuralsvcd.h $(wildcard examples/*.[ch] examples/firmware/*.[ch] tests/*.[ch])
 format:  ## clang-format on what is written by hand
 	clang-format -i $(FORMATTED)
+# Version 14 decides, as in Debian 12: others break lines elsewhere.
+check-text:  ## the header as a text: its lines, functions, contents, the order of its sections; and that all is formatted
+	@if command -v python3 >/dev/null; then python3 tests/text.py; else echo "check-text: no python3: not tested"; fi
+	@if clang-format --version 2>/dev/null | grep -q 'version 14'; then clang-format --dry-run -Werror $(FORMATTED); \
+	else echo "check-text: no clang-format 14: format not tested"; fi
 
 clean:  ## removes build/
 	rm -rf build

@@ -1265,6 +1265,11 @@ NSVCD__INLINE void nsvcd__v3_store(float (*p)[NSVCD__LANES], size_t l, nsvcd__v3
   nsvcd__v_store(p[1] + l, a.y);
   nsvcd__v_store(p[2] + l, a.z);
 }
+// From three rows of 16 numbers.
+NSVCD__INLINE nsvcd__v3 nsvcd__v3_rows(const float *p) {
+  return nsvcd__v3_of(nsvcd__v_load(p), nsvcd__v_load(p + NSVCD__LANES),
+                      nsvcd__v_load(p + 2 * NSVCD__LANES));
+}
 NSVCD__INLINE nsvcd__v3 nsvcd__v3_load(float (*p)[NSVCD__LANES], size_t l) {
   return nsvcd__v3_of(nsvcd__v_load(p[0] + l), nsvcd__v_load(p[1] + l), nsvcd__v_load(p[2] + l));
 }
@@ -1680,7 +1685,9 @@ static int nsvcd__obj_is_digit(const nsvcd__obj *obj) {
   return obj->at < obj->end && *obj->at >= '0' && *obj->at <= '9';
 }
 static int nsvcd__obj_accept(nsvcd__obj *obj, char c) {
-  return obj->at < obj->end && *obj->at == c ? obj->at++, 1 : 0;
+  const int is_there = obj->at < obj->end && *obj->at == c;
+  if (is_there) obj->at++;
+  return is_there;
 }
 static int nsvcd__obj_token_ends(const nsvcd__obj *obj) {
   return obj->at == obj->end || *obj->at == '\n' || nsvcd__obj_blank(obj->at, obj->end) > 0;
@@ -6290,11 +6297,12 @@ typedef struct nsvcd__candidate {
 
 #define NSVCD__NO_SCORE (-1e30f)
 
-// Chords x0 + tau v of 16 moving spheres, their radii plus deviation, and -1 / |v|^2.
+// Chords start + tau way of 16 moving spheres, their radii plus deviation, and -1 / |way|^2.
 typedef struct nsvcd__chords {
-  float x[NSVCD__LANES], y[NSVCD__LANES], z[NSVCD__LANES], vx[NSVCD__LANES], vy[NSVCD__LANES],
-      vz[NSVCD__LANES];
-  float inverse[NSVCD__LANES], reach[NSVCD__LANES];
+  float start[3][NSVCD__LANES];
+  float way[3][NSVCD__LANES];
+  float inverse[NSVCD__LANES];
+  float reach[NSVCD__LANES];
 } nsvcd__chords;
 
 // 16 segments: pose at the start, change of the pose until the end, deviation.
@@ -6892,17 +6900,15 @@ static NSVCD__APART void nsvcd__cut_motion(nsvcd__motion *motion, float lengths,
 }
 #endif
 
-// Stores a slice of chords, from lane l on: x0 (3), v (3), reach. FLT_MIN keeps a chord of no
+// Stores a slice of chords, from lane l on: start (3), way (3), reach. FLT_MIN keeps a chord of no
 // length finite.
-static void nsvcd__chords_store(nsvcd__chords *c, size_t l, const nsvcd__v *x, const nsvcd__v *v,
-                                nsvcd__v reach) {
-  const nsvcd__v square = nsvcd__v_max(nsvcd__v_dot3(v, v), nsvcd__v_set(1.2e-38f));
-  nsvcd__v_store(c->x + l, x[0]);
-  nsvcd__v_store(c->y + l, x[1]);
-  nsvcd__v_store(c->z + l, x[2]);
-  nsvcd__v_store(c->vx + l, v[0]);
-  nsvcd__v_store(c->vy + l, v[1]);
-  nsvcd__v_store(c->vz + l, v[2]);
+static void nsvcd__chords_store(nsvcd__chords *c, size_t l, const nsvcd__v *start,
+                                const nsvcd__v *way, nsvcd__v reach) {
+  const nsvcd__v square = nsvcd__v_max(nsvcd__v_dot3(way, way), nsvcd__v_set(1.2e-38f));
+  for (size_t k = 0; k < 3; k++) {
+    nsvcd__v_store(c->start[k] + l, start[k]);
+    nsvcd__v_store(c->way[k] + l, way[k]);
+  }
   nsvcd__v_store(c->inverse + l, nsvcd__v_div(nsvcd__v_set(-1), square));
   nsvcd__v_store(c->reach + l, reach);
 }
@@ -6958,33 +6964,30 @@ static inline nsvcd__v nsvcd__v_signed_square(nsvcd__v reach) {
 }
 
 // Squared distance of the chord from the resting centre. d: from that centre to the start of the
-// chord, v: the chord.
-NSVCD__INLINE nsvcd__v nsvcd__nearest2(const nsvcd__v *d, const nsvcd__v *v, nsvcd__v inverse) {
-  const nsvcd__v tau = nsvcd__v_clamp(nsvcd__v_mul(nsvcd__v_dot3(d, v), inverse), 0, 1);
-  const nsvcd__v nearest[3] = {nsvcd__v_fma(tau, v[0], d[0]), nsvcd__v_fma(tau, v[1], d[1]),
-                               nsvcd__v_fma(tau, v[2], d[2])};
-  return nsvcd__v_dot3(nearest, nearest);
+// chord.
+NSVCD__INLINE nsvcd__v nsvcd__nearest2(nsvcd__v3 d, nsvcd__v3 way, nsvcd__v inverse) {
+  const nsvcd__v tau = nsvcd__v_clamp(nsvcd__v_mul(nsvcd__v3_dot(d, way), inverse), 0, 1);
+  const nsvcd__v3 nearest = nsvcd__v3_fma(tau, way, d);
+  return nsvcd__v3_dot(nearest, nearest);
 }
 
-// The test. d: from the resting centre to the start of the chord, v: the chord. A bit for each lane
-// of the slice: does it come within `reach`?
-NSVCD__INLINE uint32_t nsvcd__comes_within(const nsvcd__v *d, const nsvcd__v *v, nsvcd__v inverse,
+// The test. A bit for each lane of the slice: does the chord come within `reach` of the resting
+// centre? d: from that to the start of the chord.
+NSVCD__INLINE uint32_t nsvcd__comes_within(nsvcd__v3 d, nsvcd__v3 way, nsvcd__v inverse,
                                            nsvcd__v reach) {
-  return nsvcd__v_le(nsvcd__nearest2(d, v, inverse), nsvcd__v_signed_square(reach));
+  return nsvcd__v_le(nsvcd__nearest2(d, way, inverse), nsvcd__v_signed_square(reach));
 }
 
 // 16 moving spheres, or one in 16 segments, against one resting sphere.
 static uint32_t nsvcd__meet(const nsvcd__chords *c, float x, float y, float z, float r) {
+  const nsvcd__f3 centre = nsvcd__f3_of(x, y, z);
   uint32_t met = 0;
   NSVCD__TALLY(tests, 1);
   NSVCD__EACH_SLICE(l) {
-    const nsvcd__v d[3] = {nsvcd__v_sub(nsvcd__v_load(c->x + l), nsvcd__v_set(x)),
-                           nsvcd__v_sub(nsvcd__v_load(c->y + l), nsvcd__v_set(y)),
-                           nsvcd__v_sub(nsvcd__v_load(c->z + l), nsvcd__v_set(z))};
-    const nsvcd__v v[3] = {nsvcd__v_load(c->vx + l), nsvcd__v_load(c->vy + l),
-                           nsvcd__v_load(c->vz + l)};
+    const nsvcd__v3 d = nsvcd__v3_sub(nsvcd__v3_rows(c->start[0] + l), nsvcd__v3_set(centre));
+    const nsvcd__v3 way = nsvcd__v3_rows(c->way[0] + l);
     const nsvcd__v reach = nsvcd__v_add(nsvcd__v_load(c->reach + l), nsvcd__v_set(r));
-    met |= nsvcd__comes_within(d, v, nsvcd__v_load(c->inverse + l), reach) << l;
+    met |= nsvcd__comes_within(d, way, nsvcd__v_load(c->inverse + l), reach) << l;
   }
   return met;
 }
@@ -6992,15 +6995,16 @@ static uint32_t nsvcd__meet(const nsvcd__chords *c, float x, float y, float z, f
 // Lane s of a chord against 16 resting spheres.
 static uint32_t nsvcd__meet_members(const nsvcd__chords *c, size_t s, const float *x,
                                     const float *y, const float *z, const float *r) {
+  const nsvcd__f3 start = nsvcd__f3_of(c->start[0][s], c->start[1][s], c->start[2][s]);
+  const nsvcd__f3 way = nsvcd__f3_of(c->way[0][s], c->way[1][s], c->way[2][s]);
   uint32_t met = 0;
   NSVCD__TALLY(tests, 1);
   NSVCD__EACH_SLICE(l) {
-    const nsvcd__v d[3] = {nsvcd__v_sub(nsvcd__v_set(c->x[s]), nsvcd__v_load(x + l)),
-                           nsvcd__v_sub(nsvcd__v_set(c->y[s]), nsvcd__v_load(y + l)),
-                           nsvcd__v_sub(nsvcd__v_set(c->z[s]), nsvcd__v_load(z + l))};
-    const nsvcd__v v[3] = {nsvcd__v_set(c->vx[s]), nsvcd__v_set(c->vy[s]), nsvcd__v_set(c->vz[s])};
+    const nsvcd__v3 centres =
+        nsvcd__v3_of(nsvcd__v_load(x + l), nsvcd__v_load(y + l), nsvcd__v_load(z + l));
+    const nsvcd__v3 d = nsvcd__v3_sub(nsvcd__v3_set(start), centres);
     const nsvcd__v reach = nsvcd__v_add(nsvcd__v_set(c->reach[s]), nsvcd__v_load(r + l));
-    met |= nsvcd__comes_within(d, v, nsvcd__v_set(c->inverse[s]), reach) << l;
+    met |= nsvcd__comes_within(d, nsvcd__v3_set(way), nsvcd__v_set(c->inverse[s]), reach) << l;
   }
   return met;
 }
@@ -7151,75 +7155,95 @@ static uint64_t nsvcd__interval_cuts(const nsvcd__search *search, const nsvcd_bo
   return cuts;
 }
 
+// A slice of spheres on their chords in one segment, against a resting one.
+typedef struct nsvcd__meetings {
+  uint32_t met;      // lanes
+  nsvcd__v limit;    // the square of the sum of radii
+  nsvcd__v nearest;  // place of the line's nearest point
+  nsvcd__v tau;      // of the chord's
+  nsvcd__v square;   // of its distance
+  nsvcd__v half2;    // as nsvcd__intervals has it
+} nsvcd__meetings;
+
+NSVCD__INLINE nsvcd__meetings nsvcd__meetings_of(const nsvcd__chords *c, size_t l, nsvcd__f3 centre,
+                                                 float radius) {
+  nsvcd__meetings out;
+  const nsvcd__v3 d = nsvcd__v3_sub(nsvcd__v3_rows(c->start[0] + l), nsvcd__v3_set(centre));
+  const nsvcd__v3 way = nsvcd__v3_rows(c->way[0] + l);
+  const nsvcd__v inverse = nsvcd__v_load(c->inverse + l);
+  const nsvcd__v reach = nsvcd__v_add(nsvcd__v_load(c->reach + l), nsvcd__v_set(radius));
+  out.limit = nsvcd__v_signed_square(reach);
+  out.nearest = nsvcd__v_mul(nsvcd__v3_dot(d, way), inverse);
+  out.tau = nsvcd__v_clamp(out.nearest, 0, 1);
+  const nsvcd__v3 chord = nsvcd__v3_fma(out.tau, way, d);
+  out.square = nsvcd__v3_dot(chord, chord);
+  out.met = nsvcd__v_le(out.square, out.limit);
+
+  // |d + tau way| = reach, solved from the nearest point of the line outwards: b^2 - ac would
+  // cancel on long chords.
+  const nsvcd__v3 line = nsvcd__v3_fma(out.nearest, way, d);
+  out.half2 = nsvcd__v_mul(nsvcd__v_sub(nsvcd__v3_dot(line, line), out.limit), inverse);
+  return out;
+}
+
+// Intervals go on, or begin, where spheres meet in segment s.
+NSVCD__INLINE void nsvcd__intervals_grow(nsvcd__intervals *at, size_t s,
+                                         const nsvcd__meetings *now) {
+  const nsvcd__v half = nsvcd__v_set(0.5f);
+  const nsvcd__v segment = nsvcd__v_set((float)s);
+  const nsvcd__v before = nsvcd__v_pick(half, at->fresh, nsvcd__v_set(1e38f), at->square);
+  at->first = nsvcd__v_pick(half, at->fresh, segment, at->first);
+  at->first_nearest = nsvcd__v_pick(half, at->fresh, now->nearest, at->first_nearest);
+  at->first_half2 = nsvcd__v_pick(half, at->fresh, now->half2, at->first_half2);
+  at->last_nearest = now->nearest;
+  at->last_half2 = now->half2;
+  at->least_segment = nsvcd__v_pick(now->square, before, segment, at->least_segment);
+  at->least = nsvcd__v_pick(now->square, before, now->tau, at->least);
+  at->square = nsvcd__v_min(now->square, before);
+  at->fresh = nsvcd__v_pick(now->square, now->limit, nsvcd__v_set(0), nsvcd__v_set(1));
+  if (!at->open) at->oldest = s;
+  at->open = now->met;
+  at->last = s;
+}
+
+// Are the intervals of a slice cut before segment s? See nsvcd__interval_cuts; where a slice is all
+// of them, it finds that itself.
+NSVCD__INLINE int nsvcd__intervals_are_cut(const nsvcd__intervals *at, const nsvcd__search *search,
+                                           size_t s, uint64_t cuts) {
+  if (NSVCD__SLICE < NSVCD__LANES) return (int)(cuts >> s & 1);
+  if (!at->open) return 0;
+  const int turns = search->turn[s + 1] - search->turn[at->oldest] > NSVCD__INTERVAL_TURN;
+  return at->last + 1 != s || turns;
+}
+
 // A slice of the members of moving group g, from lane l on, against patch j of the fixed body, in
-// the segments `wanted`. cuts: see nsvcd__interval_cuts; where a slice is all of them, it finds
-// that itself.
+// the segments `wanted`.
 static void nsvcd__slice_against_patch(const nsvcd__search *search, const nsvcd_body *moving,
                                        size_t g, size_t l, const nsvcd_body *fixed, size_t j,
                                        uint64_t wanted, uint64_t cuts, nsvcd__candidates *kept) {
   const size_t i = NSVCD__GROUP * g + l;
-  const nsvcd__v half = nsvcd__v_set(0.5f);
   const nsvcd__v one = nsvcd__v_set(1);
   const nsvcd__v zero = nsvcd__v_set(0);
-  const nsvcd__v r = nsvcd__v_set(nsvcd__body_r(fixed)[j]);
-  const nsvcd__v centre[3] = {nsvcd__v_set(nsvcd__body_x(fixed)[j]),
-                              nsvcd__v_set(nsvcd__body_y(fixed)[j]),
-                              nsvcd__v_set(nsvcd__body_z(fixed)[j])};
-  nsvcd__intervals intervals = {0, 0, 0, one, zero, zero, zero, zero, zero, zero, zero, zero};
+  const nsvcd__f3 centre =
+      nsvcd__f3_of(nsvcd__body_x(fixed)[j], nsvcd__body_y(fixed)[j], nsvcd__body_z(fixed)[j]);
+  nsvcd__intervals at = {0, 0, 0, one, zero, zero, zero, zero, zero, zero, zero, zero};
   for (; wanted; wanted &= wanted - 1) {
     const size_t s = nsvcd__lowest_bit(wanted);
-    const nsvcd__chords *c = &search->members[s];
-    const nsvcd__v d[3] = {nsvcd__v_sub(nsvcd__v_load(c->x + l), centre[0]),
-                           nsvcd__v_sub(nsvcd__v_load(c->y + l), centre[1]),
-                           nsvcd__v_sub(nsvcd__v_load(c->z + l), centre[2])};
-    const nsvcd__v v[3] = {nsvcd__v_load(c->vx + l), nsvcd__v_load(c->vy + l),
-                           nsvcd__v_load(c->vz + l)};
-    const nsvcd__v inverse = nsvcd__v_load(c->inverse + l);
-    const nsvcd__v limit = nsvcd__v_signed_square(nsvcd__v_add(nsvcd__v_load(c->reach + l), r));
-    const nsvcd__v nearest = nsvcd__v_mul(nsvcd__v_dot3(d, v), inverse);
-    const nsvcd__v tau = nsvcd__v_clamp(nearest, 0, 1);
-    nsvcd__v chord[3], line[3];
-    for (size_t k = 0; k < 3; k++) chord[k] = nsvcd__v_fma(tau, v[k], d[k]);
-    const nsvcd__v square = nsvcd__v_dot3(chord, chord);
-    const uint32_t met = nsvcd__v_le(square, limit);
-    uint32_t ended = intervals.open & ~met;
-    const int by_itself = NSVCD__SLICE == NSVCD__LANES;
-    const int turns =
-        by_itself && search->turn[s + 1] - search->turn[intervals.oldest] > NSVCD__INTERVAL_TURN;
-    const int is_cut =
-        by_itself ? intervals.open && (intervals.last + 1 != s || turns) : (int)(cuts >> s & 1);
-    if (is_cut) {
-      ended = intervals.open;
-      intervals.fresh = one;
+    const nsvcd__meetings now =
+        nsvcd__meetings_of(&search->members[s], l, centre, nsvcd__body_r(fixed)[j]);
+    uint32_t ended = at.open & ~now.met;
+    if (nsvcd__intervals_are_cut(&at, search, s, cuts)) {
+      ended = at.open;
+      at.fresh = one;
     }
-    if (ended) nsvcd__intervals_close(&intervals, ended, search, moving, i, fixed, j, kept);
-    if (!met) {
-      intervals.fresh = one;
-      continue;
+    if (ended) nsvcd__intervals_close(&at, ended, search, moving, i, fixed, j, kept);
+    if (now.met) {
+      nsvcd__intervals_grow(&at, s, &now);
+    } else {
+      at.fresh = one;
     }
-    // |d + tau v| = reach, solved from the nearest point of the line outwards: b^2 - ac would
-    // cancel on long chords.
-    for (size_t k = 0; k < 3; k++) line[k] = nsvcd__v_fma(nearest, v[k], d[k]);
-    const nsvcd__v half2 = nsvcd__v_mul(nsvcd__v_sub(nsvcd__v_dot3(line, line), limit), inverse);
-    const nsvcd__v now = nsvcd__v_set((float)s);
-    const nsvcd__v before =
-        nsvcd__v_pick(half, intervals.fresh, nsvcd__v_set(1e38f), intervals.square);
-    intervals.first = nsvcd__v_pick(half, intervals.fresh, now, intervals.first);
-    intervals.first_nearest =
-        nsvcd__v_pick(half, intervals.fresh, nearest, intervals.first_nearest);
-    intervals.first_half2 = nsvcd__v_pick(half, intervals.fresh, half2, intervals.first_half2);
-    intervals.last_nearest = nearest;
-    intervals.last_half2 = half2;
-    intervals.least_segment = nsvcd__v_pick(square, before, now, intervals.least_segment);
-    intervals.least = nsvcd__v_pick(square, before, tau, intervals.least);
-    intervals.square = nsvcd__v_min(square, before);
-    intervals.fresh = nsvcd__v_pick(square, limit, zero, one);
-    if (!intervals.open) intervals.oldest = s;
-    intervals.open = met;
-    intervals.last = s;
   }
-  if (intervals.open)
-    nsvcd__intervals_close(&intervals, intervals.open, search, moving, i, fixed, j, kept);
+  if (at.open) nsvcd__intervals_close(&at, at.open, search, moving, i, fixed, j, kept);
 }
 
 // The 16 members of moving group g against patch j of the fixed body, in the segments `wanted`.
@@ -7254,24 +7278,22 @@ static void nsvcd__chords_of_group(nsvcd__search *search, const nsvcd_body *movi
 // Grows a slice of boxes, from lane l on, by chords where they are near the fixed body.
 static void nsvcd__boxes_grow(const nsvcd__chords *c, size_t l, const nsvcd_body *fixed,
                               nsvcd__boxes *out) {
-  const nsvcd__v x[3] = {nsvcd__v_load(c->x + l), nsvcd__v_load(c->y + l), nsvcd__v_load(c->z + l)};
-  const nsvcd__v v[3] = {nsvcd__v_load(c->vx + l), nsvcd__v_load(c->vy + l),
-                         nsvcd__v_load(c->vz + l)};
-  const nsvcd__v d[3] = {nsvcd__v_sub(x[0], nsvcd__v_set(fixed->centre[0])),
-                         nsvcd__v_sub(x[1], nsvcd__v_set(fixed->centre[1])),
-                         nsvcd__v_sub(x[2], nsvcd__v_set(fixed->centre[2]))};
+  const nsvcd__v3 start = nsvcd__v3_rows(c->start[0] + l);
+  const nsvcd__v3 way = nsvcd__v3_rows(c->way[0] + l);
+  const nsvcd__v3 centre =
+      nsvcd__v3_set(nsvcd__f3_of(fixed->centre[0], fixed->centre[1], fixed->centre[2]));
+  const nsvcd__v3 d = nsvcd__v3_sub(start, centre);
   const nsvcd__v reach = nsvcd__v_load(c->reach + l);
   const nsvcd__v sum = nsvcd__v_add(reach, nsvcd__v_set(fixed->radius));
-  const nsvcd__v square = nsvcd__nearest2(d, v, nsvcd__v_load(c->inverse + l));
+  const nsvcd__v square = nsvcd__nearest2(d, way, nsvcd__v_load(c->inverse + l));
   const nsvcd__v nearby =
       nsvcd__v_pick(square, nsvcd__v_signed_square(sum), reach, nsvcd__v_set(NSVCD__NOWHERE));
-  for (size_t k = 0; k < 3; k++) {
-    const nsvcd__v end = nsvcd__v_add(x[k], v[k]);
-    const nsvcd__v low = nsvcd__v_sub(nsvcd__v_min(x[k], end), nearby);
-    const nsvcd__v high = nsvcd__v_add(nsvcd__v_max(x[k], end), nearby);
-    nsvcd__v_store(out->low[k] + l, nsvcd__v_min(nsvcd__v_load(out->low[k] + l), low));
-    nsvcd__v_store(out->high[k] + l, nsvcd__v_max(nsvcd__v_load(out->high[k] + l), high));
-  }
+  const nsvcd__v3 end = nsvcd__v3_add(start, way);
+  const nsvcd__v3 around = nsvcd__v3_of(nearby, nearby, nearby);
+  const nsvcd__v3 low = nsvcd__v3_sub(nsvcd__v3_min(start, end), around);
+  const nsvcd__v3 high = nsvcd__v3_add(nsvcd__v3_max(start, end), around);
+  nsvcd__v3_store(out->low, l, nsvcd__v3_min(nsvcd__v3_load(out->low, l), low));
+  nsvcd__v3_store(out->high, l, nsvcd__v3_max(nsvcd__v3_load(out->high, l), high));
 }
 
 // Boxes in which 16 groups of the moving tile, from `first`, stay as long as they are near the
@@ -7458,12 +7480,10 @@ static void nsvcd__box_of_way(nsvcd__search *search) {
   float least[6] = {HUGE_VALF, HUGE_VALF, HUGE_VALF, HUGE_VALF, HUGE_VALF, HUGE_VALF};
   for (size_t b = 0; NSVCD__LANES * b < search->segments; b++) {
     const nsvcd__chords *c = &search->group[b];
-    const float *starts[3] = {c->x, c->y, c->z};
-    const float *ways[3] = {c->vx, c->vy, c->vz};
     for (size_t l = 0; l < NSVCD__LANES && NSVCD__LANES * b + l < search->segments; l++) {
       for (size_t k = 0; k < 3; k++) {
-        const float start = starts[k][l];
-        const float end = start + ways[k][l];
+        const float start = c->start[k][l];
+        const float end = start + c->way[k][l];
         least[k] = fminf(least[k], fminf(start, end) - c->reach[l]);
         least[3 + k] = fminf(least[3 + k], -fmaxf(start, end) - c->reach[l]);
       }
@@ -8331,12 +8351,10 @@ NSVCD__INLINE nsvcd__v_approach nsvcd__v_approach_load(const nsvcd__approach *a,
   const nsvcd__chords *c = a->chords;
   const float *d = a->discs + l;
   const size_t stride = a->stride;
-  const nsvcd__v3 start =
-      nsvcd__v3_of(nsvcd__v_load(c->x + l), nsvcd__v_load(c->y + l), nsvcd__v_load(c->z + l));
+  const nsvcd__v3 start = nsvcd__v3_rows(c->start[0] + l);
   nsvcd__v_approach out;
   out.from = nsvcd__v3_sub(start, nsvcd__v3_set(a->centre));
-  out.chord =
-      nsvcd__v3_of(nsvcd__v_load(c->vx + l), nsvcd__v_load(c->vy + l), nsvcd__v_load(c->vz + l));
+  out.chord = nsvcd__v3_rows(c->way[0] + l);
   out.normal =
       nsvcd__v3_of(nsvcd__v_load(d), nsvcd__v_load(d + stride), nsvcd__v_load(d + 2 * stride));
   out.low = nsvcd__v_load(d + 3 * stride);
@@ -8526,11 +8544,9 @@ static uint32_t nsvcd__groups_apart(nsvcd__segments *block, const nsvcd__chords 
   const nsvcd__v allowed = nsvcd__v_add(spans.rounding, nsvcd__v_set(clearance));
   const nsvcd__v3 n = nsvcd__v3_set(fixed->normal);
   const nsvcd__v3 m = nsvcd__v3_set(moving->normal);
-  const nsvcd__v3 centre =
-      nsvcd__v3_of(nsvcd__v_load(c->x + l), nsvcd__v_load(c->y + l), nsvcd__v_load(c->z + l));
+  const nsvcd__v3 centre = nsvcd__v3_rows(c->start[0] + l);
   const nsvcd__v3 from = nsvcd__v3_sub(centre, nsvcd__v3_set(fixed_centre));
-  const nsvcd__v3 chord =
-      nsvcd__v3_of(nsvcd__v_load(c->vx + l), nsvcd__v_load(c->vy + l), nsvcd__v_load(c->vz + l));
+  const nsvcd__v3 chord = nsvcd__v3_rows(c->way[0] + l);
 
   const nsvcd__v3 at_start = nsvcd__v3_turned_back(block->rotation, l, fixed->normal);
   const nsvcd__v3 at_end =
@@ -10353,10 +10369,8 @@ static void nsvcd__collect_items(nsvcd__proof *p, const nsvcd__search *search, s
     float share[NSVCD__LANES];
     uint32_t met = 0;
     NSVCD__EACH_SLICE(l) {
-      const nsvcd__v3 start =
-          nsvcd__v3_of(nsvcd__v_load(c->x + l), nsvcd__v_load(c->y + l), nsvcd__v_load(c->z + l));
-      const nsvcd__v3 v = nsvcd__v3_of(nsvcd__v_load(c->vx + l), nsvcd__v_load(c->vy + l),
-                                       nsvcd__v_load(c->vz + l));
+      const nsvcd__v3 start = nsvcd__v3_rows(c->start[0] + l);
+      const nsvcd__v3 v = nsvcd__v3_rows(c->way[0] + l);
       const nsvcd__v3 d = nsvcd__v3_sub(start, nsvcd__v3_set(place));
       const nsvcd__v tau =
           nsvcd__v_clamp(nsvcd__v_mul(nsvcd__v3_dot(d, v), nsvcd__v_load(c->inverse + l)), 0, 1);

@@ -698,8 +698,8 @@ static void deviation_is_bounded(void) {
       place64(&at, &f, c64, p);
       nsvcd__chords chords;
       nsvcd__chords_of_sphere(b, c[0], c[1], c[2], 0, &chords);
-      const float x[3] = {chords.x[l], chords.y[l], chords.z[l]};
-      const float v[3] = {chords.vx[l], chords.vy[l], chords.vz[l]};
+      const float x[3] = {chords.start[0][l], chords.start[1][l], chords.start[2][l]};
+      const float v[3] = {chords.way[0][l], chords.way[1][l], chords.way[2][l]};
       for (int k = 0; k < 3; k++) square += pow((double)x[k] + tau * (double)v[k] - p[k], 2);
       CHECK_LE(sqrt(square), chords.reach[l]);
       if (trial % 4 == 3) most = fmax(most, sqrt(square) / (double)chords.reach[l]);
