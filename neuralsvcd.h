@@ -822,6 +822,12 @@ static inline nsvcd__f3 nsvcd__f3_sub(nsvcd__f3 a, nsvcd__f3 b) {
 static inline nsvcd__f3 nsvcd__f3_scale(nsvcd__f3 a, float s) {
   return nsvcd__f3_of(s * a.x, s * a.y, s * a.z);
 }
+static inline nsvcd__f3 nsvcd__f3_min(nsvcd__f3 a, nsvcd__f3 b) {
+  return nsvcd__f3_of(a.x < b.x ? a.x : b.x, a.y < b.y ? a.y : b.y, a.z < b.z ? a.z : b.z);
+}
+static inline nsvcd__f3 nsvcd__f3_max(nsvcd__f3 a, nsvcd__f3 b) {
+  return nsvcd__f3_of(a.x > b.x ? a.x : b.x, a.y > b.y ? a.y : b.y, a.z > b.z ? a.z : b.z);
+}
 static inline float nsvcd__f3_dot(nsvcd__f3 a, nsvcd__f3 b) {
   return a.x * b.x + a.y * b.y + a.z * b.z;
 }
@@ -878,6 +884,34 @@ static inline nsvcd__f3 nsvcd__f3_round(nsvcd__d3 a) {
 }
 static inline nsvcd__d3 nsvcd__d3_widen(nsvcd__f3 a) {
   return nsvcd__d3_of((double)a.x, (double)a.y, (double)a.z);
+}
+
+// ---- spheres
+
+typedef struct nsvcd__sphere {
+  nsvcd__f3 centre;
+  float radius;
+} nsvcd__sphere;
+
+// Many of them, in arrays that follow each other: x, y, z and radii.
+typedef struct nsvcd__spheres {
+  const float *x, *y, *z, *r;
+} nsvcd__spheres;
+
+static inline nsvcd__spheres nsvcd__spheres_of(const float *first, size_t slots) {
+  const nsvcd__spheres out = {first, first + slots, first + 2 * slots, first + 3 * slots};
+  return out;
+}
+static inline nsvcd__spheres nsvcd__spheres_from(nsvcd__spheres all, size_t i) {
+  const nsvcd__spheres out = {all.x + i, all.y + i, all.z + i, all.r + i};
+  return out;
+}
+static inline nsvcd__f3 nsvcd__centre_of(nsvcd__spheres all, size_t i) {
+  return nsvcd__f3_of(all.x[i], all.y[i], all.z[i]);
+}
+static inline nsvcd__sphere nsvcd__sphere_of(nsvcd__spheres all, size_t i) {
+  const nsvcd__sphere out = {nsvcd__centre_of(all, i), all.r[i]};
+  return out;
 }
 
 // ---- quaternions and matrices
@@ -1264,6 +1298,10 @@ NSVCD__INLINE void nsvcd__v3_store(float (*p)[NSVCD__LANES], size_t l, nsvcd__v3
   nsvcd__v_store(p[0] + l, a.x);
   nsvcd__v_store(p[1] + l, a.y);
   nsvcd__v_store(p[2] + l, a.z);
+}
+// The centres of a slice of spheres, from l on.
+NSVCD__INLINE nsvcd__v3 nsvcd__v3_centres(nsvcd__spheres all, size_t l) {
+  return nsvcd__v3_of(nsvcd__v_load(all.x + l), nsvcd__v_load(all.y + l), nsvcd__v_load(all.z + l));
 }
 // From three rows of 16 numbers.
 NSVCD__INLINE nsvcd__v3 nsvcd__v3_rows(const float *p) {
@@ -4575,6 +4613,20 @@ static const float *nsvcd__body_group(const nsvcd_body *body, size_t axis) {  //
   return nsvcd__body_floats(body,
                             4 * (size_t)body->padded + axis * nsvcd__group_slots(body->padded));
 }
+static nsvcd__spheres nsvcd__body_patches(const nsvcd_body *body) {
+  return nsvcd__spheres_of(nsvcd__body_floats(body, 0), body->padded);
+}
+static nsvcd__spheres nsvcd__level_spheres(const nsvcd_body *body, nsvcd__level level) {
+  return nsvcd__spheres_of(nsvcd__body_floats(body, level.first), level.slots);
+}
+static nsvcd__spheres nsvcd__group_spheres(const nsvcd_body *body) {
+  return nsvcd__level_spheres(body, nsvcd__level_of(body->padded, 0));
+}
+static nsvcd__sphere nsvcd__body_sphere(const nsvcd_body *body) {
+  const nsvcd__f3 centre = nsvcd__f3_of(body->centre[0], body->centre[1], body->centre[2]);
+  const nsvcd__sphere out = {centre, body->radius};
+  return out;
+}
 
 // Spheres with their padding: of the patches and all levels.
 static size_t nsvcd__sphere_slots(size_t padded) {
@@ -4684,12 +4736,12 @@ static void nsvcd__body_order(size_t count, const float *centres, uint16_t *orde
 #endif
 
 // The largest |p_i - centre| + r_i of `count` spheres; *farthest is the i.
-static float nsvcd__reach_of_spheres(size_t count, const float *x, const float *y, const float *z,
-                                     const float *r, const float *centre, size_t *farthest) {
+static float nsvcd__reach_of_spheres(nsvcd__spheres all, size_t count, nsvcd__f3 centre,
+                                     size_t *farthest) {
   float reach = 0;
   for (size_t i = 0; i < count; i++) {
-    float d[3] = {x[i] - centre[0], y[i] - centre[1], z[i] - centre[2]};
-    float end = nsvcd__length3(d) + r[i];
+    const nsvcd__f3 d = nsvcd__f3_sub(nsvcd__centre_of(all, i), centre);
+    const float end = nsvcd__f3_length(d) + all.r[i];
     if (end > reach) {
       reach = end;
       *farthest = i;
@@ -4699,84 +4751,78 @@ static float nsvcd__reach_of_spheres(size_t count, const float *x, const float *
 }
 
 // A sphere over `count` spheres: from the middle of their box, ever shorter steps towards the
-// farthest (Badoiu and Clarkson 2003), the best one kept. out: x y z r. The radius is rounded up by
-// more than any compiler's rounding.
-static void nsvcd__cover_spheres(size_t count, const float *x, const float *y, const float *z,
-                                 const float *r, float *out) {
-  const float *axes[3] = {x, y, z};
-  float centre[3];
-  for (size_t k = 0; k < 3; k++) {
-    float low = axes[k][0] - r[0];
-    float high = axes[k][0] + r[0];
-    for (size_t i = 1; i < count; i++) {
-      float a = axes[k][i] - r[i];
-      float b = axes[k][i] + r[i];
-      low = a < low ? a : low;
-      high = b > high ? b : high;
-    }
-    centre[k] = 0.5f * low + 0.5f * high;
+// farthest (Badoiu and Clarkson 2003), the best one kept. The radius is rounded up by more than any
+// compiler's rounding.
+static nsvcd__sphere nsvcd__cover_spheres(nsvcd__spheres all, size_t count) {
+  nsvcd__f3 low = nsvcd__f3_of(HUGE_VALF, HUGE_VALF, HUGE_VALF);
+  nsvcd__f3 high = nsvcd__f3_scale(low, -1);
+  for (size_t i = 0; i < count; i++) {
+    const nsvcd__f3 r = nsvcd__f3_of(all.r[i], all.r[i], all.r[i]);
+    const nsvcd__f3 centre = nsvcd__centre_of(all, i);
+    low = nsvcd__f3_min(low, nsvcd__f3_sub(centre, r));
+    high = nsvcd__f3_max(high, nsvcd__f3_add(centre, r));
   }
-  float best = 0;
+  nsvcd__f3 centre = nsvcd__f3_add(nsvcd__f3_scale(low, 0.5f), nsvcd__f3_scale(high, 0.5f));
+  nsvcd__sphere best = {centre, HUGE_VALF};
   for (int step = 0; step < 32; step++) {
     size_t farthest = 0;
-    float reach = nsvcd__reach_of_spheres(count, x, y, z, r, centre, &farthest);
-    if (step == 0 || reach < best) {
-      best = reach;
-      memcpy(out, centre, sizeof centre);
+    const float reach = nsvcd__reach_of_spheres(all, count, centre, &farthest);
+    if (reach < best.radius) {
+      best.centre = centre;
+      best.radius = reach;
     }
-    for (size_t k = 0; k < 3; k++) centre[k] += (axes[k][farthest] - centre[k]) / (float)(step + 3);
+    const nsvcd__f3 d = nsvcd__f3_sub(nsvcd__centre_of(all, farthest), centre);
+    const float steps = (float)(step + 3);
+    centre = nsvcd__f3_add(centre, nsvcd__f3_of(d.x / steps, d.y / steps, d.z / steps));
   }
-  out[3] = best * 1.000002f;
+  best.radius *= 1.000002f;
+  return best;
 }
 
-// Fills the spheres of a level from those, of so many slots, that they are over: 16 each, of which
-// `members` exist.
-static void nsvcd__level_finish(const float *below, size_t stride, size_t members,
-                                nsvcd__level level, float *out) {
+// Fills the spheres of a level from those that they are over: 16 each, of which `members` exist.
+static void nsvcd__level_finish(nsvcd__spheres below, size_t members, nsvcd__level level,
+                                float *out) {
   for (size_t g = 0; g < level.slots; g++) {
-    float sphere[4] = {0, 0, 0, NSVCD__NOWHERE};
+    nsvcd__sphere sphere = {nsvcd__f3_of(0, 0, 0), NSVCD__NOWHERE};
     const size_t i = g * NSVCD__GROUP;
     const size_t left = i >= members ? 0 : members - i;
     const size_t count = left < NSVCD__GROUP ? left : NSVCD__GROUP;
-    const float *x = below + i;
-    if (count) nsvcd__cover_spheres(count, x, x + stride, x + 2 * stride, x + 3 * stride, sphere);
-    for (size_t k = 0; k < 4; k++) out[k * level.slots + g] = sphere[k];
+    if (count) sphere = nsvcd__cover_spheres(nsvcd__spheres_from(below, i), count);
+    out[g] = sphere.centre.x;
+    out[level.slots + g] = sphere.centre.y;
+    out[2 * level.slots + g] = sphere.centre.z;
+    out[3 * level.slots + g] = sphere.radius;
   }
 }
 
 // Fills the spheres above the patches, the bounding sphere, the extent and the checksum of a blob
 // whose patches are in place.
 static void nsvcd__body_finish(nsvcd_body *body) {
-  float *x = (float *)(body + 1);
-  float *y = x + body->padded;
-  float *z = y + body->padded;
-  float *r = z + body->padded;
-  const float *below = x;
-  size_t points = body->points;
-  size_t stride = body->padded;
-  size_t members = points;
+  const nsvcd__spheres patches = nsvcd__body_patches(body);
+  nsvcd__spheres below = patches;
+  size_t members = body->points;
   for (size_t k = 0; k < nsvcd__level_count(body->padded); k++) {
     const nsvcd__level level = nsvcd__level_of(body->padded, k);
-    nsvcd__level_finish(below, stride, members, level, x + level.first);
-    below = x + level.first;
-    stride = level.slots;
+    nsvcd__level_finish(below, members, level, (float *)(body + 1) + level.first);
+    below = nsvcd__level_spheres(body, level);
     members = level.count;
   }
-  float sphere[4];
-  float origin[3] = {0, 0, 0};
   size_t farthest = 0;
-  nsvcd__cover_spheres(points, x, y, z, r, sphere);
-  memcpy(body->centre, sphere, sizeof body->centre);
-  body->radius = sphere[3];
-  body->extent = nsvcd__reach_of_spheres(points, x, y, z, r, origin, &farthest) * 1.000002f;
+  const nsvcd__f3 origin = nsvcd__f3_of(0, 0, 0);
+  const nsvcd__sphere sphere = nsvcd__cover_spheres(patches, body->points);
+  const float extent = nsvcd__reach_of_spheres(patches, body->points, origin, &farthest);
+  body->centre[0] = sphere.centre.x;
+  body->centre[1] = sphere.centre.y;
+  body->centre[2] = sphere.centre.z;
+  body->radius = sphere.radius;
+  body->extent = extent * 1.000002f;
   body->checksum = nsvcd__body_checksum(body);
 }
 
 // ---- a walk through the groups of a body
 
 // Which of 16 spheres are of interest? Bits of lanes.
-typedef uint32_t nsvcd__filter(const void *what, const float *x, const float *y, const float *z,
-                               const float *r);
+typedef uint32_t nsvcd__filter(const void *what, nsvcd__spheres spheres);
 
 // Finds the groups whose spheres, and all spheres over them, pass a filter, in their order.
 typedef struct nsvcd__walk {
@@ -4790,8 +4836,8 @@ typedef struct nsvcd__walk {
 
 static uint32_t nsvcd__walk_look(const nsvcd__walk *walk, size_t level, size_t first) {
   const nsvcd__level at = nsvcd__level_of(walk->body->padded, level);
-  const float *x = nsvcd__body_floats(walk->body, at.first + first);
-  return walk->filter(walk->what, x, x + at.slots, x + 2 * at.slots, x + 3 * at.slots);
+  const nsvcd__spheres all = nsvcd__level_spheres(walk->body, at);
+  return walk->filter(walk->what, nsvcd__spheres_from(all, first));
 }
 
 static void nsvcd__walk_begin(nsvcd__walk *walk, const nsvcd_body *body, nsvcd__filter *filter,
@@ -4921,72 +4967,68 @@ static nsvcd_result nsvcd__body_build(size_t points, const float *centres, const
 }
 #endif
 
-// 1 if the sphere contains the spheres [0, count).
-static int nsvcd__covers(const float *centre, float radius, size_t count, const float *x,
-                         const float *y, const float *z, const float *r) {
+// 1 if the sphere contains `count` spheres.
+static int nsvcd__covers(nsvcd__sphere sphere, nsvcd__spheres all, size_t count) {
   size_t farthest = 0;
-  return nsvcd__reach_of_spheres(count, x, y, z, r, centre, &farthest) <= radius;
+  return nsvcd__reach_of_spheres(all, count, sphere.centre, &farthest) <= sphere.radius;
 }
 
 // 1 if padding entries [from, to) are exactly what nsvcd__body_finish writes.
-static int nsvcd__is_padding(const float *x, const float *y, const float *z, const float *r,
-                             size_t from, size_t to) {
+static int nsvcd__is_padding(nsvcd__spheres all, size_t from, size_t to) {
   for (size_t i = from; i < to; i++) {
-    if (x[i] != 0 || y[i] != 0 || z[i] != 0 || r[i] != NSVCD__NOWHERE) return 0;
+    if (all.x[i] != 0 || all.y[i] != 0 || all.z[i] != 0) return 0;
+    if (all.r[i] != NSVCD__NOWHERE) return 0;
   }
   return 1;
 }
 
 // Are `count` spheres of so many slots, 1 to `stride`, finite and within bounds, their radii not
 // negative, the others padding?
-static int nsvcd__are_spheres(const float *x, size_t count, size_t stride, float cap) {
-  const float *r = x + 3 * stride;
-  if (!nsvcd__all_within(x, 3 * stride, cap) || !nsvcd__all_within(r, count, NSVCD__MAX_LENGTH))
-    return 0;
-  if (!nsvcd__all_within(r, stride, -NSVCD__NOWHERE)) return 0;
+static int nsvcd__are_spheres(nsvcd__spheres all, size_t count, size_t stride, float cap) {
+  if (!nsvcd__all_within(all.x, 3 * stride, cap)) return 0;
+  if (!nsvcd__all_within(all.r, count, NSVCD__MAX_LENGTH)) return 0;
+  if (!nsvcd__all_within(all.r, stride, -NSVCD__NOWHERE)) return 0;
   for (size_t i = 0; i < count; i++) {
-    if (r[i] < 0) return 0;
+    if (all.r[i] < 0) return 0;
   }
-  return nsvcd__is_padding(x, x + stride, x + 2 * stride, r, count, stride);
+  return nsvcd__is_padding(all, count, stride);
+}
+
+// Does each sphere of a level cover its 16, of which `members` exist?
+static int nsvcd__level_covers(nsvcd__spheres above, size_t count, nsvcd__spheres below,
+                               size_t members) {
+  for (size_t g = 0; g < count; g++) {
+    const size_t i = g * NSVCD__GROUP;
+    const size_t left = members - i < NSVCD__GROUP ? members - i : NSVCD__GROUP;
+    const nsvcd__sphere sphere = nsvcd__sphere_of(above, g);
+    if (!nsvcd__covers(sphere, nsvcd__spheres_from(below, i), left)) return 0;
+  }
+  return 1;
 }
 
 // The spheres of a blob whose layout is right: finite, bounded, radii not negative, each one above
 // covering its 16. A checksum stops accidents; this stops a blob made to harm: a lying sphere would
 // hide collisions.
 static int nsvcd__spheres_are_sound(const nsvcd_body *body) {
-  const float *x = nsvcd__body_x(body);
-  const size_t padded = body->padded;
-  if (!nsvcd__are_spheres(x, body->points, padded, NSVCD_MAX_COORDINATE)) return 0;
+  const nsvcd__spheres patches = nsvcd__body_patches(body);
+  const nsvcd__sphere about_origin = {nsvcd__f3_of(0, 0, 0), body->extent};
+  if (!nsvcd__are_spheres(patches, body->points, body->padded, NSVCD_MAX_COORDINATE)) return 0;
   if (!nsvcd__all_within(body->centre, 3, NSVCD__MAX_LENGTH)) return 0;
   if (!nsvcd__all_within(&body->radius, 1, NSVCD__MAX_LENGTH)) return 0;
-  if (!nsvcd__all_within(&body->extent, 1, NSVCD__MAX_LENGTH) || body->radius < NSVCD_MIN_RADIUS)
-    return 0;
-  const float *below = x;
-  size_t stride = padded;
+  if (!nsvcd__all_within(&body->extent, 1, NSVCD__MAX_LENGTH)) return 0;
+  if (body->radius < NSVCD_MIN_RADIUS) return 0;
+  nsvcd__spheres below = patches;
   size_t members = body->points;
-  for (size_t k = 0; k < nsvcd__level_count(padded); k++) {
-    const nsvcd__level level = nsvcd__level_of(padded, k);
-    const float *above = x + level.first;
+  for (size_t k = 0; k < nsvcd__level_count(body->padded); k++) {
+    const nsvcd__level level = nsvcd__level_of(body->padded, k);
+    const nsvcd__spheres above = nsvcd__level_spheres(body, level);
     if (!nsvcd__are_spheres(above, level.count, level.slots, NSVCD__MAX_LENGTH)) return 0;
-    for (size_t g = 0; g < level.count; g++) {
-      const size_t i = g * NSVCD__GROUP;
-      const size_t count = members - i < NSVCD__GROUP ? members - i : NSVCD__GROUP;
-      const float centre[3] = {above[g], above[level.slots + g], above[2 * level.slots + g]};
-      const float *first = below + i;
-      if (!nsvcd__covers(centre, above[3 * level.slots + g], count, first, first + stride,
-                         first + 2 * stride, first + 3 * stride)) {
-        return 0;
-      }
-    }
+    if (!nsvcd__level_covers(above, level.count, below, members)) return 0;
     below = above;
-    stride = level.slots;
     members = level.count;
   }
-  const float origin[3] = {0, 0, 0};
-  return nsvcd__covers(body->centre, body->radius, body->points, x, x + padded, x + 2 * padded,
-                       x + 3 * padded) &&
-         nsvcd__covers(origin, body->extent, body->points, x, x + padded, x + 2 * padded,
-                       x + 3 * padded);
+  return nsvcd__covers(nsvcd__body_sphere(body), patches, body->points) &&
+         nsvcd__covers(about_origin, patches, body->points);
 }
 
 // Multiplies the spheres that both kinds of bodies begin with.
@@ -5174,7 +5216,7 @@ static uint32_t nsvcd__facet_number(const nsvcd__facets *f, size_t patch, size_t
 
 static nsvcd__f3 nsvcd__facet_centre(const nsvcd__facets *f, size_t patch) {
   const nsvcd_body *b = f->body;
-  return nsvcd__f3_of(nsvcd__body_x(b)[patch], nsvcd__body_y(b)[patch], nsvcd__body_z(b)[patch]);
+  return nsvcd__centre_of(nsvcd__body_patches(b), patch);
 }
 
 // Vertices first .. first + 15 of a patch, the last one repeated: the slice of them that begins
@@ -5223,9 +5265,7 @@ typedef struct nsvcd__slab {
 
 static nsvcd__slab nsvcd__slab_of_group(const nsvcd__facets *f, size_t g, nsvcd__d3 normal) {
   const size_t first = NSVCD__GROUP * g;
-  const nsvcd__d3 centre = nsvcd__d3_of((double)nsvcd__body_group(f->body, 0)[g],
-                                        (double)nsvcd__body_group(f->body, 1)[g],
-                                        (double)nsvcd__body_group(f->body, 2)[g]);
+  const nsvcd__d3 centre = nsvcd__d3_widen(nsvcd__centre_of(nsvcd__group_spheres(f->body), g));
   nsvcd__slab slab = {HUGE_VAL, -HUGE_VAL, 0};
   for (size_t i = first; i < first + NSVCD__GROUP && i < f->body->points; i++) {
     const size_t all = f->first_vertex[i + 1] - f->first_vertex[i];
@@ -6351,9 +6391,8 @@ typedef struct nsvcd__boxes {
 typedef struct nsvcd__tile {
   size_t count;
   uint16_t groups[NSVCD__TILE_SLOTS];
-  // x y z r: the body's own where it has no more than a tile, else gathered
-  const float *spheres[4];
-  float *gathered;  // (4, NSVCD__TILE_SLOTS), or NULL
+  nsvcd__spheres spheres;  // the body's own where it has no more than a tile, else gathered
+  float *gathered;         // (4, NSVCD__TILE_SLOTS), or NULL
 } nsvcd__tile;
 
 // What a query needs memory for.
@@ -6913,48 +6952,49 @@ static void nsvcd__chords_store(nsvcd__chords *c, size_t l, const nsvcd__v *star
   nsvcd__v_store(c->reach + l, reach);
 }
 
-// Chords of one sphere (centre x y z, radius r, body frame) in the segments of a block.
-static void nsvcd__chords_of_sphere(const nsvcd__segments *b, float x, float y, float z, float r,
+// Chords of one sphere, body frame, in the segments of a block.
+static void nsvcd__chords_of_sphere(const nsvcd__segments *b, nsvcd__sphere sphere,
                                     nsvcd__chords *out) {
-  const float length = sqrtf(x * x + y * y + z * z);
+  const nsvcd__f3 c = sphere.centre;
+  const float length = nsvcd__f3_length(c);
   NSVCD__EACH_SLICE(l) {
-    const nsvcd__v centre[3] = {nsvcd__v_set(x), nsvcd__v_set(y), nsvcd__v_set(z)};
-    nsvcd__v x0[3], v[3];
+    const nsvcd__v centre[3] = {nsvcd__v_set(c.x), nsvcd__v_set(c.y), nsvcd__v_set(c.z)};
+    nsvcd__v start[3], way[3];
     for (size_t i = 0; i < 3; i++) {
-      x0[i] = nsvcd__v_load(b->position[i] + l);
-      v[i] = nsvcd__v_load(b->moved[i] + l);
+      start[i] = nsvcd__v_load(b->position[i] + l);
+      way[i] = nsvcd__v_load(b->moved[i] + l);
       for (size_t k = 0; k < 3; k++) {
-        x0[i] = nsvcd__v_fma(nsvcd__v_load(b->rotation[3 * i + k] + l), centre[k], x0[i]);
-        v[i] = nsvcd__v_fma(nsvcd__v_load(b->turned[3 * i + k] + l), centre[k], v[i]);
+        start[i] = nsvcd__v_fma(nsvcd__v_load(b->rotation[3 * i + k] + l), centre[k], start[i]);
+        way[i] = nsvcd__v_fma(nsvcd__v_load(b->turned[3 * i + k] + l), centre[k], way[i]);
       }
     }
     const nsvcd__v spread = nsvcd__v_load(b->spread + l);
-    const nsvcd__v deviation =
-        nsvcd__v_fma(nsvcd__v_load(b->bulge + l), nsvcd__v_set(length), spread);
-    nsvcd__chords_store(out, l, x0, v, nsvcd__v_add(deviation, nsvcd__v_set(r)));
+    const nsvcd__v bulge = nsvcd__v_load(b->bulge + l);
+    const nsvcd__v deviation = nsvcd__v_fma(bulge, nsvcd__v_set(length), spread);
+    nsvcd__chords_store(out, l, start, way, nsvcd__v_add(deviation, nsvcd__v_set(sphere.radius)));
   }
 }
 
 // Chords of 16 spheres in one segment: lane s of a block. No centre is farther from the body's
 // origin than `remote`, in that body's own frame, as all that is given; scale: of the body.
-static void nsvcd__chords_of_members(const nsvcd__segments *b, size_t s, const float *x,
-                                     const float *y, const float *z, const float *r, float scale,
-                                     float remote, nsvcd__chords *out) {
+static void nsvcd__chords_of_members(const nsvcd__segments *b, size_t s, nsvcd__spheres members,
+                                     float scale, float remote, nsvcd__chords *out) {
   const float deviation = b->spread[s] + b->bulge[s] * remote;
   NSVCD__EACH_SLICE(l) {
-    const nsvcd__v centre[3] = {nsvcd__v_load(x + l), nsvcd__v_load(y + l), nsvcd__v_load(z + l)};
-    nsvcd__v x0[3], v[3];
+    const nsvcd__v3 c = nsvcd__v3_centres(members, l);
+    const nsvcd__v centre[3] = {c.x, c.y, c.z};
+    const nsvcd__v r = nsvcd__v_load(members.r + l);
+    nsvcd__v start[3], way[3];
     for (size_t i = 0; i < 3; i++) {
-      x0[i] = nsvcd__v_set(b->position[i][s]);
-      v[i] = nsvcd__v_set(b->moved[i][s]);
+      start[i] = nsvcd__v_set(b->position[i][s]);
+      way[i] = nsvcd__v_set(b->moved[i][s]);
       for (size_t k = 0; k < 3; k++) {
-        x0[i] = nsvcd__v_fma(nsvcd__v_set(b->rotation[3 * i + k][s]), centre[k], x0[i]);
-        v[i] = nsvcd__v_fma(nsvcd__v_set(b->turned[3 * i + k][s]), centre[k], v[i]);
+        start[i] = nsvcd__v_fma(nsvcd__v_set(b->rotation[3 * i + k][s]), centre[k], start[i]);
+        way[i] = nsvcd__v_fma(nsvcd__v_set(b->turned[3 * i + k][s]), centre[k], way[i]);
       }
     }
-    const nsvcd__v reach =
-        nsvcd__v_fma(nsvcd__v_set(scale), nsvcd__v_load(r + l), nsvcd__v_set(deviation));
-    nsvcd__chords_store(out, l, x0, v, reach);
+    const nsvcd__v reach = nsvcd__v_fma(nsvcd__v_set(scale), r, nsvcd__v_set(deviation));
+    nsvcd__chords_store(out, l, start, way, reach);
   }
 }
 
@@ -6979,31 +7019,29 @@ NSVCD__INLINE uint32_t nsvcd__comes_within(nsvcd__v3 d, nsvcd__v3 way, nsvcd__v 
 }
 
 // 16 moving spheres, or one in 16 segments, against one resting sphere.
-static uint32_t nsvcd__meet(const nsvcd__chords *c, float x, float y, float z, float r) {
-  const nsvcd__f3 centre = nsvcd__f3_of(x, y, z);
+static uint32_t nsvcd__meet(const nsvcd__chords *c, nsvcd__sphere resting) {
   uint32_t met = 0;
   NSVCD__TALLY(tests, 1);
   NSVCD__EACH_SLICE(l) {
-    const nsvcd__v3 d = nsvcd__v3_sub(nsvcd__v3_rows(c->start[0] + l), nsvcd__v3_set(centre));
+    const nsvcd__v3 start = nsvcd__v3_rows(c->start[0] + l);
     const nsvcd__v3 way = nsvcd__v3_rows(c->way[0] + l);
-    const nsvcd__v reach = nsvcd__v_add(nsvcd__v_load(c->reach + l), nsvcd__v_set(r));
+    const nsvcd__v3 d = nsvcd__v3_sub(start, nsvcd__v3_set(resting.centre));
+    const nsvcd__v reach = nsvcd__v_add(nsvcd__v_load(c->reach + l), nsvcd__v_set(resting.radius));
     met |= nsvcd__comes_within(d, way, nsvcd__v_load(c->inverse + l), reach) << l;
   }
   return met;
 }
 
 // Lane s of a chord against 16 resting spheres.
-static uint32_t nsvcd__meet_members(const nsvcd__chords *c, size_t s, const float *x,
-                                    const float *y, const float *z, const float *r) {
+static uint32_t nsvcd__meet_members(const nsvcd__chords *c, size_t s, nsvcd__spheres resting) {
   const nsvcd__f3 start = nsvcd__f3_of(c->start[0][s], c->start[1][s], c->start[2][s]);
   const nsvcd__f3 way = nsvcd__f3_of(c->way[0][s], c->way[1][s], c->way[2][s]);
   uint32_t met = 0;
   NSVCD__TALLY(tests, 1);
   NSVCD__EACH_SLICE(l) {
-    const nsvcd__v3 centres =
-        nsvcd__v3_of(nsvcd__v_load(x + l), nsvcd__v_load(y + l), nsvcd__v_load(z + l));
+    const nsvcd__v3 centres = nsvcd__v3_centres(resting, l);
     const nsvcd__v3 d = nsvcd__v3_sub(nsvcd__v3_set(start), centres);
-    const nsvcd__v reach = nsvcd__v_add(nsvcd__v_set(c->reach[s]), nsvcd__v_load(r + l));
+    const nsvcd__v reach = nsvcd__v_add(nsvcd__v_set(c->reach[s]), nsvcd__v_load(resting.r + l));
     met |= nsvcd__comes_within(d, nsvcd__v3_set(way), nsvcd__v_set(c->inverse[s]), reach) << l;
   }
   return met;
@@ -7011,12 +7049,12 @@ static uint32_t nsvcd__meet_members(const nsvcd__chords *c, size_t s, const floa
 
 // The segments among `wanted` in which a sphere with chords[] (one block per 16 segments) meets a
 // resting one.
-static uint64_t nsvcd__meet_in(const nsvcd__chords *chords, uint64_t wanted, float x, float y,
-                               float z, float r) {
+static uint64_t nsvcd__meet_in(const nsvcd__chords *chords, uint64_t wanted,
+                               nsvcd__sphere resting) {
   uint64_t met = 0;
   for (size_t block = 0; block < NSVCD__BLOCKS && wanted >> (NSVCD__LANES * block); block++) {
     const size_t shift = NSVCD__LANES * block;
-    if (wanted >> shift & 0xffff) met |= (uint64_t)nsvcd__meet(&chords[block], x, y, z, r) << shift;
+    if (wanted >> shift & 0xffff) met |= (uint64_t)nsvcd__meet(&chords[block], resting) << shift;
   }
   return met & wanted;
 }
@@ -7136,15 +7174,14 @@ static void nsvcd__intervals_close(nsvcd__intervals *intervals, uint32_t lanes,
 // Asked for all 16 beforehand, so that machines with narrower slices find the same intervals.
 static uint64_t nsvcd__interval_cuts(const nsvcd__search *search, const nsvcd_body *fixed, size_t j,
                                      uint64_t wanted) {
+  const nsvcd__sphere patch = nsvcd__sphere_of(nsvcd__body_patches(fixed), j);
   uint64_t cuts = wanted & ~(wanted << 1);  // where the segment before is left out
   uint32_t open = 0;
   size_t oldest = 0;
   if (!(search->turn[search->segments] > NSVCD__INTERVAL_TURN)) return cuts;
   for (; wanted; wanted &= wanted - 1) {
     const size_t s = nsvcd__lowest_bit(wanted);
-    const uint32_t met =
-        nsvcd__meet(&search->members[s], nsvcd__body_x(fixed)[j], nsvcd__body_y(fixed)[j],
-                    nsvcd__body_z(fixed)[j], nsvcd__body_r(fixed)[j]);
+    const uint32_t met = nsvcd__meet(&search->members[s], patch);
     if (open && search->turn[s + 1] - search->turn[oldest] > NSVCD__INTERVAL_TURN)
       cuts |= (uint64_t)1 << s;
     if (cuts >> s & 1) open = 0;
@@ -7165,13 +7202,14 @@ typedef struct nsvcd__meetings {
   nsvcd__v half2;    // as nsvcd__intervals has it
 } nsvcd__meetings;
 
-NSVCD__INLINE nsvcd__meetings nsvcd__meetings_of(const nsvcd__chords *c, size_t l, nsvcd__f3 centre,
-                                                 float radius) {
+NSVCD__INLINE nsvcd__meetings nsvcd__meetings_of(const nsvcd__chords *c, size_t l,
+                                                 nsvcd__sphere resting) {
   nsvcd__meetings out;
-  const nsvcd__v3 d = nsvcd__v3_sub(nsvcd__v3_rows(c->start[0] + l), nsvcd__v3_set(centre));
+  const nsvcd__v3 start = nsvcd__v3_rows(c->start[0] + l);
   const nsvcd__v3 way = nsvcd__v3_rows(c->way[0] + l);
+  const nsvcd__v3 d = nsvcd__v3_sub(start, nsvcd__v3_set(resting.centre));
   const nsvcd__v inverse = nsvcd__v_load(c->inverse + l);
-  const nsvcd__v reach = nsvcd__v_add(nsvcd__v_load(c->reach + l), nsvcd__v_set(radius));
+  const nsvcd__v reach = nsvcd__v_add(nsvcd__v_load(c->reach + l), nsvcd__v_set(resting.radius));
   out.limit = nsvcd__v_signed_square(reach);
   out.nearest = nsvcd__v_mul(nsvcd__v3_dot(d, way), inverse);
   out.tau = nsvcd__v_clamp(out.nearest, 0, 1);
@@ -7224,13 +7262,11 @@ static void nsvcd__slice_against_patch(const nsvcd__search *search, const nsvcd_
   const size_t i = NSVCD__GROUP * g + l;
   const nsvcd__v one = nsvcd__v_set(1);
   const nsvcd__v zero = nsvcd__v_set(0);
-  const nsvcd__f3 centre =
-      nsvcd__f3_of(nsvcd__body_x(fixed)[j], nsvcd__body_y(fixed)[j], nsvcd__body_z(fixed)[j]);
+  const nsvcd__sphere patch = nsvcd__sphere_of(nsvcd__body_patches(fixed), j);
   nsvcd__intervals at = {0, 0, 0, one, zero, zero, zero, zero, zero, zero, zero, zero};
   for (; wanted; wanted &= wanted - 1) {
     const size_t s = nsvcd__lowest_bit(wanted);
-    const nsvcd__meetings now =
-        nsvcd__meetings_of(&search->members[s], l, centre, nsvcd__body_r(fixed)[j]);
+    const nsvcd__meetings now = nsvcd__meetings_of(&search->members[s], l, patch);
     uint32_t ended = at.open & ~now.met;
     if (nsvcd__intervals_are_cut(&at, search, s, cuts)) {
       ended = at.open;
@@ -7262,17 +7298,15 @@ static void nsvcd__members_against_patch(const nsvcd__search *search, const nsvc
 // ---- the search
 
 // Chords of a sphere of the moving body in all segments, into search->group.
-static void nsvcd__chords_in_all(nsvcd__search *search, const float *centre, float radius) {
+static void nsvcd__chords_in_all(nsvcd__search *search, nsvcd__sphere sphere) {
+  sphere.radius *= search->scale;
   for (size_t b = 0; NSVCD__LANES * b < search->segments; b++) {
-    nsvcd__chords_of_sphere(&search->blocks[b], centre[0], centre[1], centre[2],
-                            search->scale * radius, &search->group[b]);
+    nsvcd__chords_of_sphere(&search->blocks[b], sphere, &search->group[b]);
   }
 }
 
 static void nsvcd__chords_of_group(nsvcd__search *search, const nsvcd_body *moving, size_t g) {
-  const float centre[3] = {nsvcd__body_group(moving, 0)[g], nsvcd__body_group(moving, 1)[g],
-                           nsvcd__body_group(moving, 2)[g]};
-  nsvcd__chords_in_all(search, centre, nsvcd__body_group(moving, 3)[g]);
+  nsvcd__chords_in_all(search, nsvcd__sphere_of(nsvcd__group_spheres(moving), g));
 }
 
 // Grows a slice of boxes, from lane l on, by chords where they are near the fixed body.
@@ -7302,7 +7336,7 @@ static void nsvcd__boxes_grow(const nsvcd__chords *c, size_t l, const nsvcd_body
 static void nsvcd__boxes_of_groups(const nsvcd__search *search, const nsvcd_body *moving,
                                    size_t first, const nsvcd_body *fixed, uint64_t wanted,
                                    nsvcd__boxes *out) {
-  const nsvcd__tile *tile = &search->moving_tile;
+  const nsvcd__spheres groups = nsvcd__spheres_from(search->moving_tile.spheres, first);
   NSVCD__TALLY(tests, nsvcd__bit_count(wanted));
   for (size_t n = 0; n < 3 * NSVCD__LANES; n++) {
     out->low[n / NSVCD__LANES][n % NSVCD__LANES] = -NSVCD__NOWHERE;
@@ -7311,30 +7345,25 @@ static void nsvcd__boxes_of_groups(const nsvcd__search *search, const nsvcd_body
   for (; wanted; wanted &= wanted - 1) {
     const size_t s = nsvcd__lowest_bit(wanted);
     nsvcd__chords *c = nsvcd__spare_chords(search);
-    nsvcd__chords_of_members(&search->blocks[s / NSVCD__LANES], s % NSVCD__LANES,
-                             tile->spheres[0] + first, tile->spheres[1] + first,
-                             tile->spheres[2] + first, tile->spheres[3] + first, search->scale,
-                             moving->extent, c);
+    nsvcd__chords_of_members(&search->blocks[s / NSVCD__LANES], s % NSVCD__LANES, groups,
+                             search->scale, moving->extent, c);
     NSVCD__EACH_SLICE(l) nsvcd__boxes_grow(c, l, fixed, out);
   }
 }
 
 // 16 spheres that touch a box.
-static uint32_t nsvcd__spheres_at_box(const float *low, const float *high, const float *x,
-                                      const float *y, const float *z, const float *r) {
-  const float *centre[3] = {x, y, z};
+static uint32_t nsvcd__spheres_at_box(const float *low, const float *high, nsvcd__spheres all) {
+  const nsvcd__f3 least = nsvcd__f3_of(low[0], low[1], low[2]);
+  const nsvcd__f3 most = nsvcd__f3_of(high[0], high[1], high[2]);
   uint32_t touched = 0;
   NSVCD__EACH_SLICE(l) {
     const nsvcd__v zero = nsvcd__v_set(0);
-    nsvcd__v square = zero;
-    for (size_t k = 0; k < 3; k++) {
-      const nsvcd__v c = nsvcd__v_load(centre[k] + l);
-      const nsvcd__v below = nsvcd__v_sub(nsvcd__v_set(low[k]), c);
-      const nsvcd__v above = nsvcd__v_sub(c, nsvcd__v_set(high[k]));
-      const nsvcd__v d = nsvcd__v_max(nsvcd__v_max(below, above), zero);
-      square = nsvcd__v_fma(d, d, square);
-    }
-    touched |= nsvcd__v_le(square, nsvcd__v_signed_square(nsvcd__v_load(r + l))) << l;
+    const nsvcd__v3 centre = nsvcd__v3_centres(all, l);
+    const nsvcd__v3 below = nsvcd__v3_sub(nsvcd__v3_set(least), centre);
+    const nsvcd__v3 above = nsvcd__v3_sub(centre, nsvcd__v3_set(most));
+    const nsvcd__v3 d = nsvcd__v3_max(nsvcd__v3_max(below, above), nsvcd__v3_of(zero, zero, zero));
+    const nsvcd__v reach = nsvcd__v_load(all.r + l);
+    touched |= nsvcd__v_le(nsvcd__v3_dot(d, d), nsvcd__v_signed_square(reach)) << l;
   }
   return touched;
 }
@@ -7345,9 +7374,8 @@ static uint32_t nsvcd__groups_at_box(const nsvcd__boxes *boxes, size_t l, const 
   const float high[3] = {boxes->high[0][l], boxes->high[1][l], boxes->high[2][l]};
   uint32_t groups = 0;
   for (size_t first = 0; first < tile->count; first += NSVCD__LANES) {
-    groups |= nsvcd__spheres_at_box(low, high, tile->spheres[0] + first, tile->spheres[1] + first,
-                                    tile->spheres[2] + first, tile->spheres[3] + first)
-              << first;
+    const nsvcd__spheres some = nsvcd__spheres_from(tile->spheres, first);
+    groups |= nsvcd__spheres_at_box(low, high, some) << first;
   }
   return groups;
 }
@@ -7364,8 +7392,7 @@ static size_t nsvcd__group_against_tile(nsvcd__search *search, const nsvcd_body 
   memset(nearby, 0, tile->count * sizeof *nearby);
   for (; groups; groups &= groups - 1) {
     const size_t h = nsvcd__lowest_bit(groups);
-    nearby[h] = nsvcd__meet_in(search->group, all, tile->spheres[0][h], tile->spheres[1][h],
-                               tile->spheres[2][h], tile->spheres[3][h]);
+    nearby[h] = nsvcd__meet_in(search->group, all, nsvcd__sphere_of(tile->spheres, h));
     meetings += nsvcd__bit_count(nearby[h]);
   }
   return meetings;
@@ -7403,7 +7430,7 @@ static int nsvcd__is_large(const nsvcd_body *body) {
 // Fills a tile with the next groups that a walk finds.
 static void nsvcd__tile_fill(nsvcd__tile *tile, nsvcd__walk *walk) {
   size_t g;
-  for (size_t k = 0; k < 4; k++) tile->spheres[k] = tile->gathered + k * NSVCD__TILE_SLOTS;
+  tile->spheres = nsvcd__spheres_of(tile->gathered, NSVCD__TILE_SLOTS);
   for (size_t n = 0; n < 4 * NSVCD__TILE_SLOTS; n++)
     tile->gathered[n] = n < 3 * NSVCD__TILE_SLOTS ? 0 : NSVCD__NOWHERE;
   tile->count = 0;
@@ -7418,48 +7445,42 @@ static void nsvcd__tile_fill(nsvcd__tile *tile, nsvcd__walk *walk) {
 static void nsvcd__tile_fill_all(nsvcd__tile *tile, const nsvcd_body *body) {
   tile->count = nsvcd__body_groups(body);
   for (size_t g = 0; g < tile->count; g++) tile->groups[g] = (uint16_t)g;
-  for (size_t k = 0; k < 4; k++) tile->spheres[k] = nsvcd__body_group(body, k);
+  tile->spheres = nsvcd__group_spheres(body);
 }
 
 // Filters of a walk, given the workspace. All spheres that there are.
-static uint32_t nsvcd__exists(const void *what, const float *x, const float *y, const float *z,
-                              const float *r) {
+static uint32_t nsvcd__exists(const void *what, nsvcd__spheres all) {
   uint32_t exists = 0;
   (void)what;
-  (void)x;
-  (void)y;
-  (void)z;
-  NSVCD__EACH_SLICE(l) exists |= nsvcd__v_le(nsvcd__v_set(0), nsvcd__v_load(r + l)) << l;
+  NSVCD__EACH_SLICE(l) exists |= nsvcd__v_le(nsvcd__v_set(0), nsvcd__v_load(all.r + l)) << l;
   return exists;
 }
 
 // Spheres of the moving body that meet that of the fixed one.
-static uint32_t nsvcd__comes_near(const void *what, const float *x, const float *y, const float *z,
-                                  const float *r) {
+static uint32_t nsvcd__comes_near(const void *what, nsvcd__spheres all) {
   const nsvcd__search *search = (const nsvcd__search *)what;
-  const nsvcd_body *fixed = search->fixed_walk.body;
+  const nsvcd__sphere fixed = nsvcd__body_sphere(search->fixed_walk.body);
   const float extent = search->moving_walk.body->extent;
   uint32_t met = 0;
   for (uint64_t wanted = search->near_segments; wanted; wanted &= wanted - 1) {
     const size_t s = nsvcd__lowest_bit(wanted);
     nsvcd__chords *chords = nsvcd__spare_chords(search);
-    nsvcd__chords_of_members(&search->blocks[s / NSVCD__LANES], s % NSVCD__LANES, x, y, z, r,
+    nsvcd__chords_of_members(&search->blocks[s / NSVCD__LANES], s % NSVCD__LANES, all,
                              search->scale, extent, chords);
-    met |= nsvcd__meet(chords, fixed->centre[0], fixed->centre[1], fixed->centre[2], fixed->radius);
+    met |= nsvcd__meet(chords, fixed);
   }
   return met;
 }
 
 // Spheres of the fixed body that meet that of the moving tile, whose chords are search->group.
-static uint32_t nsvcd__is_approached(const void *what, const float *x, const float *y,
-                                     const float *z, const float *r) {
+static uint32_t nsvcd__is_approached(const void *what, nsvcd__spheres all) {
   const nsvcd__search *search = (const nsvcd__search *)what;
-  const uint32_t nearby = nsvcd__spheres_at_box(search->near_low, search->near_high, x, y, z, r);
+  const uint32_t nearby = nsvcd__spheres_at_box(search->near_low, search->near_high, all);
   uint32_t met = 0;
   for (uint64_t wanted = search->near_segments; wanted && nearby & ~met; wanted &= wanted - 1) {
     const size_t s = nsvcd__lowest_bit(wanted);
-    met |= nearby &
-           nsvcd__meet_members(&search->group[s / NSVCD__LANES], s % NSVCD__LANES, x, y, z, r);
+    const nsvcd__chords *chords = &search->group[s / NSVCD__LANES];
+    met |= nearby & nsvcd__meet_members(chords, s % NSVCD__LANES, all);
   }
   return met;
 }
@@ -7467,12 +7488,9 @@ static uint32_t nsvcd__is_approached(const void *what, const float *x, const flo
 // Poses the sphere over all groups of the moving tile, into search->group.
 static void nsvcd__chords_of_tile(nsvcd__search *search, const nsvcd_body *moving) {
   const nsvcd__tile *tile = &search->moving_tile;
-  float sphere[4] = {moving->centre[0], moving->centre[1], moving->centre[2], moving->radius};
-  if (nsvcd__is_large(moving)) {
-    nsvcd__cover_spheres(tile->count, tile->spheres[0], tile->spheres[1], tile->spheres[2],
-                         tile->spheres[3], sphere);
-  }
-  nsvcd__chords_in_all(search, sphere, sphere[3]);
+  nsvcd__sphere sphere = nsvcd__body_sphere(moving);
+  if (nsvcd__is_large(moving)) sphere = nsvcd__cover_spheres(tile->spheres, tile->count);
+  nsvcd__chords_in_all(search, sphere);
 }
 
 // Puts a box about the chords of search->group.
@@ -7527,10 +7545,9 @@ static int nsvcd__search_next_tile(nsvcd__search *search, const nsvcd_body *movi
 // then there is no step to take.
 static int nsvcd__search_begin(const nsvcd_body *moving, const nsvcd_body *fixed,
                                nsvcd__search *search) {
-  nsvcd__chords_in_all(search, moving->centre, moving->radius);
+  nsvcd__chords_in_all(search, nsvcd__body_sphere(moving));
   uint64_t wanted = ~(uint64_t)0 >> (NSVCD__MAX_SEGMENTS - search->segments);
-  wanted = nsvcd__meet_in(search->group, wanted, fixed->centre[0], fixed->centre[1],
-                          fixed->centre[2], fixed->radius);
+  wanted = nsvcd__meet_in(search->group, wanted, nsvcd__body_sphere(fixed));
   search->near_segments = wanted;
   search->wanted = ~(uint64_t)0;
   search->steps = search->step = 0;
@@ -7554,17 +7571,15 @@ static int nsvcd__search_begin(const nsvcd_body *moving, const nsvcd_body *fixed
 // Fills members[] with what is missing of the segments `wanted`.
 static void nsvcd__pose_members(nsvcd__search *search, const nsvcd_body *moving, size_t g,
                                 uint64_t wanted) {
-  const size_t i = NSVCD__GROUP * g;
   if (!(wanted & ~search->posed)) return;
-  const float centre[3] = {nsvcd__body_group(moving, 0)[g], nsvcd__body_group(moving, 1)[g],
-                           nsvcd__body_group(moving, 2)[g]};
-  search->remote = 1.000002f * (nsvcd__length3(centre) + nsvcd__body_group(moving, 3)[g]);
+  const nsvcd__sphere group = nsvcd__sphere_of(nsvcd__group_spheres(moving), g);
+  const nsvcd__spheres patches = nsvcd__body_patches(moving);
+  const nsvcd__spheres members = nsvcd__spheres_from(patches, NSVCD__GROUP * g);
+  search->remote = 1.000002f * (nsvcd__f3_length(group.centre) + group.radius);
   for (uint64_t missing = wanted & ~search->posed; missing; missing &= missing - 1) {
     const size_t s = nsvcd__lowest_bit(missing);
-    nsvcd__chords_of_members(&search->blocks[s / NSVCD__LANES], s % NSVCD__LANES,
-                             nsvcd__body_x(moving) + i, nsvcd__body_y(moving) + i,
-                             nsvcd__body_z(moving) + i, nsvcd__body_r(moving) + i, search->scale,
-                             search->remote, &search->members[s]);
+    nsvcd__chords_of_members(&search->blocks[s / NSVCD__LANES], s % NSVCD__LANES, members,
+                             search->scale, search->remote, &search->members[s]);
   }
   search->posed |= wanted;
 }
@@ -7574,13 +7589,13 @@ static void nsvcd__pose_members(nsvcd__search *search, const nsvcd_body *moving,
 static uint32_t nsvcd__group_against_members(const nsvcd__search *search, const nsvcd_body *fixed,
                                              size_t h, uint64_t wanted,
                                              uint64_t *segments) {  // (GROUP)
-  const size_t first = NSVCD__GROUP * h;
+  const nsvcd__spheres patches = nsvcd__body_patches(fixed);
+  const nsvcd__spheres members = nsvcd__spheres_from(patches, NSVCD__GROUP * h);
   uint32_t met = 0;
   for (; wanted; wanted &= wanted - 1) {
     const size_t s = nsvcd__lowest_bit(wanted);
-    uint32_t bits = nsvcd__meet_members(&search->group[s / NSVCD__LANES], s % NSVCD__LANES,
-                                        nsvcd__body_x(fixed) + first, nsvcd__body_y(fixed) + first,
-                                        nsvcd__body_z(fixed) + first, nsvcd__body_r(fixed) + first);
+    const nsvcd__chords *chords = &search->group[s / NSVCD__LANES];
+    uint32_t bits = nsvcd__meet_members(chords, s % NSVCD__LANES, members);
     for (; bits; bits &= bits - 1) {
       const size_t l = nsvcd__lowest_bit(bits);
       segments[l] = (met >> l & 1 ? segments[l] : 0) | (uint64_t)1 << s;
@@ -7639,9 +7654,8 @@ static void nsvcd__search_patch(nsvcd__search *search, const nsvcd_body *moving,
                                 const nsvcd_body *fixed, size_t j, nsvcd__candidates *kept) {
   const uint64_t all = ~(uint64_t)0 >> (NSVCD__MAX_SEGMENTS - search->segments);
   nsvcd__chords_of_group(search, moving, g);
-  const uint64_t wanted =
-      nsvcd__meet_in(search->group, all, nsvcd__body_x(fixed)[j], nsvcd__body_y(fixed)[j],
-                     nsvcd__body_z(fixed)[j], nsvcd__body_r(fixed)[j]);
+  const nsvcd__sphere patch = nsvcd__sphere_of(nsvcd__body_patches(fixed), j);
+  const uint64_t wanted = nsvcd__meet_in(search->group, all, patch);
   search->posed = 0;
   nsvcd__pose_members(search, moving, g, wanted);
   nsvcd__members_against_patch(search, moving, g, fixed, j, wanted, kept);
@@ -8630,17 +8644,14 @@ static void nsvcd__part_groups(const nsvcd__proof *p, nsvcd__search *search) {
   const size_t g = search->moving_tile.groups[next];
   const nsvcd__disc own =
       nsvcd__disc_at(p->moving.group_discs, nsvcd__group_slots(moving->padded), g);
-  const float centre[3] = {nsvcd__body_group(moving, 0)[g], nsvcd__body_group(moving, 1)[g],
-                           nsvcd__body_group(moving, 2)[g]};
-  const float reach = 1.000002f * (nsvcd__length3(centre) + nsvcd__body_group(moving, 3)[g]);
+  const nsvcd__sphere group = nsvcd__sphere_of(nsvcd__group_spheres(moving), g);
+  const float reach = 1.000002f * (nsvcd__f3_length(group.centre) + group.radius);
   for (uint32_t waiting = search->waiting; waiting; waiting &= waiting - 1) {
     const size_t at = nsvcd__lowest_bit(waiting);
     const size_t h = search->fixed_tile.groups[at];
     const nsvcd__disc disc =
         nsvcd__disc_at(p->fixed.group_discs, nsvcd__group_slots(fixed->padded), h);
-    const nsvcd__f3 fixed_centre =
-        nsvcd__f3_of(nsvcd__body_group(fixed, 0)[h], nsvcd__body_group(fixed, 1)[h],
-                     nsvcd__body_group(fixed, 2)[h]);
+    const nsvcd__f3 fixed_centre = nsvcd__centre_of(nsvcd__group_spheres(fixed), h);
     uint64_t *met = &nsvcd__nearby(search, next)[at];
     for (size_t b = 0; b < NSVCD__BLOCKS && *met >> (NSVCD__LANES * b); b++) {
       const uint32_t there = (uint32_t)(*met >> (NSVCD__LANES * b)) & 0xffff;
@@ -9970,19 +9981,18 @@ static int nsvcd__ray_crosses(const nsvcd__ray *ray, const nsvcd__d3 *t, double 
 }
 
 // Lanes of 16 spheres, in the body's frame, that the ray meets.
-static uint32_t nsvcd__spheres_on_ray(const nsvcd_body *b, const nsvcd__ray *ray, const float *x,
-                                      const float *y, const float *z, const float *r) {
+static uint32_t nsvcd__spheres_on_ray(const nsvcd_body *b, const nsvcd__ray *ray,
+                                      nsvcd__spheres all) {
   const nsvcd__f3 from = nsvcd__f3_round(ray->from);
   const nsvcd__f3 direction = nsvcd__f3_round(ray->direction);
   const float rounding = (float)ray->margin + 4 * NSVCD__ROUNDING * b->extent;
   uint32_t met = 0;
   NSVCD__EACH_SLICE(l) {
-    const nsvcd__v3 centre =
-        nsvcd__v3_of(nsvcd__v_load(x + l), nsvcd__v_load(y + l), nsvcd__v_load(z + l));
+    const nsvcd__v3 centre = nsvcd__v3_centres(all, l);
     const nsvcd__v3 n = nsvcd__v3_set(direction);
     const nsvcd__v3 d = nsvcd__v3_sub(centre, nsvcd__v3_set(from));
     const nsvcd__v3 off = nsvcd__v3_cross(d, n);
-    const nsvcd__v reach = nsvcd__v_add(nsvcd__v_load(r + l), nsvcd__v_set(rounding));
+    const nsvcd__v reach = nsvcd__v_add(nsvcd__v_load(all.r + l), nsvcd__v_set(rounding));
     const uint32_t near_line = nsvcd__v_le(nsvcd__v3_dot(off, off), nsvcd__v_signed_square(reach));
     met |= (near_line & nsvcd__v_le(nsvcd__v_negate(reach), nsvcd__v3_dot(d, n))) << l;
   }
@@ -9994,17 +10004,15 @@ typedef struct nsvcd__ray_of {
   const nsvcd_body *body;
   const nsvcd__ray *ray;
 } nsvcd__ray_of;
-static uint32_t nsvcd__is_on_ray(const void *what, const float *x, const float *y, const float *z,
-                                 const float *r) {
+static uint32_t nsvcd__is_on_ray(const void *what, nsvcd__spheres all) {
   const nsvcd__ray_of *of = (const nsvcd__ray_of *)what;
-  return nsvcd__spheres_on_ray(of->body, of->ray, x, y, z, r);
+  return nsvcd__spheres_on_ray(of->body, of->ray, all);
 }
 
 // Members of group g whose spheres the ray meets: it may meet their pieces.
 static uint32_t nsvcd__patches_on_ray(const nsvcd_body *b, const nsvcd__ray *ray, size_t g) {
-  const size_t first = NSVCD__GROUP * g;
-  return nsvcd__spheres_on_ray(b, ray, nsvcd__body_x(b) + first, nsvcd__body_y(b) + first,
-                               nsvcd__body_z(b) + first, nsvcd__body_r(b) + first);
+  const nsvcd__spheres patches = nsvcd__body_patches(b);
+  return nsvcd__spheres_on_ray(b, ray, nsvcd__spheres_from(patches, NSVCD__GROUP * g));
 }
 
 // Is the triangle new to the list of those that a ray has crossed? Then it is added; *unclear if
@@ -10096,15 +10104,12 @@ typedef struct nsvcd__surroundings {
 } nsvcd__surroundings;
 
 // Lanes of 16 spheres that come within that; a filter of a walk.
-static uint32_t nsvcd__is_around(const void *what, const float *x, const float *y, const float *z,
-                                 const float *r) {
+static uint32_t nsvcd__is_around(const void *what, nsvcd__spheres all) {
   const nsvcd__surroundings *here = (const nsvcd__surroundings *)what;
   uint32_t met = 0;
   NSVCD__EACH_SLICE(l) {
-    const nsvcd__v3 centre =
-        nsvcd__v3_of(nsvcd__v_load(x + l), nsvcd__v_load(y + l), nsvcd__v_load(z + l));
-    const nsvcd__v3 d = nsvcd__v3_sub(centre, nsvcd__v3_set(here->place));
-    const nsvcd__v reach = nsvcd__v_add(nsvcd__v_load(r + l), nsvcd__v_set(here->distance));
+    const nsvcd__v3 d = nsvcd__v3_sub(nsvcd__v3_centres(all, l), nsvcd__v3_set(here->place));
+    const nsvcd__v reach = nsvcd__v_add(nsvcd__v_load(all.r + l), nsvcd__v_set(here->distance));
     met |= nsvcd__v_le(nsvcd__v3_dot(d, d), nsvcd__v_signed_square(reach)) << l;
   }
   return met;
@@ -10147,10 +10152,9 @@ static int nsvcd__surface_is_near(nsvcd__proof *p, const nsvcd__facets *f, nsvcd
   nsvcd__walk_begin(&walk, b, nsvcd__is_around, &here);
   while (nsvcd__walk_next(&walk, &g)) {
     const size_t first = NSVCD__GROUP * g;
-    uint32_t patches = nsvcd__is_around(&here, nsvcd__body_x(b) + first, nsvcd__body_y(b) + first,
-                                        nsvcd__body_z(b) + first, nsvcd__body_r(b) + first);
-    for (; patches; patches &= patches - 1) {
-      const size_t i = first + nsvcd__lowest_bit(patches);
+    const nsvcd__spheres members = nsvcd__spheres_from(nsvcd__body_patches(b), first);
+    for (uint32_t met = nsvcd__is_around(&here, members); met; met &= met - 1) {
+      const size_t i = first + nsvcd__lowest_bit(met);
       if (i < b->points && nsvcd__patch_is_near(p, f, i, place, tolerance, distance)) return 1;
     }
   }
@@ -10783,43 +10787,32 @@ static NSVCD__APART void nsvcd__lift_motion(nsvcd__proof *p, nsvcd__search *sear
 #define NSVCD__AMPLE 2.0f
 #define NSVCD__DIPOLE 3.0f
 
-// Places that a walk asks about: a ball over them.
-typedef struct nsvcd__places {
-  float centre[3], radius;
-} nsvcd__places;
-
-static nsvcd__places nsvcd__places_of(float (*places)[NSVCD__PLACES]) {
-  nsvcd__places out = {{0, 0, 0}, 0};
-  for (size_t n = 0; n < 3; n++) {
-    float low = places[n][0];
-    float high = low;
-    for (size_t k = 1; k < NSVCD__PLACES; k++) {
-      low = fminf(low, places[n][k]);
-      high = fmaxf(high, places[n][k]);
-    }
-    out.centre[n] = 0.5f * low + 0.5f * high;
-    const float half = high - out.centre[n];
-    out.radius += half * half;
+// A sphere over places.
+static nsvcd__sphere nsvcd__cover_places(float (*places)[NSVCD__PLACES]) {
+  nsvcd__f3 low = nsvcd__f3_of(HUGE_VALF, HUGE_VALF, HUGE_VALF);
+  nsvcd__f3 high = nsvcd__f3_scale(low, -1);
+  for (size_t k = 0; k < NSVCD__PLACES; k++) {
+    const nsvcd__f3 place = nsvcd__f3_of(places[0][k], places[1][k], places[2][k]);
+    low = nsvcd__f3_min(low, place);
+    high = nsvcd__f3_max(high, place);
   }
-  out.radius = sqrtf(out.radius);
+  const nsvcd__f3 centre = nsvcd__f3_add(nsvcd__f3_scale(low, 0.5f), nsvcd__f3_scale(high, 0.5f));
+  const nsvcd__sphere out = {centre, nsvcd__f3_length(nsvcd__f3_sub(high, centre))};
   return out;
 }
 
 // A filter of a walk: spheres whose members may be nearer to one of the places than NSVCD__AMPLE of
 // their radii. A member (p, r) of a sphere (c, R) has |p - c| + r <= R, so that |p - x| / r is at
 // least |c - x| / R.
-static uint32_t nsvcd__may_be_close(const void *what, const float *x, const float *y,
-                                    const float *z, const float *r) {
-  const nsvcd__places *places = (const nsvcd__places *)what;
+static uint32_t nsvcd__may_be_close(const void *what, nsvcd__spheres all) {
+  const nsvcd__sphere *places = (const nsvcd__sphere *)what;
+  const nsvcd__v radius = nsvcd__v_set(places->radius);
   uint32_t close = 0;
   NSVCD__EACH_SLICE(l) {
-    const nsvcd__v radius = nsvcd__v_load(r + l);
-    const nsvcd__v d[3] = {nsvcd__v_sub(nsvcd__v_load(x + l), nsvcd__v_set(places->centre[0])),
-                           nsvcd__v_sub(nsvcd__v_load(y + l), nsvcd__v_set(places->centre[1])),
-                           nsvcd__v_sub(nsvcd__v_load(z + l), nsvcd__v_set(places->centre[2]))};
-    const nsvcd__v reach =
-        nsvcd__v_fma(radius, nsvcd__v_set(NSVCD__AMPLE), nsvcd__v_set(places->radius));
-    close |= nsvcd__v_le(nsvcd__v_dot3(d, d), nsvcd__v_signed_square(reach)) << l;
+    const nsvcd__v3 d = nsvcd__v3_sub(nsvcd__v3_centres(all, l), nsvcd__v3_set(places->centre));
+    const nsvcd__v r = nsvcd__v_load(all.r + l);
+    const nsvcd__v reach = nsvcd__v_fma(r, nsvcd__v_set(NSVCD__AMPLE), radius);
+    close |= nsvcd__v_le(nsvcd__v3_dot(d, d), nsvcd__v_signed_square(reach)) << l;
   }
   return close;
 }
@@ -10848,7 +10841,7 @@ static nsvcd__v nsvcd__clearance2(const nsvcd_body *body, size_t group, const ns
 // The same over all patches of a body, but NSVCD__AMPLE, squared, is the most it says. out:
 // (PROBES).
 static void nsvcd__clearances(const nsvcd_body *body, float (*places)[NSVCD__PLACES], float *out) {
-  const nsvcd__places near_to = nsvcd__places_of(places);
+  const nsvcd__sphere near_to = nsvcd__cover_places(places);
   nsvcd__walk walk;
   size_t g;
   for (size_t k = 0; k < NSVCD__PLACES; k++) out[k] = NSVCD__AMPLE * NSVCD__AMPLE;

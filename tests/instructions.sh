@@ -12,7 +12,7 @@ count=100
 awk -v most=$count '/^problem / { if (++seen > most) exit } { print }' "$problems" >"$dir/problems.txt"
 ln -s "$(cd "$(dirname "$problems")" && pwd)"/*meshes "$dir/"
 collected() {  # program, N, repetitions
-  valgrind --tool=callgrind --toggle-collect=nsvcd_sweep --callgrind-out-file="$dir/out" \
+  valgrind --tool=callgrind --callgrind-out-file="$dir/out" \
     "$1" check --points "$2" --repeat "$3" "$dir/problems.txt" 2>&1 >/dev/null | sed -n 's/.*Collected : \([0-9]*\).*/\1/p'
 }
 for flags in "-mavx2 -mfma -mpopcnt -mbmi2" "-DNSVCD_NO_SIMD"; do

@@ -65,8 +65,8 @@ arcs of both, twist forgotten|(arc->turn * arc->turn + twist);|(arc->turn * arc-
 arcs of both, no swing|(2 * across + angle * swing);|(2 * across);
 arcs of both, half of the way|(2 * across + angle * swing);|(across + angle * swing);
 knots of one body only|return after_a < after_b ? after_a : after_b;|return after_a;
-group without scale|search->scale * radius, &search->group[b]);|radius, &search->group[b]);
-members without scale|nsvcd__v_fma(nsvcd__v_set(scale), nsvcd__v_load(r + l), nsvcd__v_set(deviation))|nsvcd__v_add(nsvcd__v_load(r + l), nsvcd__v_set(deviation))
+group without scale|  sphere.radius *= search->scale;\n|
+members without scale|nsvcd__v_fma(nsvcd__v_set(scale), r, nsvcd__v_set(deviation))|nsvcd__v_add(r, nsvcd__v_set(deviation))
 discs without scale|nsvcd__v_mul(scale, nsvcd__v3_dot(w, w)), nsvcd__v_mul(scale, turned));|nsvcd__v3_dot(w, w), turned);
 disc without clearance|const float deviation = a->clearance + span->rounding + nsvcd__deviation|const float deviation = span->rounding + nsvcd__deviation
 moving disc without clearance|nsvcd__v_set(span->rounding + a->clearance);|nsvcd__v_set(span->rounding);
@@ -91,7 +91,7 @@ tile: way without reach|fminf(start, end) - c->reach[l]|fminf(start, end)
 tile: approached in the first segment|wanted \&\& nearby \& ~met; wanted \&= wanted - 1) {|wanted \&\& nearby \& ~met; wanted = 0) {
 level: near groups as dipoles|#define NSVCD__DIPOLE 3.0f|#define NSVCD__DIPOLE 0.8f
 level: sums that do not scale|i < nsvcd__area_numbers(b); i++) {|i < 3 * (size_t)b->padded; i++) {
-level: clearances about the middle only|nsvcd__v_fma(radius, nsvcd__v_set(NSVCD__AMPLE), nsvcd__v_set(places->radius))|nsvcd__v_mul(radius, nsvcd__v_set(NSVCD__AMPLE))
+level: clearances about the middle only|nsvcd__v_fma(r, nsvcd__v_set(NSVCD__AMPLE), radius)|nsvcd__v_mul(r, nsvcd__v_set(NSVCD__AMPLE))
 level: latents of one region|int8_t *latents = parts->latents + NSVCD__LATENT * parts->count;|int8_t *latents = parts->latents;
 level: members of one dipole in two|const size_t member = NSVCD__GROUP * (first + nsvcd__lowest_bit(close));|const size_t member = NSVCD__GROUP * (first + (nsvcd__lowest_bit(close) \& ~(size_t)1));
 margin of small normals|nsvcd__v_pick(square, nsvcd__v_set(1e-30f), nsvcd__v_set(1e30f), limit)|limit

@@ -697,7 +697,8 @@ static void deviation_is_bounded(void) {
       pose64 at = pose_at(poses, count, start + tau * ((double)work->time[s + 1] - start));
       place64(&at, &f, c64, p);
       nsvcd__chords chords;
-      nsvcd__chords_of_sphere(b, c[0], c[1], c[2], 0, &chords);
+      const nsvcd__sphere point = {{c[0], c[1], c[2]}, 0};
+      nsvcd__chords_of_sphere(b, point, &chords);
       const float x[3] = {chords.start[0][l], chords.start[1][l], chords.start[2][l]};
       const float v[3] = {chords.way[0][l], chords.way[1][l], chords.way[2][l]};
       for (int k = 0; k < 3; k++) square += pow((double)x[k] + tau * (double)v[k] - p[k], 2);

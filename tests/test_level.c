@@ -60,13 +60,12 @@ static const level_world *level_shared(void) {
 // ---- the body
 
 // Spheres that touch a ball, as a filter of a walk.
-static uint32_t level_touch(const void *what, const float *x, const float *y, const float *z,
-                            const float *r) {
+static uint32_t level_touch(const void *what, nsvcd__spheres all) {
   const float *ball = (const float *)what;
   uint32_t met = 0;
   for (size_t l = 0; l < NSVCD__LANES; l++) {
-    const float d[3] = {x[l] - ball[0], y[l] - ball[1], z[l] - ball[2]};
-    const float reach = r[l] + ball[3];
+    const float d[3] = {all.x[l] - ball[0], all.y[l] - ball[1], all.z[l] - ball[2]};
+    const float reach = all.r[l] + ball[3];
     met |= (uint32_t)(reach >= 0 && nsvcd__dot3(d, d) <= reach * reach) << l;
   }
   return met;
