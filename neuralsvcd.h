@@ -769,7 +769,7 @@ static inline void nsvcd__sub3(const float *a, const float *b, float *out) {
   out[1] = a[1] - b[1];
   out[2] = a[2] - b[2];
 }
-static float nsvcd__length3(const float *a) { return sqrtf(nsvcd__dot3(a, a)); }
+static inline float nsvcd__length3(const float *a) { return sqrtf(nsvcd__dot3(a, a)); }
 
 // Finite test on the bits, so that it survives -ffast-math.
 static int nsvcd__is_finite(float x) {
