@@ -913,6 +913,13 @@ static inline nsvcd__sphere nsvcd__sphere_of(nsvcd__spheres all, size_t i) {
   const nsvcd__sphere out = {nsvcd__centre_of(all, i), all.r[i]};
   return out;
 }
+// Writes the i-th of spheres in arrays of so many slots.
+static inline void nsvcd__sphere_store(nsvcd__sphere sphere, float *first, size_t slots, size_t i) {
+  first[i] = sphere.centre.x;
+  first[slots + i] = sphere.centre.y;
+  first[2 * slots + i] = sphere.centre.z;
+  first[3 * slots + i] = sphere.radius;
+}
 
 // ---- quaternions and matrices
 
@@ -2122,6 +2129,13 @@ static void nsvcd__sample_surface(const nsvcd_mesh *mesh, size_t count, float *p
 
 // ---- memory
 
+// The next `count` numbers of a block.
+static float *nsvcd__next_floats(float **next, size_t count) {
+  float *out = *next;
+  *next += count;
+  return out;
+}
+
 // All arrays in one block: the doubles first, then everything of four bytes.
 static nsvcd_result nsvcd__patches_alloc(nsvcd__patches *p, size_t count, size_t samples,
                                          const nsvcd_allocator *allocator) {
@@ -2134,40 +2148,24 @@ static nsvcd_result nsvcd__patches_alloc(nsvcd__patches *p, size_t count, size_t
   p->sample_count = samples;
   p->sums = (nsvcd__patch_sum *)p->memory;
   float *next = (float *)(void *)(p->sums + count);
-  p->centre_x = next;
-  next += count;
-  p->centre_y = next;
-  next += count;
-  p->centre_z = next;
-  next += count;
-  p->centres = next;
-  next += 3 * count;
-  p->radii = next;
-  next += count;
-  p->sample_radii = next;
-  next += count;
-  p->areas = next;
-  next += count;
-  p->area_vectors = next;
-  next += 3 * count;
-  p->x = next;
-  next += samples;
-  p->y = next;
-  next += samples;
-  p->z = next;
-  next += samples;
-  p->drawn_normals = next;
-  next += 3 * samples;
-  p->points = next;
-  next += 3 * samples;
+  p->centre_x = nsvcd__next_floats(&next, count);
+  p->centre_y = nsvcd__next_floats(&next, count);
+  p->centre_z = nsvcd__next_floats(&next, count);
+  p->centres = nsvcd__next_floats(&next, 3 * count);
+  p->radii = nsvcd__next_floats(&next, count);
+  p->sample_radii = nsvcd__next_floats(&next, count);
+  p->areas = nsvcd__next_floats(&next, count);
+  p->area_vectors = nsvcd__next_floats(&next, 3 * count);
+  p->x = nsvcd__next_floats(&next, samples);
+  p->y = nsvcd__next_floats(&next, samples);
+  p->z = nsvcd__next_floats(&next, samples);
+  p->drawn_normals = nsvcd__next_floats(&next, 3 * samples);
+  p->points = nsvcd__next_floats(&next, 3 * samples);
   p->distances = p->points;
   p->next_sample = (uint32_t *)(void *)(p->points + samples);
-  p->normals = next;
-  next += 3 * samples;
-  p->quarter_gaps = next;
-  next += NSVCD__NEIGHBOURS * count;
-  p->reach = next;
-  next += count;
+  p->normals = nsvcd__next_floats(&next, 3 * samples);
+  p->quarter_gaps = nsvcd__next_floats(&next, NSVCD__NEIGHBOURS * count);
+  p->reach = nsvcd__next_floats(&next, count);
   p->first_sample = (uint32_t *)(void *)next;
   p->farthest_sample = p->first_sample + count;
   p->neighbours = p->farthest_sample + count;
@@ -4609,10 +4607,6 @@ static const float *nsvcd__body_z(const nsvcd_body *body) {
 static const float *nsvcd__body_r(const nsvcd_body *body) {
   return nsvcd__body_floats(body, 3 * body->padded);
 }
-static const float *nsvcd__body_group(const nsvcd_body *body, size_t axis) {  // axis 0..3: x y z r
-  return nsvcd__body_floats(body,
-                            4 * (size_t)body->padded + axis * nsvcd__group_slots(body->padded));
-}
 static nsvcd__spheres nsvcd__body_patches(const nsvcd_body *body) {
   return nsvcd__spheres_of(nsvcd__body_floats(body, 0), body->padded);
 }
@@ -4788,10 +4782,7 @@ static void nsvcd__level_finish(nsvcd__spheres below, size_t members, nsvcd__lev
     const size_t left = i >= members ? 0 : members - i;
     const size_t count = left < NSVCD__GROUP ? left : NSVCD__GROUP;
     if (count) sphere = nsvcd__cover_spheres(nsvcd__spheres_from(below, i), count);
-    out[g] = sphere.centre.x;
-    out[level.slots + g] = sphere.centre.y;
-    out[2 * level.slots + g] = sphere.centre.z;
-    out[3 * level.slots + g] = sphere.radius;
+    nsvcd__sphere_store(sphere, out, level.slots, g);
   }
 }
 
@@ -5951,12 +5942,12 @@ static nsvcd_result nsvcd__parts_order_and_write(const nsvcd__parts *parts,
 // How many patches, where the options do not say.
 static size_t nsvcd__points_for(const nsvcd_mesh *mesh, const nsvcd_encode_options *o, double area,
                                 int triangles) {
-  const size_t most = NSVCD_MAX_POINTS;
+  const double most = NSVCD_MAX_POINTS;
   if (o->patch_radius > 0) {
     // N balls of radius r cover about N r^2 / 0.45 of surface: measured, on the real meshes, for N
     // = 32 to 512.
     const double count = ceil(0.45 * area / ((double)o->patch_radius * (double)o->patch_radius));
-    return count >= (double)most ? most : count >= 1 ? (size_t)count : 1;
+    return (size_t)fmin(fmax(count, 1), most);
   }
   if (!triangles) return NSVCD_DEFAULT_NETWORK_POINTS;
   if (mesh->triangle_count <= NSVCD_FEW_TRIANGLES) return NSVCD_DEFAULT_POINTS;
@@ -7435,8 +7426,8 @@ static void nsvcd__tile_fill(nsvcd__tile *tile, nsvcd__walk *walk) {
     tile->gathered[n] = n < 3 * NSVCD__TILE_SLOTS ? 0 : NSVCD__NOWHERE;
   tile->count = 0;
   while (tile->count < NSVCD__TILE && nsvcd__walk_next(walk, &g)) {
-    float *to = tile->gathered + tile->count;
-    for (size_t k = 0; k < 4; k++) to[k * NSVCD__TILE_SLOTS] = nsvcd__body_group(walk->body, k)[g];
+    const nsvcd__sphere group = nsvcd__sphere_of(nsvcd__group_spheres(walk->body), g);
+    nsvcd__sphere_store(group, tile->gathered, NSVCD__TILE_SLOTS, tile->count);
     tile->groups[tile->count++] = (uint16_t)g;
   }
 }

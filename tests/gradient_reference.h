@@ -375,8 +375,11 @@ static void reference_open(const nsvcd_body *moving, const nsvcd_pose *poses, si
   // group.
   const size_t g = i / NSVCD__GROUP;
   double group[3];
-  for (size_t k = 0; k < 3; k++) group[k] = (double)nsvcd__body_group(moving, k)[g];
-  const double far = reference_length(group) + (double)nsvcd__body_group(moving, 3)[g];
+  const nsvcd__sphere sphere = nsvcd__sphere_of(nsvcd__group_spheres(moving), g);
+  group[0] = (double)sphere.centre.x;
+  group[1] = (double)sphere.centre.y;
+  group[2] = (double)sphere.centre.z;
+  const double far = reference_length(group) + (double)sphere.radius;
   size_t s[2] = {0, 0};
   while (s[0] + 1 < work->segments && candidate->t_enter >= work->time[s[0] + 1]) s[0]++;
   while (s[1] + 1 < work->segments && candidate->t_exit > work->time[s[1] + 1]) s[1]++;

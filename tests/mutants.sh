@@ -83,7 +83,7 @@ distance without tolerance|fmax(0, distance - p->measure);|fmax(0, distance * 1.
 exact poses not lifted|at.position = nsvcd__d3_add(at.position, arc->lift);|at.position = nsvcd__d3_add(at.position, nsvcd__d3_scale(arc->lift, 0));
 lift the wrong way|if (lacks > 0) lift = nsvcd__d3_add(|if (lacks > 0) lift = nsvcd__d3_sub(
 a window of another patch|p->window > 0 \&\& p->fixed_blocks[0].first == first|p->window > 0
-tile: every other group|nsvcd__walk_next(walk, \&g)) {\n    float *to|nsvcd__walk_next(walk, \&g) \&\& nsvcd__walk_next(walk, \&g)) {\n    float *to
+tile: every other group|nsvcd__walk_next(walk, \&g)) {\n    const nsvcd__sphere group|nsvcd__walk_next(walk, \&g) \&\& nsvcd__walk_next(walk, \&g)) {\n    const nsvcd__sphere group
 tile: the first only|nsvcd__search_next_tile(search, p->moving.body, p->fixed.body));\n  return verdict;|0);\n  return verdict;
 tile: the first only, in order|nsvcd__search_next_tile(search, moving, fixed));\n  if (nsvcd__is_large|0);\n  if (nsvcd__is_large
 tile: skins of the first only|nsvcd__search_next_tile(search, p->moving.body, p->fixed.body);\n    for (size_t n|0;\n    for (size_t n

@@ -107,10 +107,10 @@ static void level_walks_find_all(void) {
     nsvcd__walk walk;
     nsvcd__walk_begin(&walk, body, level_touch, ball);
     for (size_t g = 0; g < nsvcd__body_groups(body); g++) {
-      const float d[3] = {nsvcd__body_group(body, 0)[g] - ball[0],
-                          nsvcd__body_group(body, 1)[g] - ball[1],
-                          nsvcd__body_group(body, 2)[g] - ball[2]};
-      const float reach = nsvcd__body_group(body, 3)[g] + ball[3];
+      const float d[3] = {nsvcd__group_spheres(body).x[g] - ball[0],
+                          nsvcd__group_spheres(body).y[g] - ball[1],
+                          nsvcd__group_spheres(body).z[g] - ball[2]};
+      const float reach = nsvcd__group_spheres(body).r[g] + ball[3];
       size_t next = 0;
       if (nsvcd__dot3(d, d) > reach * reach) continue;
       CHECK(nsvcd__walk_next(&walk, &next));
@@ -308,6 +308,19 @@ static void level_contacts_are_those_of_the_piece(void) {
   CHECK(contacts > 10);
 }
 
+// What is said of a body that rests upright at (x, y, 0).
+static nsvcd_status level_status_at(const nsvcd_body *body, float x, float y,
+                                    const nsvcd_body *fixed) {
+  const nsvcd_pose at = {{x, y, 0}, {0, 0, 0, 1}};
+  nsvcd_question question;
+  memset(&question, 0, sizeof question);
+  question.a.body = body;
+  question.a.poses = &at;
+  question.a.count = 1;
+  question.b.body = fixed;
+  return level_ask(&question).status;
+}
+
 // Pebbles that float: one within a box is found, though there are many, and one outside of it is
 // not.
 static void level_components_are_found(void) {
@@ -330,20 +343,11 @@ static void level_components_are_found(void) {
   const nsvcd__facets f = nsvcd__facets_of(nsvcd__triangles_of(pebbles.body));
   CHECK_EQ(f.components, PEBBLES);
   for (int i = 0; i < PEBBLES; i += 41) {
-    nsvcd_pose at;
-    nsvcd_question question;
-    memset(&at, 0, sizeof at);
-    memset(&question, 0, sizeof question);
-    at.rotation[3] = 1;
-    at.position[0] = 0.2f * (float)(i % 30);
-    at.position[1] = 0.2f * (float)(i / 30);
-    question.a.body = box.body;
-    question.a.poses = &at;
-    question.a.count = 1;
-    question.b.body = pebbles.body;
-    CHECK_EQ(level_ask(&question).status, NSVCD_STATUS_INSIDE);
-    at.position[0] += 0.1f;  // between two of them
-    CHECK_EQ(level_ask(&question).status, NSVCD_STATUS_CERTIFIED_FREE);
+    const float x = 0.2f * (float)(i % 30);
+    const float y = 0.2f * (float)(i / 30);
+    CHECK_EQ(level_status_at(box.body, x, y, pebbles.body), NSVCD_STATUS_INSIDE);
+    // Between two of them.
+    CHECK_EQ(level_status_at(box.body, x + 0.1f, y, pebbles.body), NSVCD_STATUS_CERTIFIED_FREE);
   }
   level_free(&pebbles);
   level_free(&box);
@@ -557,20 +561,10 @@ static void level_containment_by_the_network(void) {
   options.points = 32;
   CHECK_EQ(nsvcd_encode(&ball.mesh, &options, NULL, NULL, 0, &ball.body), NSVCD_OK);
   for (int i = 0; i < 400; i += 13) {
-    nsvcd_pose at;
-    nsvcd_question question;
-    memset(&at, 0, sizeof at);
-    memset(&question, 0, sizeof question);
-    at.rotation[3] = 1;
-    at.position[0] = 0.4f * (float)(i % 20);
-    at.position[1] = 0.4f * (float)(i / 20);
-    question.a.body = ball.body;
-    question.a.poses = &at;
-    question.a.count = 1;
-    question.b.body = crates.body;
-    CHECK_EQ(level_ask(&question).status, NSVCD_STATUS_INSIDE);
-    at.position[0] += 0.2f;
-    CHECK_EQ(level_ask(&question).status, NSVCD_STATUS_CERTIFIED_FREE);
+    const float x = 0.4f * (float)(i % 20);
+    const float y = 0.4f * (float)(i / 20);
+    CHECK_EQ(level_status_at(ball.body, x, y, crates.body), NSVCD_STATUS_INSIDE);
+    CHECK_EQ(level_status_at(ball.body, x + 0.2f, y, crates.body), NSVCD_STATUS_CERTIFIED_FREE);
   }
   level_free(&crates);
   level_free(&ball);
