@@ -925,12 +925,14 @@ static inline void nsvcd__sphere_store(nsvcd__sphere sphere, float *first, size_
 
 static void nsvcd__quat_normalize(const float *q, float *out) {
   float scale = 1 / sqrtf(q[0] * q[0] + q[1] * q[1] + q[2] * q[2] + q[3] * q[3]);
-  for (size_t k = 0; k < 4; k++) out[k] = q[k] * scale;
+  for (size_t k = 0; k < 4; k++)
+    out[k] = q[k] * scale;
 }
 
 static void nsvcd__transpose33(const float *m, float *out) {  // may not alias
   for (size_t i = 0; i < 3; i++) {
-    for (size_t j = 0; j < 3; j++) out[3 * i + j] = m[3 * j + i];
+    for (size_t j = 0; j < 3; j++)
+      out[3 * i + j] = m[3 * j + i];
   }
 }
 
@@ -947,7 +949,8 @@ static inline void nsvcd__mul33(const float *a, const float *b, float *out) {
 // to rounding.
 static int nsvcd__is_opposed(const float *a, const float *b) {
   double dot = 0;
-  for (size_t k = 0; k < 4; k++) dot += (double)a[k] * (double)b[k];
+  for (size_t k = 0; k < 4; k++)
+    dot += (double)a[k] * (double)b[k];
   return dot < 0;
 }
 
@@ -957,7 +960,8 @@ static int nsvcd__is_opposed(const float *a, const float *b) {
 static float nsvcd__quat_half_angle(const float *a, float *b, int opposed) {
   float chord = 0;
   for (size_t k = 0; k < 4; k++) {
-    if (opposed) b[k] = -b[k];
+    if (opposed)
+      b[k] = -b[k];
     chord += (a[k] - b[k]) * (a[k] - b[k]);
   }
   return 2 * asinf(0.5f * sqrtf(chord));
@@ -976,7 +980,8 @@ static void nsvcd__slerp(const float *a, const float *b, float u, float *out) {
     wa = sinf((1 - u) * angle);
     wb = sinf(u * angle);
   }
-  for (size_t k = 0; k < 4; k++) end[k] = wa * start[k] + wb * end[k];
+  for (size_t k = 0; k < 4; k++)
+    end[k] = wa * start[k] + wb * end[k];
   nsvcd__quat_normalize(end, out);
 }
 
@@ -988,7 +993,8 @@ static size_t nsvcd__lowest_bit(uint64_t bits) {
   return (size_t)__builtin_ctzll(bits);
 #else
   size_t n = 0;
-  while (!(bits >> n & 1)) n++;
+  while (!(bits >> n & 1))
+    n++;
   return n;
 #endif
 }
@@ -998,7 +1004,8 @@ static size_t nsvcd__bit_count(uint64_t bits) {
   return (size_t)__builtin_popcountll(bits);
 #else
   size_t n = 0;
-  for (; bits; bits &= bits - 1) n++;
+  for (; bits; bits &= bits - 1)
+    n++;
   return n;
 #endif
 }
@@ -1340,7 +1347,8 @@ static void nsvcd__v_matrix(const nsvcd__v *q, nsvcd__v *m) {
   nsvcd__v s[4];
   square = nsvcd__v_add(square, nsvcd__v_dot3(q, q));
   const nsvcd__v scale = nsvcd__v_div(nsvcd__v_set(2), square);
-  for (size_t k = 0; k < 4; k++) s[k] = nsvcd__v_mul(scale, q[k]);
+  for (size_t k = 0; k < 4; k++)
+    s[k] = nsvcd__v_mul(scale, q[k]);
   const nsvcd__v xx = nsvcd__v_mul(s[0], q[0]);
   const nsvcd__v yy = nsvcd__v_mul(s[1], q[1]);
   const nsvcd__v zz = nsvcd__v_mul(s[2], q[2]);
@@ -1375,14 +1383,17 @@ static void nsvcd__v_quat_mul(const nsvcd__v *a, const nsvcd__v *b, nsvcd__v *ou
 
 // may not alias
 static void nsvcd__v_mul33_vec(const nsvcd__v *m, const nsvcd__v *x, nsvcd__v *out) {
-  for (size_t i = 0; i < 3; i++) out[i] = nsvcd__v_dot3(m + 3 * i, x);
+  for (size_t i = 0; i < 3; i++)
+    out[i] = nsvcd__v_dot3(m + 3 * i, x);
 }
 
 static void nsvcd__v_quat_normalize(nsvcd__v *q) {
   nsvcd__v square = nsvcd__v_mul(q[0], q[0]);
-  for (size_t k = 1; k < 4; k++) square = nsvcd__v_fma(q[k], q[k], square);
+  for (size_t k = 1; k < 4; k++)
+    square = nsvcd__v_fma(q[k], q[k], square);
   const nsvcd__v length = nsvcd__v_sqrt(square);
-  for (size_t k = 0; k < 4; k++) q[k] = nsvcd__v_div(q[k], length);
+  for (size_t k = 0; k < 4; k++)
+    q[k] = nsvcd__v_div(q[k], length);
 }
 
 // ------------------------------------------------------------------------------------------ memory
@@ -1433,8 +1444,10 @@ static void *nsvcd__alloc(const nsvcd_allocator *allocator, size_t size) {
   return allocator ? allocator->alloc(size, allocator->user) : malloc(size);
 }
 static void nsvcd__free(const nsvcd_allocator *allocator, void *memory) {
-  if (allocator && memory) allocator->free(memory, allocator->user);
-  if (!allocator) free(memory);
+  if (allocator && memory)
+    allocator->free(memory, allocator->user);
+  if (!allocator)
+    free(memory);
 }
 // count * size bytes; NULL also where that product cannot be counted.
 static void *nsvcd__alloc_array(const nsvcd_allocator *allocator, size_t count, size_t size) {
@@ -1459,7 +1472,8 @@ static void *nsvcd__take(char *base, uint64_t *used, size_t rows, size_t row_siz
 
 #ifndef NSVCD_NO_ENCODER
 NSVCDDEF void nsvcd_mesh_free(nsvcd_mesh *mesh, const nsvcd_allocator *allocator) {
-  if (!mesh) return;
+  if (!mesh)
+    return;
   nsvcd__free(allocator, mesh->positions);
   nsvcd__free(allocator, mesh->indices);
   memset(mesh, 0, sizeof *mesh);
@@ -1467,17 +1481,22 @@ NSVCDDEF void nsvcd_mesh_free(nsvcd_mesh *mesh, const nsvcd_allocator *allocator
 
 // A mesh may come from anywhere: everything below relies on what is checked here.
 static nsvcd_result nsvcd__mesh_check(const nsvcd_mesh *mesh) {
-  if (!mesh) return NSVCD_ERROR_ARGUMENT;
-  if (mesh->triangle_count == 0) return NSVCD_ERROR_EMPTY;
-  if (!mesh->positions || !mesh->indices) return NSVCD_ERROR_ARGUMENT;
+  if (!mesh)
+    return NSVCD_ERROR_ARGUMENT;
+  if (mesh->triangle_count == 0)
+    return NSVCD_ERROR_EMPTY;
+  if (!mesh->positions || !mesh->indices)
+    return NSVCD_ERROR_ARGUMENT;
   if (mesh->vertex_count > NSVCD__MAX_COUNT || mesh->triangle_count > NSVCD__MAX_COUNT)
     return NSVCD_ERROR_TOO_LARGE;
   for (size_t i = 0; i < 3 * mesh->triangle_count; ++i) {
-    if (mesh->indices[i] >= mesh->vertex_count) return NSVCD_ERROR_INDEX;
+    if (mesh->indices[i] >= mesh->vertex_count)
+      return NSVCD_ERROR_INDEX;
   }
   for (size_t i = 0; i < 3 * mesh->vertex_count; ++i) {
     float x = mesh->positions[i];
-    if (!nsvcd__is_finite(x) || fabsf(x) > NSVCD_MAX_COORDINATE) return NSVCD_ERROR_NUMBER;
+    if (!nsvcd__is_finite(x) || fabsf(x) > NSVCD_MAX_COORDINATE)
+      return NSVCD_ERROR_NUMBER;
   }
   return NSVCD_OK;
 }
@@ -1492,9 +1511,12 @@ static size_t nsvcd__clip(double (*corners)[3], size_t count, size_t axis, doubl
     const double *b = corners[(i + 1) % count];
     const double past_a = sign * (a[axis] - bound);
     const double past_b = sign * (b[axis] - bound);
-    if (past_a <= 0) memcpy(out[kept++], a, 3 * sizeof *a);
-    if ((past_a <= 0) == (past_b <= 0)) continue;
-    for (size_t k = 0; k < 3; k++) out[kept][k] = a[k] + past_a / (past_a - past_b) * (b[k] - a[k]);
+    if (past_a <= 0)
+      memcpy(out[kept++], a, 3 * sizeof *a);
+    if ((past_a <= 0) == (past_b <= 0))
+      continue;
+    for (size_t k = 0; k < 3; k++)
+      out[kept][k] = a[k] + past_a / (past_a - past_b) * (b[k] - a[k]);
     out[kept++][axis] = bound;
   }
   return kept;
@@ -1507,7 +1529,8 @@ static size_t nsvcd__cut_triangle(const nsvcd_mesh *mesh, size_t t, const float 
   size_t count = 3;
   for (size_t i = 0; i < 3; i++) {
     const float *p = mesh->positions + 3 * (size_t)mesh->indices[3 * t + i];
-    for (size_t k = 0; k < 3; k++) polygon[i][k] = (double)p[k];
+    for (size_t k = 0; k < 3; k++)
+      polygon[i][k] = (double)p[k];
   }
   for (size_t k = 0; k < 3 && count >= 3; k++) {
     count = nsvcd__clip(polygon, count, k, -1, (double)low[k], other);
@@ -1519,13 +1542,15 @@ static size_t nsvcd__cut_triangle(const nsvcd_mesh *mesh, size_t t, const float 
 NSVCDDEF nsvcd_result nsvcd_mesh_cut(const nsvcd_mesh *mesh, const float low[3],
                                      const float high[3], const nsvcd_allocator *allocator,
                                      nsvcd_mesh *part) {
-  if (!low || !high || !part) return NSVCD_ERROR_ARGUMENT;
+  if (!low || !high || !part)
+    return NSVCD_ERROR_ARGUMENT;
   for (size_t k = 0; k < 3; k++) {
     if (!nsvcd__is_finite(low[k]) || !nsvcd__is_finite(high[k]) || !(low[k] < high[k]))
       return NSVCD_ERROR_ARGUMENT;
   }
   const nsvcd_result result = nsvcd__mesh_check(mesh);
-  if (result) return result;
+  if (result)
+    return result;
   double polygon[10][3];
   nsvcd_mesh out = {NULL, NULL, 0, 0};
   for (size_t t = 0; t < mesh->triangle_count; t++) {
@@ -1533,8 +1558,10 @@ NSVCDDEF nsvcd_result nsvcd_mesh_cut(const nsvcd_mesh *mesh, const float low[3],
     out.vertex_count += corners;
     out.triangle_count += corners ? corners - 2 : 0;
   }
-  if (out.vertex_count == 0) return NSVCD_ERROR_EMPTY;
-  if (out.vertex_count > NSVCD__MAX_COUNT) return NSVCD_ERROR_TOO_LARGE;
+  if (out.vertex_count == 0)
+    return NSVCD_ERROR_EMPTY;
+  if (out.vertex_count > NSVCD__MAX_COUNT)
+    return NSVCD_ERROR_TOO_LARGE;
   out.positions = (float *)nsvcd__alloc_array(allocator, out.vertex_count, 3 * sizeof(float));
   out.indices = (uint32_t *)nsvcd__alloc_array(allocator, out.triangle_count, 3 * sizeof(uint32_t));
   if (!out.positions || !out.indices) {
@@ -1546,7 +1573,8 @@ NSVCDDEF nsvcd_result nsvcd_mesh_cut(const nsvcd_mesh *mesh, const float low[3],
   for (size_t t = 0; t < mesh->triangle_count; t++) {
     const size_t corners = nsvcd__cut_triangle(mesh, t, low, high, polygon);
     for (size_t i = 0; i < corners; i++) {
-      for (size_t k = 0; k < 3; k++) out.positions[3 * (first + i) + k] = (float)polygon[i][k];
+      for (size_t k = 0; k < 3; k++)
+        out.positions[3 * (first + i) + k] = (float)polygon[i][k];
     }
     for (uint32_t i = 2; i < corners; i++) {
       *index++ = first;
@@ -1613,7 +1641,8 @@ static void nsvcd__polygon_project(nsvcd__corner *corners, uint32_t count, const
     }
   }
   int axis = fabs(normal[1]) > fabs(normal[0]) ? 1 : 0;
-  if (fabs(normal[2]) > fabs(normal[axis])) axis = 2;
+  if (fabs(normal[2]) > fabs(normal[axis]))
+    axis = 2;
   int u = (axis + 1) % 3;
   int v = (axis + 2) % 3;
   if (normal[axis] < 0) {
@@ -1634,7 +1663,8 @@ static void nsvcd__polygon_update(nsvcd__polygon *polygon, uint32_t i) {
   uint32_t reflex = nsvcd__corner_cross(&corners[c->previous], c, &corners[c->next]) < 0;
   polygon->reflex_count += reflex - c->reflex;
   c->reflex = reflex;
-  if (c->queued) return;
+  if (c->queued)
+    return;
   c->queued = 1;
   *(polygon->queue_length++ == 0 ? &polygon->queue_first
                                  : &corners[polygon->queue_last].queue_next) = i;
@@ -1647,13 +1677,16 @@ static int nsvcd__polygon_is_ear(const nsvcd__polygon *polygon, uint32_t i) {
   const nsvcd__corner *b = &corners[i];
   const nsvcd__corner *a = &corners[b->previous];
   const nsvcd__corner *c = &corners[b->next];
-  if (nsvcd__corner_cross(a, b, c) <= 0) return 0;
-  if (polygon->reflex_count == 0 || polygon->count > NSVCD__MAX_CONCAVE_CORNERS) return 1;
+  if (nsvcd__corner_cross(a, b, c) <= 0)
+    return 0;
+  if (polygon->reflex_count == 0 || polygon->count > NSVCD__MAX_CONCAVE_CORNERS)
+    return 1;
   for (const nsvcd__corner *p = &corners[c->next]; p != a; p = &corners[p->next]) {
     if (!p->reflex || nsvcd__corner_cross(a, b, p) < 0 || nsvcd__corner_cross(b, c, p) < 0 ||
         nsvcd__corner_cross(c, a, p) < 0)
       continue;
-    if (!nsvcd__same_place(p, a) && !nsvcd__same_place(p, b) && !nsvcd__same_place(p, c)) return 0;
+    if (!nsvcd__same_place(p, a) && !nsvcd__same_place(p, b) && !nsvcd__same_place(p, c))
+      return 0;
   }
   return 1;
 }
@@ -1662,14 +1695,17 @@ static int nsvcd__polygon_is_ear(const nsvcd__polygon *polygon, uint32_t i) {
 static nsvcd_result nsvcd__polygon_triangulate(nsvcd__corner *corners, uint32_t count,
                                                const float *positions, uint32_t *triangles) {
   nsvcd__polygon polygon = {corners, count, 0, 0, 0, 0};
-  if (count > 3) nsvcd__polygon_project(corners, count, positions);
+  if (count > 3)
+    nsvcd__polygon_project(corners, count, positions);
   for (uint32_t i = 0; i < count; ++i) {
     corners[i].previous = (i + count - 1) % count;
     corners[i].next = (i + 1) % count;
     corners[i].queued = corners[i].reflex = 0;
   }
-  for (uint32_t i = 0; count > 3 && i < count; ++i) nsvcd__polygon_update(&polygon, i);
-  if (polygon.reflex_count > 0 && count > NSVCD__MAX_CONCAVE_CORNERS) return NSVCD_ERROR_TOO_LARGE;
+  for (uint32_t i = 0; count > 3 && i < count; ++i)
+    nsvcd__polygon_update(&polygon, i);
+  if (polygon.reflex_count > 0 && count > NSVCD__MAX_CONCAVE_CORNERS)
+    return NSVCD_ERROR_TOO_LARGE;
 
   uint32_t at = 0;  // some corner of what is left
   for (uint32_t left = count; left > 3;) {
@@ -1683,7 +1719,8 @@ static nsvcd_result nsvcd__polygon_triangulate(nsvcd__corner *corners, uint32_t 
       polygon.queue_length--;
       c->queued = 0;
     }
-    if (!stuck && !nsvcd__polygon_is_ear(&polygon, i)) continue;
+    if (!stuck && !nsvcd__polygon_is_ear(&polygon, i))
+      continue;
     triangles[0] = corners[c->previous].vertex;
     triangles[1] = c->vertex;
     triangles[2] = corners[c->next].vertex;
@@ -1720,10 +1757,14 @@ enum { NSVCD__OBJ_END, NSVCD__OBJ_VERTEX, NSVCD__OBJ_FACE, NSVCD__OBJ_OTHER, NSV
 // Length of the blank at p: a backslash before the line's end continues the statement on the next
 // line.
 static size_t nsvcd__obj_blank(const char *p, const char *end) {
-  if (p == end) return 0;
-  if (*p == ' ' || *p == '\t' || *p == '\r' || *p == '\v' || *p == '\f') return 1;
-  if (*p != '\\') return 0;
-  if (end - p >= 2 && p[1] == '\n') return 2;
+  if (p == end)
+    return 0;
+  if (*p == ' ' || *p == '\t' || *p == '\r' || *p == '\v' || *p == '\f')
+    return 1;
+  if (*p != '\\')
+    return 0;
+  if (end - p >= 2 && p[1] == '\n')
+    return 2;
   return end - p >= 3 && p[1] == '\r' && p[2] == '\n' ? 3 : 0;
 }
 static int nsvcd__obj_is_digit(const nsvcd__obj *obj) {
@@ -1731,14 +1772,16 @@ static int nsvcd__obj_is_digit(const nsvcd__obj *obj) {
 }
 static int nsvcd__obj_accept(nsvcd__obj *obj, char c) {
   const int is_there = obj->at < obj->end && *obj->at == c;
-  if (is_there) obj->at++;
+  if (is_there)
+    obj->at++;
   return is_there;
 }
 static int nsvcd__obj_token_ends(const nsvcd__obj *obj) {
   return obj->at == obj->end || *obj->at == '\n' || nsvcd__obj_blank(obj->at, obj->end) > 0;
 }
 static void nsvcd__obj_skip_token(nsvcd__obj *obj) {
-  while (!nsvcd__obj_token_ends(obj)) obj->at++;
+  while (!nsvcd__obj_token_ends(obj))
+    obj->at++;
 }
 
 // Skips blanks; 0 where the statement ends instead.
@@ -1755,19 +1798,24 @@ static void nsvcd__obj_skip_statement(nsvcd__obj *obj) {
     const char *newline = (const char *)memchr(start, '\n', (size_t)(obj->end - start));
     const char *last = newline ? newline : obj->end;
     obj->at = newline ? newline + 1 : obj->end;
-    if (last > start && last[-1] == '\r') last--;
+    if (last > start && last[-1] == '\r')
+      last--;
     continued = newline && !comment && last > start && last[-1] == '\\';
   }
 }
 
 static int nsvcd__obj_keyword(nsvcd__obj *obj) {
-  if (!nsvcd__obj_has_token(obj)) return obj->at == obj->end ? NSVCD__OBJ_END : NSVCD__OBJ_OTHER;
+  if (!nsvcd__obj_has_token(obj))
+    return obj->at == obj->end ? NSVCD__OBJ_END : NSVCD__OBJ_OTHER;
   const char *start = obj->at;
   nsvcd__obj_skip_token(obj);
-  if (obj->at - start == 1 && *start == 'v') return NSVCD__OBJ_VERTEX;
-  if (obj->at - start == 1 && *start == 'f') return NSVCD__OBJ_FACE;
+  if (obj->at - start == 1 && *start == 'v')
+    return NSVCD__OBJ_VERTEX;
+  if (obj->at - start == 1 && *start == 'f')
+    return NSVCD__OBJ_FACE;
   for (const char *p = start; p < obj->at; ++p) {
-    if (!((*p >= 'a' && *p <= 'z') || (*p >= 'A' && *p <= 'Z') || *p == '_')) return NSVCD__OBJ_BAD;
+    if (!((*p >= 'a' && *p <= 'z') || (*p >= 'A' && *p <= 'Z') || *p == '_'))
+      return NSVCD__OBJ_BAD;
   }
   return NSVCD__OBJ_OTHER;
 }
@@ -1779,8 +1827,10 @@ static double nsvcd__obj_scale(uint64_t mantissa, int exponent) {
                                    1e8,  1e9,  1e10, 1e11, 1e12, 1e13, 1e14, 1e15,
                                    1e16, 1e17, 1e18, 1e19, 1e20, 1e21, 1e22};
   double value = (double)mantissa;
-  for (; exponent > 22; exponent -= 22) value *= power[22];
-  for (; exponent < -22; exponent += 22) value /= power[22];
+  for (; exponent > 22; exponent -= 22)
+    value *= power[22];
+  for (; exponent < -22; exponent += 22)
+    value /= power[22];
   return exponent < 0 ? value / power[-exponent] : value * power[exponent];
 }
 
@@ -1788,39 +1838,52 @@ static double nsvcd__obj_scale(uint64_t mantissa, int exponent) {
 // equally near to that.
 static nsvcd_result nsvcd__obj_number(nsvcd__obj *obj, double *value) {
   int negative = nsvcd__obj_accept(obj, '-');
-  if (!negative) nsvcd__obj_accept(obj, '+');
+  if (!negative)
+    nsvcd__obj_accept(obj, '+');
   // nan, inf
-  if (obj->at < obj->end && strchr("nNiI", *obj->at) && *obj->at) return NSVCD_ERROR_NUMBER;
+  if (obj->at < obj->end && strchr("nNiI", *obj->at) && *obj->at)
+    return NSVCD_ERROR_NUMBER;
   uint64_t mantissa = 0;
   int64_t exponent = 0;
   int digits = 0;
   int point = 0;
   for (;;) {
-    if (!point && nsvcd__obj_accept(obj, '.')) point = 1;
-    if (!nsvcd__obj_is_digit(obj)) break;
+    if (!point && nsvcd__obj_accept(obj, '.'))
+      point = 1;
+    if (!nsvcd__obj_is_digit(obj))
+      break;
     digits = 1;
     // 19 digits are kept, the rest only moves the point
     int fits = mantissa < 1000000000000000000u;
-    if (fits) mantissa = 10 * mantissa + (uint64_t)(*obj->at - '0');
+    if (fits)
+      mantissa = 10 * mantissa + (uint64_t)(*obj->at - '0');
     exponent += !fits - point;
     obj->at++;
   }
-  if (!digits) return NSVCD_ERROR_SYNTAX;
+  if (!digits)
+    return NSVCD_ERROR_SYNTAX;
   if (nsvcd__obj_accept(obj, 'e') || nsvcd__obj_accept(obj, 'E')) {
     int minus = nsvcd__obj_accept(obj, '-');
-    if (!minus) nsvcd__obj_accept(obj, '+');
-    if (!nsvcd__obj_is_digit(obj)) return NSVCD_ERROR_SYNTAX;
+    if (!minus)
+      nsvcd__obj_accept(obj, '+');
+    if (!nsvcd__obj_is_digit(obj))
+      return NSVCD_ERROR_SYNTAX;
     int64_t written = 0;
     for (; nsvcd__obj_is_digit(obj); obj->at++) {
-      if (written < 1000000000000000) written = 10 * written + (*obj->at - '0');
+      if (written < 1000000000000000)
+        written = 10 * written + (*obj->at - '0');
     }
     exponent += minus ? -written : written;
   }
-  if (!nsvcd__obj_token_ends(obj)) return NSVCD_ERROR_SYNTAX;
-  if (mantissa == 0) exponent = 0;
-  if (exponent > 400) return NSVCD_ERROR_NUMBER;
+  if (!nsvcd__obj_token_ends(obj))
+    return NSVCD_ERROR_SYNTAX;
+  if (mantissa == 0)
+    exponent = 0;
+  if (exponent > 400)
+    return NSVCD_ERROR_NUMBER;
   double magnitude = nsvcd__obj_scale(mantissa, exponent < -400 ? -400 : (int)exponent);
-  if (magnitude > 3.4028234663852886e38) return NSVCD_ERROR_NUMBER;  // FLT_MAX
+  if (magnitude > 3.4028234663852886e38)
+    return NSVCD_ERROR_NUMBER;  // FLT_MAX
   *value = negative ? -magnitude : magnitude;
   return NSVCD_OK;
 }
@@ -1831,10 +1894,14 @@ static nsvcd_result nsvcd__obj_vertex(nsvcd__obj *obj, float *position) {
   for (; nsvcd__obj_has_token(obj); ++count) {
     double value;
     nsvcd_result result = nsvcd__obj_number(obj, &value);
-    if (result != NSVCD_OK) return result;
-    if (count == 8) return NSVCD_ERROR_SYNTAX;
-    if (count >= 3) continue;
-    if (fabs(value) > (double)NSVCD_MAX_COORDINATE) return NSVCD_ERROR_NUMBER;
+    if (result != NSVCD_OK)
+      return result;
+    if (count == 8)
+      return NSVCD_ERROR_SYNTAX;
+    if (count >= 3)
+      continue;
+    if (fabs(value) > (double)NSVCD_MAX_COORDINATE)
+      return NSVCD_ERROR_NUMBER;
     position[count] = (float)value;
   }
   return count < 3 ? NSVCD_ERROR_SYNTAX : NSVCD_OK;
@@ -1844,17 +1911,22 @@ static nsvcd_result nsvcd__obj_vertex(nsvcd__obj *obj, float *position) {
 // against a range.
 static nsvcd_result nsvcd__obj_corner(nsvcd__obj *obj, uint32_t vertex_count, uint32_t *vertex) {
   int negative = nsvcd__obj_accept(obj, '-');
-  if (!nsvcd__obj_is_digit(obj)) return NSVCD_ERROR_SYNTAX;
+  if (!nsvcd__obj_is_digit(obj))
+    return NSVCD_ERROR_SYNTAX;
   uint64_t number = 0;
   for (; nsvcd__obj_is_digit(obj); obj->at++) {
-    if (number <= NSVCD__MAX_COUNT) number = 10 * number + (uint64_t)(*obj->at - '0');
+    if (number <= NSVCD__MAX_COUNT)
+      number = 10 * number + (uint64_t)(*obj->at - '0');
   }
   for (int i = 0; i < 2 && nsvcd__obj_accept(obj, '/'); ++i) {
     nsvcd__obj_accept(obj, '-');
-    while (nsvcd__obj_is_digit(obj)) obj->at++;
+    while (nsvcd__obj_is_digit(obj))
+      obj->at++;
   }
-  if (!nsvcd__obj_token_ends(obj)) return NSVCD_ERROR_SYNTAX;
-  if (number == 0 || number > (negative ? obj->vertices : vertex_count)) return NSVCD_ERROR_INDEX;
+  if (!nsvcd__obj_token_ends(obj))
+    return NSVCD_ERROR_SYNTAX;
+  if (number == 0 || number > (negative ? obj->vertices : vertex_count))
+    return NSVCD_ERROR_INDEX;
   *vertex = negative ? obj->vertices - (uint32_t)number : (uint32_t)number - 1;
   return NSVCD_OK;
 }
@@ -1864,22 +1936,29 @@ static void nsvcd__obj_begin(nsvcd__obj *obj, const char *text, size_t size) {
   obj->at = text;
   obj->end = text + size;
   obj->line = 1;
-  if (size >= 3 && memcmp(text, "\xef\xbb\xbf", 3) == 0) obj->at += 3;  // UTF-8 byte order mark
+  if (size >= 3 && memcmp(text, "\xef\xbb\xbf", 3) == 0)
+    obj->at += 3;  // UTF-8 byte order mark
 }
 
 static nsvcd_result nsvcd__obj_count(nsvcd__obj *obj) {
   for (int keyword; (keyword = nsvcd__obj_keyword(obj)) != NSVCD__OBJ_END;
        nsvcd__obj_skip_statement(obj)) {
-    if (keyword == NSVCD__OBJ_BAD) return NSVCD_ERROR_SYNTAX;
+    if (keyword == NSVCD__OBJ_BAD)
+      return NSVCD_ERROR_SYNTAX;
     if (keyword == NSVCD__OBJ_VERTEX && obj->vertices++ == NSVCD__MAX_COUNT)
       return NSVCD_ERROR_TOO_LARGE;
-    if (keyword != NSVCD__OBJ_FACE) continue;
+    if (keyword != NSVCD__OBJ_FACE)
+      continue;
     size_t corners = 0;
-    for (; nsvcd__obj_has_token(obj); nsvcd__obj_skip_token(obj)) corners++;
-    if (corners < 3) return NSVCD_ERROR_SYNTAX;
-    if (corners - 2 > NSVCD__MAX_COUNT - obj->triangles) return NSVCD_ERROR_TOO_LARGE;
+    for (; nsvcd__obj_has_token(obj); nsvcd__obj_skip_token(obj))
+      corners++;
+    if (corners < 3)
+      return NSVCD_ERROR_SYNTAX;
+    if (corners - 2 > NSVCD__MAX_COUNT - obj->triangles)
+      return NSVCD_ERROR_TOO_LARGE;
     obj->triangles += (uint32_t)(corners - 2);
-    if (corners > obj->max_corners) obj->max_corners = (uint32_t)corners;
+    if (corners > obj->max_corners)
+      obj->max_corners = (uint32_t)corners;
   }
   return NSVCD_OK;
 }
@@ -1887,9 +1966,11 @@ static nsvcd_result nsvcd__obj_count(nsvcd__obj *obj) {
 static nsvcd_result nsvcd__obj_vertices(nsvcd__obj *obj, float *positions) {
   for (int keyword; (keyword = nsvcd__obj_keyword(obj)) != NSVCD__OBJ_END;
        nsvcd__obj_skip_statement(obj)) {
-    if (keyword != NSVCD__OBJ_VERTEX) continue;
+    if (keyword != NSVCD__OBJ_VERTEX)
+      continue;
     nsvcd_result result = nsvcd__obj_vertex(obj, positions + 3 * (size_t)obj->vertices++);
-    if (result != NSVCD_OK) return result;
+    if (result != NSVCD_OK)
+      return result;
   }
   return NSVCD_OK;
 }
@@ -1899,16 +1980,19 @@ static nsvcd_result nsvcd__obj_faces(nsvcd__obj *obj, const nsvcd_mesh *mesh,
   for (int keyword; (keyword = nsvcd__obj_keyword(obj)) != NSVCD__OBJ_END;
        nsvcd__obj_skip_statement(obj)) {
     obj->vertices += keyword == NSVCD__OBJ_VERTEX;
-    if (keyword != NSVCD__OBJ_FACE) continue;
+    if (keyword != NSVCD__OBJ_FACE)
+      continue;
     uint32_t count = 0;
     for (; nsvcd__obj_has_token(obj); ++count) {
       nsvcd_result result =
           nsvcd__obj_corner(obj, (uint32_t)mesh->vertex_count, &corners[count].vertex);
-      if (result != NSVCD_OK) return result;
+      if (result != NSVCD_OK)
+        return result;
     }
     uint32_t *triangles = mesh->indices + 3 * (size_t)obj->triangles;
     nsvcd_result result = nsvcd__polygon_triangulate(corners, count, mesh->positions, triangles);
-    if (result != NSVCD_OK) return result;
+    if (result != NSVCD_OK)
+      return result;
     obj->triangles += count - 2;
   }
   return NSVCD_OK;
@@ -1918,9 +2002,11 @@ static nsvcd_result nsvcd__obj_read(nsvcd__obj *obj, const char *text, size_t si
                                     const nsvcd_allocator *allocator, nsvcd_mesh *mesh) {
   nsvcd__obj_begin(obj, text, size);
   nsvcd_result result = nsvcd__obj_count(obj);
-  if (result != NSVCD_OK) return result;
+  if (result != NSVCD_OK)
+    return result;
   obj->line = 0;  // what follows is not tied to a line
-  if (obj->triangles == 0) return NSVCD_ERROR_EMPTY;
+  if (obj->triangles == 0)
+    return NSVCD_ERROR_EMPTY;
   mesh->vertex_count = obj->vertices;
   mesh->triangle_count = obj->triangles;
   // + 1: a file may hold faces and no vertex, and malloc(0) may return NULL.
@@ -1952,8 +2038,10 @@ NSVCDDEF nsvcd_result nsvcd_obj_parse(const char *text, size_t size,
   memset(&parsed, 0, sizeof parsed);
   obj.line = 0;
   nsvcd_result result = NSVCD_ERROR_ARGUMENT;
-  if (mesh && text) result = nsvcd__obj_read(&obj, text, size, allocator, &parsed);
-  if (error_line) *error_line = result == NSVCD_OK ? 0 : obj.line;
+  if (mesh && text)
+    result = nsvcd__obj_read(&obj, text, size, allocator, &parsed);
+  if (error_line)
+    *error_line = result == NSVCD_OK ? 0 : obj.line;
   if (result != NSVCD_OK) {
     nsvcd_mesh_free(&parsed, allocator);
     return result;
@@ -1970,12 +2058,15 @@ static nsvcd_result nsvcd__read_file(FILE *file, const nsvcd_allocator *allocato
   char *buffer = NULL;
   for (size_t capacity = 65536;; capacity *= 2) {
     char *larger = capacity > SIZE_MAX / 2 ? NULL : (char *)nsvcd__alloc(allocator, capacity);
-    if (larger && used > 0) memcpy(larger, buffer, used);
+    if (larger && used > 0)
+      memcpy(larger, buffer, used);
     nsvcd__free(allocator, buffer);
-    if (!larger) return NSVCD_ERROR_MEMORY;
+    if (!larger)
+      return NSVCD_ERROR_MEMORY;
     buffer = larger;
     used += fread(buffer + used, 1, capacity - used, file);
-    if (used < capacity) break;
+    if (used < capacity)
+      break;
   }
   if (ferror(file)) {
     nsvcd__free(allocator, buffer);
@@ -1989,15 +2080,19 @@ static nsvcd_result nsvcd__read_file(FILE *file, const nsvcd_allocator *allocato
 // nsvcd_obj_parse on the contents of a file.
 NSVCDDEF nsvcd_result nsvcd_obj_load(const char *path, const nsvcd_allocator *allocator,
                                      nsvcd_mesh *mesh, size_t *error_line) {
-  if (error_line) *error_line = 0;
-  if (!path || !mesh) return NSVCD_ERROR_ARGUMENT;
+  if (error_line)
+    *error_line = 0;
+  if (!path || !mesh)
+    return NSVCD_ERROR_ARGUMENT;
   FILE *file = fopen(path, "rb");
-  if (!file) return NSVCD_ERROR_IO;
+  if (!file)
+    return NSVCD_ERROR_IO;
   char *text = NULL;
   size_t size = 0;
   nsvcd_result result = nsvcd__read_file(file, allocator, &text, &size);
   fclose(file);
-  if (result == NSVCD_OK) result = nsvcd_obj_parse(text, size, allocator, mesh, error_line);
+  if (result == NSVCD_OK)
+    result = nsvcd_obj_parse(text, size, allocator, mesh, error_line);
   nsvcd__free(allocator, text);
   return result;
 }
@@ -2063,7 +2158,8 @@ typedef struct nsvcd__patches {
 static void nsvcd__triangle(const nsvcd_mesh *mesh, size_t t, double corners[3][3]) {
   for (int i = 0; i < 3; ++i) {
     const float *p = mesh->positions + 3 * (size_t)mesh->indices[3 * t + (size_t)i];
-    for (int k = 0; k < 3; ++k) corners[i][k] = (double)p[k];
+    for (int k = 0; k < 3; ++k)
+      corners[i][k] = (double)p[k];
   }
 }
 
@@ -2143,7 +2239,8 @@ static nsvcd_result nsvcd__patches_alloc(nsvcd__patches *p, size_t count, size_t
   const size_t words = (16 + 2 * NSVCD__NEIGHBOURS) * count + 1 + 12 * samples + (samples + 1) / 2;
   memset(p, 0, sizeof *p);
   p->memory = nsvcd__alloc(allocator, count * sizeof(nsvcd__patch_sum) + words * sizeof(float));
-  if (!p->memory) return NSVCD_ERROR_MEMORY;
+  if (!p->memory)
+    return NSVCD_ERROR_MEMORY;
   p->count = count;
   p->sample_count = samples;
   p->sums = (nsvcd__patch_sum *)p->memory;
@@ -2208,7 +2305,8 @@ static void nsvcd__link_centres(nsvcd__patches *p) {
     for (uint32_t j = 0; j < p->count; ++j) {
       float gap =
           0.25f * nsvcd__centre_distance(p, j, p->centre_x[i], p->centre_y[i], p->centre_z[i]);
-      if (j == i || gap >= gaps[NSVCD__NEIGHBOURS - 1]) continue;
+      if (j == i || gap >= gaps[NSVCD__NEIGHBOURS - 1])
+        continue;
       int k = NSVCD__NEIGHBOURS - 1;
       for (; k > 0 && gaps[k - 1] > gap; --k) {
         gaps[k] = gaps[k - 1];
@@ -2244,8 +2342,10 @@ static uint32_t nsvcd__nearest_centre(const nsvcd__patches *p, uint32_t guess, f
         nearest = i;
       }
     }
-    if (k < NSVCD__NEIGHBOURS) return nearest;
-    if (nearest == guess) break;
+    if (k < NSVCD__NEIGHBOURS)
+      return nearest;
+    if (nearest == guess)
+      break;
     guess = nearest;
   }
   for (uint32_t i = 0; i < p->count; ++i) {
@@ -2280,7 +2380,8 @@ static void nsvcd__add_centre(nsvcd__patches *p, uint32_t centre, uint32_t from)
   p->first_sample[centre] = NSVCD__NO_SAMPLE;
   p->reach[centre] = -1;
   for (uint32_t owner = 0; owner < centre; ++owner) {
-    if (0.25f * nsvcd__centre_distance(p, owner, x, y, z) > p->reach[owner]) continue;
+    if (0.25f * nsvcd__centre_distance(p, owner, x, y, z) > p->reach[owner])
+      continue;
     uint32_t s = p->first_sample[owner];
     p->first_sample[owner] = NSVCD__NO_SAMPLE;
     p->reach[owner] = -1;
@@ -2322,8 +2423,10 @@ static void nsvcd__farthest_points(nsvcd__patches *p) {
   uint32_t count = 1;
   for (; count < p->count; ++count) {
     uint32_t farthest = 0;
-    for (uint32_t i = 1; i < count; ++i) farthest = p->reach[i] > p->reach[farthest] ? i : farthest;
-    if (!(p->reach[farthest] > 0)) break;
+    for (uint32_t i = 1; i < count; ++i)
+      farthest = p->reach[i] > p->reach[farthest] ? i : farthest;
+    if (!(p->reach[farthest] > 0))
+      break;
     nsvcd__add_centre(p, count, p->farthest_sample[farthest]);
   }
   p->count = count;
@@ -2344,11 +2447,13 @@ static void nsvcd__move_centres(nsvcd__patches *p) {
   for (size_t i = 0; i < p->count; ++i) {
     const nsvcd__patch_sum *sum = &p->sums[i];
     p->offsets[i] = kept;  // for now: the new number of patch i
-    if (!(sum->weight > 0)) continue;
+    if (!(sum->weight > 0))
+      continue;
     nsvcd__set_centre(p, kept++, (float)(sum->vector[0] / sum->weight),
                       (float)(sum->vector[1] / sum->weight), (float)(sum->vector[2] / sum->weight));
   }
-  for (size_t s = 0; s < p->sample_count; ++s) p->owners[s] = (uint16_t)p->offsets[p->owners[s]];
+  for (size_t s = 0; s < p->sample_count; ++s)
+    p->owners[s] = (uint16_t)p->offsets[p->owners[s]];
   p->count = kept;
   nsvcd__link_centres(p);
 }
@@ -2369,8 +2474,10 @@ static float nsvcd__radius_above(double squared) { return (float)(sqrt(squared) 
 static void nsvcd__group_samples(nsvcd__patches *p) {
   memset(p->offsets, 0, (p->count + 1) * sizeof *p->offsets);
   memset(p->sums, 0, p->count * sizeof *p->sums);
-  for (size_t s = 0; s < p->sample_count; ++s) p->offsets[p->owners[s] + 1]++;
-  for (size_t i = 0; i < p->count; ++i) p->offsets[i + 1] += p->offsets[i];
+  for (size_t s = 0; s < p->sample_count; ++s)
+    p->offsets[p->owners[s] + 1]++;
+  for (size_t i = 0; i < p->count; ++i)
+    p->offsets[i + 1] += p->offsets[i];
   for (size_t s = 0; s < p->sample_count; ++s) {
     uint32_t owner = p->owners[s];
     size_t to = p->offsets[owner]++;  // afterwards each offset is the next patch's
@@ -2380,11 +2487,13 @@ static void nsvcd__group_samples(nsvcd__patches *p) {
     memcpy(p->normals + 3 * to, p->drawn_normals + 3 * s, 3 * sizeof(float));
     double distance =
         nsvcd__squared_distance(p, owner, (double)p->x[s], (double)p->y[s], (double)p->z[s]);
-    if (distance > p->sums[owner].reach) p->sums[owner].reach = distance;
+    if (distance > p->sums[owner].reach)
+      p->sums[owner].reach = distance;
   }
   memmove(p->offsets + 1, p->offsets, p->count * sizeof *p->offsets);
   p->offsets[0] = 0;
-  for (size_t i = 0; i < p->count; ++i) p->sample_radii[i] = nsvcd__radius_above(p->sums[i].reach);
+  for (size_t i = 0; i < p->count; ++i)
+    p->sample_radii[i] = nsvcd__radius_above(p->sums[i].reach);
 }
 
 // ---- covering balls
@@ -2402,9 +2511,12 @@ static double nsvcd__squared_edge(const double *a, const double *b) {
 // How many pieces that makes of a triangle, given its squared edges; stops counting beyond `most`.
 // The new edge is the median of the longest one (Apollonius's theorem), so lengths are enough.
 static double nsvcd__count_pieces(double ab, double bc, double ca, double limit, double most) {
-  if (bc > ab && bc >= ca) return nsvcd__count_pieces(bc, ca, ab, limit, most);
-  if (ca > ab) return nsvcd__count_pieces(ca, ab, bc, limit, most);
-  if (ab <= limit * limit) return 1;
+  if (bc > ab && bc >= ca)
+    return nsvcd__count_pieces(bc, ca, ab, limit, most);
+  if (ca > ab)
+    return nsvcd__count_pieces(ca, ab, bc, limit, most);
+  if (ab <= limit * limit)
+    return 1;
   double median = 0.5 * (bc + ca) - 0.25 * ab;
   double pieces = nsvcd__count_pieces(0.25 * ab, median, ca, limit, most);
   return pieces > most ? pieces
@@ -2421,7 +2533,8 @@ static double nsvcd__raise_limit(const nsvcd_mesh *mesh, double limit, double mo
   for (size_t t = 0; t < mesh->triangle_count; ++t) {
     double c[3][3];
     nsvcd__triangle(mesh, t, c);
-    for (int k = 0; k < 3; ++k) longest = fmax(longest, nsvcd__squared_edge(c[k], c[(k + 1) % 3]));
+    for (int k = 0; k < 3; ++k)
+      longest = fmax(longest, nsvcd__squared_edge(c[k], c[(k + 1) % 3]));
   }
   for (limit = fmax(limit, sqrt(longest) / most);; limit *= 2) {
     *pieces = 0;
@@ -2432,7 +2545,8 @@ static double nsvcd__raise_limit(const nsvcd_mesh *mesh, double limit, double mo
           nsvcd__count_pieces(nsvcd__squared_edge(c[0], c[1]), nsvcd__squared_edge(c[1], c[2]),
                               nsvcd__squared_edge(c[2], c[0]), limit, most - *pieces);
     }
-    if (*pieces <= most) return limit;
+    if (*pieces <= most)
+      return limit;
   }
 }
 
@@ -2441,9 +2555,11 @@ static double nsvcd__piece_limit(const nsvcd__patches *p, const nsvcd_mesh *mesh
   double limit = 0;
   double most = (double)mesh->triangle_count + NSVCD__PIECES_PER_SAMPLE * (double)p->sample_count;
   double pieces;
-  for (size_t i = 0; i < p->count; ++i) limit += (double)p->sample_radii[i] / (double)p->count;
+  for (size_t i = 0; i < p->count; ++i)
+    limit += (double)p->sample_radii[i] / (double)p->count;
   limit *= NSVCD__PIECE_SIZE;
-  if (!(limit > 0)) return HUGE_VAL;  // all samples of each patch coincide: nothing to go by
+  if (!(limit > 0))
+    return HUGE_VAL;  // all samples of each patch coincide: nothing to go by
   return nsvcd__raise_limit(mesh, limit, most, &pieces);
 }
 
@@ -2454,8 +2570,10 @@ static uint32_t nsvcd__cover_piece(nsvcd__patches *p, double limit, uint32_t gue
   double ab = nsvcd__squared_edge(a, b);
   double bc = nsvcd__squared_edge(b, c);
   double ca = nsvcd__squared_edge(c, a);
-  if (bc > ab && bc >= ca) return nsvcd__cover_piece(p, limit, guess, b, c, a, area_vector, area);
-  if (ca > ab) return nsvcd__cover_piece(p, limit, guess, c, a, b, area_vector, area);
+  if (bc > ab && bc >= ca)
+    return nsvcd__cover_piece(p, limit, guess, b, c, a, area_vector, area);
+  if (ca > ab)
+    return nsvcd__cover_piece(p, limit, guess, c, a, b, area_vector, area);
   if (ab > limit * limit) {
     double middle[3], half[3];
     for (int k = 0; k < 3; ++k) {
@@ -2469,7 +2587,8 @@ static uint32_t nsvcd__cover_piece(nsvcd__patches *p, double limit, uint32_t gue
       nsvcd__nearest_centre(p, guess, (float)((a[0] + b[0] + c[0]) / 3),
                             (float)((a[1] + b[1] + c[1]) / 3), (float)((a[2] + b[2] + c[2]) / 3));
   nsvcd__patch_sum *sum = &p->sums[patch];
-  for (int k = 0; k < 3; ++k) sum->vector[k] += area_vector[k];
+  for (int k = 0; k < 3; ++k)
+    sum->vector[k] += area_vector[k];
   sum->weight += area;
   p->piece_count++;
   sum->reach = fmax(sum->reach, nsvcd__squared_distance(p, patch, a[0], a[1], a[2]));
@@ -2494,7 +2613,8 @@ static void nsvcd__cover(nsvcd__patches *p, const nsvcd_mesh *mesh) {
     // both.
     p->radii[i] = fmaxf(nsvcd__radius_above(sum->reach), p->sample_radii[i]);
     p->areas[i] = (float)sum->weight;
-    for (size_t k = 0; k < 3; ++k) p->area_vectors[3 * i + k] = (float)sum->vector[k];
+    for (size_t k = 0; k < 3; ++k)
+      p->area_vectors[3 * i + k] = (float)sum->vector[k];
   }
 }
 
@@ -2509,7 +2629,8 @@ static nsvcd_result nsvcd__patches_build(const nsvcd_mesh *mesh, size_t points,
   nsvcd__patches p;
   const nsvcd_result result =
       nsvcd__patches_alloc(&p, points, NSVCD__SAMPLES_PER_POINT * points, allocator);
-  if (result != NSVCD_OK) return result;
+  if (result != NSVCD_OK)
+    return result;
   nsvcd__sample_surface(mesh, p.sample_count, p.points, p.drawn_normals);
   for (size_t s = 0; s < p.sample_count; ++s) {
     p.x[s] = p.points[3 * s];
@@ -2573,7 +2694,8 @@ static uint32_t nsvcd__place_hash(const float *position) {
   for (size_t k = 0; k < 3; k++) {
     uint32_t bits;
     memcpy(&bits, position + k, sizeof bits);
-    if (bits == 0x80000000u) bits = 0;  // -0 is at the same place as 0
+    if (bits == 0x80000000u)
+      bits = 0;  // -0 is at the same place as 0
     hash = (hash ^ bits) * 0x9e3779b1u;
     hash ^= hash >> 15;
   }
@@ -2588,19 +2710,23 @@ static int nsvcd__equal_positions(const float *a, const float *b) {
 static int nsvcd__weld(const nsvcd_mesh *mesh, uint32_t *welded, const nsvcd_allocator *allocator) {
   const uint32_t empty = 0xffffffffu;
   size_t slots = 16;
-  while (slots / 2 < mesh->vertex_count) slots *= 2;
+  while (slots / 2 < mesh->vertex_count)
+    slots *= 2;
   uint32_t *table = (uint32_t *)nsvcd__alloc_array(allocator, slots, sizeof(uint32_t));
-  if (!table) return 0;
+  if (!table)
+    return 0;
 
   memset(table, 0xff, slots * sizeof *table);
   for (uint32_t v = 0; v < mesh->vertex_count; v++) {
     const float *position = mesh->positions + 3 * (size_t)v;
     size_t slot = nsvcd__place_hash(position) & (slots - 1);
     while (table[slot] != empty) {
-      if (nsvcd__equal_positions(mesh->positions + 3 * (size_t)table[slot], position)) break;
+      if (nsvcd__equal_positions(mesh->positions + 3 * (size_t)table[slot], position))
+        break;
       slot = (slot + 1) & (slots - 1);
     }
-    if (table[slot] == empty) table[slot] = v;
+    if (table[slot] == empty)
+      table[slot] = v;
     welded[v] = table[slot];
   }
   nsvcd__free(allocator, table);
@@ -2618,12 +2744,15 @@ static uint32_t nsvcd__root(uint32_t *parents, uint32_t v) {
 static void nsvcd__join(uint32_t *parents, uint32_t a, uint32_t b) {
   a = nsvcd__root(parents, a);
   b = nsvcd__root(parents, b);
-  if (a < b) parents[b] = a;
-  if (b < a) parents[a] = b;
+  if (a < b)
+    parents[b] = a;
+  if (b < a)
+    parents[a] = b;
 }
 
 static void nsvcd__find_components(const nsvcd_mesh *mesh, nsvcd__topology *topology) {
-  for (uint32_t v = 0; v < mesh->vertex_count; v++) topology->parents[v] = v;
+  for (uint32_t v = 0; v < mesh->vertex_count; v++)
+    topology->parents[v] = v;
   for (size_t t = 0; t < mesh->triangle_count; t++) {
     const uint32_t *corners = mesh->indices + 3 * t;
     const uint32_t a = topology->welded[corners[0]];
@@ -2667,7 +2796,8 @@ static int nsvcd__edges_alloc(nsvcd__edges *edges, const nsvcd_mesh *mesh,
   edges->ends = (uint32_t *)nsvcd__alloc_array(allocator, count, sizeof(uint32_t));
   edges->signs = (int8_t *)nsvcd__alloc_array(allocator, count, sizeof(int8_t));
   edges->balances = (int32_t *)nsvcd__alloc_array(allocator, vertices, sizeof(int32_t));
-  if (edges->first && edges->ends && edges->signs && edges->balances) return 1;
+  if (edges->first && edges->ends && edges->signs && edges->balances)
+    return 1;
   nsvcd__edges_free(edges, allocator);
   return 0;
 }
@@ -2676,7 +2806,8 @@ static int nsvcd__edges_alloc(nsvcd__edges *edges, const nsvcd_mesh *mesh,
 // themselves.
 static int nsvcd__welded_corners(const nsvcd_mesh *mesh, const nsvcd__topology *topology, size_t t,
                                  uint32_t *corners) {
-  for (size_t i = 0; i < 3; i++) corners[i] = topology->welded[mesh->indices[3 * t + i]];
+  for (size_t i = 0; i < 3; i++)
+    corners[i] = topology->welded[mesh->indices[3 * t + i]];
   return corners[0] != corners[1] && corners[1] != corners[2] && corners[2] != corners[0];
 }
 
@@ -2686,17 +2817,20 @@ static void nsvcd__sort_edges(const nsvcd_mesh *mesh, const nsvcd__topology *top
   uint32_t corners[3];
   memset(edges->first, 0, (mesh->vertex_count + 2) * sizeof *edges->first);
   for (size_t t = 0; t < mesh->triangle_count; t++) {
-    if (!nsvcd__welded_corners(mesh, topology, t, corners)) continue;
+    if (!nsvcd__welded_corners(mesh, topology, t, corners))
+      continue;
     for (size_t i = 0; i < 3; i++) {
       const uint32_t a = corners[i];
       const uint32_t b = corners[(i + 1) % 3];
       edges->first[(a < b ? a : b) + 2]++;
     }
   }
-  for (size_t v = 0; v < mesh->vertex_count; v++) edges->first[v + 2] += edges->first[v + 1];
+  for (size_t v = 0; v < mesh->vertex_count; v++)
+    edges->first[v + 2] += edges->first[v + 1];
 
   for (size_t t = 0; t < mesh->triangle_count; t++) {
-    if (!nsvcd__welded_corners(mesh, topology, t, corners)) continue;
+    if (!nsvcd__welded_corners(mesh, topology, t, corners))
+      continue;
     for (size_t i = 0; i < 3; i++) {
       const uint32_t a = corners[i];
       const uint32_t b = corners[(i + 1) % 3];
@@ -2711,7 +2845,8 @@ static void nsvcd__sort_edges(const nsvcd_mesh *mesh, const nsvcd__topology *top
 static int nsvcd__find_open(const nsvcd_mesh *mesh, nsvcd__topology *topology,
                             const nsvcd_allocator *allocator) {
   nsvcd__edges edges;
-  if (!nsvcd__edges_alloc(&edges, mesh, allocator)) return 0;
+  if (!nsvcd__edges_alloc(&edges, mesh, allocator))
+    return 0;
   nsvcd__sort_edges(mesh, topology, &edges);
 
   memset(topology->open, 0, mesh->vertex_count);
@@ -2719,11 +2854,14 @@ static int nsvcd__find_open(const nsvcd_mesh *mesh, nsvcd__topology *topology,
   for (size_t v = 0; v < mesh->vertex_count; v++) {
     const size_t first = edges.first[v];
     const size_t last = edges.first[v + 1];
-    for (size_t e = first; e < last; e++) edges.balances[edges.ends[e]] += edges.signs[e];
+    for (size_t e = first; e < last; e++)
+      edges.balances[edges.ends[e]] += edges.signs[e];
     for (size_t e = first; e < last; e++) {
-      if (edges.balances[edges.ends[e]] != 0) topology->open[topology->parents[v]] = 1;
+      if (edges.balances[edges.ends[e]] != 0)
+        topology->open[topology->parents[v]] = 1;
     }
-    for (size_t e = first; e < last; e++) edges.balances[edges.ends[e]] = 0;
+    for (size_t e = first; e < last; e++)
+      edges.balances[edges.ends[e]] = 0;
   }
   nsvcd__edges_free(&edges, allocator);
   return 1;
@@ -2741,7 +2879,8 @@ static int nsvcd__topology_build(const nsvcd_mesh *mesh, nsvcd__topology *topolo
   if (topology->welded && topology->parents && topology->open && topology->seen &&
       nsvcd__weld(mesh, topology->welded, allocator)) {
     nsvcd__find_components(mesh, topology);
-    if (nsvcd__find_open(mesh, topology, allocator)) return 1;
+    if (nsvcd__find_open(mesh, topology, allocator))
+      return 1;
   }
   nsvcd__topology_free(topology, allocator);
   return 0;
@@ -2853,8 +2992,10 @@ static int nsvcd__regions_alloc(nsvcd__regions *r, size_t triangles, size_t cuts
   const size_t word = sizeof(uint32_t);
   r->corners = (uint32_t *)nsvcd__alloc_array(allocator, triangles, 3 * word);
   r->ids = (uint32_t *)nsvcd__alloc_array(allocator, triangles, word);
-  if (!r->corners || !r->ids) return 0;
-  if (r->count == 1) return 1;
+  if (!r->corners || !r->ids)
+    return 0;
+  if (r->count == 1)
+    return 1;
   r->cuts = (nsvcd__d3 *)nsvcd__alloc_array(allocator, cuts, sizeof(nsvcd__d3));
   r->order = (uint32_t *)nsvcd__alloc_array(allocator, triangles, word);
   r->spare = (uint32_t *)nsvcd__alloc_array(allocator, triangles, word);
@@ -2912,8 +3053,10 @@ static nsvcd__split nsvcd__regions_split(const nsvcd__regions *r, size_t first, 
     high = nsvcd__d3_of(fmax(high.x, at.x), fmax(high.y, at.y), fmax(high.z, at.z));
   }
   const nsvcd__d3 size = nsvcd__d3_sub(high, split.low);
-  if (size.y > nsvcd__d3_axis(size, split.axis)) split.axis = 1;
-  if (size.z > nsvcd__d3_axis(size, split.axis)) split.axis = 2;
+  if (size.y > nsvcd__d3_axis(size, split.axis))
+    split.axis = 1;
+  if (size.z > nsvcd__d3_axis(size, split.axis))
+    split.axis = 2;
   const double longest = nsvcd__d3_axis(size, split.axis);
   split.per_bin = longest > 1e-30 ? NSVCD__REGION_BINS / longest : 0;
   for (size_t i = first; i < end; i++) {
@@ -2962,7 +3105,8 @@ static int nsvcd__regions_build(const nsvcd_mesh *mesh, size_t points,
   size_t triangles = mesh->triangle_count;
   size_t cuts = 0;
   memset(r, 0, sizeof *r);
-  if (!nsvcd__topology_build(mesh, &topology, allocator)) return 0;
+  if (!nsvcd__topology_build(mesh, &topology, allocator))
+    return 0;
   r->mesh = mesh;
   r->component_count = topology.component_count;
   r->seeds = topology.seen;
@@ -2986,11 +3130,14 @@ static int nsvcd__regions_build(const nsvcd_mesh *mesh, size_t points,
     nsvcd__regions_add(r, limit, cuts, corners[0], corners[1], corners[2], (uint32_t)t | flag);
   }
   nsvcd__topology_free(&topology, allocator);
-  if (r->count == 1) return 1;
+  if (r->count == 1)
+    return 1;
   const size_t vertices = mesh->vertex_count + r->cut_count;
   size_t made = 0;
-  for (uint32_t t = 0; t < r->triangle_count; t++) r->order[t] = t;
-  for (size_t v = 0; v < vertices; v++) r->numbers[v] = NSVCD__NO_SAMPLE;
+  for (uint32_t t = 0; t < r->triangle_count; t++)
+    r->order[t] = t;
+  for (size_t v = 0; v < vertices; v++)
+    r->numbers[v] = NSVCD__NO_SAMPLE;
   nsvcd__regions_part(r, 0, r->triangle_count, r->count, &made, 0.5 / nsvcd__mesh_area(mesh),
                       0.5 / (double)r->triangle_count);
   r->first[r->count] = r->triangle_count;
@@ -3004,7 +3151,8 @@ static size_t nsvcd__region_number(nsvcd__regions *r, size_t first, size_t end, 
   for (size_t i = first; i < end; i++) {
     for (size_t k = 0; k < 3; k++) {
       const uint32_t v = r->corners[3 * (size_t)r->order[i] + k];
-      if ((v >= r->mesh->vertex_count) != cuts || r->numbers[v] != NSVCD__NO_SAMPLE) continue;
+      if ((v >= r->mesh->vertex_count) != cuts || r->numbers[v] != NSVCD__NO_SAMPLE)
+        continue;
       r->numbers[v] = (uint32_t)count;
       vertices[count++] = v;
     }
@@ -3029,12 +3177,14 @@ static nsvcd_result nsvcd__region_begin(nsvcd__regions *r, size_t n,
   const size_t end = r->first[n + 1];
   const size_t count = end - first;
   const size_t word = sizeof(uint32_t);
-  if (count == 0) return NSVCD_ERROR_EMPTY;
+  if (count == 0)
+    return NSVCD_ERROR_EMPTY;
   // Exact places, then what takes four bytes: corners, ids and up to three vertices for each
   // triangle; then the seeds.
   char *memory =
       (char *)nsvcd__alloc_array(allocator, count, 3 * sizeof(nsvcd__d3) + 16 * word + 3);
-  if (!memory) return NSVCD_ERROR_MEMORY;
+  if (!memory)
+    return NSVCD_ERROR_MEMORY;
   nsvcd__d3 *cuts = (nsvcd__d3 *)(void *)memory;
   uint32_t *corners = (uint32_t *)(void *)(cuts + 3 * count);
   uint32_t *ids = corners + 3 * count;
@@ -3054,15 +3204,18 @@ static nsvcd_result nsvcd__region_begin(nsvcd__regions *r, size_t n,
     positions[3 * v] = rounded.x;
     positions[3 * v + 1] = rounded.y;
     positions[3 * v + 2] = rounded.z;
-    if (v >= firm) cuts[v - firm] = at;
+    if (v >= firm)
+      cuts[v - firm] = at;
     out->seeds[v] = v < firm && r->seeds[vertices[v]];
   }
   for (size_t i = 0; i < count; i++) {
     const uint32_t t = r->order[first + i];
     ids[i] = r->ids[t];
-    for (size_t k = 0; k < 3; k++) corners[3 * i + k] = r->numbers[r->corners[3 * (size_t)t + k]];
+    for (size_t k = 0; k < 3; k++)
+      corners[3 * i + k] = r->numbers[r->corners[3 * (size_t)t + k]];
   }
-  for (size_t v = 0; v < all; v++) r->numbers[vertices[v]] = NSVCD__NO_SAMPLE;
+  for (size_t v = 0; v < all; v++)
+    r->numbers[vertices[v]] = NSVCD__NO_SAMPLE;
   out->mesh.positions = positions;
   out->mesh.indices = corners;
   out->mesh.vertex_count = all;
@@ -3123,13 +3276,17 @@ typedef struct nsvcd__list {
 // Room for `more` items of `size` bytes; 0 without memory, and the list is as it was.
 static int nsvcd__list_reserve(nsvcd__list *list, size_t more, size_t size,
                                const nsvcd_allocator *allocator) {
-  if (list->capacity - list->count >= more) return 1;
-  if (list->count > SIZE_MAX / 2 - more) return 0;
+  if (list->capacity - list->count >= more)
+    return 1;
+  if (list->count > SIZE_MAX / 2 - more)
+    return 0;
   const size_t capacity = list->count + more + list->count / 2;
   void *items = nsvcd__alloc_array(allocator, capacity, size);
-  if (!items) return 0;
+  if (!items)
+    return 0;
 
-  if (list->count > 0) memcpy(items, list->items, list->count * size);
+  if (list->count > 0)
+    memcpy(items, list->items, list->count * size);
   nsvcd__free(allocator, list->items);
   list->items = items;
   list->capacity = capacity;
@@ -3222,8 +3379,10 @@ static nsvcd__d3 nsvcd__point_at(const nsvcd__pieces *pieces, uint32_t number) {
   const nsvcd__region *region = pieces->region;
   const size_t vertices = region->mesh.vertex_count;
   const size_t firm = vertices - region->cut_count;
-  if (number < firm) return nsvcd__d3_load(region->mesh.positions + 3 * (size_t)number);
-  if (number < vertices) return region->cuts[number - firm];
+  if (number < firm)
+    return nsvcd__d3_load(region->mesh.positions + 3 * (size_t)number);
+  if (number < vertices)
+    return region->cuts[number - firm];
   return ((const nsvcd__d3 *)pieces->points.items)[number - vertices];
 }
 
@@ -3246,9 +3405,12 @@ static int nsvcd__divide(nsvcd__pieces *pieces, const nsvcd__facet *from, const 
   size_t far_count = 0;
   for (size_t i = 0; i < from->count; i++) {
     const size_t j = (i + 1) % from->count;
-    if (beyond[i] <= 0) near_points[near_count++] = from->points[i];
-    if (beyond[i] >= 0) far_points[far_count++] = from->points[i];
-    if (!((beyond[i] < 0 && beyond[j] > 0) || (beyond[i] > 0 && beyond[j] < 0))) continue;
+    if (beyond[i] <= 0)
+      near_points[near_count++] = from->points[i];
+    if (beyond[i] >= 0)
+      far_points[far_count++] = from->points[i];
+    if (!((beyond[i] < 0 && beyond[j] > 0) || (beyond[i] > 0 && beyond[j] < 0)))
+      continue;
     const nsvcd__d3 a = nsvcd__point_at(pieces, from->points[i]);
     const nsvcd__d3 b = nsvcd__point_at(pieces, from->points[j]);
     const uint32_t number = vertices + (uint32_t)pieces->points.count;
@@ -3306,15 +3468,20 @@ static int nsvcd__trim(nsvcd__pieces *pieces, uint32_t patch, nsvcd__facet *face
   double reach = nsvcd__facet_reach(pieces, facet, own);
   for (size_t k = 0; k < NSVCD__NEIGHBOURS; k++) {
     // The plane is half the gap away, and the planes of all that follow are farther.
-    if (reach <= sqrt((double)quarter_gaps[k]) + pieces->overlap) break;
-    if (pieces->cuts_left == 0 || pieces->waiting_count == NSVCD__FACET_STACK) break;
+    if (reach <= sqrt((double)quarter_gaps[k]) + pieces->overlap)
+      break;
+    if (pieces->cuts_left == 0 || pieces->waiting_count == NSVCD__FACET_STACK)
+      break;
     double beyond[NSVCD__FACET_CORNERS];
     const nsvcd__d3 other = nsvcd__centre_at(patches, neighbours[k]);
-    if (nsvcd__beyond(pieces, facet, own, other, beyond) <= pieces->overlap) continue;
-    if (!nsvcd__list_reserve(&pieces->points, facet->count, sizeof(nsvcd__d3), allocator)) return 0;
+    if (nsvcd__beyond(pieces, facet, own, other, beyond) <= pieces->overlap)
+      continue;
+    if (!nsvcd__list_reserve(&pieces->points, facet->count, sizeof(nsvcd__d3), allocator))
+      return 0;
     nsvcd__facet near_part;
     nsvcd__facet *far_part = &pieces->waiting[pieces->waiting_count];
-    if (!nsvcd__divide(pieces, facet, beyond, &near_part, far_part)) continue;
+    if (!nsvcd__divide(pieces, facet, beyond, &near_part, far_part))
+      continue;
     *facet = near_part;
     pieces->waiting_count++;
     pieces->cuts_left--;
@@ -3332,14 +3499,17 @@ static int nsvcd__add_piece(nsvcd__pieces *pieces, const nsvcd__facet *facet, ns
   piece.first = NSVCD__WHOLE;
   if (!whole) {
     nsvcd__list *corners = &pieces->corners;
-    if (corners->count >= NSVCD__WHOLE - NSVCD__FACET_CORNERS) return 0;
-    if (!nsvcd__list_reserve(corners, facet->count, sizeof(uint32_t), allocator)) return 0;
+    if (corners->count >= NSVCD__WHOLE - NSVCD__FACET_CORNERS)
+      return 0;
+    if (!nsvcd__list_reserve(corners, facet->count, sizeof(uint32_t), allocator))
+      return 0;
     memcpy((uint32_t *)corners->items + corners->count, facet->points,
            facet->count * sizeof(uint32_t));
     piece.first = (uint32_t)corners->count;
     corners->count += facet->count;
   }
-  if (!nsvcd__list_reserve(&pieces->list, 1, sizeof(nsvcd__piece), allocator)) return 0;
+  if (!nsvcd__list_reserve(&pieces->list, 1, sizeof(nsvcd__piece), allocator))
+    return 0;
   ((nsvcd__piece *)pieces->list.items)[pieces->list.count++] = piece;
   return 1;
 }
@@ -3379,8 +3549,10 @@ static int nsvcd__cut_up(nsvcd__pieces *pieces, uint32_t triangle, uint32_t *gue
     nsvcd__facet facet = pieces->waiting[--pieces->waiting_count];
     *guess = nsvcd__facet_patch(pieces, &facet, *guess);
     piece.patch = (uint16_t)*guess;
-    if (!nsvcd__trim(pieces, piece.patch, &facet, allocator)) return 0;
-    if (!nsvcd__add_piece(pieces, &facet, piece, allocator)) return 0;
+    if (!nsvcd__trim(pieces, piece.patch, &facet, allocator))
+      return 0;
+    if (!nsvcd__add_piece(pieces, &facet, piece, allocator))
+      return 0;
   }
   return 1;
 }
@@ -3388,7 +3560,8 @@ static int nsvcd__cut_up(nsvcd__pieces *pieces, uint32_t triangle, uint32_t *gue
 static void nsvcd__pieces_measure(nsvcd__pieces *pieces) {
   const size_t patches = pieces->patches->count;
   double size = 0;
-  for (size_t i = 0; i < patches; i++) size += (double)pieces->patches->sample_radii[i];
+  for (size_t i = 0; i < patches; i++)
+    size += (double)pieces->patches->sample_radii[i];
   size /= (double)patches;
 
   pieces->margin = NSVCD__SURFACE_MARGIN * pieces->region->greatest + NSVCD__SURFACE_TINY;
@@ -3419,7 +3592,8 @@ static int nsvcd__pieces_build(const nsvcd__region *region, const nsvcd__patches
   for (uint32_t t = 0; ok && t < region->mesh.triangle_count; t++) {
     ok = nsvcd__cut_up(pieces, t, &guess, allocator);
   }
-  if (!ok) nsvcd__pieces_free(pieces, allocator);
+  if (!ok)
+    nsvcd__pieces_free(pieces, allocator);
   return ok;
 }
 
@@ -3437,17 +3611,21 @@ static float nsvcd__float_below(double x) { return -nsvcd__float_above(-x); }
 // if it is singular.
 static int nsvcd__solve(double a[3][3], double *b, size_t n) {
   double first[3];
-  for (size_t i = 0; i < n; i++) first[i] = a[i][i];
+  for (size_t i = 0; i < n; i++)
+    first[i] = a[i][i];
   for (size_t i = 0; i < n; i++) {
-    if (!(a[i][i] > 1e-13 * first[i])) return 0;
+    if (!(a[i][i] > 1e-13 * first[i]))
+      return 0;
     for (size_t j = i + 1; j < n; j++) {
       const double factor = a[i][j] / a[i][i];
-      for (size_t k = j; k < n; k++) a[j][k] -= factor * a[i][k];
+      for (size_t k = j; k < n; k++)
+        a[j][k] -= factor * a[i][k];
       b[j] -= factor * b[i];
     }
   }
   for (size_t i = n; i-- > 0;) {
-    for (size_t j = i + 1; j < n; j++) b[i] -= a[i][j] * b[j];
+    for (size_t j = i + 1; j < n; j++)
+      b[i] -= a[i][j] * b[j];
     b[i] /= a[i][i];
   }
   return 1;
@@ -3465,12 +3643,15 @@ static int nsvcd__ball_through(const nsvcd__d3 *points, size_t count, nsvcd__bal
   nsvcd__d3 edges[3];
   double matrix[3][3];
   double shares[3];
-  for (size_t i = 0; i + 1 < count; i++) edges[i] = nsvcd__d3_sub(points[i + 1], points[0]);
+  for (size_t i = 0; i + 1 < count; i++)
+    edges[i] = nsvcd__d3_sub(points[i + 1], points[0]);
   for (size_t i = 0; i + 1 < count; i++) {
-    for (size_t j = 0; j + 1 < count; j++) matrix[i][j] = nsvcd__d3_dot(edges[i], edges[j]);
+    for (size_t j = 0; j + 1 < count; j++)
+      matrix[i][j] = nsvcd__d3_dot(edges[i], edges[j]);
     shares[i] = 0.5 * matrix[i][i];
   }
-  if (!nsvcd__solve(matrix, shares, count - 1)) return 0;
+  if (!nsvcd__solve(matrix, shares, count - 1))
+    return 0;
   nsvcd__d3 offset = nsvcd__d3_of(0, 0, 0);
   for (size_t i = 0; i + 1 < count; i++) {
     offset = nsvcd__d3_add(offset, nsvcd__d3_scale(edges[i], shares[i]));
@@ -3490,24 +3671,30 @@ static int nsvcd__ball_of_few(nsvcd__d3 *border, size_t *count, nsvcd__ball *bal
     nsvcd__ball trial;
     size_t picked = 0;
     for (size_t i = 0; i < *count; i++) {
-      if (set >> i & 1) chosen[picked++] = border[i];
+      if (set >> i & 1)
+        chosen[picked++] = border[i];
     }
-    if (picked > 4 || !nsvcd__ball_through(chosen, picked, &trial)) continue;
-    if (best != 0 && trial.squared >= ball->squared) continue;
+    if (picked > 4 || !nsvcd__ball_through(chosen, picked, &trial))
+      continue;
+    if (best != 0 && trial.squared >= ball->squared)
+      continue;
     int holds = 1;
     for (size_t i = 0; i < *count; i++) {
       holds &= nsvcd__d3_gap(border[i], trial.centre) <= trial.squared * (1 + 1e-9);
     }
-    if (!holds) continue;
+    if (!holds)
+      continue;
     best = set;
     *ball = trial;
   }
 
   size_t kept = 0;
   for (size_t i = 0; i < *count; i++) {
-    if (best >> i & 1) border[kept++] = border[i];
+    if (best >> i & 1)
+      border[kept++] = border[i];
   }
-  if (best != 0) *count = kept;
+  if (best != 0)
+    *count = kept;
   return best != 0;
 }
 
@@ -3524,14 +3711,18 @@ static nsvcd__d3 nsvcd__ball_centre(const nsvcd__d3 *points, size_t count) {
     size_t farthest = 0;
     for (size_t i = 0; i < count; i++) {
       const double gap = nsvcd__d3_gap(points[i], ball.centre);
-      if (gap > most) farthest = i;
+      if (gap > most)
+        farthest = i;
       most = fmax(most, gap);
     }
-    if (most <= ball.squared * (1 + 1e-9)) break;
+    if (most <= ball.squared * (1 + 1e-9))
+      break;
     border[border_count++] = points[farthest];
     nsvcd__ball larger = ball;
-    if (!nsvcd__ball_of_few(border, &border_count, &larger)) break;
-    if (larger.squared <= ball.squared) break;
+    if (!nsvcd__ball_of_few(border, &border_count, &larger))
+      break;
+    if (larger.squared <= ball.squared)
+      break;
     ball = larger;
   }
   return ball.centre;
@@ -3595,7 +3786,8 @@ static nsvcd__matrix nsvcd__covariance(const nsvcd__d3 *points, size_t count) {
   const nsvcd__d3 zero = nsvcd__d3_of(0, 0, 0);
   nsvcd__matrix out = {zero, zero, zero};
   nsvcd__d3 mean = zero;
-  for (size_t i = 0; i < count; i++) mean = nsvcd__d3_add(mean, points[i]);
+  for (size_t i = 0; i < count; i++)
+    mean = nsvcd__d3_add(mean, points[i]);
   mean = nsvcd__d3_scale(mean, 1 / (double)count);
   for (size_t i = 0; i < count; i++) {
     const nsvcd__d3 d = nsvcd__d3_sub(points[i], mean);
@@ -3616,8 +3808,10 @@ static nsvcd__d3 nsvcd__least_axis(const nsvcd__d3 *points, size_t count) {
   m.x = nsvcd__d3_cross(c.y, c.z);
   m.y = nsvcd__d3_cross(c.z, c.x);
   m.z = nsvcd__d3_cross(c.x, c.y);
-  if (!(m.x.x + m.y.y + m.z.z > 1e-14 * trace * trace)) return nsvcd__any_across(along);  // a line
-  for (size_t step = 0; step < 6; step++) m = nsvcd__square(m);
+  if (!(m.x.x + m.y.y + m.z.z > 1e-14 * trace * trace))
+    return nsvcd__any_across(along);  // a line
+  for (size_t step = 0; step < 6; step++)
+    m = nsvcd__square(m);
   return nsvcd__d3_unit(nsvcd__longest(m), nsvcd__any_across(along));
 }
 
@@ -3632,7 +3826,8 @@ static nsvcd__d3 nsvcd__thinner(const nsvcd__d3 *points, size_t count, nsvcd__d3
       const nsvcd__d3 step = nsvcd__d3_scale(k < 2 ? u : v, k % 2 ? -turn : turn);
       const nsvcd__d3 trial = nsvcd__d3_unit(nsvcd__d3_add(middle, step), middle);
       const double thickness = nsvcd__thickness(points, count, trial);
-      if (thickness >= best) continue;
+      if (thickness >= best)
+        continue;
       best = thickness;
       direction = trial;
     }
@@ -3645,9 +3840,11 @@ static void nsvcd__fit_disc(const nsvcd__d3 *points, size_t count, nsvcd__d3 nor
                             float *disc) {
   nsvcd__d3 best = nsvcd__least_axis(points, count);
   const nsvcd__d3 mean = nsvcd__d3_unit(normal, best);
-  if (nsvcd__thickness(points, count, mean) < nsvcd__thickness(points, count, best)) best = mean;
+  if (nsvcd__thickness(points, count, mean) < nsvcd__thickness(points, count, best))
+    best = mean;
   best = nsvcd__thinner(points, count, best);
-  if (nsvcd__d3_dot(best, normal) < 0) best = nsvcd__d3_scale(best, -1);
+  if (nsvcd__d3_dot(best, normal) < 0)
+    best = nsvcd__d3_scale(best, -1);
 
   // Shorter than 1 by more than the roundings: |n| <= 1 holds for what is stored.
   const nsvcd__f3 n = nsvcd__f3_round(nsvcd__d3_scale(best, 1 - 1.5e-7));
@@ -3694,10 +3891,12 @@ static int nsvcd__plane_weights(const nsvcd__simplex *s, double *weights) {
     edges[i] = nsvcd__d3_sub(s->points[i + 1], s->points[0]);
   }
   for (size_t i = 0; i + 1 < s->count; i++) {
-    for (size_t j = 0; j + 1 < s->count; j++) matrix[i][j] = nsvcd__d3_dot(edges[i], edges[j]);
+    for (size_t j = 0; j + 1 < s->count; j++)
+      matrix[i][j] = nsvcd__d3_dot(edges[i], edges[j]);
     shares[i] = -nsvcd__d3_dot(edges[i], s->points[0]);
   }
-  if (!nsvcd__solve(matrix, shares, s->count - 1)) return 0;
+  if (!nsvcd__solve(matrix, shares, s->count - 1))
+    return 0;
   weights[0] = 1;
   for (size_t i = 0; i + 1 < s->count; i++) {
     weights[i + 1] = shares[i];
@@ -3712,18 +3911,23 @@ static int nsvcd__plane_weights(const nsvcd__simplex *s, double *weights) {
 static int nsvcd__simplex_settle(nsvcd__simplex *s) {
   for (;;) {
     double target[4];
-    if (!nsvcd__plane_weights(s, target)) return 0;
+    if (!nsvcd__plane_weights(s, target))
+      return 0;
     double way = 1;
     size_t blocks = s->count;
     for (size_t i = 0; i < s->count; i++) {
-      if (target[i] > 0) continue;
+      if (target[i] > 0)
+        continue;
       const double reach = s->weights[i] > 0 ? s->weights[i] / (s->weights[i] - target[i]) : 0;
-      if (reach > way) continue;
+      if (reach > way)
+        continue;
       way = reach;
       blocks = i;
     }
-    for (size_t i = 0; i < s->count; i++) s->weights[i] += way * (target[i] - s->weights[i]);
-    if (blocks == s->count) return 1;
+    for (size_t i = 0; i < s->count; i++)
+      s->weights[i] += way * (target[i] - s->weights[i]);
+    if (blocks == s->count)
+      return 1;
     s->count--;
     s->points[blocks] = s->points[s->count];
     s->weights[blocks] = s->weights[s->count];
@@ -3746,16 +3950,19 @@ static double nsvcd__hull_distance(const nsvcd__d3 *hull, size_t count, nsvcd__d
     size_t support = 0;
     for (size_t i = 0; i < count; i++) {
       const double at = nsvcd__d3_dot(hull[i], nearest) - offset;
-      if (at < least) support = i;
+      if (at < least)
+        support = i;
       least = at < least ? at : least;
     }
-    if (least >= 0.998 * best) break;
+    if (least >= 0.998 * best)
+      break;
     s.points[s.count] = nsvcd__d3_sub(hull[support], point);
     s.weights[s.count++] = 0;
     const int settled = nsvcd__simplex_settle(&s);
     nearest = nsvcd__simplex_point(&s);
     const double squared = nsvcd__d3_dot(nearest, nearest);
-    if (!settled || squared >= best) break;
+    if (!settled || squared >= best)
+      break;
     best = squared;
   }
   return sqrt(best);
@@ -3770,9 +3977,11 @@ static double nsvcd__choose_hull(const nsvcd__d3 *points, size_t count, double e
   size_t next = 0;
   for (size_t i = 0; i < count; i++) {
     bounds[i] = nsvcd__d3_length(points[i]);  // from the ball's centre, to begin with
-    if (bounds[i] > bounds[next]) next = i;
+    if (bounds[i] > bounds[next])
+      next = i;
   }
-  for (size_t i = 0; i < count; i++) bounds[i] = HUGE_VAL;
+  for (size_t i = 0; i < count; i++)
+    bounds[i] = HUGE_VAL;
 
   double farthest = HUGE_VAL;
   *chosen_count = 0;
@@ -3784,12 +3993,15 @@ static double nsvcd__choose_hull(const nsvcd__d3 *points, size_t count, double e
     // bounds.
     farthest = 0;
     size_t first = 0;
-    for (size_t i = 1; i < count; i++) first = bounds[i] > bounds[first] ? i : first;
+    for (size_t i = 1; i < count; i++)
+      first = bounds[i] > bounds[first] ? i : first;
     for (size_t k = 0; k < count; k++) {
       const size_t i = (first + k) % count;
-      if (bounds[i] <= farthest) continue;
+      if (bounds[i] <= farthest)
+        continue;
       bounds[i] = fmin(bounds[i], nsvcd__hull_distance(hull, *chosen_count, points[i], farthest));
-      if (bounds[i] <= farthest) continue;
+      if (bounds[i] <= farthest)
+        continue;
       farthest = bounds[i];
       next = i;
     }
@@ -3848,7 +4060,8 @@ static int nsvcd__sort_pieces(const nsvcd__pieces *pieces, const nsvcd_allocator
   const size_t patches = pieces->patches->count;
   memset(sorted, 0, sizeof *sorted);
   sorted->first = (size_t *)nsvcd__alloc_array(allocator, patches + 1, sizeof(size_t));
-  if (!sorted->first) return 0;
+  if (!sorted->first)
+    return 0;
 
   memset(sorted->first, 0, (patches + 1) * sizeof *sorted->first);
   for (size_t k = 0; k < pieces->list.count; k++) {
@@ -3856,7 +4069,8 @@ static int nsvcd__sort_pieces(const nsvcd__pieces *pieces, const nsvcd_allocator
     sorted->first[piece->patch] += piece->count;  // corners, for now
   }
   for (size_t i = 0; i < patches; i++) {
-    if (sorted->first[i] > sorted->most) sorted->most = sorted->first[i];
+    if (sorted->first[i] > sorted->most)
+      sorted->most = sorted->first[i];
     sorted->first[i] = 0;
   }
   sorted->most += NSVCD__HULL;  // a hull's vertices need not be corners of what is listed
@@ -3869,7 +4083,8 @@ static int nsvcd__sort_pieces(const nsvcd__pieces *pieces, const nsvcd_allocator
   for (size_t k = 0; k < pieces->list.count; k++) {
     sorted->first[nsvcd__piece_at(pieces, k)->patch + 1]++;
   }
-  for (size_t i = 0; i < patches; i++) sorted->first[i + 1] += sorted->first[i];
+  for (size_t i = 0; i < patches; i++)
+    sorted->first[i + 1] += sorted->first[i];
   for (size_t k = pieces->list.count; k-- > 0;) {
     const uint32_t patch = nsvcd__piece_at(pieces, k)->patch;
     sorted->order[--sorted->first[patch + 1]] = (uint32_t)k;
@@ -3883,7 +4098,8 @@ static int nsvcd__sort_pieces(const nsvcd__pieces *pieces, const nsvcd_allocator
 // The number of a point in this pass: a new one if it is met for the first time. Returns how many
 // there are now.
 static size_t nsvcd__number_point(nsvcd__sorted *sorted, size_t met, uint32_t point) {
-  if (sorted->stamps[point] == sorted->pass) return met;
+  if (sorted->stamps[point] == sorted->pass)
+    return met;
   sorted->stamps[point] = sorted->pass;
   sorted->numbers[point] = (uint32_t)met;
   sorted->met[met] = point;
@@ -3927,7 +4143,8 @@ static void nsvcd__fit_ball(const nsvcd__pieces *pieces, nsvcd__sorted *sorted, 
   const nsvcd__f3 centre = nsvcd__f3_round(best);
   nsvcd__place_points(pieces, sorted, met, nsvcd__d3_widen(centre));
   double radius = 0;
-  for (size_t j = 0; j < met; j++) radius = fmax(radius, nsvcd__d3_length(sorted->places[j]));
+  for (size_t j = 0; j < met; j++)
+    radius = fmax(radius, nsvcd__d3_length(sorted->places[j]));
   ball[0] = centre.x;
   ball[1] = centre.y;
   ball[2] = centre.z;
@@ -3937,7 +4154,8 @@ static void nsvcd__fit_ball(const nsvcd__pieces *pieces, nsvcd__sorted *sorted, 
 // Is the point the seed of a component that no patch has been given yet? It is given to patch `to`.
 static void nsvcd__take_seed(const nsvcd__region *region, uint32_t point, size_t to,
                              nsvcd__surface *surface) {
-  if (point >= region->mesh.vertex_count || !region->seeds[point]) return;
+  if (point >= region->mesh.vertex_count || !region->seeds[point])
+    return;
   region->seeds[point] = 0;
   memcpy(surface->seeds + 3 * surface->seed_count, region->mesh.positions + 3 * (size_t)point,
          3 * sizeof(float));
@@ -3963,7 +4181,8 @@ static void nsvcd__describe_patch(const nsvcd__pieces *pieces, nsvcd__sorted *so
     normal = nsvcd__d3_add(normal, nsvcd__piece_normal(pieces, piece));
   }
   if (met == 0) {
-    for (size_t k = 0; k < 3; k++) ball[k] = pieces->patches->centres[3 * i + k];
+    for (size_t k = 0; k < 3; k++)
+      ball[k] = pieces->patches->centres[3 * i + k];
     ball[3] = NSVCD__NOWHERE;
     return;
   }
@@ -3986,7 +4205,8 @@ static void nsvcd__describe_patch(const nsvcd__pieces *pieces, nsvcd__sorted *so
 // them.
 static int nsvcd__is_listed_already(const nsvcd__pieces *pieces, const nsvcd__sorted *sorted,
                                     size_t i, size_t k) {
-  if (k == sorted->first[i]) return 0;
+  if (k == sorted->first[i])
+    return 0;
   const nsvcd__piece *piece = nsvcd__sorted_piece(pieces, sorted, k);
   return nsvcd__sorted_piece(pieces, sorted, k - 1)->triangle == piece->triangle;
 }
@@ -4006,11 +4226,13 @@ static size_t nsvcd__number_vertices(const nsvcd__pieces *pieces, nsvcd__sorted 
     const uint32_t *corners = nsvcd__piece_corners(pieces, piece);
     size_t count = piece->count;
     if (!piece->parted) {
-      if (nsvcd__is_listed_already(pieces, sorted, i, k)) continue;
+      if (nsvcd__is_listed_already(pieces, sorted, i, k))
+        continue;
       corners = pieces->region->mesh.indices + 3 * (size_t)piece->triangle;
       count = 3;
     }
-    for (size_t j = 0; j < count; j++) met = nsvcd__number_point(sorted, met, corners[j]);
+    for (size_t j = 0; j < count; j++)
+      met = nsvcd__number_point(sorted, met, corners[j]);
     *listed += count - 2;
   }
   return met;
@@ -4046,7 +4268,8 @@ static void nsvcd__store_vertices(const nsvcd__pieces *pieces, nsvcd__sorted *so
     z[j] = nsvcd__to_integer(p.z / metres);
     const nsvcd__d3 stored = nsvcd__d3_scale(nsvcd__d3_of(x[j], y[j], z[j]), metres);
     worst = fmax(worst, nsvcd__d3_length(nsvcd__d3_sub(p, stored)));
-    if (j < surface->hull_counts[to]) worst_of_hull = worst;
+    if (j < surface->hull_counts[to])
+      worst_of_hull = worst;
   }
   surface->steps[to] = step;
   surface->quanta[to] = nsvcd__float_above(worst + pieces->margin);
@@ -4144,10 +4367,12 @@ static nsvcd_result nsvcd__surface_count(const nsvcd__pieces *pieces, nsvcd__sor
     surface->first_vertex[to] = (uint32_t)vertices;
     surface->first_triangle[to] = (uint32_t)triangles;
     const size_t met = nsvcd__number_vertices(pieces, sorted, i, hull_count, &listed);
-    if (met > NSVCD__PATCH_VERTICES) return NSVCD_ERROR_TOO_LARGE;
+    if (met > NSVCD__PATCH_VERTICES)
+      return NSVCD_ERROR_TOO_LARGE;
     vertices += met;
     triangles += listed;
-    if (vertices > NSVCD__MAX_COUNT || triangles > NSVCD__MAX_COUNT) return NSVCD_ERROR_TOO_LARGE;
+    if (vertices > NSVCD__MAX_COUNT || triangles > NSVCD__MAX_COUNT)
+      return NSVCD_ERROR_TOO_LARGE;
   }
   surface->first_vertex[surface->count] = (uint32_t)vertices;
   surface->first_triangle[surface->count] = (uint32_t)triangles;
@@ -4175,12 +4400,15 @@ static nsvcd_result nsvcd__surface_fill(const nsvcd__pieces *pieces, nsvcd__sort
                                         const nsvcd_allocator *allocator, nsvcd__surface *surface) {
   const size_t count = pieces->patches->count;
   surface->count = surface->done + count;
-  for (size_t i = 0; i < count; i++) nsvcd__describe_patch(pieces, sorted, i, surface);
+  for (size_t i = 0; i < count; i++)
+    nsvcd__describe_patch(pieces, sorted, i, surface);
   const nsvcd_result result = nsvcd__surface_count(pieces, sorted, allocator, surface);
-  if (result) return result;
+  if (result)
+    return result;
   for (size_t i = 0; i < count; i++) {
     const size_t hull_count = surface->hull_counts[surface->done + i];
-    if (hull_count == 0) continue;
+    if (hull_count == 0)
+      continue;
     size_t listed;
     const size_t met = nsvcd__number_vertices(pieces, sorted, i, hull_count, &listed);
     nsvcd__store_vertices(pieces, sorted, i, met, surface);
@@ -4196,7 +4424,8 @@ static nsvcd_result nsvcd__surface_add(const nsvcd__region *region, const nsvcd_
                                        const nsvcd_allocator *allocator, nsvcd__surface *surface) {
   nsvcd__pieces pieces;
   nsvcd__sorted sorted;
-  if (!nsvcd__pieces_build(region, patches, allocator, &pieces)) return NSVCD_ERROR_MEMORY;
+  if (!nsvcd__pieces_build(region, patches, allocator, &pieces))
+    return NSVCD_ERROR_MEMORY;
   if (!nsvcd__sort_pieces(&pieces, allocator, &sorted)) {
     nsvcd__pieces_free(&pieces, allocator);
     return NSVCD_ERROR_MEMORY;
@@ -4251,7 +4480,8 @@ typedef struct nsvcd__decoder {
 // neither.
 static void nsvcd__linear(const float *w, const float *bias, size_t inputs, size_t outputs,
                           const float *x, float *y) {
-  for (size_t o = 0; o < outputs; o++) y[o] = bias ? bias[o] : 0;
+  for (size_t o = 0; o < outputs; o++)
+    y[o] = bias ? bias[o] : 0;
   // four rows at a time: y is the traffic
   for (; inputs >= 4; inputs -= 4, w += 4 * outputs, x += 4) {
     const float *r1 = w + outputs;
@@ -4265,12 +4495,14 @@ static void nsvcd__linear(const float *w, const float *bias, size_t inputs, size
       y[o] += (w[o] * x0 + r1[o] * x1) + (r2[o] * x2 + r3[o] * x3);
   }
   for (; inputs > 0; inputs--, w += outputs, x++) {
-    for (size_t o = 0; o < outputs; o++) y[o] += w[o] * x[0];
+    for (size_t o = 0; o < outputs; o++)
+      y[o] += w[o] * x[0];
   }
 }
 
 static void nsvcd__relu(size_t count, float *x) {
-  for (size_t i = 0; i < count; i++) x[i] = x[i] > 0 ? x[i] : 0;
+  for (size_t i = 0; i < count; i++)
+    x[i] = x[i] > 0 ? x[i] : 0;
 }
 
 // Symmetric traceless part of a b^T in the basis of the real spherical harmonics xy, yz, zz, xz,
@@ -4375,9 +4607,11 @@ static void nsvcd__mix(const float *mix, const float *gate, const float *out, si
                        const float *a, float *z) {
   for (size_t k = 0; k < size; k++) {
     float x[NSVCD__WIDE], h[NSVCD_W_HIDDEN];
-    for (size_t c = 0; c < NSVCD__WIDE; c++) x[c] = a[c * size + k];
+    for (size_t c = 0; c < NSVCD__WIDE; c++)
+      x[c] = a[c * size + k];
     nsvcd__linear(mix, NULL, NSVCD__WIDE, NSVCD_W_HIDDEN, x, h);
-    for (size_t c = 0; c < NSVCD_W_HIDDEN; c++) h[c] *= gate[c];
+    for (size_t c = 0; c < NSVCD_W_HIDDEN; c++)
+      h[c] *= gate[c];
     nsvcd__linear(out, NULL, NSVCD_W_HIDDEN, NSVCD_W_CHANNELS, h, z + NSVCD_W_CHANNELS * k);
   }
   // shortened to less than 1, so that int8 holds it
@@ -4386,7 +4620,8 @@ static void nsvcd__mix(const float *mix, const float *gate, const float *out, si
     for (size_t k = 0; k < size; k++)
       square += z[NSVCD_W_CHANNELS * k + c] * z[NSVCD_W_CHANNELS * k + c];
     const float scale = 1 / sqrtf(1 + square);
-    for (size_t k = 0; k < size; k++) z[NSVCD_W_CHANNELS * k + c] *= scale;
+    for (size_t k = 0; k < size; k++)
+      z[NSVCD_W_CHANNELS * k + c] *= scale;
   }
 }
 
@@ -4414,11 +4649,13 @@ static void nsvcd__encode_patch(const float *points, const float *normals, size_
     const float *gnn = gun + NSVCD_W_POOLED;
     const float *gs = gnn + NSVCD_W_POOLED;
     for (size_t c = 0; c < NSVCD_W_POOLED; c++) {
-      for (size_t k = 0; k < 3; k++) a1[3 * c + k] += (gu[c] * f.u[k] + gn[c] * f.n[k]) * share;
+      for (size_t k = 0; k < 3; k++)
+        a1[3 * c + k] += (gu[c] * f.u[k] + gn[c] * f.n[k]) * share;
       for (size_t k = 0; k < 5; k++)
         a2[5 * c + k] += (guu[c] * f.quu[k] + gun[c] * f.qun[k] + gnn[c] * f.qnn[k]) * share;
     }
-    for (size_t c = 0; c < NSVCD_W_POOLED_SCALARS; c++) scalars[c] += gs[c] * share;
+    for (size_t c = 0; c < NSVCD_W_POOLED_SCALARS; c++)
+      scalars[c] += gs[c] * share;
   }
 
   float x[NSVCD__PATCH_IN], h[NSVCD_W_PATCH_HIDDEN], y[NSVCD__PATCH_OUT];
@@ -4456,7 +4693,8 @@ static void nsvcd__wigner(const nsvcd__v *m, nsvcd__v scale, float (*out)[NSVCD_
   // columns: xy yz xz xx yy zz
   static const unsigned char of[6][2] = {{0, 1}, {1, 2}, {0, 2}, {0, 0}, {1, 1}, {2, 2}};
   nsvcd__v q[6][5];
-  for (size_t k = 0; k < 9; k++) nsvcd__v_store(out[k], nsvcd__v_mul(scale, m[k]));
+  for (size_t k = 0; k < 9; k++)
+    nsvcd__v_store(out[k], nsvcd__v_mul(scale, m[k]));
   for (size_t n = 0; n < 6; n++) {  // as nsvcd__degree2
     const nsvcd__v *a = m + of[n][0];
     const nsvcd__v *b = m + of[n][1];
@@ -4488,7 +4726,8 @@ NSVCD__INLINE void nsvcd__rotate_degree(const float *latent, float (*turn)[NSVCD
     float sum[NSVCD_W_CHANNELS] = {0};
     for (size_t k = 0; k < size; k++) {
       const float m = turn[size * i + k][l];
-      for (size_t c = 0; c < NSVCD_W_CHANNELS; c++) sum[c] += m * latent[NSVCD_W_CHANNELS * k + c];
+      for (size_t c = 0; c < NSVCD_W_CHANNELS; c++)
+        sum[c] += m * latent[NSVCD_W_CHANNELS * k + c];
     }
     memcpy(out + NSVCD_W_CHANNELS * i, sum, sizeof sum);
   }
@@ -4501,13 +4740,16 @@ static void nsvcd__rotate_latent(const int8_t *z, float (*turn)[NSVCD__SLICE], s
   float *vectors = row + NSVCD__VECTORS * place;
   float *scalars = row + 2 * NSVCD__VECTORS + NSVCD_W_SCALARS * place;
   float degree[5 * NSVCD_W_CHANNELS];  // one after the other: it is the deepest place of a query
-  for (size_t k = 0; k < 3 * NSVCD_W_CHANNELS; k++) degree[k] = (float)z[k];
+  for (size_t k = 0; k < 3 * NSVCD_W_CHANNELS; k++)
+    degree[k] = (float)z[k];
   nsvcd__rotate_degree(degree, turn, l, 3, vectors);
   z += 3 * NSVCD_W_CHANNELS;
-  for (size_t k = 0; k < 5 * NSVCD_W_CHANNELS; k++) degree[k] = (float)z[k];
+  for (size_t k = 0; k < 5 * NSVCD_W_CHANNELS; k++)
+    degree[k] = (float)z[k];
   nsvcd__rotate_degree(degree, turn + 9, l, 5, vectors + 3 * NSVCD_W_CHANNELS);
   z += 5 * NSVCD_W_CHANNELS;
-  for (size_t k = 0; k < NSVCD_W_SCALARS; k++) scalars[k] = (float)z[k] * (1.0f / 127);
+  for (size_t k = 0; k < NSVCD_W_SCALARS; k++)
+    scalars[k] = (float)z[k] * (1.0f / 127);
 }
 
 #endif  // NSVCD_NO_NETWORK
@@ -4587,8 +4829,10 @@ static nsvcd__level nsvcd__level_of(size_t padded, size_t level) {
 // How many levels there are: none above the groups where these can be searched all at once.
 static size_t nsvcd__level_count(size_t padded) {
   size_t levels = 1;
-  if (padded / NSVCD__GROUP <= NSVCD__TILE) return 1;
-  while (nsvcd__level_of(padded, levels - 1).count > NSVCD__GROUP) levels++;
+  if (padded / NSVCD__GROUP <= NSVCD__TILE)
+    return 1;
+  while (nsvcd__level_of(padded, levels - 1).count > NSVCD__GROUP)
+    levels++;
   return levels;
 }
 
@@ -4654,7 +4898,8 @@ static const int8_t *nsvcd__body_latents(const nsvcd_body *body) {  // (N, LATEN
 
 #ifndef NSVCD_NO_NETWORK
 NSVCDDEF size_t nsvcd_body_size(size_t points) {
-  if (points < 1 || points > NSVCD_MAX_POINTS) return 0;
+  if (points < 1 || points > NSVCD_MAX_POINTS)
+    return 0;
   const size_t padded = nsvcd__round_up(points, NSVCD__GROUP);
   const size_t areas = 12 * nsvcd__area_slots(padded);
   return nsvcd__round_up(nsvcd__spheres_size(padded) + areas + points * NSVCD__LATENT,
@@ -4704,7 +4949,8 @@ static void nsvcd__sort_along(size_t count, const float *centres, size_t axis, u
 // than a tile's. centres (N, 3), order and spare (count).
 static void nsvcd__body_order(size_t count, const float *centres, uint16_t *order,
                               uint16_t *spare) {
-  if (count <= NSVCD__GROUP) return;
+  if (count <= NSVCD__GROUP)
+    return;
   size_t axis = 0;
   float longest = -1;
   for (size_t k = 0; k < 3; k++) {
@@ -4722,7 +4968,8 @@ static void nsvcd__body_order(size_t count, const float *centres, uint16_t *orde
   }
   nsvcd__sort_along(count, centres, axis, order, spare);
   size_t unit = NSVCD__GROUP;
-  while (2 * NSVCD__GROUP * unit < count) unit *= NSVCD__GROUP;
+  while (2 * NSVCD__GROUP * unit < count)
+    unit *= NSVCD__GROUP;
   const size_t left = nsvcd__round_up(count / 2, unit);
   nsvcd__body_order(left, centres, order, spare);
   nsvcd__body_order(count - left, centres, order + left, spare);
@@ -4781,7 +5028,8 @@ static void nsvcd__level_finish(nsvcd__spheres below, size_t members, nsvcd__lev
     const size_t i = g * NSVCD__GROUP;
     const size_t left = i >= members ? 0 : members - i;
     const size_t count = left < NSVCD__GROUP ? left : NSVCD__GROUP;
-    if (count) sphere = nsvcd__cover_spheres(nsvcd__spheres_from(below, i), count);
+    if (count)
+      sphere = nsvcd__cover_spheres(nsvcd__spheres_from(below, i), count);
     nsvcd__sphere_store(sphere, out, level.slots, g);
   }
 }
@@ -4850,7 +5098,8 @@ static void nsvcd__walk_begin(nsvcd__walk *walk, const nsvcd_body *body, nsvcd__
 static int nsvcd__walk_next(nsvcd__walk *walk, size_t *group) {
   for (;;) {
     while (!walk->left[walk->level]) {
-      if (walk->level + 1 == walk->levels) return 0;
+      if (walk->level + 1 == walk->levels)
+        return 0;
       walk->level++;
     }
     const size_t found = walk->first[walk->level] + nsvcd__lowest_bit(walk->left[walk->level]);
@@ -4872,7 +5121,8 @@ static int nsvcd__is_aligned(const void *memory) {
 // Bit tests, so that they hold under -ffast-math too.
 static int nsvcd__all_within(const float *values, size_t count, float cap) {
   for (size_t i = 0; i < count; i++) {
-    if (!nsvcd__is_finite(values[i]) || fabsf(values[i]) > cap) return 0;
+    if (!nsvcd__is_finite(values[i]) || fabsf(values[i]) > cap)
+      return 0;
   }
   return 1;
 }
@@ -4914,14 +5164,19 @@ static nsvcd_result nsvcd__body_build(size_t points, const float *centres, const
                                       const uint16_t *order, uint32_t weights_id, int open,
                                       void *memory, size_t capacity, const nsvcd_body **body) {
   size_t size = nsvcd_body_size(points);
-  if (size == 0) return NSVCD_ERROR_ARGUMENT;
-  if (capacity < size || !nsvcd__is_aligned(memory)) return NSVCD_ERROR_WORKSPACE;
-  if (!nsvcd__all_within(centres, 3 * points, NSVCD_MAX_COORDINATE)) return NSVCD_ERROR_NUMBER;
-  if (!nsvcd__all_within(radii, points, 4 * NSVCD_MAX_COORDINATE)) return NSVCD_ERROR_NUMBER;
+  if (size == 0)
+    return NSVCD_ERROR_ARGUMENT;
+  if (capacity < size || !nsvcd__is_aligned(memory))
+    return NSVCD_ERROR_WORKSPACE;
+  if (!nsvcd__all_within(centres, 3 * points, NSVCD_MAX_COORDINATE))
+    return NSVCD_ERROR_NUMBER;
+  if (!nsvcd__all_within(radii, points, 4 * NSVCD_MAX_COORDINATE))
+    return NSVCD_ERROR_NUMBER;
   if (!nsvcd__all_within(areas, 3 * points, NSVCD__MAX_LENGTH * NSVCD__MAX_LENGTH))
     return NSVCD_ERROR_NUMBER;
   for (size_t i = 0; i < points; i++) {
-    if (radii[i] < 0) return NSVCD_ERROR_NUMBER;
+    if (radii[i] < 0)
+      return NSVCD_ERROR_NUMBER;
   }
 
   memset(memory, 0, size);
@@ -4945,14 +5200,18 @@ static nsvcd_result nsvcd__body_build(size_t points, const float *centres, const
     y[i] = centres[3 * from + 1];
     z[i] = centres[3 * from + 2];
     r[i] = radii[from];
-    for (size_t k = 0; k < 3; k++) area[k * b->padded + i] = areas[3 * from + k];
+    for (size_t k = 0; k < 3; k++)
+      area[k * b->padded + i] = areas[3 * from + k];
     memcpy(latent + NSVCD__LATENT * i, latents + NSVCD__LATENT * from, NSVCD__LATENT);
   }
-  for (size_t i = points; i < b->padded; i++) r[i] = NSVCD__NOWHERE;
+  for (size_t i = points; i < b->padded; i++)
+    r[i] = NSVCD__NOWHERE;
   nsvcd__sum_areas(b);
-  if (!nsvcd__areas_are_sound(b)) return NSVCD_ERROR_NUMBER;
+  if (!nsvcd__areas_are_sound(b))
+    return NSVCD_ERROR_NUMBER;
   nsvcd__body_finish(b);
-  if (b->radius < NSVCD_MIN_RADIUS) return NSVCD_ERROR_NUMBER;
+  if (b->radius < NSVCD_MIN_RADIUS)
+    return NSVCD_ERROR_NUMBER;
   *body = b;
   return NSVCD_OK;
 }
@@ -4967,8 +5226,10 @@ static int nsvcd__covers(nsvcd__sphere sphere, nsvcd__spheres all, size_t count)
 // 1 if padding entries [from, to) are exactly what nsvcd__body_finish writes.
 static int nsvcd__is_padding(nsvcd__spheres all, size_t from, size_t to) {
   for (size_t i = from; i < to; i++) {
-    if (all.x[i] != 0 || all.y[i] != 0 || all.z[i] != 0) return 0;
-    if (all.r[i] != NSVCD__NOWHERE) return 0;
+    if (all.x[i] != 0 || all.y[i] != 0 || all.z[i] != 0)
+      return 0;
+    if (all.r[i] != NSVCD__NOWHERE)
+      return 0;
   }
   return 1;
 }
@@ -4976,11 +5237,15 @@ static int nsvcd__is_padding(nsvcd__spheres all, size_t from, size_t to) {
 // Are `count` spheres of so many slots, 1 to `stride`, finite and within bounds, their radii not
 // negative, the others padding?
 static int nsvcd__are_spheres(nsvcd__spheres all, size_t count, size_t stride, float cap) {
-  if (!nsvcd__all_within(all.x, 3 * stride, cap)) return 0;
-  if (!nsvcd__all_within(all.r, count, NSVCD__MAX_LENGTH)) return 0;
-  if (!nsvcd__all_within(all.r, stride, -NSVCD__NOWHERE)) return 0;
+  if (!nsvcd__all_within(all.x, 3 * stride, cap))
+    return 0;
+  if (!nsvcd__all_within(all.r, count, NSVCD__MAX_LENGTH))
+    return 0;
+  if (!nsvcd__all_within(all.r, stride, -NSVCD__NOWHERE))
+    return 0;
   for (size_t i = 0; i < count; i++) {
-    if (all.r[i] < 0) return 0;
+    if (all.r[i] < 0)
+      return 0;
   }
   return nsvcd__is_padding(all, count, stride);
 }
@@ -4992,7 +5257,8 @@ static int nsvcd__level_covers(nsvcd__spheres above, size_t count, nsvcd__sphere
     const size_t i = g * NSVCD__GROUP;
     const size_t left = members - i < NSVCD__GROUP ? members - i : NSVCD__GROUP;
     const nsvcd__sphere sphere = nsvcd__sphere_of(above, g);
-    if (!nsvcd__covers(sphere, nsvcd__spheres_from(below, i), left)) return 0;
+    if (!nsvcd__covers(sphere, nsvcd__spheres_from(below, i), left))
+      return 0;
   }
   return 1;
 }
@@ -5003,18 +5269,25 @@ static int nsvcd__level_covers(nsvcd__spheres above, size_t count, nsvcd__sphere
 static int nsvcd__spheres_are_sound(const nsvcd_body *body) {
   const nsvcd__spheres patches = nsvcd__body_patches(body);
   const nsvcd__sphere about_origin = {nsvcd__f3_of(0, 0, 0), body->extent};
-  if (!nsvcd__are_spheres(patches, body->points, body->padded, NSVCD_MAX_COORDINATE)) return 0;
-  if (!nsvcd__all_within(body->centre, 3, NSVCD__MAX_LENGTH)) return 0;
-  if (!nsvcd__all_within(&body->radius, 1, NSVCD__MAX_LENGTH)) return 0;
-  if (!nsvcd__all_within(&body->extent, 1, NSVCD__MAX_LENGTH)) return 0;
-  if (body->radius < NSVCD_MIN_RADIUS) return 0;
+  if (!nsvcd__are_spheres(patches, body->points, body->padded, NSVCD_MAX_COORDINATE))
+    return 0;
+  if (!nsvcd__all_within(body->centre, 3, NSVCD__MAX_LENGTH))
+    return 0;
+  if (!nsvcd__all_within(&body->radius, 1, NSVCD__MAX_LENGTH))
+    return 0;
+  if (!nsvcd__all_within(&body->extent, 1, NSVCD__MAX_LENGTH))
+    return 0;
+  if (body->radius < NSVCD_MIN_RADIUS)
+    return 0;
   nsvcd__spheres below = patches;
   size_t members = body->points;
   for (size_t k = 0; k < nsvcd__level_count(body->padded); k++) {
     const nsvcd__level level = nsvcd__level_of(body->padded, k);
     const nsvcd__spheres above = nsvcd__level_spheres(body, level);
-    if (!nsvcd__are_spheres(above, level.count, level.slots, NSVCD__MAX_LENGTH)) return 0;
-    if (!nsvcd__level_covers(above, level.count, below, members)) return 0;
+    if (!nsvcd__are_spheres(above, level.count, level.slots, NSVCD__MAX_LENGTH))
+      return 0;
+    if (!nsvcd__level_covers(above, level.count, below, members))
+      return 0;
     below = above;
     members = level.count;
   }
@@ -5025,8 +5298,10 @@ static int nsvcd__spheres_are_sound(const nsvcd_body *body) {
 // Multiplies the spheres that both kinds of bodies begin with.
 static void nsvcd__scale_spheres(nsvcd_body *body, float scale) {
   float *floats = (float *)(body + 1);
-  for (size_t i = 0; i < 3 * (size_t)body->padded; i++) floats[i] *= scale;
-  for (size_t i = 0; i < body->points; i++) floats[3 * body->padded + i] *= scale;
+  for (size_t i = 0; i < 3 * (size_t)body->padded; i++)
+    floats[i] *= scale;
+  for (size_t i = 0; i < body->points; i++)
+    floats[3 * body->padded + i] *= scale;
 }
 
 // Would the spheres, multiplied, still be within the limits of nsvcd_body_load? In double, for the
@@ -5034,9 +5309,11 @@ static void nsvcd__scale_spheres(nsvcd_body *body, float scale) {
 static int nsvcd__spheres_fit(const nsvcd_body *body, float scale) {
   const double least = (double)NSVCD_MIN_RADIUS / (double)scale;
   const double most = (double)NSVCD_MAX_COORDINATE / (double)scale;
-  if ((double)body->radius < least) return 0;
+  if ((double)body->radius < least)
+    return 0;
   for (size_t i = 0; i < 3 * (size_t)body->padded; i++) {
-    if (fabs((double)nsvcd__body_x(body)[i]) > most) return 0;
+    if (fabs((double)nsvcd__body_x(body)[i]) > most)
+      return 0;
   }
   // Twice the extent is over every radius and centre of a group.
   return 2 * (double)body->extent <= (double)NSVCD__MAX_LENGTH / (double)scale;
@@ -5095,7 +5372,8 @@ static void *nsvcd__writable(nsvcd_body *body, const void *place) {
 
 // The body of triangles in a body, or NULL.
 static const nsvcd_body *nsvcd__triangles_of(const nsvcd_body *body) {
-  if (body->triangles == 0 || body->weights_id == 0) return body->triangles ? body : NULL;
+  if (body->triangles == 0 || body->weights_id == 0)
+    return body->triangles ? body : NULL;
   return (const nsvcd_body *)(const void *)((const char *)body + body->inner);
 }
 
@@ -5165,7 +5443,8 @@ static uint32_t nsvcd__read_code(const unsigned char **at) {
   for (unsigned shift = 0; shift < 35; shift += 7) {
     const uint32_t byte = *(*at)++;
     code |= (byte & 0x7f) << shift;
-    if (!(byte & 0x80)) break;
+    if (!(byte & 0x80))
+      break;
   }
   return code;
 }
@@ -5298,12 +5577,14 @@ static void nsvcd__finish_group(nsvcd_body *body, size_t g) {
   }
   for (size_t k = 0; k < 1 + NSVCD__GROUP; k += k == 0 ? 1 : 4) {
     const double length = nsvcd__d3_length(normals[k]);
-    if (!(length > 1e-3)) continue;
+    if (!(length > 1e-3))
+      continue;
     // As it is stored, and no longer than 1.
     const nsvcd__d3 unit =
         nsvcd__d3_widen(nsvcd__f3_round(nsvcd__d3_scale(normals[k], 0.9999998 / length)));
     const nsvcd__slab slab = nsvcd__slab_of_group(&f, g, unit);
-    if (!(slab.high - slab.low < thinnest.high - thinnest.low)) continue;
+    if (!(slab.high - slab.low < thinnest.high - thinnest.low))
+      continue;
     thinnest = slab;
     best = unit;
   }
@@ -5341,14 +5622,16 @@ static void nsvcd__finish_box(nsvcd_body *body) {
     box[3 + k] = (float)(high[k] + margin);
   }
   box[6] = box[7] = 0;
-  for (size_t i = 0; i < body->points; i++) box[6] = f.quanta[i] > box[6] ? f.quanta[i] : box[6];
+  for (size_t i = 0; i < body->points; i++)
+    box[6] = f.quanta[i] > box[6] ? f.quanta[i] : box[6];
 }
 
 // What is computed from the patches of a body of triangles, when these are in place.
 static void nsvcd__facets_finish(nsvcd_body *body) {
   nsvcd__body_finish(body);
   nsvcd__finish_box(body);
-  for (size_t g = 0; g < nsvcd__body_groups(body); g++) nsvcd__finish_group(body, g);
+  for (size_t g = 0; g < nsvcd__body_groups(body); g++)
+    nsvcd__finish_group(body, g);
   body->checksum = nsvcd__body_checksum(body);
 }
 
@@ -5360,7 +5643,8 @@ static uint32_t nsvcd__code_of(uint32_t id, uint32_t last) {
 }
 static size_t nsvcd__code_bytes(uint32_t code) {
   size_t bytes = 1;
-  for (; code > 0x7f; code >>= 7) bytes++;
+  for (; code > 0x7f; code >>= 7)
+    bytes++;
   return bytes;
 }
 
@@ -5405,7 +5689,8 @@ static void nsvcd__facets_write(const nsvcd__surface *surface, size_t from, nsvc
   for (size_t k = 0; k < 3; k++)
     spheres[k * padded + to] = empty ? centre[k] : surface->balls[4 * from + k];
   spheres[3 * padded + to] = empty ? 0 : surface->balls[4 * from + 3];
-  for (size_t k = 0; k < 6; k++) discs[k * padded + to] = empty ? 0 : surface->discs[6 * from + k];
+  for (size_t k = 0; k < 6; k++)
+    discs[k * padded + to] = empty ? 0 : surface->discs[6 * from + k];
   shares[to] = empty ? 0 : surface->steps[from];
   shares[padded + to] = empty ? 0 : surface->slacks[from];
   shares[2 * padded + to] = empty ? 0 : surface->quanta[from];
@@ -5427,12 +5712,15 @@ static void nsvcd__facets_write(const nsvcd__surface *surface, size_t from, nsvc
   memcpy(coordinates + 3 * (size_t)first_vertex[to], surface->vertices + 3 * vertex, 6 * vertices);
   for (size_t n = 0; n < 3 * triangles; n++) {
     const uint16_t corner = surface->corners[3 * triangle + n];
-    if (bytes == 1) corners[n] = (unsigned char)corner;
-    if (bytes == 2) memcpy(corners + 2 * n, &corner, 2);
+    if (bytes == 1)
+      corners[n] = (unsigned char)corner;
+    if (bytes == 2)
+      memcpy(corners + 2 * n, &corner, 2);
   }
   for (size_t n = triangle; n < triangle + triangles; n++) {
     uint32_t code = nsvcd__code_of(surface->ids[n], n > triangle ? surface->ids[n - 1] : 0);
-    for (; code > 0x7f; code >>= 7) *numbers++ = (unsigned char)(code | 0x80);
+    for (; code > 0x7f; code >>= 7)
+      *numbers++ = (unsigned char)(code | 0x80);
     *numbers++ = (unsigned char)code;
   }
   first_byte[to + 1] = first_byte[to] + (uint32_t)(numbers - corners);
@@ -5447,11 +5735,13 @@ static void nsvcd__seeds_write(const nsvcd__surface *surface, const uint16_t *or
   // Until the body is whole, the places of patches are kept where their first vertices will be.
   uint32_t *places = (uint32_t *)nsvcd__writable(body, f.first_vertex);
   const size_t groups = nsvcd__body_groups(body);
-  for (size_t i = 0; i < body->points; i++) places[order[i]] = (uint32_t)i;
+  for (size_t i = 0; i < body->points; i++)
+    places[order[i]] = (uint32_t)i;
   for (size_t n = 0; n < surface->seed_count; n++) {
     first_seed[places[surface->seed_patches[n]] / NSVCD__GROUP + 1]++;
   }
-  for (size_t g = 0; g < groups; g++) first_seed[g + 1] += first_seed[g];
+  for (size_t g = 0; g < groups; g++)
+    first_seed[g + 1] += first_seed[g];
   for (size_t n = surface->seed_count; n-- > 0;) {
     const size_t g = places[surface->seed_patches[n]] / NSVCD__GROUP;
     memcpy(seeds + 3 * --first_seed[g + 1], surface->seeds + 3 * n, 3 * sizeof *seeds);
@@ -5485,8 +5775,10 @@ static nsvcd_result nsvcd__facets_build(const nsvcd_mesh *mesh, const nsvcd__sur
     nsvcd__facets_write(surface, order[i], b, i, centres + 3 * (size_t)order[i]);
   }
   float *r = (float *)(b + 1) + 3 * b->padded;
-  for (size_t i = b->points; i < b->padded; i++) r[i] = NSVCD__NOWHERE;
-  if (!nsvcd__all_within(r, b->points, 4 * NSVCD_MAX_COORDINATE)) return NSVCD_ERROR_NUMBER;
+  for (size_t i = b->points; i < b->padded; i++)
+    r[i] = NSVCD__NOWHERE;
+  if (!nsvcd__all_within(r, b->points, 4 * NSVCD_MAX_COORDINATE))
+    return NSVCD_ERROR_NUMBER;
   nsvcd__facets_finish(b);
   return b->radius < NSVCD_MIN_RADIUS ? NSVCD_ERROR_NUMBER : NSVCD_OK;
 }
@@ -5500,10 +5792,13 @@ static int nsvcd__numbers_are_sound(const nsvcd__facets *f, size_t from, size_t 
   uint32_t number = 0;
   for (size_t n = 0; n < count; n++) {
     size_t bytes = 1;
-    while (bytes < 5 && bytes < (size_t)(end - at) && at[bytes - 1] & 0x80) bytes++;
-    if (at >= end || at[bytes - 1] & 0x80) return 0;
+    while (bytes < 5 && bytes < (size_t)(end - at) && at[bytes - 1] & 0x80)
+      bytes++;
+    if (at >= end || at[bytes - 1] & 0x80)
+      return 0;
     number = (number + (nsvcd__read_code(&at) >> 1)) & ~NSVCD__ENCLOSES;
-    if (number >= f->body->triangles) return 0;
+    if (number >= f->body->triangles)
+      return 0;
   }
   return at == end;
 }
@@ -5511,36 +5806,48 @@ static int nsvcd__numbers_are_sound(const nsvcd__facets *f, size_t from, size_t 
 // Is the layout right: sizes, counts, indices? A body of triangles of at most `size` bytes, at
 // least a header.
 static int nsvcd__facets_are_laid_out(const nsvcd_body *body, size_t size) {
-  if (nsvcd__spheres_size(body->padded) + 4 * NSVCD__FACET_COUNTS > size) return 0;
+  if (nsvcd__spheres_size(body->padded) + 4 * NSVCD__FACET_COUNTS > size)
+    return 0;
   const void *at = (const char *)body + nsvcd__spheres_size(body->padded);
   const uint32_t *counts = (const uint32_t *)at;
-  if (counts[4] || counts[5] || counts[6] || counts[7] || body->triangles == 0) return 0;
-  if (body->size != nsvcd__facets_size(body->points, counts) || body->size > size) return 0;
+  if (counts[4] || counts[5] || counts[6] || counts[7] || body->triangles == 0)
+    return 0;
+  if (body->size != nsvcd__facets_size(body->points, counts) || body->size > size)
+    return 0;
 
   const nsvcd__facets f = nsvcd__facets_of(body);
-  if (f.first_vertex[0] != 0 || f.first_triangle[0] != 0 || f.first_byte[0] != 0) return 0;
+  if (f.first_vertex[0] != 0 || f.first_triangle[0] != 0 || f.first_byte[0] != 0)
+    return 0;
   for (size_t i = 0; i < body->points; i++) {
     if (f.first_vertex[i + 1] < f.first_vertex[i] || f.first_triangle[i + 1] < f.first_triangle[i])
       return 0;
-    if (f.first_vertex[i + 1] > f.vertex_count || f.first_triangle[i + 1] > f.listed) return 0;
+    if (f.first_vertex[i + 1] > f.vertex_count || f.first_triangle[i + 1] > f.listed)
+      return 0;
     const size_t vertices = f.first_vertex[i + 1] - f.first_vertex[i];
     const size_t triangles = f.first_triangle[i + 1] - f.first_triangle[i];
-    if (f.hull_counts[i] > NSVCD__HULL || f.hull_counts[i] > vertices) return 0;
-    if ((f.hull_counts[i] == 0) != (vertices == 0) || (vertices == 0) != (triangles == 0)) return 0;
+    if (f.hull_counts[i] > NSVCD__HULL || f.hull_counts[i] > vertices)
+      return 0;
+    if ((f.hull_counts[i] == 0) != (vertices == 0) || (vertices == 0) != (triangles == 0))
+      return 0;
     const uint64_t corners_end =
         f.first_byte[i] + (uint64_t)3 * triangles * nsvcd__corner_bytes(vertices);
-    if (corners_end > f.first_byte[i + 1] || f.first_byte[i + 1] > f.listings_size) return 0;
+    if (corners_end > f.first_byte[i + 1] || f.first_byte[i + 1] > f.listings_size)
+      return 0;
     if (!nsvcd__numbers_are_sound(&f, (size_t)corners_end, f.first_byte[i + 1], triangles))
       return 0;
     for (size_t n = 0; n < 3 * triangles; n++) {
-      if (nsvcd__facet_corner(&f, i, f.first_triangle[i] + n / 3, n % 3) >= vertices) return 0;
+      if (nsvcd__facet_corner(&f, i, f.first_triangle[i] + n / 3, n % 3) >= vertices)
+        return 0;
     }
   }
-  if (f.first_byte[body->points] != f.listings_size || f.first_seed[0] != 0) return 0;
+  if (f.first_byte[body->points] != f.listings_size || f.first_seed[0] != 0)
+    return 0;
   for (size_t g = 0; g < nsvcd__body_groups(body); g++) {
-    if (f.first_seed[g + 1] < f.first_seed[g]) return 0;
+    if (f.first_seed[g + 1] < f.first_seed[g])
+      return 0;
   }
-  if (f.first_seed[nsvcd__body_groups(body)] != f.components) return 0;
+  if (f.first_seed[nsvcd__body_groups(body)] != f.components)
+    return 0;
   return f.first_vertex[body->points] == f.vertex_count &&
          f.first_triangle[body->points] == f.listed;
 }
@@ -5551,18 +5858,27 @@ static int nsvcd__facets_are_sound(const nsvcd_body *body) {
   const nsvcd__facets f = nsvcd__facets_of(body);
   const size_t padded = body->padded;
   const size_t slots = nsvcd__group_slots(padded);
-  if (!nsvcd__all_within(f.box, NSVCD__FACET_BOX, NSVCD__MAX_LENGTH)) return 0;
-  if (!nsvcd__all_within(f.discs, 3 * padded, 1.000001f)) return 0;
-  if (!nsvcd__all_within(f.discs + 3 * padded, 3 * padded, NSVCD__MAX_LENGTH)) return 0;
-  if (!nsvcd__all_within(f.group_discs, 3 * slots, 1.000001f)) return 0;
-  if (!nsvcd__all_within(f.group_discs + 3 * slots, 3 * slots, NSVCD__MAX_LENGTH)) return 0;
-  if (!nsvcd__all_within(f.steps, padded, NSVCD__MAX_LENGTH / 32768)) return 0;
-  if (!nsvcd__all_within(f.slacks, 2 * padded, NSVCD__MAX_LENGTH)) return 0;
-  if (!nsvcd__all_within(f.seeds, 3 * f.components, NSVCD_MAX_COORDINATE)) return 0;
+  if (!nsvcd__all_within(f.box, NSVCD__FACET_BOX, NSVCD__MAX_LENGTH))
+    return 0;
+  if (!nsvcd__all_within(f.discs, 3 * padded, 1.000001f))
+    return 0;
+  if (!nsvcd__all_within(f.discs + 3 * padded, 3 * padded, NSVCD__MAX_LENGTH))
+    return 0;
+  if (!nsvcd__all_within(f.group_discs, 3 * slots, 1.000001f))
+    return 0;
+  if (!nsvcd__all_within(f.group_discs + 3 * slots, 3 * slots, NSVCD__MAX_LENGTH))
+    return 0;
+  if (!nsvcd__all_within(f.steps, padded, NSVCD__MAX_LENGTH / 32768))
+    return 0;
+  if (!nsvcd__all_within(f.slacks, 2 * padded, NSVCD__MAX_LENGTH))
+    return 0;
+  if (!nsvcd__all_within(f.seeds, 3 * f.components, NSVCD_MAX_COORDINATE))
+    return 0;
   for (size_t i = 0; i < padded; i++) {
     if (f.discs[5 * padded + i] < 0 || f.steps[i] < 0 || f.slacks[i] < 0 || f.quanta[i] < 0)
       return 0;
-    if (f.quanta[i] > nsvcd__widest_quantum(&f)) return 0;
+    if (f.quanta[i] > nsvcd__widest_quantum(&f))
+      return 0;
   }
   return 1;
 }
@@ -5589,7 +5905,8 @@ static void nsvcd__scale_facets(nsvcd_body *body, float scale) {
     high[i] = (float)((double)high[i] * (double)scale + rounding);
     across[i] = nsvcd__round_outward((double)across[i] * (double)scale + rounding);
   }
-  for (size_t i = 0; i < 3 * f.components; i++) seeds[i] *= scale;
+  for (size_t i = 0; i < 3 * f.components; i++)
+    seeds[i] *= scale;
 }
 #endif  // NSVCD_NO_PROOF
 
@@ -5599,14 +5916,17 @@ static void nsvcd__scale_facets(nsvcd_body *body, float scale) {
 static int nsvcd__header_is_sound(const nsvcd_body *b, size_t size) {
   if (size < sizeof *b || b->magic != NSVCD__BODY_MAGIC || b->version != NSVCD__BODY_VERSION)
     return 0;
-  if (b->open > 1 || b->points < 1 || b->points > NSVCD_MAX_POINTS || b->size > size) return 0;
-  if (b->padded != nsvcd__round_up(b->points, NSVCD__GROUP)) return 0;
+  if (b->open > 1 || b->points < 1 || b->points > NSVCD_MAX_POINTS || b->size > size)
+    return 0;
+  if (b->padded != nsvcd__round_up(b->points, NSVCD__GROUP))
+    return 0;
   return b->size >= nsvcd__spheres_size(b->padded) && b->size % NSVCD_ALIGNMENT == 0;
 }
 
 // All of a body, its header known to be sound, but for the checksum.
 static int nsvcd__body_is_sound(const nsvcd_body *b) {
-  if (!nsvcd__spheres_are_sound(b)) return 0;
+  if (!nsvcd__spheres_are_sound(b))
+    return 0;
   if (b->weights_id == 0) {
 #ifndef NSVCD_NO_PROOF
     return b->inner == 0 && nsvcd__facets_are_laid_out(b, b->size) && nsvcd__facets_are_sound(b);
@@ -5615,11 +5935,15 @@ static int nsvcd__body_is_sound(const nsvcd_body *b) {
 #endif
   }
 #ifndef NSVCD_NO_NETWORK
-  if (b->weights_id != NSVCD_WEIGHTS_ID) return 0;
+  if (b->weights_id != NSVCD_WEIGHTS_ID)
+    return 0;
   const size_t latents = nsvcd_body_size(b->points);
-  if (b->size < latents || !nsvcd__areas_are_sound(b)) return 0;
-  if (b->inner == 0) return b->size == latents && b->triangles == 0;
-  if (b->inner != latents) return 0;
+  if (b->size < latents || !nsvcd__areas_are_sound(b))
+    return 0;
+  if (b->inner == 0)
+    return b->size == latents && b->triangles == 0;
+  if (b->inner != latents)
+    return 0;
 #else
   if (b->inner % NSVCD_ALIGNMENT || b->inner < nsvcd__spheres_size(b->padded) ||
       b->inner >= b->size)
@@ -5640,20 +5964,26 @@ static int nsvcd__body_is_sound(const nsvcd_body *b) {
 }
 
 NSVCDDEF nsvcd_result nsvcd_body_load(const void *memory, size_t size, const nsvcd_body **body) {
-  if (!memory || !body) return NSVCD_ERROR_ARGUMENT;
+  if (!memory || !body)
+    return NSVCD_ERROR_ARGUMENT;
   const nsvcd_body *b = (const nsvcd_body *)memory;
-  if (!nsvcd__is_aligned(memory) || !nsvcd__header_is_sound(b, size)) return NSVCD_ERROR_BODY;
-  if (b->checksum != nsvcd__body_checksum(b) || !nsvcd__body_is_sound(b)) return NSVCD_ERROR_BODY;
+  if (!nsvcd__is_aligned(memory) || !nsvcd__header_is_sound(b, size))
+    return NSVCD_ERROR_BODY;
+  if (b->checksum != nsvcd__body_checksum(b) || !nsvcd__body_is_sound(b))
+    return NSVCD_ERROR_BODY;
   *body = b;
   return NSVCD_OK;
 }
 
 NSVCDDEF nsvcd_result nsvcd_body_trust(const void *memory, size_t size, const nsvcd_body **body) {
-  if (!memory || !body) return NSVCD_ERROR_ARGUMENT;
+  if (!memory || !body)
+    return NSVCD_ERROR_ARGUMENT;
   const nsvcd_body *b = (const nsvcd_body *)memory;
-  if (!nsvcd__is_aligned(memory) || !nsvcd__header_is_sound(b, size)) return NSVCD_ERROR_BODY;
+  if (!nsvcd__is_aligned(memory) || !nsvcd__header_is_sound(b, size))
+    return NSVCD_ERROR_BODY;
 #ifndef NSVCD_NO_NETWORK
-  if (b->weights_id && b->weights_id != NSVCD_WEIGHTS_ID) return NSVCD_ERROR_BODY;
+  if (b->weights_id && b->weights_id != NSVCD_WEIGHTS_ID)
+    return NSVCD_ERROR_BODY;
 #endif
   *body = b;
   return NSVCD_OK;
@@ -5663,17 +5993,21 @@ NSVCDDEF nsvcd_result nsvcd_body_scale(const nsvcd_body *body, float scale, void
                                        size_t capacity, const nsvcd_body **scaled) {
   if (!body || !memory || !scaled || !nsvcd__is_finite(scale) || scale <= 0)
     return NSVCD_ERROR_ARGUMENT;
-  if (capacity < body->size || !nsvcd__is_aligned(memory)) return NSVCD_ERROR_WORKSPACE;
-  if (!nsvcd__spheres_fit(body, scale)) return NSVCD_ERROR_ARGUMENT;
+  if (capacity < body->size || !nsvcd__is_aligned(memory))
+    return NSVCD_ERROR_WORKSPACE;
+  if (!nsvcd__spheres_fit(body, scale))
+    return NSVCD_ERROR_ARGUMENT;
 #ifndef NSVCD_NO_NETWORK
   const double cap = (double)NSVCD__MAX_LENGTH / (double)scale;
   for (size_t i = 0; body->weights_id && i < nsvcd__area_numbers(body); i++) {
-    if (fabs((double)nsvcd__body_areas(body)[i]) > cap * cap) return NSVCD_ERROR_ARGUMENT;
+    if (fabs((double)nsvcd__body_areas(body)[i]) > cap * cap)
+      return NSVCD_ERROR_ARGUMENT;
   }
 #endif
 #ifndef NSVCD_NO_PROOF
   const nsvcd_body *triangles = nsvcd__triangles_of(body);
-  if (triangles && !nsvcd__spheres_fit(triangles, scale)) return NSVCD_ERROR_ARGUMENT;
+  if (triangles && !nsvcd__spheres_fit(triangles, scale))
+    return NSVCD_ERROR_ARGUMENT;
 #endif
   memmove(memory, body, body->size);  // in place is allowed
   nsvcd_body *b = (nsvcd_body *)memory;
@@ -5699,7 +6033,8 @@ NSVCDDEF nsvcd_result nsvcd_body_scale(const nsvcd_body *body, float scale, void
     area[i] *= scale;
   }
 #endif
-  if (b->weights_id) nsvcd__body_finish(b);
+  if (b->weights_id)
+    nsvcd__body_finish(b);
   *scaled = b;
   return NSVCD_OK;
 }
@@ -5728,7 +6063,8 @@ NSVCDDEF nsvcd_body_facts nsvcd_body_describe(const nsvcd_body *body) {
 
 NSVCDDEF int nsvcd_body_patch(const nsvcd_body *body, uint32_t patch, float centre[3],
                               float *radius) {
-  if (!body || patch >= body->points) return 0;
+  if (!body || patch >= body->points)
+    return 0;
   centre[0] = nsvcd__body_x(body)[patch];
   centre[1] = nsvcd__body_y(body)[patch];
   centre[2] = nsvcd__body_z(body)[patch];
@@ -5788,13 +6124,15 @@ static int nsvcd__is_cancelled(const nsvcd__plan *plan, double done) {
 static int nsvcd__parts_alloc(const nsvcd__plan *plan, size_t components,
                               const nsvcd_allocator *allocator, nsvcd__parts *parts) {
   parts->centres = (float *)nsvcd__alloc_array(allocator, plan->points, 3 * sizeof(float));
-  if (!parts->centres) return 0;
+  if (!parts->centres)
+    return 0;
 #ifndef NSVCD_NO_NETWORK
   if (plan->latents) {
     parts->radii = (float *)nsvcd__alloc_array(allocator, plan->points, sizeof(float));
     parts->areas = (float *)nsvcd__alloc_array(allocator, plan->points, 3 * sizeof(float));
     parts->latents = (int8_t *)nsvcd__alloc_array(allocator, plan->points, NSVCD__LATENT);
-    if (!parts->radii || !parts->areas || !parts->latents) return 0;
+    if (!parts->radii || !parts->areas || !parts->latents)
+      return 0;
   }
 #endif
 #ifndef NSVCD_NO_PROOF
@@ -5835,7 +6173,8 @@ static nsvcd_result nsvcd__parts_add(nsvcd__regions *regions, size_t n, size_t p
   nsvcd__region region;
   nsvcd__patches patches;
   nsvcd_result result = nsvcd__region_begin(regions, n, allocator, &region);
-  if (result) return result == NSVCD_ERROR_EMPTY ? NSVCD_OK : result;
+  if (result)
+    return result == NSVCD_ERROR_EMPTY ? NSVCD_OK : result;
   result = nsvcd__patches_build(&region.mesh, points, allocator, &patches);
   if (!result) {
     memcpy(parts->centres + 3 * parts->count, patches.centres, 3 * patches.count * sizeof(float));
@@ -5846,7 +6185,8 @@ static nsvcd_result nsvcd__parts_add(nsvcd__regions *regions, size_t n, size_t p
 #ifndef NSVCD_NO_NETWORK
     // The mesh has the cuts rounded: each coordinate by half a unit in the last place, at most.
     const double margin = region.cut_count > 0 ? 1.1e-7 * region.greatest : 0;
-    if (parts->latents) nsvcd__parts_add_latents(&patches, margin, parts);
+    if (parts->latents)
+      nsvcd__parts_add_latents(&patches, margin, parts);
 #endif
     parts->count += patches.count;
     nsvcd__patches_free(&patches, allocator);
@@ -5866,16 +6206,20 @@ static nsvcd_result nsvcd__parts_describe(const nsvcd__plan *plan, nsvcd__region
     const size_t points =
         plan->points * (n + 1) / regions->count - plan->points * n / regions->count;
     const nsvcd_result result = nsvcd__parts_add(regions, n, points, allocator, parts);
-    if (result) return result;
+    if (result)
+      return result;
   }
 #ifndef NSVCD_NO_NETWORK
-  if (plan->latents) parts->latents_size = nsvcd_body_size(parts->count);
+  if (plan->latents)
+    parts->latents_size = nsvcd_body_size(parts->count);
 #endif
 #ifndef NSVCD_NO_PROOF
-  if (!plan->triangles) return NSVCD_OK;
+  if (!plan->triangles)
+    return NSVCD_OK;
   nsvcd__facets_count(&parts->surface, parts->counts);
   parts->facets_size = nsvcd__facets_size(parts->count, parts->counts);
-  if (!parts->facets_size) return NSVCD_ERROR_TOO_LARGE;
+  if (!parts->facets_size)
+    return NSVCD_ERROR_TOO_LARGE;
 #endif
   return NSVCD_OK;
 }
@@ -5887,11 +6231,14 @@ static nsvcd_result nsvcd__parts_build(const nsvcd_mesh *mesh, const nsvcd__plan
   memset(parts, 0, sizeof *parts);
   parts->mesh = mesh;
   parts->open = plan->open;
-  if (nsvcd__is_cancelled(plan, 0)) return NSVCD_ERROR_CANCELLED;
-  if (!nsvcd__regions_build(mesh, plan->points, allocator, &regions)) return NSVCD_ERROR_MEMORY;
+  if (nsvcd__is_cancelled(plan, 0))
+    return NSVCD_ERROR_CANCELLED;
+  if (!nsvcd__regions_build(mesh, plan->points, allocator, &regions))
+    return NSVCD_ERROR_MEMORY;
   const nsvcd_result result = nsvcd__parts_describe(plan, &regions, allocator, parts);
   nsvcd__regions_free(&regions, allocator);
-  if (result) nsvcd__parts_free(parts, allocator);
+  if (result)
+    nsvcd__parts_free(parts, allocator);
   return result;
 }
 
@@ -5915,7 +6262,8 @@ static nsvcd_result nsvcd__parts_write(const nsvcd__parts *parts, const uint16_t
                             parts->open, (char *)memory + parts->latents_size, parts->facets_size);
   }
 #endif
-  if (result) return result;
+  if (result)
+    return result;
   if (parts->latents_size && parts->facets_size) {
     b->triangles = (uint32_t)parts->mesh->triangle_count;
     b->inner = (uint32_t)parts->latents_size;
@@ -5931,8 +6279,10 @@ static nsvcd_result nsvcd__parts_order_and_write(const nsvcd__parts *parts,
                                                  const nsvcd_allocator *allocator, void *memory,
                                                  const nsvcd_body **body) {
   uint16_t *order = (uint16_t *)nsvcd__alloc_array(allocator, 2 * parts->count, sizeof(uint16_t));
-  if (!order) return NSVCD_ERROR_MEMORY;
-  for (size_t i = 0; i < parts->count; i++) order[i] = (uint16_t)i;
+  if (!order)
+    return NSVCD_ERROR_MEMORY;
+  for (size_t i = 0; i < parts->count; i++)
+    order[i] = (uint16_t)i;
   nsvcd__body_order(parts->count, parts->centres, order, order + parts->count);
   const nsvcd_result result = nsvcd__parts_write(parts, order, memory, body);
   nsvcd__free(allocator, order);
@@ -5949,9 +6299,12 @@ static size_t nsvcd__points_for(const nsvcd_mesh *mesh, const nsvcd_encode_optio
     const double count = ceil(0.45 * area / ((double)o->patch_radius * (double)o->patch_radius));
     return (size_t)fmin(fmax(count, 1), most);
   }
-  if (!triangles) return NSVCD_DEFAULT_NETWORK_POINTS;
-  if (mesh->triangle_count <= NSVCD_FEW_TRIANGLES) return NSVCD_DEFAULT_POINTS;
-  if (mesh->triangle_count <= NSVCD_MANY_TRIANGLES) return NSVCD_SMALL_POINTS;
+  if (!triangles)
+    return NSVCD_DEFAULT_NETWORK_POINTS;
+  if (mesh->triangle_count <= NSVCD_FEW_TRIANGLES)
+    return NSVCD_DEFAULT_POINTS;
+  if (mesh->triangle_count <= NSVCD_MANY_TRIANGLES)
+    return NSVCD_SMALL_POINTS;
   const size_t fine = mesh->triangle_count / NSVCD_LEVEL_TRIANGLES;
   return fine < NSVCD_MAX_POINTS ? fine : NSVCD_MAX_POINTS;
 }
@@ -5972,14 +6325,18 @@ static nsvcd_result nsvcd__plan_of(const nsvcd_mesh *mesh, const nsvcd_encode_op
 #ifndef NSVCD_NO_NETWORK
   plan->latents = !o->no_latents;
 #endif
-  if (!plan->triangles && !plan->latents) return NSVCD_ERROR_ARGUMENT;  // nothing would be left
+  if (!plan->triangles && !plan->latents)
+    return NSVCD_ERROR_ARGUMENT;  // nothing would be left
   if (!nsvcd__is_finite(o->patch_radius) || o->patch_radius < 0 || o->points > NSVCD_MAX_POINTS)
     return NSVCD_ERROR_ARGUMENT;
-  if (o->latents && o->no_latents) return NSVCD_ERROR_ARGUMENT;
+  if (o->latents && o->no_latents)
+    return NSVCD_ERROR_ARGUMENT;
   const nsvcd_result checked = nsvcd__mesh_check(mesh);
-  if (checked) return checked;
+  if (checked)
+    return checked;
   const double area = nsvcd__mesh_area(mesh);
-  if (!(area > 0)) return NSVCD_ERROR_EMPTY;
+  if (!(area > 0))
+    return NSVCD_ERROR_EMPTY;
   plan->points = o->points ? o->points : nsvcd__points_for(mesh, o, area, plan->triangles);
   if (plan->triangles && plan->points > NSVCD_SMALL_POINTS)
     plan->latents = plan->latents && o->latents;
@@ -5989,13 +6346,17 @@ static nsvcd_result nsvcd__plan_of(const nsvcd_mesh *mesh, const nsvcd_encode_op
 NSVCDDEF nsvcd_result nsvcd_encode(const nsvcd_mesh *mesh, const nsvcd_encode_options *options,
                                    const nsvcd_allocator *allocator, void *memory, size_t capacity,
                                    const nsvcd_body **body) {
-  if (!body) return NSVCD_ERROR_ARGUMENT;
-  if (memory && !nsvcd__is_aligned(memory)) return NSVCD_ERROR_WORKSPACE;
+  if (!body)
+    return NSVCD_ERROR_ARGUMENT;
+  if (memory && !nsvcd__is_aligned(memory))
+    return NSVCD_ERROR_WORKSPACE;
   nsvcd__plan plan;
   nsvcd__parts parts;
   nsvcd_result result = nsvcd__plan_of(mesh, options, &plan);
-  if (!result) result = nsvcd__parts_build(mesh, &plan, allocator, &parts);
-  if (result) return result;
+  if (!result)
+    result = nsvcd__parts_build(mesh, &plan, allocator, &parts);
+  if (result)
+    return result;
   const int fits = parts.facets_size <= 0xffffffffu - parts.latents_size;
   const size_t size = parts.latents_size + parts.facets_size;
   void *to = memory || !fits ? memory : nsvcd__alloc(allocator, size);
@@ -6008,7 +6369,8 @@ NSVCDDEF nsvcd_result nsvcd_encode(const nsvcd_mesh *mesh, const nsvcd_encode_op
   } else {
     result = nsvcd__parts_order_and_write(&parts, allocator, to, body);
   }
-  if (result && !memory) nsvcd__free(allocator, to);
+  if (result && !memory)
+    nsvcd__free(allocator, to);
   nsvcd__parts_free(&parts, allocator);
   return result;
 }
@@ -6067,7 +6429,8 @@ static int nsvcd__poses_are_valid(const nsvcd_pose *poses, size_t count) {
     const uint32_t bits = nsvcd__magnitude(numbers[k]);
     most = bits > most ? bits : most;
   }
-  if (most > nsvcd__magnitude(NSVCD_MAX_COORDINATE)) return 0;
+  if (most > nsvcd__magnitude(NSVCD_MAX_COORDINATE))
+    return 0;
   for (size_t k = 0; k < count; k++) {
     const float *q = poses[k].rotation;
     const float square = (q[0] * q[0] + q[1] * q[1]) + (q[2] * q[2] + q[3] * q[3]);
@@ -6085,16 +6448,23 @@ static size_t nsvcd__pose_count(const nsvcd_mover *mover) {
 }
 
 static nsvcd_result nsvcd__mover_check(const nsvcd_mover *mover) {
-  if (!mover->body) return NSVCD_ERROR_ARGUMENT;
+  if (!mover->body)
+    return NSVCD_ERROR_ARGUMENT;
   const float scale = mover->scale;
-  if (!nsvcd__is_finite(scale) || scale < 0) return NSVCD_ERROR_SCALE;
+  if (!nsvcd__is_finite(scale) || scale < 0)
+    return NSVCD_ERROR_SCALE;
   if (scale > 0) {
-    if (scale < NSVCD_MIN_SCALE || scale > NSVCD_MAX_SCALE) return NSVCD_ERROR_SCALE;
-    if (scale * mover->body->radius < NSVCD_MIN_RADIUS) return NSVCD_ERROR_SCALE;
-    if (scale * mover->body->extent > 2 * NSVCD_MAX_COORDINATE) return NSVCD_ERROR_SCALE;
+    if (scale < NSVCD_MIN_SCALE || scale > NSVCD_MAX_SCALE)
+      return NSVCD_ERROR_SCALE;
+    if (scale * mover->body->radius < NSVCD_MIN_RADIUS)
+      return NSVCD_ERROR_SCALE;
+    if (scale * mover->body->extent > 2 * NSVCD_MAX_COORDINATE)
+      return NSVCD_ERROR_SCALE;
   }
-  if (!mover->poses) return mover->count == 0 ? NSVCD_OK : NSVCD_ERROR_ARGUMENT;
-  if (mover->count < 1 || mover->count > NSVCD_MAX_POSES) return NSVCD_ERROR_ARGUMENT;
+  if (!mover->poses)
+    return mover->count == 0 ? NSVCD_OK : NSVCD_ERROR_ARGUMENT;
+  if (mover->count < 1 || mover->count > NSVCD_MAX_POSES)
+    return NSVCD_ERROR_ARGUMENT;
   return nsvcd__poses_are_valid(mover->poses, mover->count) ? NSVCD_OK : NSVCD_ERROR_POSE;
 }
 
@@ -6124,7 +6494,8 @@ static void nsvcd__motion_set_ticks(nsvcd__motion *motion, uint32_t parts) {
 }
 
 static void nsvcd__track_box(const nsvcd__track *track, float *low, float *high) {
-  for (size_t k = 0; k < 3; k++) low[k] = high[k] = track->poses->position[k];
+  for (size_t k = 0; k < 3; k++)
+    low[k] = high[k] = track->poses->position[k];
   for (size_t n = 1; n < track->count; n++) {
     for (size_t k = 0; k < 3; k++) {
       const float x = track->poses[n].position[k];
@@ -6150,7 +6521,8 @@ static void nsvcd__motion_init(const nsvcd_mover *moving, const nsvcd_mover *fix
   nsvcd__quat_normalize(fixed_pose->rotation, q);
   nsvcd__quat_to_matrix(q, from_fixed);
   nsvcd__transpose33(from_fixed, motion->to_fixed);
-  for (size_t k = 0; k < 4; k++) motion->to_fixed_q[k] = k < 3 ? -q[k] : q[k];
+  for (size_t k = 0; k < 4; k++)
+    motion->to_fixed_q[k] = k < 3 ? -q[k] : q[k];
   memcpy(motion->fixed_position, fixed_pose->position, sizeof motion->fixed_position);
 
   nsvcd__track_box(&motion->moving, low, high);
@@ -6185,7 +6557,8 @@ static void nsvcd__track_pose(const nsvcd__track *track, uint32_t tick, float *q
   const nsvcd_pose *a = &track->poses[k < track->count ? k : track->count - 1];
   if (past == 0 || track->count == 1) {
     memcpy(q, a->rotation, sizeof a->rotation);
-    for (size_t n = 0; n < 3; n++) position[n] = (double)a->position[n];
+    for (size_t n = 0; n < 3; n++)
+      position[n] = (double)a->position[n];
     return;
   }
   const nsvcd_pose *b = a + 1;
@@ -6201,7 +6574,8 @@ static void nsvcd__track_pose(const nsvcd__track *track, uint32_t tick, float *q
 static uint32_t nsvcd__next_knot(const nsvcd__motion *motion, uint32_t tick) {
   const uint32_t a = motion->moving.ticks;
   const uint32_t b = motion->fixed.ticks;
-  if (a == 1 || b == 1) return tick + 1;
+  if (a == 1 || b == 1)
+    return tick + 1;
   const uint32_t after_a = (tick / a + 1) * a;
   const uint32_t after_b = (tick / b + 1) * b;
   return after_a < after_b ? after_a : after_b;
@@ -6221,8 +6595,10 @@ static void nsvcd__v_seen(const nsvcd__motion *motion, const nsvcd__v_poses *at,
   nsvcd__v turn[4], m[9];
   const nsvcd__v per_metre = nsvcd__v_set(1 / motion->unit);
   if (!motion->fixed_moves) {
-    for (size_t k = 0; k < 4; k++) turn[k] = nsvcd__v_set(motion->to_fixed_q[k]);
-    for (size_t k = 0; k < 9; k++) m[k] = nsvcd__v_set(motion->to_fixed[k]);
+    for (size_t k = 0; k < 4; k++)
+      turn[k] = nsvcd__v_set(motion->to_fixed_q[k]);
+    for (size_t k = 0; k < 9; k++)
+      m[k] = nsvcd__v_set(motion->to_fixed[k]);
   } else {
     for (size_t k = 0; k < 4; k++)
       turn[k] = k < 3 ? nsvcd__v_negate(at->fixed_q[k]) : at->fixed_q[k];
@@ -6261,10 +6637,12 @@ static void nsvcd__motion_pose(const nsvcd__motion *motion, float t, float *rota
   nsvcd__quat_to_matrix(q, r);
   nsvcd__quat_to_matrix(fixed_q, fixed);
   nsvcd__transpose33(fixed, to_fixed);
-  for (size_t k = 0; k < 3; k++) d[k] = (float)((p[k] - fixed_p[k]) / (double)motion->unit);
+  for (size_t k = 0; k < 3; k++)
+    d[k] = (float)((p[k] - fixed_p[k]) / (double)motion->unit);
   nsvcd__mul33(to_fixed, r, rotation);
   nsvcd__mul33_vec(to_fixed, d, position);
-  for (size_t k = 0; k < 3; k++) position[k] += motion->lift[k];
+  for (size_t k = 0; k < 3; k++)
+    position[k] += motion->lift[k];
 }
 #endif
 
@@ -6436,7 +6814,8 @@ typedef struct nsvcd__search {
 // counted.
 #define NSVCD__PASSED_OVER (NSVCD__SLICE > 1 ? 64 - NSVCD_ALIGNMENT : 0)
 static void nsvcd__take_to_line(char *base, uint64_t *used) {
-  if (NSVCD__PASSED_OVER == 0) return;
+  if (NSVCD__PASSED_OVER == 0)
+    return;
   *used += base ? (0 - (uintptr_t)(base + *used)) & 63 : NSVCD__PASSED_OVER;
 }
 
@@ -6500,7 +6879,8 @@ static nsvcd__v3 nsvcd__v_turn_between(const nsvcd__v *a, const nsvcd__v *b) {
 static nsvcd__v3 nsvcd__v_shorter_turn_between(const nsvcd__v *a, const nsvcd__v *b,
                                                nsvcd__v *cosine) {
   nsvcd__v dot = nsvcd__v_mul(a[0], b[0]);
-  for (size_t k = 1; k < 4; k++) dot = nsvcd__v_fma(a[k], b[k], dot);
+  for (size_t k = 1; k < 4; k++)
+    dot = nsvcd__v_fma(a[k], b[k], dot);
   const nsvcd__v sign = nsvcd__v_pick(nsvcd__v_set(0), dot, nsvcd__v_set(1), nsvcd__v_set(-1));
   *cosine = nsvcd__v_mul(sign, dot);
   return nsvcd__v3_scale(nsvcd__v_turn_between(a, b), sign);
@@ -6532,7 +6912,8 @@ static void nsvcd__measure_turn(const nsvcd__track *track, float *turn, float *w
       const float dot = (a[0] * b[0] + a[1] * b[1]) + (a[2] * b[2] + a[3] * b[3]);
       const float sign = dot < 0 ? -1.0f : 1.0f;
       float d[4];
-      for (size_t k = 0; k < 4; k++) d[k] = sign * b[k] - a[k];
+      for (size_t k = 0; k < 4; k++)
+        d[k] = sign * b[k] - a[k];
       chord2[l] = (d[0] * d[0] + d[1] * d[1]) + (d[2] * d[2] + d[3] * d[3]);
     }
     NSVCD__EACH_SLICE(l) {
@@ -6558,15 +6939,19 @@ static size_t nsvcd__segment_count(const nsvcd__motion *motion, size_t greatest,
   float fixed_turn = 0;
   float fixed_widest = 0;
   *parts = 1;
-  if (motion->moving.count == 1 && !motion->fixed_moves) return 1;
+  if (motion->moving.count == 1 && !motion->fixed_moves)
+    return 1;
   nsvcd__measure_turn(&motion->moving, &turn, &widest);
-  if (motion->fixed_moves) nsvcd__measure_turn(&motion->fixed, &fixed_turn, &fixed_widest);
+  if (motion->fixed_moves)
+    nsvcd__measure_turn(&motion->fixed, &fixed_turn, &fixed_widest);
   turn = turn + fixed_turn < 1e3f ? turn + fixed_turn : 1e3f;
   const size_t coarse = (size_t)ceilf(turn / NSVCD__SEGMENT_TURN);
   const size_t fine = (size_t)ceilf(turn / NSVCD__FINE_TURN);
   size_t wanted = fine < NSVCD__SEGMENTS ? fine : NSVCD__SEGMENTS;
-  if (wanted < coarse) wanted = coarse < greatest ? coarse : greatest;
-  if (wanted < 1) wanted = 1;
+  if (wanted < coarse)
+    wanted = coarse < greatest ? coarse : greatest;
+  if (wanted < 1)
+    wanted = 1;
   if (ticks > wanted)
     return ticks < NSVCD__SEGMENTS ? ticks : wanted < NSVCD__SEGMENTS ? NSVCD__SEGMENTS : wanted;
   const float of_tick =
@@ -6586,19 +6971,26 @@ static void nsvcd__knots_read(const nsvcd__motion *motion, const uint32_t *ticks
   // the caller's own poses, of one body: no need to ask
   for (size_t l = 0; plain && l < count; l++) {
     const nsvcd_pose *pose = &motion->moving.poses[ticks[l]];
-    for (size_t k = 0; k < 3; k++) out->p[k][l] = pose->position[k] - motion->fixed_position[k];
-    for (size_t k = 0; k < 4; k++) out->q[k][l] = pose->rotation[k];
+    for (size_t k = 0; k < 3; k++)
+      out->p[k][l] = pose->position[k] - motion->fixed_position[k];
+    for (size_t k = 0; k < 4; k++)
+      out->q[k][l] = pose->rotation[k];
   }
   for (size_t l = 0; !plain && l < count; l++) {
     float q[4];
     float fixed_q[4] = {0, 0, 0, 1};
     double p[3], fixed_p[3];
     nsvcd__track_pose(&motion->moving, ticks[l], q, p);
-    for (size_t k = 0; k < 3; k++) fixed_p[k] = (double)motion->fixed_position[k];
-    if (motion->fixed_moves) nsvcd__track_pose(&motion->fixed, ticks[l], fixed_q, fixed_p);
-    for (size_t k = 0; k < 3; k++) out->p[k][l] = (float)(p[k] - fixed_p[k]);
-    for (size_t k = 0; k < 4; k++) out->q[k][l] = q[k];
-    for (size_t k = 0; motion->fixed_moves && k < 4; k++) out->fixed_q[k][l] = fixed_q[k];
+    for (size_t k = 0; k < 3; k++)
+      fixed_p[k] = (double)motion->fixed_position[k];
+    if (motion->fixed_moves)
+      nsvcd__track_pose(&motion->fixed, ticks[l], fixed_q, fixed_p);
+    for (size_t k = 0; k < 3; k++)
+      out->p[k][l] = (float)(p[k] - fixed_p[k]);
+    for (size_t k = 0; k < 4; k++)
+      out->q[k][l] = q[k];
+    for (size_t k = 0; motion->fixed_moves && k < 4; k++)
+      out->fixed_q[k][l] = fixed_q[k];
   }
 }
 
@@ -6607,11 +6999,15 @@ static void nsvcd__knots_read(const nsvcd__motion *motion, const uint32_t *ticks
 static nsvcd__v_poses nsvcd__knots_load(const nsvcd__motion *motion, const nsvcd__knots *from,
                                         size_t first) {
   nsvcd__v_poses out;
-  for (size_t k = 0; k < 3; k++) out.p[k] = nsvcd__v_load(from->p[k] + first);
-  for (size_t k = 0; k < 4; k++) out.q[k] = nsvcd__v_load(from->q[k] + first);
-  for (size_t k = 0; k < 4; k++) out.fixed_q[k] = out.q[k];
+  for (size_t k = 0; k < 3; k++)
+    out.p[k] = nsvcd__v_load(from->p[k] + first);
+  for (size_t k = 0; k < 4; k++)
+    out.q[k] = nsvcd__v_load(from->q[k] + first);
+  for (size_t k = 0; k < 4; k++)
+    out.fixed_q[k] = out.q[k];
   if (motion->fixed_moves) {
-    for (size_t k = 0; k < 4; k++) out.fixed_q[k] = nsvcd__v_load(from->fixed_q[k] + first);
+    for (size_t k = 0; k < 4; k++)
+      out.fixed_q[k] = nsvcd__v_load(from->fixed_q[k] + first);
     nsvcd__v_quat_normalize(out.q);
     nsvcd__v_quat_normalize(out.fixed_q);
   }
@@ -6621,18 +7017,24 @@ static nsvcd__v_poses nsvcd__knots_load(const nsvcd__motion *motion, const nsvcd
 // `seen`: the quaternions as the fixed body sees them. l: the slice's first lane, here and below.
 static void nsvcd__knots_keep(const nsvcd__motion *motion, const nsvcd__v_poses *at,
                               const nsvcd__v *seen, size_t l, nsvcd__knots *out) {
-  for (size_t k = 0; k < 4; k++) nsvcd__v_store(out->q[k] + l, at->q[k]);
-  for (size_t k = 0; k < 4; k++) nsvcd__v_store(out->seen[k] + l, seen[k]);
-  if (!motion->fixed_moves) return;
-  for (size_t k = 0; k < 3; k++) nsvcd__v_store(out->p[k] + l, at->p[k]);
-  for (size_t k = 0; k < 4; k++) nsvcd__v_store(out->fixed_q[k] + l, at->fixed_q[k]);
+  for (size_t k = 0; k < 4; k++)
+    nsvcd__v_store(out->q[k] + l, at->q[k]);
+  for (size_t k = 0; k < 4; k++)
+    nsvcd__v_store(out->seen[k] + l, seen[k]);
+  if (!motion->fixed_moves)
+    return;
+  for (size_t k = 0; k < 3; k++)
+    nsvcd__v_store(out->p[k] + l, at->p[k]);
+  for (size_t k = 0; k < 4; k++)
+    nsvcd__v_store(out->fixed_q[k] + l, at->fixed_q[k]);
 }
 
 // A bound of the angle between a (4) and b (4), unit quaternions, lane by lane.
 static nsvcd__v nsvcd__v_arc(const nsvcd__v *a, const nsvcd__v *b) {
   nsvcd__v dot = nsvcd__v_mul(a[0], b[0]);
   nsvcd__v square = nsvcd__v_set(0);
-  for (size_t k = 1; k < 4; k++) dot = nsvcd__v_fma(a[k], b[k], dot);
+  for (size_t k = 1; k < 4; k++)
+    dot = nsvcd__v_fma(a[k], b[k], dot);
   const nsvcd__v sign = nsvcd__v_pick(nsvcd__v_set(0), dot, nsvcd__v_set(1), nsvcd__v_set(-1));
   for (size_t k = 0; k < 4; k++) {
     const nsvcd__v d = nsvcd__v_sub(nsvcd__v_mul(sign, b[k]), a[k]);
@@ -6652,7 +7054,8 @@ static nsvcd__v nsvcd__v_turn_off_axis(nsvcd__v3 axis, const nsvcd__v *from, con
 
 static void nsvcd__v_load_all(float (*from)[NSVCD__LANES], size_t l, nsvcd__v *values,
                               size_t count) {
-  for (size_t k = 0; k < count; k++) values[k] = nsvcd__v_load(from[k] + l);
+  for (size_t k = 0; k < count; k++)
+    values[k] = nsvcd__v_load(from[k] + l);
 }
 // most: of the slice.
 static void nsvcd__v_keep_most(float *most, nsvcd__v value) {
@@ -6672,8 +7075,10 @@ static NSVCD__APART void nsvcd__cut_starts(const nsvcd__motion *motion, const ui
     nsvcd__v_seen(motion, &at, seen, p);
     nsvcd__v_matrix(seen, m);
     nsvcd__knots_keep(motion, &at, seen, l, &cut->last);
-    for (size_t i = 0; i < 9; i++) nsvcd__v_store(out->rotation[i] + l, nsvcd__v_mul(scale, m[i]));
-    for (size_t i = 0; i < 3; i++) nsvcd__v_store(out->position[i] + l, p[i]);
+    for (size_t i = 0; i < 9; i++)
+      nsvcd__v_store(out->rotation[i] + l, nsvcd__v_mul(scale, m[i]));
+    for (size_t i = 0; i < 3; i++)
+      nsvcd__v_store(out->position[i] + l, p[i]);
   }
 }
 
@@ -6870,13 +7275,15 @@ static void nsvcd__cut_block(const nsvcd__motion *motion, const uint32_t *begin,
       ticks[l] = next < begin[l + 1] ? next : begin[l + 1];
       within |= ticks[l] < begin[l + 1];
     }
-    if (within) nsvcd__cut_knot(motion, begin, ticks, out, cut);
+    if (within)
+      nsvcd__cut_knot(motion, begin, ticks, out, cut);
   }
   nsvcd__cut_last_arc(motion, out, cut);
   NSVCD__EACH_SLICE(l) nsvcd__cut_deviations(motion, lengths, l, out, cut);
   memcpy(turn, cut->most.sum, sizeof cut->most.sum);
   // these meet nothing
-  for (size_t l = count; l < NSVCD__LANES; l++) out->spread[l] = NSVCD__NOWHERE;
+  for (size_t l = count; l < NSVCD__LANES; l++)
+    out->spread[l] = NSVCD__NOWHERE;
 }
 
 // Chooses the segments: how many, and when they begin.
@@ -6916,7 +7323,8 @@ static void nsvcd__cut_segments(const nsvcd__motion *motion, float lengths, floa
       ends[l] = search->begin[first + (l < count ? l : count)];
     nsvcd__segments *block = &search->blocks[first / NSVCD__LANES];
     nsvcd__cut_block(motion, ends, count, lengths, block, search->cut, turn);
-    for (size_t l = 0; l < count; l++) block->spread[l] += clearance;
+    for (size_t l = 0; l < count; l++)
+      block->spread[l] += clearance;
     for (size_t l = 0; l < count; l++)
       search->turn[first + l + 1] = search->turn[first + l] + turn[l];
   }
@@ -7045,7 +7453,8 @@ static uint64_t nsvcd__meet_in(const nsvcd__chords *chords, uint64_t wanted,
   uint64_t met = 0;
   for (size_t block = 0; block < NSVCD__BLOCKS && wanted >> (NSVCD__LANES * block); block++) {
     const size_t shift = NSVCD__LANES * block;
-    if (wanted >> shift & 0xffff) met |= (uint64_t)nsvcd__meet(&chords[block], resting) << shift;
+    if (wanted >> shift & 0xffff)
+      met |= (uint64_t)nsvcd__meet(&chords[block], resting) << shift;
   }
   return met & wanted;
 }
@@ -7063,9 +7472,12 @@ typedef struct nsvcd__candidates {
 
 // A total order, so that ties do not depend on the order in which intervals were found.
 static int nsvcd__is_shallower(const nsvcd__candidate *a, const nsvcd__candidate *b) {
-  if (a->depth < b->depth || a->depth > b->depth) return a->depth < b->depth;
-  if (a->moving != b->moving) return a->moving > b->moving;
-  if (a->fixed != b->fixed) return a->fixed > b->fixed;
+  if (a->depth < b->depth || a->depth > b->depth)
+    return a->depth < b->depth;
+  if (a->moving != b->moving)
+    return a->moving > b->moving;
+  if (a->fixed != b->fixed)
+    return a->fixed > b->fixed;
   return a->t_enter > b->t_enter;
 }
 
@@ -7074,9 +7486,12 @@ static void nsvcd__sift_down(nsvcd__candidate *heap, size_t count, size_t hole,
                              nsvcd__candidate item) {
   for (;;) {
     size_t child = 2 * hole + 1;
-    if (child >= count) break;
-    if (child + 1 < count && nsvcd__is_shallower(&heap[child + 1], &heap[child])) child++;
-    if (!nsvcd__is_shallower(&heap[child], &item)) break;
+    if (child >= count)
+      break;
+    if (child + 1 < count && nsvcd__is_shallower(&heap[child + 1], &heap[child]))
+      child++;
+    if (!nsvcd__is_shallower(&heap[child], &item))
+      break;
     heap[hole] = heap[child];
     hole = child;
   }
@@ -7131,7 +7546,8 @@ static void nsvcd__intervals_close(nsvcd__intervals *intervals, uint32_t lanes,
         kept->limit ? lanes & nsvcd__v_le(intervals->square, nsvcd__v_mul(most, most)) : 0;
     kept->total += nsvcd__bit_count(lanes & ~deep);
     lanes = deep;
-    if (!lanes) return;
+    if (!lanes)
+      return;
   }
   const nsvcd__v before = nsvcd__v_sqrt(nsvcd__v_max(intervals->first_half2, zero));
   const nsvcd__v after = nsvcd__v_sqrt(nsvcd__v_max(intervals->last_half2, zero));
@@ -7154,8 +7570,10 @@ static void nsvcd__intervals_close(nsvcd__intervals *intervals, uint32_t lanes,
                                   depth[l],
                                   NSVCD__NO_SCORE};
     // Rounding must not put the least distance outside.
-    if (candidate.t_enter > candidate.t_least) candidate.t_enter = candidate.t_least;
-    if (candidate.t_exit < candidate.t_least) candidate.t_exit = candidate.t_least;
+    if (candidate.t_enter > candidate.t_least)
+      candidate.t_enter = candidate.t_least;
+    if (candidate.t_exit < candidate.t_least)
+      candidate.t_exit = candidate.t_least;
     nsvcd__candidates_add(kept, &candidate);
   }
 }
@@ -7169,15 +7587,18 @@ static uint64_t nsvcd__interval_cuts(const nsvcd__search *search, const nsvcd_bo
   uint64_t cuts = wanted & ~(wanted << 1);  // where the segment before is left out
   uint32_t open = 0;
   size_t oldest = 0;
-  if (!(search->turn[search->segments] > NSVCD__INTERVAL_TURN)) return cuts;
+  if (!(search->turn[search->segments] > NSVCD__INTERVAL_TURN))
+    return cuts;
   for (; wanted; wanted &= wanted - 1) {
     const size_t s = nsvcd__lowest_bit(wanted);
     const uint32_t met = nsvcd__meet(&search->members[s], patch);
     if (open && search->turn[s + 1] - search->turn[oldest] > NSVCD__INTERVAL_TURN)
       cuts |= (uint64_t)1 << s;
-    if (cuts >> s & 1) open = 0;
+    if (cuts >> s & 1)
+      open = 0;
     open &= met;
-    if (!open) oldest = s;
+    if (!open)
+      oldest = s;
     open = met;
   }
   return cuts;
@@ -7230,7 +7651,8 @@ NSVCD__INLINE void nsvcd__intervals_grow(nsvcd__intervals *at, size_t s,
   at->least = nsvcd__v_pick(now->square, before, now->tau, at->least);
   at->square = nsvcd__v_min(now->square, before);
   at->fresh = nsvcd__v_pick(now->square, now->limit, nsvcd__v_set(0), nsvcd__v_set(1));
-  if (!at->open) at->oldest = s;
+  if (!at->open)
+    at->oldest = s;
   at->open = now->met;
   at->last = s;
 }
@@ -7239,8 +7661,10 @@ NSVCD__INLINE void nsvcd__intervals_grow(nsvcd__intervals *at, size_t s,
 // of them, it finds that itself.
 NSVCD__INLINE int nsvcd__intervals_are_cut(const nsvcd__intervals *at, const nsvcd__search *search,
                                            size_t s, uint64_t cuts) {
-  if (NSVCD__SLICE < NSVCD__LANES) return (int)(cuts >> s & 1);
-  if (!at->open) return 0;
+  if (NSVCD__SLICE < NSVCD__LANES)
+    return (int)(cuts >> s & 1);
+  if (!at->open)
+    return 0;
   const int turns = search->turn[s + 1] - search->turn[at->oldest] > NSVCD__INTERVAL_TURN;
   return at->last + 1 != s || turns;
 }
@@ -7263,14 +7687,16 @@ static void nsvcd__slice_against_patch(const nsvcd__search *search, const nsvcd_
       ended = at.open;
       at.fresh = one;
     }
-    if (ended) nsvcd__intervals_close(&at, ended, search, moving, i, fixed, j, kept);
+    if (ended)
+      nsvcd__intervals_close(&at, ended, search, moving, i, fixed, j, kept);
     if (now.met) {
       nsvcd__intervals_grow(&at, s, &now);
     } else {
       at.fresh = one;
     }
   }
-  if (at.open) nsvcd__intervals_close(&at, at.open, search, moving, i, fixed, j, kept);
+  if (at.open)
+    nsvcd__intervals_close(&at, at.open, search, moving, i, fixed, j, kept);
 }
 
 // The 16 members of moving group g against patch j of the fixed body, in the segments `wanted`.
@@ -7399,11 +7825,13 @@ static void nsvcd__search_tile(nsvcd__search *search, const nsvcd_body *moving,
   search->step = 0;
   search->waiting = 0;
   for (size_t g = 0; g < search->moving_tile.count; g++) {
-    if (g % NSVCD__LANES == 0) nsvcd__boxes_of_groups(search, moving, g, fixed, wanted, boxes);
+    if (g % NSVCD__LANES == 0)
+      nsvcd__boxes_of_groups(search, moving, g, fixed, wanted, boxes);
     const uint32_t groups = nsvcd__groups_at_box(boxes, g % NSVCD__LANES, &search->fixed_tile);
     const size_t count = groups ? nsvcd__group_against_tile(search, moving, g, groups) : 0;
     size_t at = search->steps;
-    if (!count) continue;
+    if (!count)
+      continue;
     for (; at > 0 && meetings[at - 1] < count; at--) {
       meetings[at] = meetings[at - 1];
       search->order[at] = search->order[at - 1];
@@ -7435,7 +7863,8 @@ static void nsvcd__tile_fill(nsvcd__tile *tile, nsvcd__walk *walk) {
 // Fills a tile with all groups of a body that has no more than that.
 static void nsvcd__tile_fill_all(nsvcd__tile *tile, const nsvcd_body *body) {
   tile->count = nsvcd__body_groups(body);
-  for (size_t g = 0; g < tile->count; g++) tile->groups[g] = (uint16_t)g;
+  for (size_t g = 0; g < tile->count; g++)
+    tile->groups[g] = (uint16_t)g;
   tile->spheres = nsvcd__group_spheres(body);
 }
 
@@ -7480,7 +7909,8 @@ static uint32_t nsvcd__is_approached(const void *what, nsvcd__spheres all) {
 static void nsvcd__chords_of_tile(nsvcd__search *search, const nsvcd_body *moving) {
   const nsvcd__tile *tile = &search->moving_tile;
   nsvcd__sphere sphere = nsvcd__body_sphere(moving);
-  if (nsvcd__is_large(moving)) sphere = nsvcd__cover_spheres(tile->spheres, tile->count);
+  if (nsvcd__is_large(moving))
+    sphere = nsvcd__cover_spheres(tile->spheres, tile->count);
   nsvcd__chords_in_all(search, sphere);
 }
 
@@ -7509,7 +7939,8 @@ static void nsvcd__box_of_way(nsvcd__search *search) {
 static void nsvcd__search_moving_tile(nsvcd__search *search, const nsvcd_body *moving,
                                       const nsvcd_body *fixed) {
   nsvcd__tile_fill(&search->moving_tile, &search->moving_walk);
-  if (search->moving_tile.count == 0) return;
+  if (search->moving_tile.count == 0)
+    return;
   nsvcd__chords_of_tile(search, moving);
   nsvcd__box_of_way(search);
   nsvcd__walk_begin(&search->fixed_walk, fixed, nsvcd__is_approached, search);
@@ -7518,7 +7949,8 @@ static void nsvcd__search_moving_tile(nsvcd__search *search, const nsvcd_body *m
 // Goes on to the next tile that has a step. 0 if there is none.
 static int nsvcd__search_next_tile(nsvcd__search *search, const nsvcd_body *moving,
                                    const nsvcd_body *fixed) {
-  if (!nsvcd__is_large(moving) && !nsvcd__is_large(fixed)) return 0;
+  if (!nsvcd__is_large(moving) && !nsvcd__is_large(fixed))
+    return 0;
   while (search->moving_tile.count > 0) {
     nsvcd__chords_of_tile(search, moving);
     nsvcd__tile_fill(&search->fixed_tile, &search->fixed_walk);
@@ -7527,7 +7959,8 @@ static int nsvcd__search_next_tile(nsvcd__search *search, const nsvcd_body *movi
       continue;
     }
     nsvcd__search_tile(search, moving, fixed, search->near_segments);
-    if (search->steps > 0) return 1;
+    if (search->steps > 0)
+      return 1;
   }
   return 0;
 }
@@ -7546,11 +7979,13 @@ static int nsvcd__search_begin(const nsvcd_body *moving, const nsvcd_body *fixed
   if (!nsvcd__is_large(moving) && !nsvcd__is_large(fixed)) {
     nsvcd__tile_fill_all(&search->moving_tile, moving);
     nsvcd__tile_fill_all(&search->fixed_tile, fixed);
-    if (wanted) nsvcd__search_tile(search, moving, fixed, wanted);
+    if (wanted)
+      nsvcd__search_tile(search, moving, fixed, wanted);
     return search->steps > 0;
   }
   search->moving_tile.count = 0;
-  if (!wanted) return 0;
+  if (!wanted)
+    return 0;
   search->fixed_walk.body = fixed;  // the filters below ask for them
   search->moving_walk.body = moving;
   nsvcd__walk_begin(&search->moving_walk, moving,
@@ -7562,7 +7997,8 @@ static int nsvcd__search_begin(const nsvcd_body *moving, const nsvcd_body *fixed
 // Fills members[] with what is missing of the segments `wanted`.
 static void nsvcd__pose_members(nsvcd__search *search, const nsvcd_body *moving, size_t g,
                                 uint64_t wanted) {
-  if (!(wanted & ~search->posed)) return;
+  if (!(wanted & ~search->posed))
+    return;
   const nsvcd__sphere group = nsvcd__sphere_of(nsvcd__group_spheres(moving), g);
   const nsvcd__spheres patches = nsvcd__body_patches(moving);
   const nsvcd__spheres members = nsvcd__spheres_from(patches, NSVCD__GROUP * g);
@@ -7605,13 +8041,15 @@ static size_t nsvcd__search_group(nsvcd__search *search, const nsvcd_body *movin
   size_t most = 0;
   for (size_t h = 0; h < search->fixed_tile.count; h++) {
     const size_t count = nsvcd__bit_count(nearby[h] & search->wanted);
-    if (count > 0) search->waiting |= (uint32_t)1 << h;
+    if (count > 0)
+      search->waiting |= (uint32_t)1 << h;
     if (count > most) {
       most = count;
       longest = h;
     }
   }
-  if (search->waiting) nsvcd__chords_of_group(search, moving, search->moving_tile.groups[g]);
+  if (search->waiting)
+    nsvcd__chords_of_group(search, moving, search->moving_tile.groups[g]);
   search->posed = 0;
   return longest;
 }
@@ -7635,7 +8073,8 @@ static NSVCD__APART int nsvcd__search_step(nsvcd__search *search, const nsvcd_bo
     nsvcd__members_against_patch(search, moving, g, fixed, NSVCD__GROUP * h + l, segments[l], kept);
   }
   search->waiting &= ~((uint32_t)1 << at);
-  if (!search->waiting) search->step++;
+  if (!search->waiting)
+    search->step++;
   return search->step < search->steps || nsvcd__search_next_tile(search, moving, fixed);
 }
 
@@ -7923,9 +8362,11 @@ enum { NSVCD__BY_DISC, NSVCD__BY_HULL, NSVCD__BY_TRIANGLES };
 
 static void nsvcd__unit_quaternion(const float *q, double *out) {
   double square = 0;
-  for (size_t k = 0; k < 4; k++) square += (double)q[k] * (double)q[k];
+  for (size_t k = 0; k < 4; k++)
+    square += (double)q[k] * (double)q[k];
   const double inverse = 1 / sqrt(square);
-  for (size_t k = 0; k < 4; k++) out[k] = (double)q[k] * inverse;
+  for (size_t k = 0; k < 4; k++)
+    out[k] = (double)q[k] * inverse;
 }
 
 // The conjugate of a, times b.
@@ -7962,7 +8403,8 @@ static nsvcd__d3 nsvcd__place_point(const nsvcd__placement *at, nsvcd__d3 a) {
 
 static double nsvcd__turn_weights(double half_angle, double u, double *after) {
   *after = u;
-  if (!(half_angle > 1e-7)) return 1 - u;  // the difference is less than rounding
+  if (!(half_angle > 1e-7))
+    return 1 - u;  // the difference is less than rounding
   *after = sin(u * half_angle);
   return sin((1 - u) * half_angle);
 }
@@ -7977,7 +8419,8 @@ static void nsvcd__leg_at(const nsvcd__leg *leg, double u, double *q) {
     square += q[k] * q[k];
   }
   const double inverse = 1 / sqrt(square);
-  for (size_t k = 0; k < 4; k++) q[k] *= inverse;
+  for (size_t k = 0; k < 4; k++)
+    q[k] *= inverse;
 }
 
 // A track's leg of an arc, and its positions at both ends of it, metres.
@@ -8056,7 +8499,8 @@ static const nsvcd__arc *nsvcd__arc_at(nsvcd__proof *p, uint32_t first) {
   const nsvcd__motion *motion = p->motion;
   nsvcd__arc *arc = &p->arc;
   const uint32_t ticks = nsvcd__next_knot(motion, first) - first;
-  if (arc->first == first && arc->ticks == ticks) return arc;
+  if (arc->first == first && arc->ticks == ticks)
+    return arc;
   nsvcd__d3 ends[2], fixed_ends[2];
   const double per_metre = 1 / (double)motion->unit;
   arc->first = first;
@@ -8112,7 +8556,8 @@ static nsvcd__placement nsvcd__placement_at(const nsvcd__arc *arc, double u) {
   }
   at.position = nsvcd__d3_add(at.position, arc->lift);
   nsvcd__rows_of(q, at.rows);
-  for (size_t k = 0; k < 3; k++) at.rows[k] = nsvcd__d3_scale(at.rows[k], arc->scale);
+  for (size_t k = 0; k < 3; k++)
+    at.rows[k] = nsvcd__d3_scale(at.rows[k], arc->scale);
   return at;
 }
 
@@ -8123,7 +8568,8 @@ static const nsvcd__placement *nsvcd__placed_at(nsvcd__proof *p, double u) {
   const nsvcd__arc *arc = &p->arc;
   for (; n < NSVCD__PLACED; n++) {
     const nsvcd__placed *known = &p->placed[n];
-    if (known->arc == arc->first && known->ticks == arc->ticks && known->u == u) break;
+    if (known->arc == arc->first && known->ticks == arc->ticks && known->u == u)
+      break;
   }
   if (n == NSVCD__PLACED) {
     n = p->next_placed;
@@ -8132,7 +8578,8 @@ static const nsvcd__placement *nsvcd__placed_at(nsvcd__proof *p, double u) {
     p->placed[n].u = u;
     p->placed[n].placement = nsvcd__placement_at(arc, u);
   }
-  if (n == p->next_placed) p->next_placed = (n + 1) % NSVCD__PLACED;
+  if (n == p->next_placed)
+    p->next_placed = (n + 1) % NSVCD__PLACED;
   return &p->placed[n].placement;
 }
 
@@ -8401,7 +8848,8 @@ static uint32_t nsvcd__apart_by_fixed_disc(const nsvcd__approach *a, const nsvcd
   uint32_t apart = 0;
   NSVCD__EACH_SLICE(l) {
     const uint32_t wanted = nsvcd__lanes_of_slice(met, l);
-    if (!wanted) continue;
+    if (!wanted)
+      continue;
     const nsvcd__v_approach seen = nsvcd__v_approach_load(a, l);
     const nsvcd__v3 n = nsvcd__v3_set(normal);
     const nsvcd__v3 at_start = nsvcd__v3_set(normal_at_start);
@@ -8444,7 +8892,8 @@ static uint32_t nsvcd__apart_by_moving_disc(const nsvcd__approach *a, const nsvc
   middle.position = half_turn.position = nsvcd__f3_of(0, 0, 0);
   NSVCD__EACH_SLICE(l) {
     const uint32_t wanted = nsvcd__lanes_of_slice(met, l);
-    if (!wanted) continue;
+    if (!wanted)
+      continue;
     const nsvcd__v_approach seen = nsvcd__v_approach_load(a, l);
     const nsvcd__v scale = nsvcd__v_set(a->scale);
     const nsvcd__v3 w = nsvcd__v3_transform(&middle, seen.normal);
@@ -8496,7 +8945,8 @@ static uint32_t nsvcd__discs_meet(const nsvcd__proof *p, const nsvcd__chords *c,
   a.clearance = nsvcd__clearance_of(p);
 
   met &= ~nsvcd__apart_by_fixed_disc(&a, span, normal, low, high, met);
-  if (!met) return 0;
+  if (!met)
+    return 0;
   return met & ~nsvcd__apart_by_moving_disc(&a, span, normal, low, high, across, met);
 }
 
@@ -8603,9 +9053,11 @@ static void nsvcd__certify_groups(const nsvcd__proof *p, const nsvcd__search *se
                                   size_t g, size_t h, uint32_t apart, const nsvcd__v3 *planes,
                                   const uint32_t *below) {
   float lanes[2][3][NSVCD__LANES];
-  for (size_t k = 0; k < 2; k++) nsvcd__v3_store(lanes[k], 0, planes[k]);
+  for (size_t k = 0; k < 2; k++)
+    nsvcd__v3_store(lanes[k], 0, planes[k]);
   for (size_t l = 0; l < NSVCD__SLICE; l++) {
-    if (!(apart >> l & 1)) continue;
+    if (!(apart >> l & 1))
+      continue;
     const size_t which = below[2] >> l & 1 ? 0 : 1;
     const float sign = below[which] >> l & 1 ? -1.0f : 1.0f;
     const float normal[3] = {sign * lanes[which][0][l], sign * lanes[which][1][l],
@@ -8614,7 +9066,8 @@ static void nsvcd__certify_groups(const nsvcd__proof *p, const nsvcd__search *se
     for (size_t k = 0; k < NSVCD__GROUP * NSVCD__GROUP; k++) {
       const size_t i = NSVCD__GROUP * g + k / NSVCD__GROUP;
       const size_t j = NSVCD__GROUP * h + k % NSVCD__GROUP;
-      if (i >= p->moving.body->points || j >= p->fixed.body->points) continue;
+      if (i >= p->moving.body->points || j >= p->fixed.body->points)
+        continue;
       NSVCD__CERTIFY(NSVCD__BY_DISC, i, j, NSVCD_NONE, NSVCD_NONE, span.t_start, span.t_end,
                      normal);
     }
@@ -8646,13 +9099,15 @@ static void nsvcd__part_groups(const nsvcd__proof *p, nsvcd__search *search) {
     uint64_t *met = &nsvcd__nearby(search, next)[at];
     for (size_t b = 0; b < NSVCD__BLOCKS && *met >> (NSVCD__LANES * b); b++) {
       const uint32_t there = (uint32_t)(*met >> (NSVCD__LANES * b)) & 0xffff;
-      if (!there) continue;
+      if (!there)
+        continue;
       NSVCD__TALLY(tests, 1);
       NSVCD__EACH_SLICE(l) {
         const uint32_t wanted = nsvcd__lanes_of_slice(there, l);
         nsvcd__v3 planes[2];
         uint32_t below[3];
-        if (!wanted) continue;
+        if (!wanted)
+          continue;
         const uint32_t parted =
             nsvcd__groups_apart(&search->blocks[b], &search->group[b], l, &own, &disc, fixed_centre,
                                 search->scale, reach, nsvcd__clearance_of(p), planes, below);
@@ -8661,7 +9116,8 @@ static void nsvcd__part_groups(const nsvcd__proof *p, nsvcd__search *search) {
         *met &= ~((uint64_t)apart << (NSVCD__LANES * b + l));
       }
     }
-    if (!*met) search->waiting &= ~((uint32_t)1 << at);
+    if (!*met)
+      search->waiting &= ~((uint32_t)1 << at);
   }
 }
 
@@ -8783,13 +9239,15 @@ static NSVCD__APART int nsvcd__hulls_are_apart(nsvcd__proof *p, size_t i, size_t
         return 1;
       }
     }
-    if (step + 1 < NSVCD__GUESSES) continue;
+    if (step + 1 < NSVCD__GUESSES)
+      continue;
     const nsvcd__f3 way = nsvcd__f3_sub(found.difference, nearest);
     const float square = nsvcd__f3_dot(way, way);
     const float share = square > 0 ? nsvcd__clamp01(-nsvcd__f3_dot(nearest, way) / square) : 0;
     const nsvcd__f3 nearer = nsvcd__f3_add(nearest, nsvcd__f3_scale(way, share));
     nearest = step < NSVCD__GUESSES ? found.difference : nearer;
-    if (nsvcd__f3_dot(nearest, nearest) <= slack * slack) return 0;  // these hulls come this near
+    if (nsvcd__f3_dot(nearest, nearest) <= slack * slack)
+      return 0;  // these hulls come this near
   }
   return 0;
 }
@@ -8806,7 +9264,8 @@ static double nsvcd__clamp_share(double x) { return x > 0 ? (x < 1 ? x : 1) : 0;
 static void nsvcd__keep_nearer(nsvcd__nearest *best, nsvcd__d3 a, nsvcd__d3 b) {
   const nsvcd__d3 d = nsvcd__d3_sub(a, b);
   const double square = nsvcd__d3_dot(d, d);
-  if (square >= best->square) return;
+  if (square >= best->square)
+    return;
   best->square = square;
   best->on_a = a;
   best->on_b = b;
@@ -8835,7 +9294,8 @@ static void nsvcd__edges_nearest(nsvcd__d3 a0, nsvcd__d3 a1, nsvcd__d3 b0, nsvcd
 static int nsvcd__foot_within(nsvcd__d3 x, const nsvcd__d3 *t, nsvcd__d3 *foot) {
   const nsvcd__d3 n = nsvcd__d3_cross(nsvcd__d3_sub(t[1], t[0]), nsvcd__d3_sub(t[2], t[0]));
   const double square = nsvcd__d3_dot(n, n);
-  if (!(square > 0)) return 0;
+  if (!(square > 0))
+    return 0;
   const double height = nsvcd__d3_dot(n, nsvcd__d3_sub(x, t[0])) / square;
   *foot = nsvcd__d3_sub(x, nsvcd__d3_scale(n, height));
   for (size_t k = 0; k < 3; k++) {
@@ -8856,7 +9316,8 @@ typedef struct nsvcd__heights {
 static nsvcd__heights nsvcd__heights_over(const nsvcd__d3 *a, const nsvcd__d3 *b) {
   nsvcd__heights out;
   out.normal = nsvcd__d3_cross(nsvcd__d3_sub(b[1], b[0]), nsvcd__d3_sub(b[2], b[0]));
-  for (size_t k = 0; k < 3; k++) out.of[k] = nsvcd__d3_dot(out.normal, nsvcd__d3_sub(a[k], b[0]));
+  for (size_t k = 0; k < 3; k++)
+    out.of[k] = nsvcd__d3_dot(out.normal, nsvcd__d3_sub(a[k], b[0]));
   return out;
 }
 static int nsvcd__on_one_side(const double *h) {
@@ -8869,8 +9330,10 @@ static int nsvcd__edges_pass(const nsvcd__d3 *a, const nsvcd__d3 *b, const doubl
   for (size_t k = 0; k < 3; k++) {
     const double h0 = heights[k];
     const double h1 = heights[(k + 1) % 3];
-    if ((h0 > 0 && h1 > 0) || (h0 < 0 && h1 < 0) || !(fabs(h0 - h1) > 0)) continue;
-    if (nsvcd__foot_within(nsvcd__d3_mix(a[k], a[(k + 1) % 3], h0 / (h0 - h1)), b, point)) return 1;
+    if ((h0 > 0 && h1 > 0) || (h0 < 0 && h1 < 0) || !(fabs(h0 - h1) > 0))
+      continue;
+    if (nsvcd__foot_within(nsvcd__d3_mix(a[k], a[(k + 1) % 3], h0 / (h0 - h1)), b, point))
+      return 1;
   }
   return 0;
 }
@@ -8878,9 +9341,11 @@ static int nsvcd__edges_pass(const nsvcd__d3 *a, const nsvcd__d3 *b, const doubl
 // Do two triangles meet where an edge of one passes through the other?
 static int nsvcd__triangles_meet(const nsvcd__d3 *a, const nsvcd__d3 *b, nsvcd__d3 *point) {
   const nsvcd__heights over_b = nsvcd__heights_over(a, b);
-  if (nsvcd__on_one_side(over_b.of)) return 0;
+  if (nsvcd__on_one_side(over_b.of))
+    return 0;
   const nsvcd__heights over_a = nsvcd__heights_over(b, a);
-  if (nsvcd__on_one_side(over_a.of)) return 0;
+  if (nsvcd__on_one_side(over_a.of))
+    return 0;
   return nsvcd__edges_pass(a, b, over_b.of, point) || nsvcd__edges_pass(b, a, over_a.of, point);
 }
 
@@ -8897,15 +9362,18 @@ static nsvcd__nearest nsvcd__triangles_nearest(const nsvcd__d3 *a, const nsvcd__
   for (size_t k = 0; k < 3; k++) {
     for (size_t n = 0; n < 3; n++)
       nsvcd__edges_nearest(a[k], a[(k + 1) % 3], b[n], b[(n + 1) % 3], &best);
-    if (nsvcd__foot_within(a[k], b, &point)) nsvcd__keep_nearer(&best, a[k], point);
-    if (nsvcd__foot_within(b[k], a, &point)) nsvcd__keep_nearer(&best, point, b[k]);
+    if (nsvcd__foot_within(a[k], b, &point))
+      nsvcd__keep_nearer(&best, a[k], point);
+    if (nsvcd__foot_within(b[k], a, &point))
+      nsvcd__keep_nearer(&best, point, b[k]);
   }
   return best;
 }
 
 static void nsvcd__place_triangle(const nsvcd__placement *at, const nsvcd__d3 *corners,
                                   nsvcd__d3 *out) {
-  for (size_t k = 0; k < 3; k++) out[k] = nsvcd__place_point(at, corners[k]);
+  for (size_t k = 0; k < 3; k++)
+    out[k] = nsvcd__place_point(at, corners[k]);
 }
 
 // A pair of listed triangles, body frames.
@@ -8967,7 +9435,8 @@ static nsvcd__verdict nsvcd__take_contact(nsvcd__proof *p, const nsvcd__pair *pa
 static NSVCD__APART void nsvcd__take_doubt(nsvcd__proof *p, const nsvcd__pair *pair, double u0,
                                            double u1) {
   const double tick = (double)p->arc.first + u0 * (double)p->arc.ticks;
-  if (!(tick < p->unsure)) return;
+  if (!(tick < p->unsure))
+    return;
   const nsvcd__contact found = p->found;
   const double end = p->end;
   const int has_contact = p->has_contact;
@@ -9020,7 +9489,8 @@ static int nsvcd__foot_well_within(nsvcd__d3 x, const nsvcd__d3 *t, double margi
   for (size_t k = 0; k < 3; k++) {
     const nsvcd__d3 edge = nsvcd__d3_sub(t[(k + 1) % 3], t[k]);
     const double within = nsvcd__d3_dot(n, nsvcd__d3_cross(edge, nsvcd__d3_sub(x, t[k])));
-    if (!(within > margin * size * nsvcd__d3_length(edge))) return 0;
+    if (!(within > margin * size * nsvcd__d3_length(edge)))
+      return 0;
   }
   return 1;
 }
@@ -9060,10 +9530,12 @@ static int nsvcd__edges_cross(const nsvcd__passage *p, size_t k, nsvcd__d3 b0, n
   const nsvcd__d3 across = nsvcd__d3_cross(u, v);
   const double size = nsvcd__d3_length(across);
   const double lengths = nsvcd__d3_length(u) * nsvcd__d3_length(v);
-  if (!(size > 0.01 * lengths)) return 0;
+  if (!(size > 0.01 * lengths))
+    return 0;
   const double before = nsvcd__edges_volume(p->start[k], p->start[next], b0, b1);
   const double after = nsvcd__edges_volume(p->end[k], p->end[next], b0, b1);
-  if (!nsvcd__are_opposed(before, margin * size, after, margin * size)) return 0;
+  if (!nsvcd__are_opposed(before, margin * size, after, margin * size))
+    return 0;
   const nsvcd__d3 w = nsvcd__d3_sub(b0, p->middle[k]);
   const double s = nsvcd__d3_dot(nsvcd__d3_cross(w, v), across) / (size * size);
   const double t = nsvcd__d3_dot(nsvcd__d3_cross(w, u), across) / (size * size);
@@ -9088,7 +9560,8 @@ static int nsvcd__triangles_pass(const nsvcd__passage *p, const nsvcd__d3 *fixed
       return 1;
     }
     for (size_t n = 0; n < 3; n++) {
-      if (nsvcd__edges_cross(p, k, fixed[n], fixed[(n + 1) % 3], margin)) return 1;
+      if (nsvcd__edges_cross(p, k, fixed[n], fixed[(n + 1) % 3], margin))
+        return 1;
     }
   }
   return 0;
@@ -9109,12 +9582,14 @@ static int nsvcd__pair_passes(nsvcd__proof *p, const nsvcd__pair *pair, double u
 // FREE where it has not.
 static NSVCD__APART nsvcd__verdict nsvcd__find_passage(nsvcd__proof *p, const nsvcd__pair *pair,
                                                        double u0, double u1, double speed) {
-  if (!nsvcd__pair_passes(p, pair, u0, u1, speed)) return NSVCD__FREE;
+  if (!nsvcd__pair_passes(p, pair, u0, u1, speed))
+    return NSVCD__FREE;
   for (size_t n = 0; n < NSVCD__HALVINGS; n++) {
     const double middle = 0.5 * (u0 + u1);
     p->work++;
     const int in_first = nsvcd__pair_passes(p, pair, u0, middle, speed);
-    if (!in_first && !nsvcd__pair_passes(p, pair, middle, u1, speed)) break;
+    if (!in_first && !nsvcd__pair_passes(p, pair, middle, u1, speed))
+      break;
     u0 = in_first ? u0 : middle;
     u1 = in_first ? middle : u1;
   }
@@ -9139,6 +9614,22 @@ static void nsvcd__certify_pair(const nsvcd__proof *p, const nsvcd__pair *pair, 
   (void)pair;
 }
 
+// What becomes of a part of the arc that is too short to be halved: a passage, an answer that says
+// less, or doubt. NSVCD__TAKEN and NSVCD__FREE: look at it again.
+static nsvcd__verdict nsvcd__settle_short_part(nsvcd__proof *p, const nsvcd__pair *pair, double u,
+                                               double end, double speed) {
+  const nsvcd__verdict passage = nsvcd__find_passage(p, pair, u, end, speed);
+  if (passage == NSVCD__MEETS || passage == NSVCD__TAKEN)
+    return passage;
+  if (p->measure > 0 && p->clearance > 0) {  // say less, but for certain
+    const double close = pair->slack + p->tolerance;
+    p->clearance = fmax(0, p->clearance - 2 * close);
+    return NSVCD__FREE;
+  }
+  nsvcd__take_doubt(p, pair, u, end);
+  return NSVCD__UNDECIDED;
+}
+
 // Settles a pair of triangles from u0 to u1 of the arc: halves the time until a plane parts them in
 // each part, the one that parted a pair last or one at the middle's nearest points, or there is a
 // contact, or they come too close to tell.
@@ -9154,11 +9645,13 @@ static NSVCD__APART nsvcd__verdict nsvcd__settle_pair(nsvcd__proof *p, const nsv
   ends[0] = u1;
   for (double u = u0; left > 0;) {
     const double end = fmin(ends[left - 1], nsvcd__arc_limit(p));
-    if (!(u < end)) break;  // what was in doubt may be the end
+    if (!(u < end))
+      break;  // what was in doubt may be the end
     const double middle = 0.5 * (u + end);
     p->work++;
     NSVCD__TALLY(pairs, 1);
-    if (p->work > p->limit) return NSVCD__UNDECIDED;
+    if (p->work > p->limit)
+      return NSVCD__UNDECIDED;
     int apart = nsvcd__plane_parts(p, pair, u, end, p->parting);
     if (!apart) {
       nsvcd__d3 posed[3];
@@ -9166,14 +9659,16 @@ static NSVCD__APART nsvcd__verdict nsvcd__settle_pair(nsvcd__proof *p, const nsv
       const nsvcd__nearest nearest = nsvcd__triangles_nearest(posed, pair->fixed);
       const double distance = sqrt(nearest.square);
       if (distance <= p->clearance + pair->rounding) {
-        if (nsvcd__take_contact(p, pair, middle, &nearest) == NSVCD__MEETS) return NSVCD__MEETS;
+        if (nsvcd__take_contact(p, pair, middle, &nearest) == NSVCD__MEETS)
+          return NSVCD__MEETS;
         taken = 1;
         continue;
       }
       p->parting = nsvcd__d3_scale(nsvcd__d3_sub(nearest.on_a, nearest.on_b), 1 / distance);
       apart = nsvcd__plane_parts(p, pair, u, end, p->parting);
     }
-    if (apart) nsvcd__certify_pair(p, pair, u, end);
+    if (apart)
+      nsvcd__certify_pair(p, pair, u, end);
     const int tiny = speed * (end - u) <= 0.25 * close || left > NSVCD__HALVINGS;
     if (!apart && !tiny) {
       ends[left++] = middle;
@@ -9181,16 +9676,13 @@ static NSVCD__APART nsvcd__verdict nsvcd__settle_pair(nsvcd__proof *p, const nsv
       continue;
     }
     if (!apart) {
-      const nsvcd__verdict passage = nsvcd__find_passage(p, pair, u, end, speed);
-      if (passage == NSVCD__MEETS) return passage;
-      taken |= passage == NSVCD__TAKEN;
-      if (passage == NSVCD__TAKEN) continue;
-      if (p->measure > 0 && p->clearance > 0) {  // say less, but for certain
-        p->clearance = fmax(0, p->clearance - 2 * close);
+      const nsvcd__verdict settled = nsvcd__settle_short_part(p, pair, u, end, speed);
+      if (settled == NSVCD__MEETS)
+        return settled;
+      taken |= settled == NSVCD__TAKEN;
+      if (settled != NSVCD__UNDECIDED)
         continue;
-      }
       undecided = 1;
-      nsvcd__take_doubt(p, pair, u, end);
     }
     u = end;
     left--;
@@ -9209,7 +9701,8 @@ static void nsvcd__block_corners(const nsvcd__facets *f, size_t patch, size_t fi
   const unsigned char *corners = f->listings + f->first_byte[patch] + bytes * at;
   const size_t last = count - 1;
   if (bytes == 1) {
-    for (size_t l = 0; l < NSVCD__LANES; l++) vertices[l] = corners[3 * (l < last ? l : last)];
+    for (size_t l = 0; l < NSVCD__LANES; l++)
+      vertices[l] = corners[3 * (l < last ? l : last)];
     return;
   }
   for (size_t l = 0; l < NSVCD__LANES; l++)
@@ -9295,7 +9788,8 @@ static float nsvcd__greatest_lane(const float *lanes) {
 // extend to. The same patch is often asked for again.
 static void nsvcd__window_load(nsvcd__proof *p, size_t j, size_t first) {
   const size_t end = p->fixed.first_triangle[j + 1];
-  if (p->window > 0 && p->fixed_blocks[0].first == first) return;
+  if (p->window > 0 && p->fixed_blocks[0].first == first)
+    return;
   p->window = 0;
   for (size_t n = first; n < end && p->window < NSVCD__WINDOW; n += NSVCD__LANES) {
     nsvcd__block *block = &p->fixed_blocks[p->window];
@@ -9381,7 +9875,8 @@ NSVCD__INLINE nsvcd__v3 nsvcd__normal_to_try(nsvcd__proof *p, size_t l, nsvcd__b
   const size_t moving_edge = k == 0 ? 0 : (k - 2) / 3;
   const nsvcd__v3 b = nsvcd__v3_load(fixed->corners[fixed_edge], s);
   const nsvcd__v3 edge = nsvcd__v3_sub(nsvcd__v3_load(fixed->corners[(fixed_edge + 1) % 3], s), b);
-  if (k == 0) return nsvcd__v3_cross(edge, nsvcd__v3_sub(nsvcd__v3_load(fixed->corners[2], s), b));
+  if (k == 0)
+    return nsvcd__v3_cross(edge, nsvcd__v3_sub(nsvcd__v3_load(fixed->corners[2], s), b));
   const nsvcd__f3 a = nsvcd__lane_of(p->posed[0][moving_edge], l);
   const nsvcd__f3 other = nsvcd__f3_sub(nsvcd__lane_of(p->posed[0][(moving_edge + 1) % 3], l), a);
   return nsvcd__v3_cross(nsvcd__v3_set(other), edge);
@@ -9395,17 +9890,21 @@ static void nsvcd__certify_block(nsvcd__proof *p, size_t i, size_t j, size_t l,
                                  size_t s, const nsvcd__v3 *plane, uint32_t below) {
   float lanes[3][NSVCD__LANES];
   const nsvcd__block *a = &p->moving_block;
-  if (plane) nsvcd__v3_store(lanes, s, *plane);
+  if (plane)
+    nsvcd__v3_store(lanes, s, *plane);
   for (size_t n = 0; n < b->count; n++) {
     float normal[3] = {0, 0, 0};
     float widest = -HUGE_VALF;
     const float sign = below >> n & 1 ? -1.0f : 1.0f;
-    if (!(apart >> n & 1)) continue;
+    if (!(apart >> n & 1))
+      continue;
     for (size_t k = 0; k < 3; k++) {
-      if (plane) normal[k] = sign * lanes[k][n];
+      if (plane)
+        normal[k] = sign * lanes[k][n];
       const float above = a->low[k][l] - b->high[k][n];
       const float under = b->low[k][n] - a->high[k][l];
-      if (plane || (above <= widest && under <= widest)) continue;
+      if (plane || (above <= widest && under <= widest))
+        continue;
       widest = above > under ? above : under;
       normal[0] = normal[1] = normal[2] = 0;
       normal[k] = above > under ? 1.0f : -1.0f;
@@ -9426,15 +9925,18 @@ static NSVCD__APART uint32_t nsvcd__row_left(nsvcd__proof *p, size_t i, size_t j
                                              nsvcd__block *fixed, size_t ends,
                                              const nsvcd__span *span, float margin) {
   uint32_t met = nsvcd__lanes_near(fixed, nsvcd__box_of_lane(&p->moving_block, l), margin);
-  if (span) NSVCD__CERTIFY_BLOCK(p, i, j, l, fixed, span, ~met, 0, NULL, 0);
+  if (span)
+    NSVCD__CERTIFY_BLOCK(p, i, j, l, fixed, span, ~met, 0, NULL, 0);
   for (size_t k = 0; met && k < NSVCD__NORMALS; k++) {
     NSVCD__EACH_SLICE(s) {
       uint32_t below;
-      if (!(met >> s & NSVCD__SLICE_MASK)) continue;
+      if (!(met >> s & NSVCD__SLICE_MASK))
+        continue;
       const nsvcd__v3 normal = nsvcd__normal_to_try(p, l, fixed, s, k);
       const uint32_t apart =
           nsvcd__normals_part(p, l, fixed, s, ends, margin, normal, &below) << s & met;
-      if (span) NSVCD__CERTIFY_BLOCK(p, i, j, l, fixed, span, apart, s, &normal, below << s);
+      if (span)
+        NSVCD__CERTIFY_BLOCK(p, i, j, l, fixed, span, apart, s, &normal, below << s);
       met &= ~apart;
     }
   }
@@ -9457,7 +9959,8 @@ static nsvcd__nearest nsvcd__contact_of(const nsvcd__proof *p, const nsvcd__d3 *
     out.on_b = point;
   } else if (p->clearance > 0) {
     const nsvcd__nearest nearest = nsvcd__triangles_nearest(posed, pair->fixed);
-    if (nearest.square <= p->clearance * p->clearance) out = nearest;
+    if (nearest.square <= p->clearance * p->clearance)
+      out = nearest;
   }
   return out;
 }
@@ -9491,8 +9994,10 @@ static void nsvcd__touch_normals(const nsvcd__touch *t, nsvcd__d3 *out) {
 static int nsvcd__undoes(const nsvcd__proof *p, nsvcd__d3 n, const nsvcd__touch *t) {
   nsvcd__d3 normals[3];
   const double lift = nsvcd__lift_along(n, t->moving, t->fixed);
-  if (!(nsvcd__d3_dot(n, n) > 0.5) || lift + p->clearance > p->skin) return 0;
-  if (lift < 0) return 1;
+  if (!(nsvcd__d3_dot(n, n) > 0.5) || lift + p->clearance > p->skin)
+    return 0;
+  if (lift < 0)
+    return 1;
   nsvcd__touch_normals(t, normals);
   return nsvcd__d3_dot(n, normals[0]) > -0.3 && nsvcd__d3_dot(n, normals[1]) > -0.3;
 }
@@ -9509,9 +10014,11 @@ static void nsvcd__gather_contact(nsvcd__proof *p, const nsvcd__pair *pair,
   const nsvcd__d3 way = nsvcd__d3_sub(nearest.on_a, nearest.on_b);
   touch.apart = nsvcd__d3_scale(way, are_apart ? 1 / sqrt(nearest.square) : 0);
   for (size_t k = 0; k < p->normal_count; k++) {
-    if (nsvcd__undoes(p, p->normals[k], &touch)) return;
+    if (nsvcd__undoes(p, p->normals[k], &touch))
+      return;
   }
-  if (p->touch_count < NSVCD__TOUCHES) p->of.touches[p->touch_count++] = touch;
+  if (p->touch_count < NSVCD__TOUCHES)
+    p->of.touches[p->touch_count++] = touch;
 }
 
 // Among the moving block, posed `at`, and a block of the window: looks for a contact a share u of
@@ -9532,13 +10039,15 @@ static nsvcd__verdict nsvcd__find_witness_in(nsvcd__proof *p, size_t i, size_t j
       nsvcd__place_triangle(at, pair.moving, posed);
       p->work++;
       const nsvcd__nearest nearest = nsvcd__contact_of(p, posed, &pair);
-      if (!(nearest.square < HUGE_VAL)) continue;
+      if (!(nearest.square < HUGE_VAL))
+        continue;
       if (p->gathers) {
         nsvcd__gather_contact(p, &pair, posed);
         continue;
       }
       const nsvcd__verdict verdict = nsvcd__take_contact(p, &pair, u, &nearest);
-      if (verdict == NSVCD__MEETS) return verdict;
+      if (verdict == NSVCD__MEETS)
+        return verdict;
       // The pair may touch sooner, or come closer.
       const nsvcd__verdict better = nsvcd__settle_pair(p, &pair, 0, 1);
       return better == NSVCD__MEETS ? better : verdict;
@@ -9574,9 +10083,11 @@ static nsvcd__verdict nsvcd__find_witness(nsvcd__proof *p, size_t i, size_t j, u
       nsvcd__block_box(p, 1);
       for (size_t n = 0; n < p->window; n++) {
         p->work++;
-        if (p->work > p->limit) return NSVCD__FREE;
+        if (p->work > p->limit)
+          return NSVCD__FREE;
         const nsvcd__verdict verdict = nsvcd__find_witness_in(p, i, j, n, &at, u, margin);
-        if (verdict != NSVCD__FREE) return verdict;
+        if (verdict != NSVCD__FREE)
+          return verdict;
       }
     }
   }
@@ -9608,7 +10119,8 @@ static nsvcd__verdict nsvcd__seek_item(nsvcd__proof *p, const nsvcd__search *sea
   const double tick = start + (double)item->share * (end - start);
   double u;
   item->sought = 1;
-  if (!(tick < p->end)) return NSVCD__FREE;
+  if (!(tick < p->end))
+    return NSVCD__FREE;
   const uint32_t first = nsvcd__arc_and_share(p->motion, tick, &u);
   return nsvcd__find_witness(p, item->moving, item->fixed, first, u);
 }
@@ -9640,15 +10152,20 @@ static nsvcd__verdict nsvcd__settle_row(nsvcd__proof *p, size_t i, size_t j, siz
       NSVCD__CERTIFY_BLOCK(p, i, j, l, fixed, span, apart, s, &normal, below << s);
       met &= ~apart;
     }
-    if (!met) break;
-    if (patience == 0) return NSVCD__TOO_LONG;
+    if (!met)
+      break;
+    if (patience == 0)
+      return NSVCD__TOO_LONG;
     const size_t listing = p->moving_block.first + l;
     const nsvcd__pair pair =
         nsvcd__pair_of(p, i, j, listing, fixed->first + nsvcd__lowest_bit(met));
     const nsvcd__verdict one = nsvcd__settle_pair(p, &pair, u0, u1);
-    if (one == NSVCD__MEETS || one == NSVCD__TAKEN || p->work > p->limit) return one;
-    if (one == NSVCD__UNDECIDED) verdict = one;
-    if (p->parts > patience) return NSVCD__TOO_LONG;
+    if (one == NSVCD__MEETS || one == NSVCD__TAKEN || p->work > p->limit)
+      return one;
+    if (one == NSVCD__UNDECIDED)
+      verdict = one;
+    if (p->parts > patience)
+      return NSVCD__TOO_LONG;
   }
   return verdict;
 }
@@ -9674,7 +10191,8 @@ static NSVCD__APART nsvcd__verdict nsvcd__settle_triangles(nsvcd__proof *p, size
       for (size_t n = 0; n < p->window; n++) {
         const uint32_t lanes = nsvcd__lanes_near(&p->moving_block, p->bounds[n], margin);
         p->work++;
-        if (p->work > p->limit) return NSVCD__UNDECIDED;
+        if (p->work > p->limit)
+          return NSVCD__UNDECIDED;
         for (size_t l = 0; l < p->moving_block.count; l++) {
           if (!(lanes >> l & 1)) {
             NSVCD__CERTIFY_BLOCK(p, i, j, l, &p->fixed_blocks[n], span, 0xffff, 0, NULL, 0);
@@ -9682,9 +10200,12 @@ static NSVCD__APART nsvcd__verdict nsvcd__settle_triangles(nsvcd__proof *p, size
           }
           const nsvcd__verdict row =
               nsvcd__settle_row(p, i, j, l, n, span, margin, u0, u1, patience);
-          if (row == NSVCD__MEETS || row == NSVCD__TOO_LONG || row == NSVCD__TAKEN) return row;
-          if (p->work > p->limit) return NSVCD__UNDECIDED;
-          if (row == NSVCD__UNDECIDED) verdict = row;
+          if (row == NSVCD__MEETS || row == NSVCD__TOO_LONG || row == NSVCD__TAKEN)
+            return row;
+          if (p->work > p->limit)
+            return NSVCD__UNDECIDED;
+          if (row == NSVCD__UNDECIDED)
+            verdict = row;
         }
       }
     }
@@ -9713,7 +10234,8 @@ static nsvcd__verdict nsvcd__settle_arc(nsvcd__proof *p, const nsvcd__item *item
   nsvcd__arc_at(p, first);
   for (double u = u0; left > 0;) {
     const double end = fmin(ends[left - 1], nsvcd__arc_limit(p));
-    if (!(u < end)) break;
+    if (!(u < end))
+      break;
     p->span = nsvcd__span_of_arc(p, first, u, end);
     if (nsvcd__hulls_are_apart(p, item->moving, item->fixed, &p->span)) {
       nsvcd__certify_item(p, &p->span, item);
@@ -9722,13 +10244,16 @@ static nsvcd__verdict nsvcd__settle_arc(nsvcd__proof *p, const nsvcd__item *item
       const size_t patience = may_halve ? NSVCD__PATIENCE_TO_PART : (size_t)-1;
       const nsvcd__verdict part =
           nsvcd__settle_triangles(p, item->moving, item->fixed, &p->span, u, end, patience);
-      if (part == NSVCD__MEETS || p->work > p->limit) return part;
-      if (part == NSVCD__TAKEN) continue;
+      if (part == NSVCD__MEETS || p->work > p->limit)
+        return part;
+      if (part == NSVCD__TAKEN)
+        continue;
       if (part == NSVCD__TOO_LONG) {
         ends[left++] = 0.5 * (u + end);
         continue;
       }
-      if (part == NSVCD__UNDECIDED) verdict = part;
+      if (part == NSVCD__UNDECIDED)
+        verdict = part;
     }
     u = end;
     left--;
@@ -9748,8 +10273,10 @@ static nsvcd__verdict nsvcd__settle_item(nsvcd__proof *p, const nsvcd__search *s
     const uint32_t next = end < knot ? end : knot;
     const double u1 = (double)(next - first) / (double)(knot - first);
     const nsvcd__verdict part = nsvcd__settle_arc(p, item, first, u0, u1);
-    if (part == NSVCD__MEETS || p->work > p->limit) return part;
-    if (part == NSVCD__UNDECIDED) verdict = part;
+    if (part == NSVCD__MEETS || p->work > p->limit)
+      return part;
+    if (part == NSVCD__UNDECIDED)
+      verdict = part;
     at = next;
   }
   return verdict;
@@ -9760,7 +10287,8 @@ static nsvcd__verdict nsvcd__settle_item(nsvcd__proof *p, const nsvcd__search *s
 static float nsvcd__least_height(nsvcd__proof *p, const nsvcd__span *span, size_t i, size_t s) {
   const uint32_t key = (uint32_t)(i * NSVCD__MAX_SEGMENTS + s);
   nsvcd__height *known = &p->heights[(NSVCD__GROUP * s + i % NSVCD__GROUP) % NSVCD__HEIGHTS];
-  if (known->plane == p->plane && known->key == key) return known->height;
+  if (known->plane == p->plane && known->key == key)
+    return known->height;
   float lowest = HUGE_VALF;
   NSVCD__EACH_SLICE(l) {
     const nsvcd__v3 n = nsvcd__v3_set(p->held);
@@ -9781,7 +10309,8 @@ static float nsvcd__least_height(nsvcd__proof *p, const nsvcd__span *span, size_
 // The height over p->held below which a resting patch is.
 static float nsvcd__greatest_height(nsvcd__proof *p, size_t j) {
   nsvcd__height *known = &p->rest_heights[j % NSVCD__REST_HEIGHTS];
-  if (known->plane == p->plane && known->key == j) return known->height;
+  if (known->plane == p->plane && known->key == j)
+    return known->height;
   float highest = HUGE_VALF;  // negated
   NSVCD__EACH_SLICE(l) {
     const nsvcd__v3 hull = nsvcd__facet_vertices(&p->fixed, j, 0, p->fixed.hull_counts[j], l);
@@ -9801,7 +10330,8 @@ static int nsvcd__held_again(nsvcd__proof *p, const nsvcd__search *search,
   const nsvcd__span *span = nsvcd__segment_span(p, search, item->segment);
   const float least = nsvcd__least_height(p, span, item->moving, item->segment);
   const float clearance = nsvcd__clearance_of(p) * nsvcd__f3_length(p->held);
-  if (!(least > nsvcd__greatest_height(p, item->fixed) + clearance)) return 0;
+  if (!(least > nsvcd__greatest_height(p, item->fixed) + clearance))
+    return 0;
   nsvcd__certify_item(p, span, item);
   return 1;
 }
@@ -9810,7 +10340,8 @@ static int nsvcd__held_again(nsvcd__proof *p, const nsvcd__search *search,
 static int nsvcd__item_is_parted(nsvcd__proof *p, const nsvcd__search *search,
                                  const nsvcd__item *item) {
   const nsvcd__span *span = nsvcd__segment_span(p, search, item->segment);
-  if (!nsvcd__hulls_are_apart(p, item->moving, item->fixed, span)) return 0;
+  if (!nsvcd__hulls_are_apart(p, item->moving, item->fixed, span))
+    return 0;
   nsvcd__certify_item(p, span, item);
   return 1;
 }
@@ -9831,7 +10362,8 @@ static void nsvcd__sort_items(const nsvcd__proof *p, nsvcd__item *items, size_t 
   for (size_t n = 1; n < count; n++) {
     const nsvcd__item item = items[n];
     size_t at = n;
-    for (; at > 0 && nsvcd__comes_first(p, &item, &items[at - 1]); at--) items[at] = items[at - 1];
+    for (; at > 0 && nsvcd__comes_first(p, &item, &items[at - 1]); at--)
+      items[at] = items[at - 1];
     items[at] = item;
   }
 }
@@ -9847,18 +10379,23 @@ static int nsvcd__matters(const nsvcd__proof *p, const nsvcd__search *search, si
 static NSVCD__APART void nsvcd__clip_segment(nsvcd__proof *p, nsvcd__search *search) {
   size_t s = 0;
   double u;
-  if (!(p->end < p->clipped_end)) return;
+  if (!(p->end < p->clipped_end))
+    return;
   p->clipped_end = p->end;
-  while (s < search->segments && !((double)search->begin[s + 1] > p->end)) s++;
-  if (s == search->segments || !((double)search->begin[s] < p->end)) return;
+  while (s < search->segments && !((double)search->begin[s + 1] > p->end))
+    s++;
+  if (s == search->segments || !((double)search->begin[s] < p->end))
+    return;
   nsvcd__segments *block = &search->blocks[s / NSVCD__LANES];
   const size_t l = s % NSVCD__LANES;
   const uint32_t first = nsvcd__arc_and_share(p->motion, p->end, &u);
   const nsvcd__placement at = nsvcd__placement_at(nsvcd__arc_at(p, first), u);
   const nsvcd__transform end = nsvcd__transform_of(&at);
   const float position[3] = {end.position.x, end.position.y, end.position.z};
-  for (size_t k = 0; k < 9; k++) block->turned[k][l] = end.rotation[k] - block->rotation[k][l];
-  for (size_t k = 0; k < 3; k++) block->moved[k][l] = position[k] - block->position[k][l];
+  for (size_t k = 0; k < 9; k++)
+    block->turned[k][l] = end.rotation[k] - block->rotation[k][l];
+  for (size_t k = 0; k < 3; k++)
+    block->moved[k][l] = position[k] - block->position[k][l];
   if (!(p->clipped >> s & 1)) {
     block->spread[l] += block->drift[l];
     block->bulge[l] *= 2;
@@ -9877,13 +10414,16 @@ static NSVCD__APART void nsvcd__clip_segment(nsvcd__proof *p, nsvcd__search *sea
 static NSVCD__APART nsvcd__verdict nsvcd__settle_items(nsvcd__proof *p, nsvcd__search *search) {
   nsvcd__sort_items(p, p->of.items, p->count);
   for (size_t n = 0; n < p->count; n++) {
-    if (p->work > p->limit) return NSVCD__UNDECIDED;
+    if (p->work > p->limit)
+      return NSVCD__UNDECIDED;
     nsvcd__clip_segment(p, search);
-    if (!nsvcd__matters(p, search, p->of.items[n].segment)) continue;
+    if (!nsvcd__matters(p, search, p->of.items[n].segment))
+      continue;
     if (p->clipped >> p->of.items[n].segment & 1 &&
         nsvcd__item_is_parted(p, search, &p->of.items[n]))
       continue;
-    if (nsvcd__settle_item(p, search, &p->of.items[n]) == NSVCD__MEETS) return NSVCD__MEETS;
+    if (nsvcd__settle_item(p, search, &p->of.items[n]) == NSVCD__MEETS)
+      return NSVCD__MEETS;
   }
   p->count = 0;
   return p->work > p->limit ? NSVCD__UNDECIDED : NSVCD__FREE;
@@ -9896,7 +10436,8 @@ static NSVCD__APART nsvcd__verdict nsvcd__sift_items(nsvcd__proof *p, nsvcd__sea
   size_t count = 0;
   nsvcd__clip_segment(p, search);
   for (size_t n = 0; n < p->fresh_count; n++) {
-    if (p->plane && nsvcd__held_again(p, search, &p->fresh[n])) continue;
+    if (p->plane && nsvcd__held_again(p, search, &p->fresh[n]))
+      continue;
     p->fresh[count++] = p->fresh[n];
   }
   p->fresh_count = 0;
@@ -9908,17 +10449,24 @@ static NSVCD__APART nsvcd__verdict nsvcd__sift_items(nsvcd__proof *p, nsvcd__sea
 
   for (size_t n = 0; n < count; n++) {
     nsvcd__item *item = &p->fresh[n];
-    if (p->work > p->limit) return NSVCD__UNDECIDED;
+    if (p->work > p->limit)
+      return NSVCD__UNDECIDED;
     nsvcd__clip_segment(p, search);
-    if (!nsvcd__matters(p, search, item->segment)) continue;
-    if (p->plane && nsvcd__held_again(p, search, item)) continue;
-    if (nsvcd__item_is_parted(p, search, item)) continue;
-    if (p->misses >= NSVCD__HOPE && nsvcd__triangles_are_parted(p, search, item)) continue;
-    if (!item->sought && nsvcd__seek_item(p, search, item) == NSVCD__MEETS) return NSVCD__MEETS;
+    if (!nsvcd__matters(p, search, item->segment))
+      continue;
+    if (p->plane && nsvcd__held_again(p, search, item))
+      continue;
+    if (nsvcd__item_is_parted(p, search, item))
+      continue;
+    if (p->misses >= NSVCD__HOPE && nsvcd__triangles_are_parted(p, search, item))
+      continue;
+    if (!item->sought && nsvcd__seek_item(p, search, item) == NSVCD__MEETS)
+      return NSVCD__MEETS;
     p->misses++;
     if (p->count == NSVCD__ITEMS) {
       const nsvcd__verdict verdict = nsvcd__settle_items(p, search);
-      if (verdict != NSVCD__FREE) return verdict;
+      if (verdict != NSVCD__FREE)
+        return verdict;
     }
     p->of.items[p->count++] = *item;
   }
@@ -9956,18 +10504,23 @@ static int nsvcd__ray_crosses(const nsvcd__ray *ray, const nsvcd__d3 *t, double 
   const double height = nsvcd__d3_dot(n, nsvcd__d3_sub(t[0], ray->from));
   const double size = nsvcd__d3_length(n);
   const int behind = height * slope < 0 && fabs(height) > margin * size;
-  if (behind) return 0;
+  if (behind)
+    return 0;
   if (nearest <= margin) {
     // Near the line of an edge, but is it near the triangle?
     nsvcd__d3 far_end = nsvcd__d3_add(ray->from, nsvcd__d3_scale(ray->direction, 4 * 1.6e7));
     nsvcd__nearest near_edge = {HUGE_VAL, {0, 0, 0}, {0, 0, 0}};
     for (size_t k = 0; k < 3; k++)
       nsvcd__edges_nearest(ray->from, far_end, t[k], t[(k + 1) % 3], &near_edge);
-    if (near_edge.square <= 4 * margin * margin) *unclear = 1;
-    if (least < 0 && most > 0) return 0;
+    if (near_edge.square <= 4 * margin * margin)
+      *unclear = 1;
+    if (least < 0 && most > 0)
+      return 0;
   }
-  if (least <= 0 && most >= 0) return 0;
-  if (fabs(height) <= margin * size) *unclear = 1;
+  if (least <= 0 && most >= 0)
+    return 0;
+  if (fabs(height) <= margin * size)
+    *unclear = 1;
   return slope > 0 ? 1 : slope < 0 ? -1 : 0;
 }
 
@@ -10010,10 +10563,13 @@ static uint32_t nsvcd__patches_on_ray(const nsvcd_body *b, const nsvcd__ray *ray
 // there is no room.
 static int nsvcd__is_new(nsvcd__proof *p, size_t *count, uint32_t number, int *unclear) {
   for (size_t k = 0; k < *count; k++) {
-    if (p->crossed[k] == number) return 0;
+    if (p->crossed[k] == number)
+      return 0;
   }
-  if (*count == NSVCD__CROSSED) *unclear = 1;
-  if (*count < NSVCD__CROSSED) p->crossed[(*count)++] = number;
+  if (*count == NSVCD__CROSSED)
+    *unclear = 1;
+  if (*count < NSVCD__CROSSED)
+    p->crossed[(*count)++] = number;
   return 1;
 }
 
@@ -10065,7 +10621,8 @@ static int nsvcd__crossings(nsvcd__proof *p, const nsvcd__facets *f, const nsvcd
     uint32_t patches = nsvcd__patches_on_ray(f->body, ray, g);
     for (; patches && !*unclear; patches &= patches - 1) {
       const size_t i = NSVCD__GROUP * g + nsvcd__lowest_bit(patches);
-      if (i >= f->body->points) break;
+      if (i >= f->body->points)
+        break;
       const double margin = (double)f->quanta[i] + ray->margin;
       const size_t end = f->first_triangle[i + 1];
       nsvcd__numbers numbers = nsvcd__numbers_of(f, i);
@@ -10077,10 +10634,12 @@ static int nsvcd__crossings(nsvcd__proof *p, const nsvcd__facets *f, const nsvcd
           const size_t listing = n + nsvcd__lowest_bit(lanes);
           nsvcd__d3 corners[3];
           nsvcd__read_number(&numbers, listing);
-          if (!numbers.encloses) continue;
+          if (!numbers.encloses)
+            continue;
           nsvcd__facet_triangle(f, i, listing, corners);
           const int crossing = nsvcd__ray_crosses(ray, corners, margin, unclear);
-          if (crossing && nsvcd__is_new(p, &count, numbers.number, unclear)) sum += crossing;
+          if (crossing && nsvcd__is_new(p, &count, numbers.number, unclear))
+            sum += crossing;
         }
       }
     }
@@ -10123,7 +10682,8 @@ static int nsvcd__patch_is_near(nsvcd__proof *p, const nsvcd__facets *f, size_t 
       nsvcd__d3 corners[3];
       nsvcd__facet_triangle(f, i, n + nsvcd__lowest_bit(lanes), corners);
       const nsvcd__nearest nearest = nsvcd__triangles_nearest(point, corners);
-      if (nearest.square <= limit * limit) return 1;
+      if (nearest.square <= limit * limit)
+        return 1;
     }
   }
   return 0;
@@ -10146,7 +10706,8 @@ static int nsvcd__surface_is_near(nsvcd__proof *p, const nsvcd__facets *f, nsvcd
     const nsvcd__spheres members = nsvcd__spheres_from(nsvcd__body_patches(b), first);
     for (uint32_t met = nsvcd__is_around(&here, members); met; met &= met - 1) {
       const size_t i = first + nsvcd__lowest_bit(met);
-      if (i < b->points && nsvcd__patch_is_near(p, f, i, place, tolerance, distance)) return 1;
+      if (i < b->points && nsvcd__patch_is_near(p, f, i, place, tolerance, distance))
+        return 1;
     }
   }
   return 0;
@@ -10164,7 +10725,8 @@ static int nsvcd__is_enclosed(nsvcd__proof *p, const nsvcd__facets *f, double un
   const nsvcd__d3 centre = nsvcd__d3_load(f->body->centre);
   const nsvcd__d3 off = nsvcd__d3_sub(place, centre);
   const double radius = (double)f->body->radius;
-  if (f->body->open || nsvcd__d3_dot(off, off) > 1.00001 * radius * radius) return 0;
+  if (f->body->open || nsvcd__d3_dot(off, off) > 1.00001 * radius * radius)
+    return 0;
   const size_t best = (off.x < 0 ? 1u : 0u) + (off.y < 0 ? 2u : 0u) + (off.z < 0 ? 4u : 0u);
   nsvcd__ray ray;
   ray.from = place;
@@ -10175,7 +10737,8 @@ static int nsvcd__is_enclosed(nsvcd__proof *p, const nsvcd__facets *f, double un
     ray.direction = nsvcd__d3_of(d[0], d[1], d[2]);
     ray.direction = nsvcd__d3_scale(ray.direction, 1 / nsvcd__d3_length(ray.direction));
     const int crossings = nsvcd__crossings(p, f, &ray, &unclear);
-    if (unclear) continue;
+    if (unclear)
+      continue;
     return crossings != 0;
   }
   p->lost = 1;
@@ -10205,7 +10768,8 @@ static int nsvcd__sticks_out(const nsvcd__facets *inner, const nsvcd__transform 
     }
     for (; out; out &= out - 1) {
       const size_t i = first + nsvcd__lowest_bit(out);
-      if (i < inner->body->points && inner->hull_counts[i]) return 1;
+      if (i < inner->body->points && inner->hull_counts[i])
+        return 1;
     }
   }
   return 0;
@@ -10220,7 +10784,8 @@ static uint32_t nsvcd__seeds_near(const nsvcd__facets *inner, size_t first,
   float lanes[3][NSVCD__LANES];
   for (size_t l = 0; l < NSVCD__LANES; l++) {
     const float *seed = inner->seeds + 3 * (first + (l < left ? l : 0));
-    for (size_t k = 0; k < 3; k++) lanes[k][l] = seed[k];
+    for (size_t k = 0; k < 3; k++)
+      lanes[k][l] = seed[k];
   }
   const nsvcd__f3 centre = nsvcd__f3_of(o->centre[0], o->centre[1], o->centre[2]);
   const float remote = nsvcd__f3_length(start->position) + scale * inner->body->extent + o->extent;
@@ -10271,21 +10836,25 @@ static int nsvcd__encloses_seeds(nsvcd__proof *p, const nsvcd__enclosure *e, siz
   uint32_t nearby = 0;
   for (size_t n = first; n < end; n++) {
     const size_t l = (n - first) % NSVCD__LANES;
-    if (l == 0) nearby = nsvcd__seeds_near(e->inner, n, &e->rounded, e->scale, e->outer);
-    if (!(nearby >> l & 1)) continue;
+    if (l == 0)
+      nearby = nsvcd__seeds_near(e->inner, n, &e->rounded, e->scale, e->outer);
+    if (!(nearby >> l & 1))
+      continue;
     if (p->work > p->limit) {
       p->lost = 1;
       return 0;
     }
     const nsvcd__d3 seed = nsvcd__d3_load(e->inner->seeds + 3 * n);
     const nsvcd__d3 seen = nsvcd__place_point(&e->start, seed);
-    if (!nsvcd__is_enclosed(p, e->outer, e->unit, seen)) continue;
+    if (!nsvcd__is_enclosed(p, e->outer, e->unit, seen))
+      continue;
     memset(&p->found, 0, sizeof p->found);
     p->found.point = e->inner_moves ? seen : seed;
     p->found.moving_triangle = NSVCD_NO_TRIANGLE;
     p->found.fixed_triangle = NSVCD_NO_TRIANGLE;
     p->within = 1;
-    if (!nsvcd__surface_is_near(p, e->outer, seen, p->tolerance / e->unit)) return 1;
+    if (!nsvcd__surface_is_near(p, e->outer, seen, p->tolerance / e->unit))
+      return 1;
   }
   return 0;
 }
@@ -10295,7 +10864,8 @@ static int nsvcd__encloses_seeds(nsvcd__proof *p, const nsvcd__enclosure *e, siz
 static int nsvcd__encloses_any(nsvcd__proof *p, const nsvcd__enclosure *e) {
   const nsvcd_body *inner = e->inner->body;
   const nsvcd_body *outer = e->outer->body;
-  if (outer->open) return 0;
+  if (outer->open)
+    return 0;
   if (e->inner->components == 1 && nsvcd__sticks_out(e->inner, &e->rounded, e->scale, outer))
     return 0;
   if (e->inner->components <= NSVCD__LANES)
@@ -10309,7 +10879,8 @@ static int nsvcd__encloses_any(nsvcd__proof *p, const nsvcd__enclosure *e) {
   nsvcd__walk walk;
   nsvcd__walk_begin(&walk, inner, nsvcd__is_around, &here);
   while (!p->lost && nsvcd__walk_next(&walk, &g)) {
-    if (nsvcd__encloses_seeds(p, e, e->inner->first_seed[g], e->inner->first_seed[g + 1])) return 1;
+    if (nsvcd__encloses_seeds(p, e, e->inner->first_seed[g], e->inner->first_seed[g + 1]))
+      return 1;
   }
   return 0;
 }
@@ -10342,8 +10913,10 @@ static NSVCD__APART int nsvcd__starts_within(nsvcd__proof *p) {
 // Segments that are searched now, and still matter.
 static uint64_t nsvcd__segments_that_matter(const nsvcd__proof *p, const nsvcd__search *search) {
   size_t s = search->segments;
-  if (!(p->first > 0) || !p->has_contact) return search->wanted;
-  while (s > 0 && !nsvcd__matters(p, search, s - 1)) s--;
+  if (!(p->first > 0) || !p->has_contact)
+    return search->wanted;
+  while (s > 0 && !nsvcd__matters(p, search, s - 1))
+    s--;
   return s == 64 ? search->wanted : search->wanted & (((uint64_t)1 << s) - 1);
 }
 
@@ -10377,12 +10950,14 @@ static void nsvcd__collect_items(nsvcd__proof *p, const nsvcd__search *search, s
       nsvcd__v_store(share + l, tau);
     }
     NSVCD__TALLY(tests, 1);
-    if (!met) continue;
+    if (!met)
+      continue;
     met = nsvcd__discs_meet(p, c, g, j, nsvcd__segment_span(p, search, s), search->remote, met);
     for (; met; met &= met - 1) {
       const size_t l = nsvcd__lowest_bit(met);
       const size_t i = NSVCD__GROUP * g + l;
-      if (p->moving.hull_counts[i] == 0) continue;
+      if (p->moving.hull_counts[i] == 0)
+        continue;
       const float radii = search->scale * own[l] + radius;
       const float depth = 1 - sqrtf(squares[l]) / (radii > 1e-30f ? radii : 1e-30f);
       const nsvcd__item item = {(uint16_t)i, (uint16_t)j, (uint16_t)s, 0, depth, share[l]};
@@ -10416,14 +10991,17 @@ static NSVCD__APART int nsvcd__collect(nsvcd__proof *p, nsvcd__search *search) {
       for (; p->met; p->met &= p->met - 1) {
         const size_t l = nsvcd__lowest_bit(p->met);
         const size_t j = NSVCD__GROUP * h + l;
-        if (p->fixed.hull_counts[j] == 0) continue;
+        if (p->fixed.hull_counts[j] == 0)
+          continue;
         nsvcd__pose_members(search, moving, g, p->met_in[l]);
         nsvcd__collect_items(p, search, g, j, &p->met_in[l]);
-        if (p->met_in[l]) return 1;
+        if (p->met_in[l])
+          return 1;
       }
       search->waiting &= search->waiting - 1;
       p->in_pair = 0;
-      if (p->fresh_count >= NSVCD__NEWS) return 1;
+      if (p->fresh_count >= NSVCD__NEWS)
+        return 1;
     }
     p->in_group = 0;
   }
@@ -10438,7 +11016,8 @@ static void nsvcd__patches_towards(const nsvcd__facets *f, nsvcd__f3 place, size
   const nsvcd_body *body = f->body;
   *first = 0;
   *end = body->points;
-  if (!nsvcd__is_large(body)) return;
+  if (!nsvcd__is_large(body))
+    return;
   size_t from = 0;
   size_t count = nsvcd__level_of(body->padded, nsvcd__level_count(body->padded) - 1).count;
   for (size_t k = nsvcd__level_count(body->padded); k-- > 0;) {
@@ -10450,7 +11029,8 @@ static void nsvcd__patches_towards(const nsvcd__facets *f, nsvcd__f3 place, size
       const nsvcd__f3 centre = nsvcd__f3_of(x[n], x[level.slots + n], x[2 * level.slots + n]);
       const float distance =
           nsvcd__f3_length(nsvcd__f3_sub(centre, place)) - x[3 * level.slots + n];
-      if (distance >= best) continue;
+      if (distance >= best)
+        continue;
       best = distance;
       nearest = n;
     }
@@ -10458,17 +11038,17 @@ static void nsvcd__patches_towards(const nsvcd__facets *f, nsvcd__f3 place, size
     count = NSVCD__GROUP;
   }
   for (size_t i = from; i < from + NSVCD__GROUP && i < body->points; i++) {
-    if (f->hull_counts[i] == 0) continue;
+    if (f->hull_counts[i] == 0)
+      continue;
     *first = from;
     *end = from + NSVCD__GROUP < body->points ? from + NSVCD__GROUP : body->points;
   }
 }
 
-// How near the bodies come for certain, and a little more: the least distance between the vertices
-// of two patches that are near each other at a time when the bodies are. Where `measure` begins.
-static NSVCD__APART double nsvcd__guess_clearance(nsvcd__proof *p, const nsvcd__search *search) {
-  const nsvcd__d3 centre = nsvcd__d3_load(p->moving.body->centre);
-  const nsvcd__d3 other = nsvcd__d3_load(p->fixed.body->centre);
+// The moving body's placement where a segment begins or ends, there where the centres are nearest.
+static nsvcd__placement nsvcd__nearest_placement(nsvcd__proof *p, const nsvcd__search *search) {
+  const nsvcd__d3 moving = nsvcd__d3_load(p->moving.body->centre);
+  const nsvcd__d3 fixed = nsvcd__d3_load(p->fixed.body->centre);
   double least = HUGE_VAL;
   nsvcd__placement nearest;
   memset(&nearest, 0, sizeof nearest);
@@ -10476,55 +11056,74 @@ static NSVCD__APART double nsvcd__guess_clearance(nsvcd__proof *p, const nsvcd__
     double u;
     const uint32_t first = nsvcd__arc_and_share(p->motion, (double)search->begin[s], &u);
     const nsvcd__placement at = nsvcd__placement_at(nsvcd__arc_at(p, first), u);
-    const double square = nsvcd__d3_gap(nsvcd__place_point(&at, centre), other);
-    if (square < least) nearest = at;
+    const double square = nsvcd__d3_gap(nsvcd__place_point(&at, moving), fixed);
+    if (square < least)
+      nearest = at;
     least = fmin(least, square);
   }
-  const nsvcd__transform pose = nsvcd__transform_of(&nearest);
-  const nsvcd__placement back = nsvcd__inverse_placement(&nearest, p->arc.scale);
-  nsvcd__f3 target = nsvcd__f3_round(other);
+  return nearest;
+}
+
+// Goes to the patch whose centre is nearest to a place, of those where `seen` lies, and to its
+// centre; stays where there is none. `pose` takes the facets to the places' frame; NULL: that is
+// theirs. `seen` is the place in the facets' own frame.
+static void nsvcd__to_nearest_patch(const nsvcd__facets *f, const nsvcd__transform *pose,
+                                    nsvcd__f3 seen, nsvcd__f3 place, size_t *patch,
+                                    nsvcd__f3 *centre) {
+  size_t first;
+  size_t end;
+  float least = HUGE_VALF;
+  nsvcd__patches_towards(f, seen, &first, &end);
+  for (size_t k = first; k < end; k++) {
+    nsvcd__f3 posed = nsvcd__facet_centre(f, k);
+    if (pose != NULL)
+      posed = nsvcd__f3_transform(pose, posed);
+    const float distance = nsvcd__f3_length(nsvcd__f3_sub(posed, place));
+    if (f->hull_counts[k] == 0 || distance >= least)
+      continue;
+    least = distance;
+    *centre = posed;
+    *patch = k;
+  }
+}
+
+// The least distance between the vertices of patch i of the moving body and patch j of the fixed.
+static double nsvcd__vertices_apart(const nsvcd__proof *p, const nsvcd__transform *pose, size_t i,
+                                    size_t j) {
+  float lanes[3][NSVCD__LANES];
+  float least = HUGE_VALF;
+  NSVCD__EACH_SLICE(l) {
+    const nsvcd__v3 moving = nsvcd__facet_vertices(&p->moving, i, 0, p->moving.hull_counts[i], l);
+    nsvcd__v3_store(lanes, l, nsvcd__v3_transform(pose, moving));
+  }
+  NSVCD__EACH_SLICE(l) {
+    const nsvcd__v3 fixed = nsvcd__facet_vertices(&p->fixed, j, 0, p->fixed.hull_counts[j], l);
+    for (size_t n = 0; n < NSVCD__LANES; n++) {
+      const nsvcd__v3 d = nsvcd__v3_sub(fixed, nsvcd__v3_set(nsvcd__lane_of(lanes, n)));
+      least = nsvcd__least_of(least, nsvcd__v_least(nsvcd__v3_dot(d, d)));
+    }
+  }
+  return sqrt((double)least);
+}
+
+// How near the bodies come for certain, and a little more: the least distance between the vertices
+// of two patches that are near each other at a time when the bodies are. Where `measure` begins.
+static NSVCD__APART double nsvcd__guess_clearance(nsvcd__proof *p, const nsvcd__search *search) {
+  const nsvcd__placement at = nsvcd__nearest_placement(p, search);
+  const nsvcd__transform pose = nsvcd__transform_of(&at);
+  const nsvcd__placement back = nsvcd__inverse_placement(&at, p->arc.scale);
+  nsvcd__f3 target = nsvcd__f3_round(nsvcd__d3_load(p->fixed.body->centre));
   size_t i = 0;
   size_t j = 0;
   for (size_t round = 0; round < 2; round++) {  // from one body to the other, and again
-    size_t first, end;
-    float best = HUGE_VALF;
     nsvcd__f3 on_moving = target;
     const nsvcd__d3 seen = nsvcd__place_point(&back, nsvcd__d3_widen(target));
-    nsvcd__patches_towards(&p->moving, nsvcd__f3_round(seen), &first, &end);
-    for (size_t k = first; k < end; k++) {
-      const nsvcd__f3 place = nsvcd__f3_transform(&pose, nsvcd__facet_centre(&p->moving, k));
-      const float distance = nsvcd__f3_length(nsvcd__f3_sub(place, target));
-      if (p->moving.hull_counts[k] == 0 || distance >= best) continue;
-      best = distance;
-      on_moving = place;
-      i = k;
-    }
-    best = HUGE_VALF;
-    nsvcd__patches_towards(&p->fixed, on_moving, &first, &end);
-    for (size_t k = first; k < end; k++) {
-      const nsvcd__f3 place = nsvcd__facet_centre(&p->fixed, k);
-      const float distance = nsvcd__f3_length(nsvcd__f3_sub(place, on_moving));
-      if (p->fixed.hull_counts[k] == 0 || distance >= best) continue;
-      best = distance;
-      target = place;
-      j = k;
-    }
+    nsvcd__to_nearest_patch(&p->moving, &pose, nsvcd__f3_round(seen), target, &i, &on_moving);
+    nsvcd__to_nearest_patch(&p->fixed, NULL, on_moving, on_moving, &j, &target);
   }
-  float lanes[3][NSVCD__LANES];
-  float least_square = HUGE_VALF;
-  NSVCD__EACH_SLICE(l) {
-    const nsvcd__v3 moving = nsvcd__facet_vertices(&p->moving, i, 0, p->moving.hull_counts[i], l);
-    nsvcd__v3_store(lanes, l, nsvcd__v3_transform(&pose, moving));
-  }
-  NSVCD__EACH_SLICE(l) {
-    const nsvcd__v3 rest = nsvcd__facet_vertices(&p->fixed, j, 0, p->fixed.hull_counts[j], l);
-    for (size_t n = 0; n < NSVCD__LANES; n++) {
-      const nsvcd__v3 d = nsvcd__v3_sub(rest, nsvcd__v3_set(nsvcd__lane_of(lanes, n)));
-      least_square = nsvcd__least_of(least_square, nsvcd__v_least(nsvcd__v3_dot(d, d)));
-    }
-  }
-  const float rounding = 4 * NSVCD__ROUNDING * (p->lengths + nsvcd__f3_length(pose.position));
-  return 1.0001 * sqrt((double)least_square) + (double)(rounding + 2 * nsvcd__quanta_of(p, i, j));
+  const float lengths = p->lengths + nsvcd__f3_length(pose.position);
+  const double rounding = (double)(4 * NSVCD__ROUNDING * lengths + 2 * nsvcd__quanta_of(p, i, j));
+  return 1.0001 * nsvcd__vertices_apart(p, &pose, i, j) + rounding;
 }
 
 // All that has been found in the segments that are wanted.
@@ -10553,7 +11152,8 @@ static nsvcd__verdict nsvcd__prove_tile_in_order(nsvcd__proof *p, nsvcd__search 
   nsvcd__verdict verdict = NSVCD__FREE;
   p->settled = 0;
   for (size_t s = 0; s < search->segments && verdict == NSVCD__FREE; s += NSVCD__IN_ORDER) {
-    if (!nsvcd__matters(p, search, s)) break;
+    if (!nsvcd__matters(p, search, s))
+      break;
     search->wanted = few << s;
     search->step = 0;
     search->waiting = 0;
@@ -10561,7 +11161,8 @@ static nsvcd__verdict nsvcd__prove_tile_in_order(nsvcd__proof *p, nsvcd__search 
     verdict = nsvcd__prove_segments(p, search);
     const size_t next =
         s + NSVCD__IN_ORDER < search->segments ? s + NSVCD__IN_ORDER : search->segments;
-    if (verdict == NSVCD__FREE && !p->has_contact) p->settled = (double)search->begin[next];
+    if (verdict == NSVCD__FREE && !p->has_contact)
+      p->settled = (double)search->begin[next];
   }
   return verdict;
 }
@@ -10574,7 +11175,8 @@ static nsvcd__verdict nsvcd__prove_in_order(nsvcd__proof *p, nsvcd__search *sear
   do {
     verdict = nsvcd__prove_tile_in_order(p, search);
   } while (verdict == NSVCD__FREE && nsvcd__search_next_tile(search, moving, fixed));
-  if (nsvcd__is_large(moving) || nsvcd__is_large(fixed)) p->settled = 0;
+  if (nsvcd__is_large(moving) || nsvcd__is_large(fixed))
+    p->settled = 0;
   return verdict;
 }
 
@@ -10587,21 +11189,26 @@ static nsvcd__verdict nsvcd__prove(nsvcd__proof *p, nsvcd__search *search) {
   }
   nsvcd__choose_segments(p->motion, search);
   p->first *= (double)p->motion->ticks;
-  if (nsvcd__starts_within(p)) return NSVCD__WITHIN;
-  if (p->measure > 0) p->clearance = nsvcd__guess_clearance(p, search);
+  if (nsvcd__starts_within(p))
+    return NSVCD__WITHIN;
+  if (p->measure > 0)
+    p->clearance = nsvcd__guess_clearance(p, search);
   nsvcd__cut_segments(p->motion, p->lengths, nsvcd__clearance_of(p), search);
   nsvcd__search_begin(p->moving.body, p->fixed.body, search);
   const nsvcd__verdict verdict =
       p->first > 0 ? nsvcd__prove_in_order(p, search) : nsvcd__prove_tiles(p, search);
-  if (p->lost) p->settled = 0;  // whether one is within the other, at the start
+  if (p->lost)
+    p->settled = 0;  // whether one is within the other, at the start
   p->lost |= verdict == NSVCD__UNDECIDED;
   // a doubt that ends in a contact is its beginning
   if (p->first > 0 && p->has_contact && p->unsure <= p->end) {
     p->found = p->doubt;
     p->end = p->unsure;
   }
-  if (verdict == NSVCD__MEETS) return verdict;
-  if (p->lost || p->unsure < p->end) return NSVCD__UNDECIDED;
+  if (verdict == NSVCD__MEETS)
+    return verdict;
+  if (p->lost || p->unsure < p->end)
+    return NSVCD__UNDECIDED;
   return p->within ? NSVCD__WITHIN : p->has_contact ? NSVCD__MEETS : NSVCD__FREE;
 }
 // A proof that knows nothing yet of its motion.
@@ -10622,7 +11229,8 @@ static void nsvcd__proof_restart(nsvcd__proof *p) {
   p->window = 0;
   p->parting = nsvcd__d3_of(0, 0, 0);
   p->next_placed = 0;
-  for (size_t n = 0; n < NSVCD__PLACED; n++) p->placed[n].ticks = 0;
+  for (size_t n = 0; n < NSVCD__PLACED; n++)
+    p->placed[n].ticks = 0;
 }
 
 // ---- leaving a contact
@@ -10644,8 +11252,10 @@ static void nsvcd__gather_contacts(nsvcd__proof *p, nsvcd__search *search) {
         nsvcd__collect(p, search) || nsvcd__search_next_tile(search, p->moving.body, p->fixed.body);
     for (size_t n = 0; n < p->fresh_count && p->touch_count < NSVCD__TOUCHES; n++) {
       const nsvcd__item *item = &p->fresh[n];
-      if (p->plane && nsvcd__held_again(p, search, item)) continue;
-      if (nsvcd__item_is_parted(p, search, item)) continue;
+      if (p->plane && nsvcd__held_again(p, search, item))
+        continue;
+      if (nsvcd__item_is_parted(p, search, item))
+        continue;
       (void)nsvcd__find_witness(p, item->moving, item->fixed, 0, 0);
     }
     p->fresh_count = 0;
@@ -10655,7 +11265,8 @@ static void nsvcd__gather_contacts(nsvcd__proof *p, nsvcd__search *search) {
 // How many touches a lift along n undoes.
 static size_t nsvcd__undone(const nsvcd__proof *p, nsvcd__d3 n) {
   size_t count = 0;
-  for (size_t k = 0; k < p->touch_count; k++) count += nsvcd__undoes(p, n, &p->of.touches[k]) != 0;
+  for (size_t k = 0; k < p->touch_count; k++)
+    count += nsvcd__undoes(p, n, &p->of.touches[k]) != 0;
   return count;
 }
 
@@ -10670,7 +11281,8 @@ static size_t nsvcd__best_lift(const nsvcd__proof *p, nsvcd__d3 *best) {
     for (size_t i = 0; i < 3; i++) {
       const int known = most > 0 && nsvcd__d3_dot(normals[i], *best) > 0.99999;
       const size_t count = known ? 0 : nsvcd__undone(p, normals[i]);
-      if (count > most) *best = normals[i];
+      if (count > most)
+        *best = normals[i];
       most = count > most ? count : most;
     }
   }
@@ -10684,7 +11296,8 @@ static size_t nsvcd__best_lift(const nsvcd__proof *p, nsvcd__d3 *best) {
     const double side = nsvcd__d3_dot(n, nsvcd__d3_add(normals[0], normals[1])) < 0 ? -1 : 1;
     const nsvcd__d3 outward = nsvcd__d3_scale(n, side);
     const size_t count = nsvcd__d3_dot(n, n) > 0.5 ? nsvcd__undone(p, outward) : 0;
-    if (count > most) *best = outward;
+    if (count > most)
+      *best = outward;
     most = count > most ? count : most;
   }
   return most;
@@ -10694,11 +11307,13 @@ static size_t nsvcd__best_lift(const nsvcd__proof *p, nsvcd__d3 *best) {
 static int nsvcd__choose_lifts(nsvcd__proof *p) {
   while (p->touch_count > 0) {
     nsvcd__d3 best = {0, 0, 0};
-    if (p->normal_count == NSVCD__LIFTS || nsvcd__best_lift(p, &best) == 0) return 0;
+    if (p->normal_count == NSVCD__LIFTS || nsvcd__best_lift(p, &best) == 0)
+      return 0;
     p->normals[p->normal_count++] = best;
     size_t left = 0;
     for (size_t k = 0; k < p->touch_count; k++) {
-      if (!nsvcd__undoes(p, best, &p->of.touches[k])) p->of.touches[left++] = p->of.touches[k];
+      if (!nsvcd__undoes(p, best, &p->of.touches[k]))
+        p->of.touches[left++] = p->of.touches[k];
     }
     p->touch_count = left;
   }
@@ -10714,10 +11329,13 @@ static nsvcd__d3 nsvcd__lift_off(const nsvcd__proof *p) {
     for (size_t k = 0; k < p->normal_count; k++) {
       const double lacks = p->skin - nsvcd__d3_dot(lift, p->normals[k]);
       most = fmax(most, lacks);
-      if (lacks > 0) lift = nsvcd__d3_add(lift, nsvcd__d3_scale(p->normals[k], lacks));
+      if (lacks > 0)
+        lift = nsvcd__d3_add(lift, nsvcd__d3_scale(p->normals[k], lacks));
     }
-    if (nsvcd__d3_length(lift) > 4 * p->skin) break;
-    if (most <= 0.01 * p->skin) return lift;
+    if (nsvcd__d3_length(lift) > 4 * p->skin)
+      break;
+    if (most <= 0.01 * p->skin)
+      return lift;
   }
   return nsvcd__d3_of(0, 0, 0);
 }
@@ -10835,7 +11453,8 @@ static void nsvcd__clearances(const nsvcd_body *body, float (*places)[NSVCD__PLA
   const nsvcd__sphere near_to = nsvcd__cover_places(places);
   nsvcd__walk walk;
   size_t g;
-  for (size_t k = 0; k < NSVCD__PLACES; k++) out[k] = NSVCD__AMPLE * NSVCD__AMPLE;
+  for (size_t k = 0; k < NSVCD__PLACES; k++)
+    out[k] = NSVCD__AMPLE * NSVCD__AMPLE;
   nsvcd__walk_begin(&walk, body, nsvcd__may_be_close, &near_to);
   while (nsvcd__walk_next(&walk, &g)) {
     NSVCD__EACH_SLICE(l) {
@@ -10911,7 +11530,8 @@ static float nsvcd__winding_number(const nsvcd_body *body, const float *point) {
                    point, lanes);
   }
   // in this order, whatever the slices
-  for (size_t l = 0; l < NSVCD__LANES; l++) total += lanes[l];
+  for (size_t l = 0; l < NSVCD__LANES; l++)
+    total += lanes[l];
   return total / 12.5663706f;
 }
 
@@ -10920,13 +11540,15 @@ static float nsvcd__winding_number(const nsvcd_body *body, const float *point) {
 static int nsvcd__is_inside(const nsvcd_body *inner, const nsvcd_body *outer, float scale,
                             const float *rotation, const float *position) {
   float places[3][NSVCD__PLACES], clearance[NSVCD__PLACES], point[3];
-  if (outer->open) return 0;
+  if (outer->open)
+    return 0;
   for (size_t k = 0; k < NSVCD__PLACES; k++) {
     // neighbours are stored together: equal steps spread over it
     const size_t i = k * inner->points / NSVCD__PLACES;
     const float p[3] = {nsvcd__body_x(inner)[i], nsvcd__body_y(inner)[i], nsvcd__body_z(inner)[i]};
     nsvcd__mul33_vec(rotation, p, point);
-    for (size_t n = 0; n < 3; n++) places[n][k] = scale * point[n] + position[n];
+    for (size_t n = 0; n < 3; n++)
+      places[n][k] = scale * point[n] + position[n];
   }
   // One that sticks out of the outer body's sphere says it all.
   uint32_t within = 0;
@@ -10936,12 +11558,16 @@ static int nsvcd__is_inside(const nsvcd_body *inner, const nsvcd_body *outer, fl
       off[n] = nsvcd__v_sub(nsvcd__v_load(places[n] + l), nsvcd__v_set(outer->centre[n]));
     within |= nsvcd__v_le(nsvcd__v_length3(off), nsvcd__v_set(outer->radius)) << l;
   }
-  if (within != 0xffff) return 0;
+  if (within != 0xffff)
+    return 0;
   nsvcd__clearances(outer, places, clearance);
   size_t best = 0;
-  for (size_t k = 1; k < NSVCD__PLACES; k++) best = clearance[k] > clearance[best] ? k : best;
-  if (clearance[best] < NSVCD__CLEARANCE * NSVCD__CLEARANCE) return 0;
-  for (size_t n = 0; n < 3; n++) point[n] = places[n][best];
+  for (size_t k = 1; k < NSVCD__PLACES; k++)
+    best = clearance[k] > clearance[best] ? k : best;
+  if (clearance[best] < NSVCD__CLEARANCE * NSVCD__CLEARANCE)
+    return 0;
+  for (size_t n = 0; n < 3; n++)
+    point[n] = places[n][best];
   return fabsf(nsvcd__winding_number(outer, point)) > 0.5f;  // -1 where the mesh is inside out
 }
 
@@ -10952,7 +11578,8 @@ static int nsvcd__is_contained(const nsvcd_body *moving, const nsvcd_body *fixed
   float back[9], from[3];
   nsvcd__transpose33(rotation, back);
   nsvcd__mul33_vec(back, position, from);
-  for (size_t k = 0; k < 3; k++) from[k] = -from[k] / scale;
+  for (size_t k = 0; k < 3; k++)
+    from[k] = -from[k] / scale;
   return nsvcd__is_inside(moving, fixed, scale, rotation, position) ||
          nsvcd__is_inside(fixed, moving, 1 / scale, back, from);
 }
@@ -11030,7 +11657,8 @@ static void nsvcd__v_half_rotation(const nsvcd__v *q, nsvcd__v *w) {
   const nsvcd__v square = nsvcd__v_dot3(q, q);
   nsvcd__v ratio = nsvcd__v_set(0.02237216f);  // the series of asin(s) / s, to 2e-6 for s < 0.5
   static const float series[5] = {0.03038194f, 0.04464286f, 0.075f, 0.16666667f, 1};
-  for (size_t k = 0; k < 5; k++) ratio = nsvcd__v_fma(ratio, square, nsvcd__v_set(series[k]));
+  for (size_t k = 0; k < 5; k++)
+    ratio = nsvcd__v_fma(ratio, square, nsvcd__v_set(series[k]));
   // over 60 degrees: a motion of few samples
   uint32_t wide = nsvcd__v_le(nsvcd__v_set(0.25f), square);
   if (wide) {
@@ -11044,7 +11672,8 @@ static void nsvcd__v_half_rotation(const nsvcd__v *q, nsvcd__v *w) {
     }
     ratio = nsvcd__v_load(r);
   }
-  for (size_t k = 0; k < 3; k++) w[k] = nsvcd__v_mul(nsvcd__v_mul(sign, ratio), q[k]);
+  for (size_t k = 0; k < 3; k++)
+    w[k] = nsvcd__v_mul(nsvcd__v_mul(sign, ratio), q[k]);
 }
 
 // A track's poses at `count` times t in [0,1], 1 to SLICE, one per lane: unit quaternions q (4),
@@ -11055,7 +11684,8 @@ static void nsvcd__track_poses_at(const nsvcd__track *track, const float *t, siz
   float to[7][NSVCD__SLICE] = {{0}};
   float share[NSVCD__SLICE] = {0};
   const size_t last = track->count > 1 ? track->count - 2 : 0;
-  for (size_t l = count; l < NSVCD__SLICE; l++) from[6][l] = 1;
+  for (size_t l = count; l < NSVCD__SLICE; l++)
+    from[6][l] = 1;
   for (size_t l = 0; l < count; l++) {
     const float at = track->count > 1 ? t[l] * (float)(last + 1) : 0;
     const size_t k = (size_t)at < last ? (size_t)at : last;
@@ -11100,7 +11730,8 @@ static void nsvcd__v_poses_at(const nsvcd__motion *motion, const float *t, size_
   if (motion->fixed_moves) {
     nsvcd__v fixed_p[3];
     nsvcd__track_poses_at(&motion->fixed, t, count, motion->fixed_position, at.fixed_q, fixed_p);
-    for (size_t k = 0; k < 3; k++) at.p[k] = nsvcd__v_sub(at.p[k], fixed_p[k]);
+    for (size_t k = 0; k < 3; k++)
+      at.p[k] = nsvcd__v_sub(at.p[k], fixed_p[k]);
   }
   nsvcd__v_seen(motion, &at, q, p);
 }
@@ -11145,7 +11776,8 @@ static NSVCD__APART void nsvcd__pairs_of(const nsvcd_body *moving, const nsvcd_b
   nsvcd__v_mul33_vec(r, c, x2);
   nsvcd__v_matrix(q, pairs->rotation);
   nsvcd__v_mul33_vec(pairs->rotation, c, pairs->p1);
-  for (size_t k = 0; k < 3; k++) q1[k] = nsvcd__v_sub(nsvcd__v_set(0), q1[k]);
+  for (size_t k = 0; k < 3; k++)
+    q1[k] = nsvcd__v_sub(nsvcd__v_set(0), q1[k]);
   nsvcd__v_quat_mul(q2, q1, q);
   nsvcd__v_half_rotation(q, pairs->w);
   for (size_t k = 0; k < 3; k++) {
@@ -11165,7 +11797,8 @@ static NSVCD__APART void nsvcd__pairs_of(const nsvcd_body *moving, const nsvcd_b
 // Removes from a its part along the unit vector e.
 static void nsvcd__v_across(const nsvcd__v *a, const nsvcd__v *e, nsvcd__v *out) {
   const nsvcd__v along = nsvcd__v_sub(nsvcd__v_set(0), nsvcd__v_dot3(a, e));
-  for (size_t k = 0; k < 3; k++) out[k] = nsvcd__v_fma(along, e[k], a[k]);
+  for (size_t k = 0; k < 3; k++)
+    out[k] = nsvcd__v_fma(along, e[k], a[k]);
 }
 
 // a over its length, where that exceeds `least`; elsewhere `instead`.
@@ -11208,7 +11841,8 @@ static nsvcd__v nsvcd__v_pair_frame(const nsvcd__v *d, const nsvcd__v *lean, nsv
   if (nsvcd__v_le(nsvcd__v_length3(ref),
                   nsvcd__v_set(1e-7f))) {  // somewhere: then the coordinate axis farthest from e1
     nsvcd__v size[3], axis[3];
-    for (size_t k = 0; k < 3; k++) size[k] = nsvcd__v_max(e1[k], nsvcd__v_sub(zero, e1[k]));
+    for (size_t k = 0; k < 3; k++)
+      size[k] = nsvcd__v_max(e1[k], nsvcd__v_sub(zero, e1[k]));
     axis[0] = nsvcd__v_pick(size[0], nsvcd__v_min(size[1], size[2]), one, zero);
     axis[1] = nsvcd__v_mul(nsvcd__v_sub(one, axis[0]), nsvcd__v_pick(size[1], size[2], one, zero));
     axis[2] = nsvcd__v_sub(one, nsvcd__v_add(axis[0], axis[1]));
@@ -11219,14 +11853,16 @@ static nsvcd__v nsvcd__v_pair_frame(const nsvcd__v *d, const nsvcd__v *lean, nsv
   nsvcd__v_cross(e1, e2, e3);
   const nsvcd__v side =
       nsvcd__v_pick(nsvcd__v_set(-NSVCD__SIDE), nsvcd__v_dot3(lean, e3), one, minus);
-  for (size_t k = 0; k < 3; k++) e3[k] = nsvcd__v_mul(side, e3[k]);
+  for (size_t k = 0; k < 3; k++)
+    e3[k] = nsvcd__v_mul(side, e3[k]);
   return side;
 }
 
 // The unit of length: r1 + r2; for points without extent whatever keeps the inputs finite.
 static nsvcd__v nsvcd__v_reach(const nsvcd__pairs *pairs) {
   nsvcd__v line[3];
-  for (size_t k = 0; k < 3; k++) line[k] = nsvcd__v_sub(pairs->p2[k], pairs->p1[k]);
+  for (size_t k = 0; k < 3; k++)
+    line[k] = nsvcd__v_sub(pairs->p2[k], pairs->p1[k]);
   const nsvcd__v least = nsvcd__v_fma(
       nsvcd__v_set(1e-6f), nsvcd__v_add(nsvcd__v_length3(line), nsvcd__v_length3(pairs->v)),
       nsvcd__v_set(1e-30f));
@@ -11255,7 +11891,8 @@ static void nsvcd__views_of(const nsvcd__pairs *pairs, size_t count, nsvcd__view
       mean[3 + k][l] = (float)pairs->z2[l][NSVCD_W_CHANNELS * k];
     }
   }
-  for (size_t k = 0; k < 3; k++) mean1[k] = nsvcd__v_mul(step, nsvcd__v_load(mean[k]));
+  for (size_t k = 0; k < 3; k++)
+    mean1[k] = nsvcd__v_mul(step, nsvcd__v_load(mean[k]));
   nsvcd__v_mul33_vec(pairs->rotation, mean1, turned);
   for (size_t k = 0; k < 3; k++) {
     const nsvcd__v mean2 = nsvcd__v_mul(step, nsvcd__v_load(mean[3 + k]));
@@ -11304,7 +11941,8 @@ static NSVCD__APART void nsvcd__scenes_of(const nsvcd__pairs *pairs, size_t coun
   const nsvcd__v speed2 = nsvcd__v_dot3(v, v);
   nsvcd__v tau = nsvcd__v_div(nsvcd__v_dot3(d, v), nsvcd__v_add(speed2, nsvcd__v_set(1e-6f)));
   tau = nsvcd__v_clamp(tau, -1, 1);  // nearest approach of the centres, in half intervals
-  for (size_t k = 0; k < 3; k++) closest[k] = nsvcd__v_sub(d[k], nsvcd__v_mul(tau, v[k]));
+  for (size_t k = 0; k < 3; k++)
+    closest[k] = nsvcd__v_sub(d[k], nsvcd__v_mul(tau, v[k]));
   nsvcd__v_store(scene->facts[0], nsvcd__v_length3(d));
   nsvcd__v_store(scene->facts[1], nsvcd__v_max(view.k1, view.k2));
   nsvcd__v_store(scene->facts[2], nsvcd__v_length3(closest));
@@ -11336,8 +11974,10 @@ static NSVCD__APART void nsvcd__invariants(const nsvcd__pairs *pairs, size_t cou
   for (size_t l = 0; l < count; l++, x += NSVCD__DECODER_IN) {
     float *scalars = x + 2 * NSVCD__VECTORS;
     nsvcd__rotate_latent(pairs->z2[l], wigner, l, scene.keep >> l & 1 ? 1 : 0, x);
-    for (size_t k = 0; k < NSVCD__FACTS; k++) scalars[2 * NSVCD_W_SCALARS + k] = scene.facts[k][l];
-    for (size_t k = NSVCD__INPUTS; k < NSVCD__DECODER_IN; k++) x[k] = 0;
+    for (size_t k = 0; k < NSVCD__FACTS; k++)
+      scalars[2 * NSVCD_W_SCALARS + k] = scene.facts[k][l];
+    for (size_t k = NSVCD__INPUTS; k < NSVCD__DECODER_IN; k++)
+      x[k] = 0;
   }
 }
 
@@ -11364,16 +12004,19 @@ NSVCD__INLINE void nsvcd__layer_tile(const float *w, const float *bias, size_t i
   NSVCD__UNROLL
   for (size_t p = 0; p < rows; p++) {
     NSVCD__UNROLL
-    for (size_t t = 0; t < tiles; t++) sum[p][t] = nsvcd__v_load(bias + NSVCD__SLICE * t);
+    for (size_t t = 0; t < tiles; t++)
+      sum[p][t] = nsvcd__v_load(bias + NSVCD__SLICE * t);
   }
   for (size_t i = 0; i < inputs; i++, w += outputs) {
     NSVCD__UNROLL
-    for (size_t t = 0; t < tiles; t++) column[t] = nsvcd__v_load(w + NSVCD__SLICE * t);
+    for (size_t t = 0; t < tiles; t++)
+      column[t] = nsvcd__v_load(w + NSVCD__SLICE * t);
     NSVCD__UNROLL
     for (size_t p = 0; p < rows; p++) {
       const nsvcd__v input = nsvcd__v_set(x[from * p + i]);
       NSVCD__UNROLL
-      for (size_t t = 0; t < tiles; t++) sum[p][t] = nsvcd__v_fma(input, column[t], sum[p][t]);
+      for (size_t t = 0; t < tiles; t++)
+        sum[p][t] = nsvcd__v_fma(input, column[t], sum[p][t]);
     }
   }
   NSVCD__UNROLL
@@ -11462,7 +12105,8 @@ NSVCD__INLINE void nsvcd__dot_tile(const int8_t *w, size_t inputs, size_t output
   NSVCD__UNROLL
   for (size_t p = 0; p < 4; p++) {
     NSVCD__UNROLL
-    for (size_t t = 0; t < tiles; t++) sum[p][t] = _mm512_setzero_si512();
+    for (size_t t = 0; t < tiles; t++)
+      sum[p][t] = _mm512_setzero_si512();
   }
   for (size_t i = 0; i < inputs; i += 4, w += 4 * outputs) {
     NSVCD__UNROLL
@@ -11486,9 +12130,12 @@ NSVCD__INLINE void nsvcd__dot_tile(const int8_t *w, size_t inputs, size_t output
 static void nsvcd__dot_bytes(const int8_t *w, size_t inputs, size_t outputs, const uint8_t *bytes,
                              int32_t *dot) {
   size_t o = 0;
-  for (; o + 64 <= outputs; o += 64) nsvcd__dot_tile(w + 4 * o, inputs, outputs, bytes, dot + o, 4);
-  for (; o + 32 <= outputs; o += 32) nsvcd__dot_tile(w + 4 * o, inputs, outputs, bytes, dot + o, 2);
-  if (o < outputs) nsvcd__dot_tile(w + 4 * o, inputs, outputs, bytes, dot + o, 1);
+  for (; o + 64 <= outputs; o += 64)
+    nsvcd__dot_tile(w + 4 * o, inputs, outputs, bytes, dot + o, 4);
+  for (; o + 32 <= outputs; o += 32)
+    nsvcd__dot_tile(w + 4 * o, inputs, outputs, bytes, dot + o, 2);
+  if (o < outputs)
+    nsvcd__dot_tile(w + 4 * o, inputs, outputs, bytes, dot + o, 1);
 }
 static void nsvcd__from_dots(const int32_t *dot, const float *sum, const float *scale,
                              const float *bias, float step, size_t outputs, int relu, float *y) {
@@ -11505,9 +12152,11 @@ static void nsvcd__from_dots(const int32_t *dot, const float *sum, const float *
 #define NSVCD__BYTE_ROWS 1
 static float nsvcd__to_bytes(const float *x, size_t inputs, uint8_t *bytes) {
   float most = 1e-20f;
-  for (size_t i = 0; i < inputs; i++) most = fabsf(x[i]) > most ? fabsf(x[i]) : most;
+  for (size_t i = 0; i < inputs; i++)
+    most = fabsf(x[i]) > most ? fabsf(x[i]) : most;
   const float inverse = 127 / most;
-  for (size_t i = 0; i < inputs; i++) bytes[i] = (uint8_t)(int32_t)(x[i] * inverse + 128.5f);
+  for (size_t i = 0; i < inputs; i++)
+    bytes[i] = (uint8_t)(int32_t)(x[i] * inverse + 128.5f);
   return most / 127;
 }
 static void nsvcd__dot_bytes(const int8_t *w, size_t inputs, size_t outputs, const uint8_t *bytes,
@@ -11565,7 +12214,8 @@ static NSVCD__APART void nsvcd__decoder_by_bytes(const nsvcd__decoder *decoder, 
     x = y;
     from = NSVCD__WIDEST;
   }
-  for (size_t p = 0; p < count; p++) logits[p] = x[from * p];
+  for (size_t p = 0; p < count; p++)
+    logits[p] = x[from * p];
 }
 #endif  // NSVCD_NO_INT8
 
@@ -11592,7 +12242,8 @@ static NSVCD__APART void nsvcd__decoder_by_floats(const nsvcd__decoder *decoder,
     from = NSVCD__WIDEST;
     to = to == a ? b : a;
   }
-  for (size_t p = 0; p < count; p++) logits[p] = x[from * p];
+  for (size_t p = 0; p < count; p++)
+    logits[p] = x[from * p];
 }
 #endif  // NSVCD_NO_FLOAT
 
@@ -11666,9 +12317,11 @@ NSVCDDEF const char *nsvcd_status_string(nsvcd_status status) {
 // Returns 0 for any other recall.
 static int nsvcd__threshold(size_t model, float recall, size_t points1, size_t points2,
                             float *threshold) {
-  if (!nsvcd__is_finite(recall)) return 0;
+  if (!nsvcd__is_finite(recall))
+    return 0;
   for (size_t k = 0; k < NSVCD_W_RECALLS; k++) {
-    if (recall < nsvcd_w_recall[k] || recall > nsvcd_w_recall[k]) continue;
+    if (recall < nsvcd_w_recall[k] || recall > nsvcd_w_recall[k])
+      continue;
     float size = 0.5f * (log2f((float)points1) + log2f((float)points2)) - 5;
     size = size < 0 ? 0 : size > NSVCD_W_SIZES - 1 ? NSVCD_W_SIZES - 1 : size;
     const size_t row = size < NSVCD_W_SIZES - 1 ? (size_t)size : NSVCD_W_SIZES - 2;
@@ -11693,7 +12346,8 @@ static void nsvcd__decode(const nsvcd_body *moving, const nsvcd_body *fixed,
     const size_t unused = nsvcd__round_up(rows, NSVCD__ROW_STEP) - rows;
     memset(x + NSVCD__DECODER_IN * rows, 0, unused * NSVCD__DECODER_IN * sizeof *x);
     nsvcd__decoder_logits(decoder, x, rows, int8, logits);
-    for (size_t k = 0; k < rows; k++) candidates[first + k]->score = logits[k];
+    for (size_t k = 0; k < rows; k++)
+      candidates[first + k]->score = logits[k];
   }
 }
 
@@ -11818,7 +12472,8 @@ static nsvcd_result nsvcd__settings_of(const nsvcd_sweep_options *options, size_
     return NSVCD_ERROR_ARGUMENT;
   const size_t model =
       (size_t)(o->model ? o->model : NSVCD__LARGEST_MODEL) - (size_t)NSVCD_MODEL_TINY;
-  if (!nsvcd_w_decoders[model].layers) return NSVCD_ERROR_ARGUMENT;  // compiled out
+  if (!nsvcd_w_decoders[model].layers)
+    return NSVCD_ERROR_ARGUMENT;  // compiled out
   settings->pairs = o->pairs ? o->pairs : NSVCD_DEFAULT_PAIRS;
   settings->shortlist = model == 0 ? settings->pairs : NSVCD__SHORTLIST * settings->pairs;
   settings->decoder = &nsvcd_w_decoders[model];
@@ -11829,7 +12484,8 @@ static nsvcd_result nsvcd__settings_of(const nsvcd_sweep_options *options, size_
   settings->int8 = o->precision == NSVCD_PRECISION_INT8;
 #endif
 #ifdef NSVCD_NO_INT8
-  if (settings->int8) return NSVCD_ERROR_ARGUMENT;
+  if (settings->int8)
+    return NSVCD_ERROR_ARGUMENT;
 #endif
   return nsvcd__threshold(model, o->recall, points1, points2, &settings->threshold)
              ? NSVCD_OK
@@ -11849,13 +12505,17 @@ static int nsvcd__score(const nsvcd__task *ask, nsvcd__candidates *kept, size_t 
   nsvcd__candidate *batch[NSVCD__BATCH];
   size_t count = 0;
   size_t left = 0;
-  for (size_t k = 0; k < kept->count; k++) left += kept->items[k].score <= NSVCD__NO_SCORE;
-  if (left < least || left == 0) return 0;
+  for (size_t k = 0; k < kept->count; k++)
+    left += kept->items[k].score <= NSVCD__NO_SCORE;
+  if (left < least || left == 0)
+    return 0;
   left = left < most ? left : most;
   for (size_t k = kept->count; left > 0; k--) {
-    if (kept->items[k - 1].score > NSVCD__NO_SCORE) continue;
+    if (kept->items[k - 1].score > NSVCD__NO_SCORE)
+      continue;
     batch[count++] = &kept->items[k - 1];
-    if (count < NSVCD__BATCH && count < left) continue;
+    if (count < NSVCD__BATCH && count < left)
+      continue;
     NSVCD__TALLY(ranked, count);
     nsvcd__decode(ask->moving, ask->fixed, &ask->motion, batch, count, ask->settings.ranker,
                   ask->settings.int8);
@@ -11871,7 +12531,8 @@ static void nsvcd__best_first(nsvcd__candidate *items, size_t count, size_t of) 
     size_t best = k;
     for (size_t i = k + 1; i < of; i++) {
       const float d = items[i].score - items[best].score;
-      if (d > 0 || (d >= 0 && nsvcd__is_shallower(&items[best], &items[i]))) best = i;
+      if (d > 0 || (d >= 0 && nsvcd__is_shallower(&items[best], &items[i])))
+        best = i;
     }
     const nsvcd__candidate first = items[best];
     items[best] = items[k];
@@ -11907,7 +12568,8 @@ static int nsvcd__is_clear(const nsvcd__task *ask, const nsvcd__candidates *kept
     most = kept->items[k].score > most->score ? &kept->items[k] : most;
   const int yes = most->score > NSVCD__CLEAR_LOGIT + (threshold > 0 ? threshold : 0);
   const int no = all && nsvcd__is_harmless(most, threshold);
-  if (yes || no) nsvcd__answer_with(ask, most, ask->settings.ranker, answer);
+  if (yes || no)
+    nsvcd__answer_with(ask, most, ask->settings.ranker, answer);
   return yes || no;
 }
 
@@ -11917,19 +12579,22 @@ static void nsvcd__judge(const nsvcd__task *ask, nsvcd__candidates *kept, nsvcd_
   const nsvcd__settings *settings = &ask->settings;
   size_t count = kept->count < settings->pairs ? kept->count : settings->pairs;
   nsvcd__best_first(kept->items, count, kept->count);
-  while (count > 1 && nsvcd__is_harmless(&kept->items[count - 1], settings->threshold)) count--;
+  while (count > 1 && nsvcd__is_harmless(&kept->items[count - 1], settings->threshold))
+    count--;
   for (size_t first = 0; first < count && answer->logit < NSVCD__CLEAR_LOGIT;
        first += NSVCD__PORTION) {
     nsvcd__candidate *batch[NSVCD__PORTION] = {NULL};
     const size_t size = count - first < NSVCD__PORTION ? count - first : NSVCD__PORTION;
-    for (size_t k = 0; k < size; k++) batch[k] = &kept->items[first + k];
+    for (size_t k = 0; k < size; k++)
+      batch[k] = &kept->items[first + k];
     if (settings->decoder != settings->ranker) {
       NSVCD__TALLY(judged, size);
       nsvcd__decode(ask->moving, ask->fixed, &ask->motion, batch, size, settings->decoder,
                     settings->int8);
     }
     for (size_t k = 0; k < size; k++) {
-      if (first + k > 0 && !(batch[k]->score - settings->threshold > answer->logit)) continue;
+      if (first + k > 0 && !(batch[k]->score - settings->threshold > answer->logit))
+        continue;
       nsvcd__answer_with(ask, batch[k], settings->decoder, answer);
     }
   }
@@ -11950,11 +12615,14 @@ static NSVCD__APART int nsvcd__collides_again(const nsvcd__task *ask, const nsvc
   nsvcd__candidates_start(&kept, query->kept, NSVCD__PORTION);
   nsvcd__search_patch(&query->broad_phase, ask->moving, hint->moving / NSVCD__GROUP, ask->fixed,
                       hint->fixed, &kept);
-  if (!nsvcd__score(ask, &kept, 1, kept.count)) return 0;
+  if (!nsvcd__score(ask, &kept, 1, kept.count))
+    return 0;
   answer->candidates = kept.total;
   answer->status = kept.total > settings->pairs ? NSVCD_STATUS_LIMIT : NSVCD_STATUS_OK;
-  if (nsvcd__is_clear(ask, &kept, 0, answer)) return 1;
-  if (settings->decoder == settings->ranker) return 0;
+  if (nsvcd__is_clear(ask, &kept, 0, answer))
+    return 1;
+  if (settings->decoder == settings->ranker)
+    return 0;
   nsvcd__judge(ask, &kept, answer);
   return answer->logit >= NSVCD__CLEAR_LOGIT;
 }
@@ -11975,17 +12643,21 @@ static NSVCD__APART void nsvcd__search_and_judge(nsvcd__task *ask, nsvcd__query 
     more = nsvcd__search_step(search, ask->moving, ask->fixed, &kept);
     // A deep collision shows early. What is scored now need not be scored later, so that looking
     // costs little.
-    if (!more || left < worth || !nsvcd__score(ask, &kept, worth, worth)) continue;
+    if (!more || left < worth || !nsvcd__score(ask, &kept, worth, worth))
+      continue;
     left -= worth;
     clear = nsvcd__is_clear(ask, &kept, 0, answer);
-    if (worth == NSVCD__FIRST_LOOK) worth = NSVCD__BATCH;
+    if (worth == NSVCD__FIRST_LOOK)
+      worth = NSVCD__BATCH;
   }
   answer->candidates = kept.total;
   if (kept.total > 0)
     answer->status = kept.total > ask->settings.pairs ? NSVCD_STATUS_LIMIT : NSVCD_STATUS_OK;
-  if (clear || kept.count == 0) return;
+  if (clear || kept.count == 0)
+    return;
   nsvcd__score(ask, &kept, 1, kept.count);
-  if (!nsvcd__is_clear(ask, &kept, 1, answer)) nsvcd__judge(ask, &kept, answer);
+  if (!nsvcd__is_clear(ask, &kept, 1, answer))
+    nsvcd__judge(ask, &kept, answer);
 }
 
 // Asks the network about a motion that has been prepared. hint: NULL, or that of a batch.
@@ -11994,11 +12666,13 @@ static void nsvcd__answer_by_network(nsvcd__task *ask, nsvcd__query *query, nsvc
   // checked before
   (void)nsvcd__settings_of(ask->options, ask->moving->points, ask->fixed->points, &ask->settings);
   nsvcd__answer_free(answer);
-  if (nsvcd__motion_is_far(&ask->motion, ask->lengths)) return;
+  if (nsvcd__motion_is_far(&ask->motion, ask->lengths))
+    return;
   nsvcd__cut_motion(&ask->motion, ask->lengths, &query->broad_phase);
   if (!(hint && hint->known && nsvcd__collides_again(ask, hint, query, answer))) {
     nsvcd__answer_free(answer);
-    if (hint && hint->known) hint->known = ++hint->misled < 2;
+    if (hint && hint->known)
+      hint->known = ++hint->misled < 2;
     nsvcd__search_and_judge(ask, query, answer);
   }
   if (hint && answer->logit >= NSVCD__CLEAR_LOGIT) {
@@ -12124,7 +12798,8 @@ static void nsvcd__answer_by_proof(nsvcd__task *ask, nsvcd__query *query, nsvcd_
   p->gathers = 0;
   p->work = 0;
   nsvcd__proof_restart(p);
-  if (p->skin > 0) nsvcd__lift_motion(p, &query->broad_phase);
+  if (p->skin > 0)
+    nsvcd__lift_motion(p, &query->broad_phase);
   nsvcd__verdict verdict = nsvcd__prove(p, &query->broad_phase);
   if (verdict == NSVCD__MEETS && p->first > 0 && p->found.tick > 0 && p->end <= 0) {
     verdict = nsvcd__prove_start(p, &query->broad_phase);
@@ -12132,7 +12807,8 @@ static void nsvcd__answer_by_proof(nsvcd__task *ask, nsvcd__query *query, nsvcd_
 
   nsvcd__answer_free(answer);
   answer->work = p->work;
-  if (p->has_contact || verdict == NSVCD__WITHIN) nsvcd__answer_with_contact(p, answer);
+  if (p->has_contact || verdict == NSVCD__WITHIN)
+    nsvcd__answer_with_contact(p, answer);
   nsvcd__answer_with_bounds(p, verdict, answer);
   if (p->measure > 0 && verdict != NSVCD__WITHIN && verdict != NSVCD__UNDECIDED) {
     const double asked = (double)ask->clearance;
@@ -12161,8 +12837,10 @@ static void nsvcd__turn_answer(nsvcd_answer *answer) {
   answer->patch_b = patch;
   answer->triangle_a = answer->triangle_b;
   answer->triangle_b = triangle;
-  for (size_t k = 0; k < 3; k++) answer->normal[k] = 0 - answer->normal[k];
-  for (size_t k = 0; k < 3; k++) answer->lift[k] = 0 - answer->lift[k];
+  for (size_t k = 0; k < 3; k++)
+    answer->normal[k] = 0 - answer->normal[k];
+  for (size_t k = 0; k < 3; k++)
+    answer->lift[k] = 0 - answer->lift[k];
 }
 
 // Is something asked that the network knows nothing of?
@@ -12195,11 +12873,13 @@ static void nsvcd__answer_task(nsvcd__task *ask, nsvcd__query *query, void *hint
   }
 #endif
 #ifndef NSVCD_NO_NETWORK
-  if (!proven) nsvcd__answer_by_network(ask, query, (nsvcd__hint *)hint, answer);
+  if (!proven)
+    nsvcd__answer_by_network(ask, query, (nsvcd__hint *)hint, answer);
 #endif
   (void)hint;
   (void)proven;
-  if (ask->swapped) nsvcd__turn_answer(answer);
+  if (ask->swapped)
+    nsvcd__turn_answer(answer);
 }
 
 // The method that answers, or DEFAULT where there is none.
@@ -12213,8 +12893,10 @@ static nsvcd_method nsvcd__method_of(const nsvcd_body *moving, const nsvcd_body 
 #ifndef NSVCD_NO_NETWORK
   can_ask = moving->weights_id && fixed->weights_id;
 #endif
-  if (can_prove && wanted != NSVCD_METHOD_NETWORK) return NSVCD_METHOD_PROOF;
-  if (can_ask && wanted != NSVCD_METHOD_PROOF) return NSVCD_METHOD_NETWORK;
+  if (can_prove && wanted != NSVCD_METHOD_NETWORK)
+    return NSVCD_METHOD_PROOF;
+  if (can_ask && wanted != NSVCD_METHOD_PROOF)
+    return NSVCD_METHOD_NETWORK;
   (void)moving;
   (void)fixed;
   return NSVCD_METHOD_DEFAULT;
@@ -12226,12 +12908,16 @@ static nsvcd_method nsvcd__method_of(const nsvcd_body *moving, const nsvcd_body 
 static int nsvcd__is_swapped(const nsvcd_mover *a, const nsvcd_mover *b) {
   const size_t count_a = nsvcd__pose_count(a);
   const size_t count_b = nsvcd__pose_count(b);
-  if ((count_a > 1) != (count_b > 1)) return count_b > 1;
+  if ((count_a > 1) != (count_b > 1))
+    return count_b > 1;
   const float size_a = (a->scale > 0 ? a->scale : 1) * a->body->extent;
   const float size_b = (b->scale > 0 ? b->scale : 1) * b->body->extent;
-  if (size_a < size_b || size_b < size_a) return size_b < size_a;
-  if (a->body->checksum != b->body->checksum) return b->body->checksum < a->body->checksum;
-  if (count_a != count_b) return count_b < count_a;
+  if (size_a < size_b || size_b < size_a)
+    return size_b < size_a;
+  if (a->body->checksum != b->body->checksum)
+    return b->body->checksum < a->body->checksum;
+  if (count_a != count_b)
+    return count_b < count_a;
   const nsvcd_pose *poses_a = a->poses ? a->poses : &nsvcd__at_origin;
   const nsvcd_pose *poses_b = b->poses ? b->poses : &nsvcd__at_origin;
   return memcmp(poses_b, poses_a, count_a * sizeof *poses_a) < 0;
@@ -12247,11 +12933,15 @@ static int nsvcd__is_itself(const nsvcd_question *question) {
 
 static nsvcd_result nsvcd__question_check(const nsvcd_question *question) {
   nsvcd_result result = nsvcd__mover_check(&question->a);
-  if (!result) result = nsvcd__mover_check(&question->b);
-  if (result) return result;
-  if (nsvcd__is_itself(question)) return NSVCD_ERROR_SAME;
+  if (!result)
+    result = nsvcd__mover_check(&question->b);
+  if (result)
+    return result;
+  if (nsvcd__is_itself(question))
+    return NSVCD_ERROR_SAME;
   const nsvcd_sweep_options *options = &question->options;
-  if ((unsigned)options->method > (unsigned)NSVCD_METHOD_NETWORK) return NSVCD_ERROR_ARGUMENT;
+  if ((unsigned)options->method > (unsigned)NSVCD_METHOD_NETWORK)
+    return NSVCD_ERROR_ARGUMENT;
   if (options->segments > NSVCD__MAX_SEGMENTS || options->segments % NSVCD__LANES)
     return NSVCD_ERROR_ARGUMENT;
   const float lengths[4] = {options->tolerance, options->clearance, options->measure,
@@ -12259,11 +12949,13 @@ static nsvcd_result nsvcd__question_check(const nsvcd_question *question) {
   for (size_t k = 0; k < 4; k++) {
     const int fits =
         nsvcd__is_finite(lengths[k]) && lengths[k] >= 0 && lengths[k] <= NSVCD_MAX_COORDINATE;
-    if (!fits) return NSVCD_ERROR_TOLERANCE;
+    if (!fits)
+      return NSVCD_ERROR_TOLERANCE;
   }
   if (!nsvcd__is_finite(options->first) || options->first < 0 || options->first > 1)
     return NSVCD_ERROR_TOLERANCE;
-  if (options->first > 0 && options->measure > 0) return NSVCD_ERROR_ARGUMENT;
+  if (options->first > 0 && options->measure > 0)
+    return NSVCD_ERROR_ARGUMENT;
   if (nsvcd__needs_proof(options) && options->method == NSVCD_METHOD_NETWORK)
     return NSVCD_ERROR_ARGUMENT;
   const nsvcd_method wanted = nsvcd__needs_proof(options) ? NSVCD_METHOD_PROOF : options->method;
@@ -12333,7 +13025,8 @@ static nsvcd__needs nsvcd__needs_of(const nsvcd_question *question) {
 }
 
 NSVCDDEF size_t nsvcd_sweep_workspace_size(const nsvcd_question *question) {
-  if (question && nsvcd__question_check(question)) return 0;
+  if (question && nsvcd__question_check(question))
+    return 0;
   const nsvcd__needs needs = question ? nsvcd__needs_of(question) : nsvcd__needs_most();
   return nsvcd__query_layout(&needs, NULL);
 }
@@ -12342,7 +13035,8 @@ NSVCDDEF size_t nsvcd_sweep_workspace_size(const nsvcd_question *question) {
 static NSVCD__APART nsvcd_result nsvcd__check(const nsvcd_question *question, const void *workspace,
                                               size_t workspace_size) {
   const nsvcd_result result = nsvcd__question_check(question);
-  if (result) return result;
+  if (result)
+    return result;
   const nsvcd__needs needs = nsvcd__needs_of(question);
   const size_t size = nsvcd__query_layout(&needs, NULL);
   const int fits = workspace && workspace_size >= size && nsvcd__is_aligned(workspace);
@@ -12368,10 +13062,12 @@ NSVCDDEF nsvcd_result nsvcd_sweep(const nsvcd_question *question, void *workspac
 NSVCDDEF nsvcd_result nsvcd_sweep_batch(const nsvcd_question *questions, size_t count,
                                         void *workspace, size_t workspace_size,
                                         nsvcd_answer *answers) {
-  if (count > 0 && (!questions || !answers)) return NSVCD_ERROR_ARGUMENT;
+  if (count > 0 && (!questions || !answers))
+    return NSVCD_ERROR_ARGUMENT;
   for (size_t k = 0; k < count; k++) {
     const nsvcd_result result = nsvcd__check(&questions[k], workspace, workspace_size);
-    if (result) return result;
+    if (result)
+      return result;
   }
   void *with = NULL;
 #ifndef NSVCD_NO_NETWORK
@@ -12383,7 +13079,8 @@ NSVCDDEF nsvcd_result nsvcd_sweep_batch(const nsvcd_question *questions, size_t 
 #ifndef NSVCD_NO_NETWORK
     const int other = k > 0 && (questions[k].a.body != questions[k - 1].a.body ||
                                 questions[k].b.body != questions[k - 1].b.body);
-    if (other) hint.known = hint.misled = 0;
+    if (other)
+      hint.known = hint.misled = 0;
 #endif
     nsvcd__answer_task(&query->task, query, with, &answers[k]);
   }
@@ -12409,7 +13106,8 @@ NSVCDDEF nsvcd_result nsvcd_sweep_batch(const nsvcd_question *questions, size_t 
 // that force, and the torque arm x f.
 
 static void nsvcd__add_scaled3(float scale, const float *a, float *out) {
-  for (size_t k = 0; k < 3; k++) out[k] += scale * a[k];
+  for (size_t k = 0; k < 3; k++)
+    out[k] += scale * a[k];
 }
 static void nsvcd__add_cross3(const float *a, const float *b, float *out) {  // out += a x b
   out[0] += a[1] * b[2] - a[2] * b[1];
@@ -12420,7 +13118,8 @@ static void nsvcd__add_cross3(const float *a, const float *b, float *out) {  // 
 // mean of all directions.
 static void nsvcd__by_length3(const float *a, float by, float *by_a) {
   const float length = nsvcd__length3(a);
-  if (length > 1e-6f) nsvcd__add_scaled3(by / length, a, by_a);
+  if (length > 1e-6f)
+    nsvcd__add_scaled3(by / length, a, by_a);
 }
 static void nsvcd__first_lanes(const nsvcd__v *a, size_t count, float *out) {
   float lanes[NSVCD__SLICE];
@@ -12478,14 +13177,16 @@ static NSVCD__APART void nsvcd__decoder_gradient(const nsvcd__decoder *decoder, 
     float *y = values[l];
     memcpy(y, nsvcd_w_decoder_bias + output, outputs * sizeof *y);
     for (size_t i = 0; i < inputs; i++) {
-      if (!(in[i] < 0 || in[i] > 0)) continue;  // about half of them
+      if (!(in[i] < 0 || in[i] > 0))
+        continue;  // about half of them
       const nsvcd__v input = nsvcd__v_set(in[i]);
       for (size_t o = 0; o < outputs; o += NSVCD__SLICE) {
         const nsvcd__v w = nsvcd__weights_at(weights, output, outputs, i, o);
         nsvcd__v_store(y + o, nsvcd__v_fma(input, w, nsvcd__v_load(y + o)));
       }
     }
-    for (size_t o = 0; o < outputs; o++) y[o] = y[o] > 0 ? y[o] : 0;
+    for (size_t o = 0; o < outputs; o++)
+      y[o] = y[o] > 0 ? y[o] : 0;
     weights += inputs * outputs;
     output += outputs;
   }
@@ -12494,7 +13195,8 @@ static NSVCD__APART void nsvcd__decoder_gradient(const nsvcd__decoder *decoder, 
     const size_t outputs = decoder->sizes[l + 1];
     for (size_t i = 0; i < inputs; i++) {
       by_inputs[i] = 0;
-      if (l > 0 && !(values[l - 1][i] > 0)) continue;
+      if (l > 0 && !(values[l - 1][i] > 0))
+        continue;
       NSVCD__EACH_SLICE(s) {
         nsvcd__v sum = nsvcd__v_set(0);
         for (size_t o = s; o < outputs; o += NSVCD__LANES) {
@@ -12503,10 +13205,12 @@ static NSVCD__APART void nsvcd__decoder_gradient(const nsvcd__decoder *decoder, 
         }
         nsvcd__v_store(lanes + s, sum);
       }
-      for (size_t k = 0; k < NSVCD__LANES; k++) by_inputs[i] += lanes[k];
+      for (size_t k = 0; k < NSVCD__LANES; k++)
+        by_inputs[i] += lanes[k];
     }
     memcpy(by, by_inputs, inputs * sizeof *by);
-    if (l == 0) break;
+    if (l == 0)
+      break;
     weights -= decoder->sizes[l - 1] * inputs;
     output -= inputs;
   }
@@ -12559,7 +13263,8 @@ static void nsvcd__by_facts(const nsvcd__view *view, const float *facts, const f
   const float scale = 1 / (nsvcd__dot3(view->v, view->v) + 1e-6f);
   float closest[3];
   float by_closest[3] = {0};
-  for (size_t k = 0; k < 3; k++) closest[k] = view->d[k] - tau * view->v[k];
+  for (size_t k = 0; k < 3; k++)
+    closest[k] = view->d[k] - tau * view->v[k];
   nsvcd__by_length3(view->d, by[0], by_d);
   nsvcd__by_length3(closest, by[2], by_closest);
   nsvcd__add_scaled3(1, by_closest, by_d);
@@ -12592,8 +13297,10 @@ static void nsvcd__by_frame(const nsvcd__view *view, const float *torque, float 
   float across[3];
   float line[3] = {view->lean[0] + 1e-6f, view->lean[1], view->lean[2]};
   float by_e1[3] = {0};
-  for (size_t k = 0; k < 3; k++) a[k] = NSVCD__LEAN * view->lean[k] + view->v[k];
-  for (size_t k = 0; k < 3; k++) across[k] = a[k] - nsvcd__dot3(a, e1) * e1[k];
+  for (size_t k = 0; k < 3; k++)
+    a[k] = NSVCD__LEAN * view->lean[k] + view->v[k];
+  for (size_t k = 0; k < 3; k++)
+    across[k] = a[k] - nsvcd__dot3(a, e1) * e1[k];
   const int vanishes = nsvcd__length3(across) <= 1e-7f;
   if (vanishes) {  // axis 2 came from a coordinate axis
     const float x = fabsf(e1[0]);
@@ -12688,8 +13395,10 @@ static float nsvcd__by_poses(const nsvcd__track *track, float t, const float *fo
   float qa[4], qb[4], n[3], moved[3];
   const size_t arcs = track->count - 1;
   if (arcs == 0) {
-    if (gradient) nsvcd__add_scaled3(1, force, gradient);
-    if (gradient) nsvcd__add_scaled3(1, torque, gradient + 3);
+    if (gradient)
+      nsvcd__add_scaled3(1, force, gradient);
+    if (gradient)
+      nsvcd__add_scaled3(1, torque, gradient + 3);
     return 0;
   }
   const float at = t * (float)arcs;
@@ -12700,11 +13409,13 @@ static float nsvcd__by_poses(const nsvcd__track *track, float t, const float *fo
   nsvcd__quat_normalize(a->rotation, qa);
   nsvcd__quat_normalize(b->rotation, qb);
   const float h = nsvcd__quat_half_angle(qa, qb, nsvcd__is_opposed(a->rotation, b->rotation));
-  for (size_t i = 0; i < 3; i++) n[i] = qa[3] * qb[i] - qb[3] * qa[i];
+  for (size_t i = 0; i < 3; i++)
+    n[i] = qa[3] * qb[i] - qb[3] * qa[i];
   nsvcd__add_cross3(qa, qb, n);  // sin(h) times the axis of B A^-1
   const float sine = nsvcd__length3(n);
   const float inverse = sine > 0 ? 1 / sine : 0;
-  for (size_t i = 0; i < 3; i++) n[i] *= inverse;
+  for (size_t i = 0; i < 3; i++)
+    n[i] *= inverse;
   const float wa = h > 1e-3f ? sinf((1 - u) * h) * inverse : 1 - u;
   const float wb = h > 1e-3f ? sinf(u * h) * inverse : u;
   if (gradient) {
@@ -12763,8 +13474,10 @@ static void nsvcd__instants_of(const nsvcd__task *ask, const nsvcd__candidate *c
   const size_t i = candidate->moving;
   size_t a = 0;
   size_t b = 0;
-  while (!(t0 < time[a + 1]) && time[a + 1] < 1) a++;
-  while (!(t1 <= time[b + 1]) && time[b + 1] < 1) b++;
+  while (!(t0 < time[a + 1]) && time[a + 1] < 1)
+    a++;
+  while (!(t1 <= time[b + 1]) && time[b + 1] < 1)
+    b++;
   const float t[7] = {t0, t1, 0.5f * (t0 + t1), time[a], time[a + 1], time[b], time[b + 1]};
   memcpy(at->t, t, sizeof t);
   at->enters = time[a] < t0 && t0 < time[a + 1];
@@ -12797,7 +13510,8 @@ static float nsvcd__by_instant(const nsvcd__task *ask, const nsvcd__instants *at
                                const float *force, const float *torque,
                                const nsvcd__gradients *gradients) {
   float sum[3] = {0};
-  if (torque) nsvcd__add_scaled3(1, torque, sum);
+  if (torque)
+    nsvcd__add_scaled3(1, torque, sum);
   nsvcd__add_cross3(at->arm[l], force, sum);
   return nsvcd__by_motion(&ask->motion, at->t[l], force, sum, gradients);
 }
@@ -12818,7 +13532,8 @@ static void nsvcd__by_contact(const nsvcd__task *ask, const nsvcd__instants *at,
   nsvcd__add_scaled3(tau, chord, y);
   const float least = 1e-3f * nsvcd__length3(y) * nsvcd__length3(chord);
   const float dot = fabsf(nsvcd__dot3(y, chord));
-  if (!(least > 0)) return;
+  if (!(least > 0))
+    return;
   const float rate = (l == 0 ? length : -length) * by_time / (dot > least ? dot : least);
   for (size_t k = 0; k < 3; k++) {
     before[k] = (1 - tau) * rate * y[k];
@@ -12864,7 +13579,8 @@ static void nsvcd__gradient(const nsvcd__task *ask, const nsvcd__decisive *decis
   nsvcd__add_scaled3(-0.5f, across, by.p1);
   const float h = nsvcd__length3(w);
   const float half = 0.5f * (h > 1e-3f ? h / sinf(h) : 1);
-  for (size_t k = 0; k < 3; k++) n[k] = h > 0 ? w[k] / h : 0;
+  for (size_t k = 0; k < 3; k++)
+    n[k] = h > 0 ? w[k] / h : 0;
   nsvcd__add_turned3(by.w, n, -0.5f, -half, -h, torque0);
   nsvcd__add_turned3(by.w, n, 0.5f, half, h, torque1);
 
@@ -12873,19 +13589,24 @@ static void nsvcd__gradient(const nsvcd__task *ask, const nsvcd__decisive *decis
       0.5f * by_middle + nsvcd__by_instant(ask, &at, 0, enter, torque0, gradients);
   const float by_exit =
       0.5f * by_middle + nsvcd__by_instant(ask, &at, 1, leave, torque1, gradients);
-  if (at.enters) nsvcd__by_contact(ask, &at, 0, centre, by_enter, gradients);
-  if (at.leaves) nsvcd__by_contact(ask, &at, 1, centre, by_exit, gradients);
+  if (at.enters)
+    nsvcd__by_contact(ask, &at, 0, centre, by_enter, gradients);
+  if (at.leaves)
+    nsvcd__by_contact(ask, &at, 1, centre, by_exit, gradients);
 }
 
 NSVCDDEF nsvcd_result nsvcd_sweep_gradient(const nsvcd_question *question, void *workspace,
                                            size_t workspace_size, nsvcd_answer *answer,
                                            float *gradient_a, float *gradient_b) {
-  if (!question || !answer || (!gradient_a && !gradient_b)) return NSVCD_ERROR_ARGUMENT;
-  if (question->options.method == NSVCD_METHOD_PROOF) return NSVCD_ERROR_ARGUMENT;
+  if (!question || !answer || (!gradient_a && !gradient_b))
+    return NSVCD_ERROR_ARGUMENT;
+  if (question->options.method == NSVCD_METHOD_PROOF)
+    return NSVCD_ERROR_ARGUMENT;
   nsvcd_question by_network = *question;
   by_network.options.method = NSVCD_METHOD_NETWORK;
   const nsvcd_result result = nsvcd__check(&by_network, workspace, workspace_size);
-  if (result) return result;
+  if (result)
+    return result;
 
   nsvcd__query *query = nsvcd__query_open(&by_network, workspace);
   nsvcd__task *ask = &query->task;
@@ -12894,8 +13615,10 @@ NSVCDDEF nsvcd_result nsvcd_sweep_gradient(const nsvcd_question *question, void 
   nsvcd__answer_task(ask, query, NULL, answer);
   const nsvcd__gradients out = {ask->swapped ? gradient_b : gradient_a,
                                 ask->swapped ? gradient_a : gradient_b};
-  if (out.moving) memset(out.moving, 0, 6 * ask->motion.moving.count * sizeof(float));
-  if (out.fixed) memset(out.fixed, 0, 6 * ask->motion.fixed.count * sizeof(float));
+  if (out.moving)
+    memset(out.moving, 0, 6 * ask->motion.moving.count * sizeof(float));
+  if (out.fixed)
+    memset(out.fixed, 0, 6 * ask->motion.fixed.count * sizeof(float));
   if (answer->status == NSVCD_STATUS_OK || answer->status == NSVCD_STATUS_LIMIT) {
     nsvcd__gradient(ask, &decisive, query->broad_phase.time, &out);
   }
@@ -12921,8 +13644,10 @@ static void nsvcd__spline_weights(size_t via, double t, size_t derivative, doubl
   const size_t left = (size_t)at < last ? (size_t)at : last - 1;
   const double u = at - (double)left;
   double scale = 1;
-  for (size_t k = 0; k < derivative; k++) scale *= (double)last;
-  for (size_t k = 0; k <= last; k++) weights[k] = 0;
+  for (size_t k = 0; k < derivative; k++)
+    scale *= (double)last;
+  for (size_t k = 0; k <= last; k++)
+    weights[k] = 0;
   for (size_t end = 0; end < 2; end++) {
     const size_t point = left + end;
     double value[3];
@@ -12931,12 +13656,14 @@ static void nsvcd__spline_weights(size_t via, double t, size_t derivative, doubl
       value[k] = 0;
       for (size_t n = derivative; n < 6; n++, power *= u) {
         double factor = basis[3 * end + k][n];
-        for (size_t d = 0; d < derivative; d++) factor *= (double)(n - d);
+        for (size_t d = 0; d < derivative; d++)
+          factor *= (double)(n - d);
         value[k] += factor * power;
       }
     }
     weights[point] += value[0];
-    if (point == 0 || point == last) continue;  // at rest
+    if (point == 0 || point == last)
+      continue;  // at rest
     weights[point + 1] += 0.5 * value[1] + value[2];
     weights[point - 1] += value[2] - 0.5 * value[1];
     weights[point] -= 2 * value[2];
@@ -12946,11 +13673,13 @@ static void nsvcd__spline_weights(size_t via, double t, size_t derivative, doubl
 NSVCDDEF void nsvcd_spline(const float *control, size_t via_points, size_t joints, float t,
                            size_t derivative, float *out) {
   double weights[NSVCD_MAX_VIA_POINTS + 2];
-  if (via_points > NSVCD_MAX_VIA_POINTS) return;
+  if (via_points > NSVCD_MAX_VIA_POINTS)
+    return;
   nsvcd__spline_weights(via_points, (double)t, derivative, weights);
   for (size_t j = 0; j < joints; j++) {
     double sum = 0;
-    for (size_t k = 0; k < via_points + 2; k++) sum += weights[k] * (double)control[k * joints + j];
+    for (size_t k = 0; k < via_points + 2; k++)
+      sum += weights[k] * (double)control[k * joints + j];
     out[j] = (float)sum;
   }
 }
@@ -12969,7 +13698,8 @@ static void nsvcd__add_mean_square(size_t via, size_t derivative, double weight,
       nsvcd__spline_weights(via, ((double)piece + nodes[n]) / (double)(via + 1), derivative, w);
       for (size_t i = 0; i < count; i++) {
         const double scaled = weight * shares[n] / (double)(via + 1) * w[i];
-        for (size_t j = 0; j < count; j++) form[i * count + j] += scaled * w[j];
+        for (size_t j = 0; j < count; j++)
+          form[i * count + j] += scaled * w[j];
       }
     }
   }
@@ -12981,22 +13711,28 @@ static void nsvcd__cholesky(const double *a, size_t n, double *l) {
   for (size_t i = 0; i < n; i++) {
     for (size_t j = 0; j < n; j++) {
       double sum = a[i * n + j];
-      for (size_t k = 0; k < (i < j ? i : j); k++) sum -= l[i * n + k] * l[j * n + k];
-      if (j < i) l[i * n + j] = sum / l[j * n + j];
-      if (j == i) l[i * n + i] = sqrt(sum > 1e-9 * a[i * n + i] ? sum : 1e-9 * a[i * n + i]);
-      if (j > i) l[i * n + j] = 0;
+      for (size_t k = 0; k < (i < j ? i : j); k++)
+        sum -= l[i * n + k] * l[j * n + k];
+      if (j < i)
+        l[i * n + j] = sum / l[j * n + j];
+      if (j == i)
+        l[i * n + i] = sqrt(sum > 1e-9 * a[i * n + i] ? sum : 1e-9 * a[i * n + i]);
+      if (j > i)
+        l[i * n + j] = 0;
     }
   }
 }
 static void nsvcd__solve_lower(const double *l, size_t n, double *x) {  // x = L^-1 x
   for (size_t i = 0; i < n; i++) {
-    for (size_t k = 0; k < i; k++) x[i] -= l[i * n + k] * x[k];
+    for (size_t k = 0; k < i; k++)
+      x[i] -= l[i * n + k] * x[k];
     x[i] /= l[i * n + i];
   }
 }
 static void nsvcd__solve_upper(const double *l, size_t n, double *x) {  // x = L^-T x
   for (size_t i = n; i-- > 0;) {
-    for (size_t k = i + 1; k < n; k++) x[i] -= l[k * n + i] * x[k];
+    for (size_t k = i + 1; k < n; k++)
+      x[i] -= l[k * n + i] * x[k];
     x[i] /= l[i * n + i];
   }
 }
@@ -13097,35 +13833,44 @@ static int nsvcd__planner_settings(const nsvcd_plan_problem *problem,
   if (!problem || problem->joints - 1 >= NSVCD_MAX_JOINTS || problem->body_count > 65536 ||
       !problem->place)
     return 0;
-  if (!problem->low || !problem->high || !problem->start || !problem->goal) return 0;
+  if (!problem->low || !problem->high || !problem->start || !problem->goal)
+    return 0;
   if (problem->pair_count > 0 && (!problem->pairs || (!problem->bodies && !problem->collision)))
     return 0;
   for (size_t k = 0; k < problem->pair_count; k++) {
     const nsvcd_body_pair *pair = &problem->pairs[k];
     if (pair->a >= problem->body_count || pair->b >= problem->body_count || pair->a == pair->b)
       return 0;
-    if (!problem->collision && (!problem->bodies[pair->a] || !problem->bodies[pair->b])) return 0;
+    if (!problem->collision && (!problem->bodies[pair->a] || !problem->bodies[pair->b]))
+      return 0;
   }
   p->problem = problem;
-  if (options) p->options = *options;
+  if (options)
+    p->options = *options;
   nsvcd_plan_options *o = &p->options;
   const float floats[9] = {o->velocity, o->acceleration, o->jerk,   o->collision,   o->duration,
                            o->margin,   o->spread,       o->bundle, o->sweep.recall};
   for (size_t k = 0; k < 9; k++) {
-    if (!nsvcd__is_finite(floats[k])) return 0;
+    if (!nsvcd__is_finite(floats[k]))
+      return 0;
   }
   nsvcd__settings unused;
-  if (nsvcd__settings_of(&o->sweep, 1, 1, &unused)) return 0;
-  if (!nsvcd__stage_of(&o->explore, 5, 24, 40, 100, &p->explore)) return 0;
-  if (!nsvcd__stage_of(&o->refine, 10, 22, 10, 10, &p->refine)) return 0;
-  if (o->refine.iterations == NSVCD_NONE) p->refine.via = p->explore.via;
+  if (nsvcd__settings_of(&o->sweep, 1, 1, &unused))
+    return 0;
+  if (!nsvcd__stage_of(&o->explore, 5, 24, 40, 100, &p->explore))
+    return 0;
+  if (!nsvcd__stage_of(&o->refine, 10, 22, 10, 10, &p->refine))
+    return 0;
+  if (o->refine.iterations == NSVCD_NONE)
+    p->refine.via = p->explore.via;
   o->seeds = o->seeds ? o->seeds : 6;
   o->velocity = nsvcd__default(o->velocity, 10);
   o->acceleration = nsvcd__default(o->acceleration, 2);
   o->jerk = nsvcd__default(o->jerk, 10);
   o->collision = nsvcd__default(o->collision, 20);
   // something must be least
-  if (!(o->velocity > 0 || o->acceleration > 0 || o->jerk > 0)) o->velocity = 1e-3f;
+  if (!(o->velocity > 0 || o->acceleration > 0 || o->jerk > 0))
+    o->velocity = 1e-3f;
   o->duration = o->duration > 0 ? o->duration : 20;
   o->margin = nsvcd__default(o->margin, 2);
   o->spread = nsvcd__default(o->spread, 0.3f);
@@ -13215,7 +13960,8 @@ static void nsvcd__stage_init(const nsvcd_plan_options *o, nsvcd__stage *stage) 
   const double weights[3] = {(double)o->velocity, (double)o->acceleration, (double)o->jerk};
   double rate = 1;
   double w[NSVCD_MAX_VIA_POINTS + 2];
-  for (size_t k = 0; k < all * all; k++) stage->form[k] = 0;
+  for (size_t k = 0; k < all * all; k++)
+    stage->form[k] = 0;
   for (size_t d = 1; d <= 3; d++) {
     rate /= (double)o->duration * (double)o->duration;
     nsvcd__add_mean_square(via, d, rate * weights[d - 1], stage->form);
@@ -13229,15 +13975,18 @@ static void nsvcd__stage_init(const nsvcd_plan_options *o, nsvcd__stage *stage) 
   stage->deviation = 0;
   for (size_t k = 0; k < via; k++) {  // the variance of via point k is |L^-1 e_k|^2
     double square = 0;
-    for (size_t i = 0; i < via; i++) w[i] = i == k;
+    for (size_t i = 0; i < via; i++)
+      w[i] = i == k;
     nsvcd__solve_lower(stage->factor, via, w);
-    for (size_t i = 0; i < via; i++) square += w[i] * w[i];
+    for (size_t i = 0; i < via; i++)
+      square += w[i] * w[i];
     stage->deviation = sqrt(square) > stage->deviation ? sqrt(square) : stage->deviation;
   }
   for (size_t s = 0; s < stage->samples; s++) {
     nsvcd__spline_weights(via, stage->samples > 1 ? (double)s / (double)(stage->samples - 1) : 0, 0,
                           w);
-    for (size_t k = 0; k < all; k++) stage->weights[s * all + k] = (float)w[k];
+    for (size_t k = 0; k < all; k++)
+      stage->weights[s * all + k] = (float)w[k];
   }
 }
 
@@ -13265,7 +14014,8 @@ static void nsvcd__track_bodies(nsvcd__planner *p, size_t samples) {
   for (size_t b = 0; p->problem->bodies && b < bodies; b++) {
     const nsvcd_body *body = p->problem->bodies[b];
     float *track = p->tracks + NSVCD__TRACK * samples * b;
-    if (!body) continue;
+    if (!body)
+      continue;
     for (size_t s = 0; s < samples; s++) {
       const nsvcd_pose *pose = &p->poses[s * bodies + b];
       const nsvcd_pose *next = s + 1 < samples ? pose + bodies : pose;
@@ -13278,7 +14028,8 @@ static void nsvcd__track_bodies(nsvcd__planner *p, size_t samples) {
         track[(NSVCD__CENTRE + k) * samples + s] = turned[k];
         track[(NSVCD__ORIGIN + k) * samples + s] = pose->position[k];
       }
-      for (size_t k = 0; k < 9; k++) track[(NSVCD__AXES + k) * samples + s] = m[k];
+      for (size_t k = 0; k < 9; k++)
+        track[(NSVCD__AXES + k) * samples + s] = m[k];
       const float bend = 1.000001f - fabsf(q[0] * r[0] + q[1] * r[1] + q[2] * r[2] + q[3] * r[3]);
       track[NSVCD__BEND * samples + s] = sqrtf(bend > 0 ? bend : 0);
     }
@@ -13321,7 +14072,8 @@ static void nsvcd__meet_box(nsvcd__planner *p, size_t a, size_t b, int resting, 
     // sum, and c < 3.15 bend.
     const float bend = from[NSVCD__BEND * samples + s] + to[NSVCD__BEND * samples + s];
     float way = 0;
-    for (size_t k = 0; k < 3; k++) way += fabsf(x[k * samples + s + stride] - x[k * samples + s]);
+    for (size_t k = 0; k < 3; k++)
+      way += fabsf(x[k * samples + s + stride] - x[k * samples + s]);
     const float reaches = x[3 * samples + s] + x[3 * samples + s + stride];
     const float leaves = resting ? (3.75f * bend * reaches + 0.8f * way) * bend : arm * bend * bend;
     const float reach =
@@ -13411,7 +14163,8 @@ static nsvcd_answer nsvcd__ask(nsvcd__planner *p, uint32_t k, size_t first, size
   const nsvcd_result error =
       gradient ? nsvcd_sweep_gradient(&question, p->query, p->query_size, &answer, gradient, NULL)
                : nsvcd_sweep(&question, p->query, p->query_size, &answer);
-  if (error) p->error = error;
+  if (error)
+    p->error = error;
   p->sweeps++;
   return answer;
 }
@@ -13430,7 +14183,8 @@ static float nsvcd__network_cost(nsvcd__planner *p, size_t samples, float limit,
     nsvcd__find_meetings(p, &p->problem->pairs[k], samples, stride);
     for (size_t s = 0, checked = 0; s + stride < samples && sum <= limit && !p->error; s++) {
       float gradient[12], slope;
-      if (!p->meets[s]) continue;
+      if (!p->meets[s])
+        continue;
       // Several segments at once: if they are far from a collision, that is all. The last check
       // looks closer.
       if (stride && !worst && s >= checked) {
@@ -13481,9 +14235,12 @@ static int nsvcd__by_joints(nsvcd__planner *p, const float *joints, const nsvcd_
   const size_t bodies = problem->body_count;
   float moved[NSVCD_MAX_JOINTS];
   size_t k = 0;
-  while (k < 6 * bodies && !(wrenches[k] < 0 || wrenches[k] > 0)) k++;
-  if (k == 6 * bodies) return 0;
-  if (problem->jacobian) problem->jacobian(problem->user, joints, p->jacobian);
+  while (k < 6 * bodies && !(wrenches[k] < 0 || wrenches[k] > 0))
+    k++;
+  if (k == 6 * bodies)
+    return 0;
+  if (problem->jacobian)
+    problem->jacobian(problem->user, joints, p->jacobian);
   memcpy(moved, joints, f * sizeof *moved);
   for (size_t j = 0; j < f; j++) {
     float step = 1;
@@ -13497,15 +14254,18 @@ static int nsvcd__by_joints(nsvcd__planner *p, const float *joints, const nsvcd_
     for (size_t b = 0; b < bodies; b++) {
       const float *w = wrenches + 6 * b;
       if (problem->jacobian) {
-        for (size_t i = 0; i < 6; i++) by_joints[j] += w[i] * p->jacobian[(6 * b + i) * f + j];
+        for (size_t i = 0; i < 6; i++)
+          by_joints[j] += w[i] * p->jacobian[(6 * b + i) * f + j];
         continue;
       }
       const float *q = poses[b].rotation;
       float *r = p->moved[b].rotation;
       float sign = 2;
       float turn[3] = {0, 0, 0};
-      if (q[0] * r[0] + q[1] * r[1] + q[2] * r[2] + q[3] * r[3] < 0) sign = -2;
-      for (size_t i = 0; i < 3; i++) turn[i] = q[3] * r[i] - r[3] * q[i];
+      if (q[0] * r[0] + q[1] * r[1] + q[2] * r[2] + q[3] * r[3] < 0)
+        sign = -2;
+      for (size_t i = 0; i < 3; i++)
+        turn[i] = q[3] * r[i] - r[3] * q[i];
       nsvcd__add_cross3(q, r, turn);  // the vector of r q^-1
       for (size_t i = 0; i < 3; i++) {
         by_joints[j] += w[i] * (p->moved[b].position[i] - poses[b].position[i]) / step +
@@ -13541,9 +14301,11 @@ static float nsvcd__smoothness(const nsvcd__planner *p, const nsvcd__stage *stag
   for (size_t j = 0; j < f; j++) {
     for (size_t i = 0; i < all; i++) {
       double sum = 0;
-      for (size_t k = 0; k < all; k++) sum += stage->form[i * all + k] * (double)control[k * f + j];
+      for (size_t k = 0; k < all; k++)
+        sum += stage->form[i * all + k] * (double)control[k * f + j];
       smoothness += sum * (double)control[i * f + j];
-      if (gradient) gradient[i * f + j] = (float)(2 * sum);
+      if (gradient)
+        gradient[i * f + j] = (float)(2 * sum);
     }
   }
   return (float)smoothness;
@@ -13554,8 +14316,10 @@ static float nsvcd__beyond_limits(const nsvcd_plan_problem *problem, size_t join
   const float low = problem->low[joint];
   const float high = problem->high[joint];
   const float inner = NSVCD__LIMIT_MARGIN * (high - low);
-  if (value < low + inner) return value - low - inner;
-  if (value > high - inner) return value - high + inner;
+  if (value < low + inner)
+    return value - low - inner;
+  if (value > high - inner)
+    return value - high + inner;
   return 0;
 }
 
@@ -13574,12 +14338,15 @@ static void nsvcd__add_limits(nsvcd__planner *p, const nsvcd__stage *stage, cons
     const float *w = stage->weights + s * all;
     for (size_t j = 0; j < f; j++) {
       float sum = 0;
-      for (size_t k = 0; k < all; k++) sum += w[k] * control[k * f + j];
+      for (size_t k = 0; k < all; k++)
+        sum += w[k] * control[k * f + j];
       const float out = nsvcd__beyond_limits(p->problem, j, sum);
       p->path[s * f + j] = sum;
       cost->total += share * out * out;
-      if (nsvcd__leaves_limits(p->problem, j, sum)) cost->joint = j;
-      for (size_t k = 0; gradient && k < all; k++) gradient[k * f + j] += 2 * share * out * w[k];
+      if (nsvcd__leaves_limits(p->problem, j, sum))
+        cost->joint = j;
+      for (size_t k = 0; gradient && k < all; k++)
+        gradient[k * f + j] += 2 * share * out * w[k];
     }
   }
 }
@@ -13591,12 +14358,14 @@ static void nsvcd__add_collision(nsvcd__planner *p, size_t samples, float limit,
   const nsvcd_plan_problem *problem = p->problem;
   const float weight = p->options.collision;
   const float left = weight > 0 ? (limit - cost->total) / weight : INFINITY;
-  if (wrenches) memset(wrenches, 0, samples * problem->body_count * 6 * sizeof *wrenches);
+  if (wrenches)
+    memset(wrenches, 0, samples * problem->body_count * 6 * sizeof *wrenches);
   NSVCD__TALLY(collision, 0);  // begins
   if (problem->collision) {
     cost->collision =
         problem->collision(problem->user, p->poses, samples, left, &cost->collides, wrenches);
-    if (worst) worst->logit = cost->collision;
+    if (worst)
+      worst->logit = cost->collision;
   } else {
     cost->collision = nsvcd__network_cost(p, samples, left, &cost->collides, wrenches, worst);
   }
@@ -13611,10 +14380,12 @@ static void nsvcd__add_wrenches(nsvcd__planner *p, const nsvcd__stage *stage, fl
   for (size_t s = 0; s < stage->samples; s++) {
     const size_t row = s * p->problem->body_count;
     const float *wrenches = p->wrenches + 6 * row;
-    if (!nsvcd__by_joints(p, p->path + s * f, p->poses + row, wrenches, p->by_path)) continue;
+    if (!nsvcd__by_joints(p, p->path + s * f, p->poses + row, wrenches, p->by_path))
+      continue;
     for (size_t k = 0; k < all; k++) {
       const float weight = p->options.collision * stage->weights[s * all + k];
-      for (size_t j = 0; j < f; j++) gradient[k * f + j] += weight * p->by_path[j];
+      for (size_t j = 0; j < f; j++)
+        gradient[k * f + j] += weight * p->by_path[j];
     }
   }
 }
@@ -13629,12 +14400,16 @@ static nsvcd__cost nsvcd__cost_of(nsvcd__planner *p, const nsvcd__stage *stage,
   cost.smoothness = nsvcd__smoothness(p, stage, control, gradient);
   cost.total = cost.smoothness;
   nsvcd__add_limits(p, stage, control, gradient, &cost);
-  if (cost.total > limit || p->error) return cost;
+  if (cost.total > limit || p->error)
+    return cost;
   nsvcd__place(p, p->path, stage->samples);
-  if (p->error) return cost;
+  if (p->error)
+    return cost;
   nsvcd__add_collision(p, stage->samples, limit, gradient ? p->wrenches : NULL, worst, &cost);
-  if (gradient) nsvcd__add_wrenches(p, stage, gradient);
-  if (!nsvcd__is_finite(cost.total)) p->error = NSVCD_ERROR_NUMBER;
+  if (gradient)
+    nsvcd__add_wrenches(p, stage, gradient);
+  if (!nsvcd__is_finite(cost.total))
+    p->error = NSVCD_ERROR_NUMBER;
   return cost;
 }
 
@@ -13658,10 +14433,12 @@ static void nsvcd__smooth_noise(nsvcd__planner *p, const nsvcd__stage *stage,
   const size_t f = p->problem->joints;
   const size_t via = stage->via;
   for (size_t j = 0; j < f; j++) {
-    for (size_t k = 0; k < via; k++) p->vector[k] = nsvcd__normal(p);
+    for (size_t k = 0; k < via; k++)
+      p->vector[k] = nsvcd__normal(p);
     nsvcd__solve_upper(stage->factor, via, p->vector);
     const double scale = (double)deviations[j] / stage->deviation;
-    for (size_t k = 0; k < via; k++) out[k * f + j] = (float)(scale * p->vector[k]);
+    for (size_t k = 0; k < via; k++)
+      out[k * f + j] = (float)(scale * p->vector[k]);
   }
 }
 
@@ -13696,7 +14473,8 @@ static float nsvcd__kth_cost(const float *costs, size_t count, size_t k) {
       below += costs[n] < costs[i];
       same += costs[n] <= costs[i];
     }
-    if (below <= k && k < same) least = costs[i];
+    if (below <= k && k < same)
+      least = costs[i];
   }
   return least;
 }
@@ -13726,13 +14504,17 @@ static void nsvcd__draw(nsvcd__planner *p, const nsvcd__exploring *at, size_t n,
   const nsvcd__stage *stage = &p->explore;
   const size_t f = p->problem->joints;
   const size_t numbers = stage->via * f;
-  if (n > 0) nsvcd__smooth_noise(p, stage, at->deviations, offset);
-  if (n == 0) memset(offset, 0, numbers * sizeof *offset);
+  if (n > 0)
+    nsvcd__smooth_noise(p, stage, at->deviations, offset);
+  if (n == 0)
+    memset(offset, 0, numbers * sizeof *offset);
   if (n == 1) {  // the best so far competes
-    for (size_t k = 0; k < numbers; k++) offset[k] = p->best[f + k] - p->control[f + k];
+    for (size_t k = 0; k < numbers; k++)
+      offset[k] = p->best[f + k] - p->control[f + k];
   }
   nsvcd__change(p, stage->via, p->control, offset, 1, p->trial);
-  for (size_t k = 0; k < numbers; k++) offset[k] = p->trial[f + k] - p->control[f + k];
+  for (size_t k = 0; k < numbers; k++)
+    offset[k] = p->trial[f + k] - p->control[f + k];
 }
 
 // Draws samples about p->control and finds what they cost; the best of all goes to p->best.
@@ -13747,8 +14529,10 @@ static void nsvcd__try_samples(nsvcd__planner *p, nsvcd__exploring *at) {
     const float limit = at->temperature > 0 ? at->least + 10 * at->temperature : INFINITY;
     const nsvcd__cost cost = nsvcd__cost_of(p, stage, p->trial, limit, NULL, NULL);
     p->costs[n] = cost.total;
-    if (cost.total < at->least) at->least = cost.total;
-    if (cost.total >= at->best.total || cost.total > limit) continue;
+    if (cost.total < at->least)
+      at->least = cost.total;
+    if (cost.total >= at->best.total || cost.total > limit)
+      continue;
     at->best = cost;
     memcpy(p->best, p->trial, (stage->via + 2) * f * sizeof *p->best);
   }
@@ -13770,8 +14554,10 @@ static void nsvcd__weigh_samples(nsvcd__planner *p, nsvcd__exploring *at) {
   for (size_t n = 0; n < stage->count; n++) {
     const float weight = p->costs[n] / total;
     p->costs[n] = weight;
-    if (!(weight > 1e-9f)) continue;
-    for (size_t k = 0; k < numbers; k++) p->sum[k] += weight * p->tries[n * numbers + k];
+    if (!(weight > 1e-9f))
+      continue;
+    for (size_t k = 0; k < numbers; k++)
+      p->sum[k] += weight * p->tries[n * numbers + k];
   }
 }
 
@@ -13811,11 +14597,14 @@ static void nsvcd__explore(nsvcd__planner *p, size_t seed, nsvcd_plan_answer *an
   float before = at.best.total;
   size_t waited = 0;
   for (size_t i = 0; i < stage->iterations && waited < NSVCD__PATIENCE; i++) {
-    if (*cancelled || p->error) break;
+    if (*cancelled || p->error)
+      break;
     nsvcd__try_samples(p, &at);
-    if (p->error) break;
+    if (p->error)
+      break;
     nsvcd__weigh_samples(p, &at);
-    for (size_t j = 0; j < f; j++) nsvcd__adapt_deviation(p, j, &at);
+    for (size_t j = 0; j < f; j++)
+      nsvcd__adapt_deviation(p, j, &at);
     nsvcd__change(p, stage->via, p->control, p->sum, 0.9f, p->trial);
     memcpy(p->control, p->trial, bytes);
     answer->iterations++;
@@ -13831,7 +14620,8 @@ static void nsvcd__explore(nsvcd__planner *p, size_t seed, nsvcd_plan_answer *an
 
 static double nsvcd__dot(const float *a, const float *b, size_t count) {
   double sum = 0;
-  for (size_t k = 0; k < count; k++) sum += (double)a[k] * (double)b[k];
+  for (size_t k = 0; k < count; k++)
+    sum += (double)a[k] * (double)b[k];
   return sum;
 }
 
@@ -13840,10 +14630,12 @@ static void nsvcd__by_metric(nsvcd__planner *p, const nsvcd__stage *stage, float
   const size_t f = p->problem->joints;
   const size_t via = stage->via;
   for (size_t j = 0; j < f; j++) {
-    for (size_t k = 0; k < via; k++) p->vector[k] = (double)x[k * f + j];
+    for (size_t k = 0; k < via; k++)
+      p->vector[k] = (double)x[k * f + j];
     nsvcd__solve_lower(stage->factor, via, p->vector);
     nsvcd__solve_upper(stage->factor, via, p->vector);
-    for (size_t k = 0; k < via; k++) x[k * f + j] = (float)p->vector[k];
+    for (size_t k = 0; k < via; k++)
+      x[k * f + j] = (float)p->vector[k];
   }
 }
 
@@ -13857,7 +14649,8 @@ static void nsvcd__bundled_gradient(nsvcd__planner *p, const nsvcd__stage *stage
   for (size_t n = 0; n < stage->count && !p->error; n++) {
     nsvcd__change(p, stage->via, control, p->tries + n * numbers, 1, p->trial);
     nsvcd__cost_of(p, stage, p->trial, INFINITY, p->gradient, NULL);
-    for (size_t k = 0; k < numbers; k++) p->sum[k] += p->gradient[f + k] / (float)stage->count;
+    for (size_t k = 0; k < numbers; k++)
+      p->sum[k] += p->gradient[f + k] / (float)stage->count;
   }
 }
 
@@ -13874,20 +14667,24 @@ static void nsvcd__direction(nsvcd__planner *p, const nsvcd__stage *stage, size_
   const size_t numbers = stage->via * p->problem->joints;
   double alpha[NSVCD__HISTORY];
   float *d = p->offset;
-  for (size_t k = 0; k < numbers; k++) d[k] = -p->sum[k];
+  for (size_t k = 0; k < numbers; k++)
+    d[k] = -p->sum[k];
   for (size_t n = 1; n <= kept; n++) {
     const float *s = nsvcd__remembered(p->steps, next - n, numbers);
     const float *y = nsvcd__remembered(p->changes, next - n, numbers);
     alpha[n - 1] = nsvcd__dot(s, d, numbers) / nsvcd__dot(s, y, numbers);
-    for (size_t k = 0; k < numbers; k++) d[k] -= (float)alpha[n - 1] * y[k];
+    for (size_t k = 0; k < numbers; k++)
+      d[k] -= (float)alpha[n - 1] * y[k];
   }
   nsvcd__by_metric(p, stage, d);
-  for (size_t k = 0; k < numbers; k++) d[k] *= 0.5f;
+  for (size_t k = 0; k < numbers; k++)
+    d[k] *= 0.5f;
   for (size_t n = kept; n > 0; n--) {
     const float *s = nsvcd__remembered(p->steps, next - n, numbers);
     const float *y = nsvcd__remembered(p->changes, next - n, numbers);
     const double beta = nsvcd__dot(y, d, numbers) / nsvcd__dot(s, y, numbers);
-    for (size_t k = 0; k < numbers; k++) d[k] += (float)(alpha[n - 1] - beta) * s[k];
+    for (size_t k = 0; k < numbers; k++)
+      d[k] += (float)(alpha[n - 1] - beta) * s[k];
   }
 }
 
@@ -13905,7 +14702,8 @@ static void nsvcd__refine(nsvcd__planner *p, size_t seed, nsvcd_plan_answer *ans
   size_t next = 0;
   int stuck = 0;
   nsvcd__cost best = nsvcd__cost_of(p, stage, p->best, INFINITY, NULL, NULL);
-  for (size_t j = 0; j < f; j++) deviations[j] = p->options.bundle;
+  for (size_t j = 0; j < f; j++)
+    deviations[j] = p->options.bundle;
   // The same offsets at each iteration: the mean is then a function, and its gradients differ by
   // where they are taken.
   for (size_t n = 0; n < stage->count; n++)
@@ -13916,7 +14714,8 @@ static void nsvcd__refine(nsvcd__planner *p, size_t seed, nsvcd_plan_answer *ans
     nsvcd__bundled_gradient(p, stage, p->control);
     if (kept > 0) {  // the last change is known as minus the gradient before it
       float *change = nsvcd__remembered(p->changes, next - 1, numbers);
-      for (size_t k = 0; k < numbers; k++) change[k] += p->sum[k];
+      for (size_t k = 0; k < numbers; k++)
+        change[k] += p->sum[k];
       if (!(nsvcd__dot(nsvcd__remembered(p->steps, next - 1, numbers), change, numbers) > 1e-12)) {
         next--;
         kept--;
@@ -13926,7 +14725,8 @@ static void nsvcd__refine(nsvcd__planner *p, size_t seed, nsvcd_plan_answer *ans
     for (size_t n = 0; n < NSVCD__STEPS && !p->error; n++) {
       nsvcd__change(p, stage->via, p->control, p->offset, lengths[n], p->trial);
       const nsvcd__cost cost = nsvcd__cost_of(p, stage, p->trial, best.total, NULL, NULL);
-      if (!(cost.total < best.total)) continue;
+      if (!(cost.total < best.total))
+        continue;
       best = cost;
       memcpy(p->best, p->trial, point);
     }
@@ -13964,7 +14764,8 @@ static void nsvcd__smoothest(nsvcd__planner *p, const nsvcd__stage *stage, float
     }
     nsvcd__solve_lower(stage->factor, via, p->vector);
     nsvcd__solve_upper(stage->factor, via, p->vector);
-    for (size_t k = 0; k < via; k++) control[(k + 1) * f + j] = (float)p->vector[k];
+    for (size_t k = 0; k < via; k++)
+      control[(k + 1) * f + j] = (float)p->vector[k];
   }
   memcpy(control, p->problem->start, f * sizeof *control);
   memcpy(control + (via + 1) * f, p->problem->goal, f * sizeof *control);
@@ -13973,7 +14774,8 @@ static void nsvcd__smoothest(nsvcd__planner *p, const nsvcd__stage *stage, float
 // The same curve, nearly, through another number of via points: p->best.
 static void nsvcd__resample(nsvcd__planner *p, size_t from, size_t to) {
   const size_t f = p->problem->joints;
-  if (from == to) return;
+  if (from == to)
+    return;
   for (size_t k = 0; k < to + 2; k++) {
     nsvcd_spline(p->best, from, f, (float)k / (float)(to + 1), 0, p->trial + k * f);
   }
@@ -13985,13 +14787,16 @@ static int nsvcd__is_good(nsvcd__planner *p, const float *joints, nsvcd_plan_ans
   const nsvcd_plan_problem *problem = p->problem;
   nsvcd__worst worst = {-NSVCD_LOGIT_CERTAIN, 0, NSVCD_NONE, 0};
   for (size_t j = 0; j < problem->joints; j++) {
-    if (joints[j] < problem->low[j] || joints[j] > problem->high[j]) answer->joint = j;
+    if (joints[j] < problem->low[j] || joints[j] > problem->high[j])
+      answer->joint = j;
   }
   answer->logit = 0;
   answer->pair = NSVCD_NONE;
-  if (answer->joint != NSVCD_NONE) return 0;
+  if (answer->joint != NSVCD_NONE)
+    return 0;
   nsvcd__place(p, joints, 1);
-  if (p->error) return 0;
+  if (p->error)
+    return 0;
   if (problem->collision) {
     worst.logit = problem->collision(problem->user, p->poses, 1, INFINITY, &answer->collides, NULL);
   } else {
@@ -14032,10 +14837,14 @@ static nsvcd_result nsvcd__limits_check(const nsvcd_plan_problem *problem) {
   for (size_t j = 0; j < problem->joints; j++) {
     const float low = problem->low[j];
     const float high = problem->high[j];
-    if (nsvcd__magnitude(low) > most || nsvcd__magnitude(high) > most) return NSVCD_ERROR_NUMBER;
-    if (nsvcd__magnitude(problem->start[j]) > most) return NSVCD_ERROR_NUMBER;
-    if (nsvcd__magnitude(problem->goal[j]) > most) return NSVCD_ERROR_NUMBER;
-    if (low > high) return NSVCD_ERROR_ARGUMENT;
+    if (nsvcd__magnitude(low) > most || nsvcd__magnitude(high) > most)
+      return NSVCD_ERROR_NUMBER;
+    if (nsvcd__magnitude(problem->start[j]) > most)
+      return NSVCD_ERROR_NUMBER;
+    if (nsvcd__magnitude(problem->goal[j]) > most)
+      return NSVCD_ERROR_NUMBER;
+    if (low > high)
+      return NSVCD_ERROR_ARGUMENT;
   }
   return NSVCD_OK;
 }
@@ -14047,7 +14856,8 @@ static void nsvcd__planner_begin(nsvcd__planner *p, nsvcd_plan_answer *found) {
   nsvcd__stage_init(&p->options, &p->refine);
   nsvcd__stage_init(&p->options, &p->check);
   nsvcd__find_boxes(p);
-  for (size_t k = 0; k < problem->pair_count; k++) p->order[k] = (uint32_t)k;
+  for (size_t k = 0; k < problem->pair_count; k++)
+    p->order[k] = (uint32_t)k;
   p->random = p->options.seed;
   found->via_points = p->refine.via;
   if (!nsvcd__is_good(p, problem->start, found)) {
@@ -14064,7 +14874,8 @@ static void nsvcd__start_seed(nsvcd__planner *p, size_t seed) {
   float deviations[NSVCD_MAX_JOINTS];
   const size_t numbers = (p->explore.via + 2) * p->problem->joints;
   nsvcd__smoothest(p, &p->explore, p->control);
-  if (seed == 0) return;
+  if (seed == 0)
+    return;
   nsvcd__spread(p, deviations);
   nsvcd__smooth_noise(p, &p->explore, deviations, p->offset);
   nsvcd__change(p, p->explore.via, p->control, p->offset, 1, p->trial);
@@ -14082,7 +14893,8 @@ static nsvcd__cost nsvcd__refine_and_check(nsvcd__planner *p, nsvcd_plan_answer 
     *worst = nowhere;
     nsvcd__refine(p, found->seeds, found, cancelled);
     cost = nsvcd__cost_of(p, &p->check, p->best, INFINITY, NULL, worst);
-    if (nsvcd__is_free(&cost) || *cancelled || p->error || !worst->proven) break;
+    if (nsvcd__is_free(&cost) || *cancelled || p->error || !worst->proven)
+      break;
     p->options.margin = 2 * p->options.margin + 0.5f;
   }
   p->options.margin = margin;
@@ -14112,8 +14924,10 @@ static int nsvcd__try_seed(nsvcd__planner *p, nsvcd_plan_answer *found) {
   }
   found->seeds++;
   found->status = NSVCD_PLAN_LIMIT;
-  if (good) found->status = NSVCD_PLAN_CONVERGED;
-  if (cancelled) found->status = NSVCD_PLAN_CANCELLED;
+  if (good)
+    found->status = NSVCD_PLAN_CONVERGED;
+  if (cancelled)
+    found->status = NSVCD_PLAN_CANCELLED;
   return !good && !cancelled && !p->error && found->seeds < p->options.seeds;
 }
 
@@ -14122,14 +14936,20 @@ NSVCDDEF nsvcd_result nsvcd_plan(const nsvcd_plan_problem *problem,
                                  size_t workspace_size, float *control, nsvcd_plan_answer *answer) {
   nsvcd__planner planner;
   nsvcd_plan_answer found;
-  if (!nsvcd__planner_settings(problem, options, &planner)) return NSVCD_ERROR_ARGUMENT;
-  if (!control || !answer) return NSVCD_ERROR_ARGUMENT;
+  if (!nsvcd__planner_settings(problem, options, &planner))
+    return NSVCD_ERROR_ARGUMENT;
+  if (!control || !answer)
+    return NSVCD_ERROR_ARGUMENT;
   const size_t needed = nsvcd__planner_memory(&planner, NULL);
-  if (needed == 0) return NSVCD_ERROR_TOO_LARGE;
-  if (!workspace || !nsvcd__is_aligned(workspace)) return NSVCD_ERROR_WORKSPACE;
-  if (workspace_size < needed) return NSVCD_ERROR_WORKSPACE;
+  if (needed == 0)
+    return NSVCD_ERROR_TOO_LARGE;
+  if (!workspace || !nsvcd__is_aligned(workspace))
+    return NSVCD_ERROR_WORKSPACE;
+  if (workspace_size < needed)
+    return NSVCD_ERROR_WORKSPACE;
   const nsvcd_result checked = nsvcd__limits_check(problem);
-  if (checked) return checked;
+  if (checked)
+    return checked;
 
   (void)nsvcd__planner_memory(&planner, (char *)workspace);
   memset(&found, 0, sizeof found);
@@ -14137,8 +14957,10 @@ NSVCDDEF nsvcd_result nsvcd_plan(const nsvcd_plan_problem *problem,
   found.pair = NSVCD_NONE;
   nsvcd__planner_begin(&planner, &found);
   int more = found.status == NSVCD_PLAN_CONVERGED && !planner.error;
-  while (more) more = nsvcd__try_seed(&planner, &found);
-  if (planner.error) return planner.error;
+  while (more)
+    more = nsvcd__try_seed(&planner, &found);
+  if (planner.error)
+    return planner.error;
 
   const size_t bytes = (planner.refine.via + 2) * problem->joints * sizeof(float);
   memcpy(control, found.seeds ? planner.result : planner.best, bytes);

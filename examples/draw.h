@@ -133,8 +133,10 @@ DRAW_DEF void draw_body(draw_list *list, const task_body *body, const oracle_pos
     double world[3][3], m[9], normal[3];
     oracle_matrix(pose->rotation, m);
     oracle_rotate(m, t->normal, normal);
-    if (oracle_dot(normal, to_viewer) <= 0) continue;  // seen from inside
-    for (int k = 0; k < 3; k++) oracle_transform(pose, t->v[k], world[k]);
+    if (oracle_dot(normal, to_viewer) <= 0)
+      continue;  // seen from inside
+    for (int k = 0; k < 3; k++)
+      oracle_transform(pose, t->v[k], world[k]);
     triangle.light = 0.5 + 0.5 * oracle_dot(normal, to_light);
     draw_split(list, (const double(*)[3])world, &triangle);
   }
@@ -156,9 +158,12 @@ DRAW_DEF void draw_still(draw_list *list, const task_scene *scene) {
     int rock = strstr(body->name, "rock") && !strstr(body->name, "heap");
     double center[3];
     oracle_transform(&body->offset, body->exact.center, center);
-    if (draw_is_fixed(scene, body)) draw_body(list, body, &body->offset, &draw_steel, 1);
-    if (body->kind != TASK_SCENE) continue;
-    if (rock && center[1] * sin(list->view->azimuth) > 0) continue;
+    if (draw_is_fixed(scene, body))
+      draw_body(list, body, &body->offset, &draw_steel, 1);
+    if (body->kind != TASK_SCENE)
+      continue;
+    if (rock && center[1] * sin(list->view->azimuth) > 0)
+      continue;
     int wood =
         strstr(body->name, "beam") || strstr(body->name, "frame") || strstr(body->name, "prop");
     int dark = rock || strstr(body->name, "coal") || strstr(body->name, "heap");
@@ -175,12 +180,14 @@ DRAW_DEF void draw_robot(draw_list *list, const task_scene *scene, const float *
                          const draw_colour *robot, const draw_colour *held, double opacity) {
   double q[TASK_MAX_JOINTS];
   oracle_pose links[TASK_MAX_JOINTS + 1];
-  for (int j = 0; j < scene->joint_count; j++) q[j] = (double)joints[j];
+  for (int j = 0; j < scene->joint_count; j++)
+    q[j] = (double)joints[j];
   task_links(scene, q, links);
   for (int i = 0; i < scene->body_count; i++) {
     oracle_pose pose = task_body_pose(scene, i, links);
     const task_body *body = &scene->bodies[i];
-    if (!task_moves(body) || draw_is_fixed(scene, body)) continue;
+    if (!task_moves(body) || draw_is_fixed(scene, body))
+      continue;
     const draw_colour *colour = body->kind == TASK_ROBOT      ? robot
                                 : strcmp(body->name, "block") ? held
                                                               : &draw_wood;
@@ -195,7 +202,8 @@ DRAW_DEF int draw_compare(const void *a, const void *b) {
 // Draws the list, the farthest first, and empties it.
 DRAW_DEF void draw_flush(FILE *svg, draw_list *list) {
   unsigned before = 0;  // a fill that triangles before this one have
-  if (list->count) qsort(list->triangles, list->count, sizeof *list->triangles, draw_compare);
+  if (list->count)
+    qsort(list->triangles, list->count, sizeof *list->triangles, draw_compare);
   for (size_t i = 0; i < list->count; i++) {
     const draw_triangle *t = &list->triangles[i];
     unsigned fill = (unsigned)(100 * t->opacity) << 24;
@@ -215,7 +223,8 @@ DRAW_DEF void draw_flush(FILE *svg, draw_list *list) {
     fprintf(svg, "M%.1f %.1fL%.1f %.1fL%.1f %.1fZ", t->corners[0][0], t->corners[0][1],
             t->corners[1][0], t->corners[1][1], t->corners[2][0], t->corners[2][1]);
   }
-  if (list->count) fprintf(svg, "\"/>\n");
+  if (list->count)
+    fprintf(svg, "\"/>\n");
   free(list->triangles);
   list->triangles = NULL;
   list->count = list->capacity = 0;
@@ -229,7 +238,8 @@ DRAW_DEF void draw_trace(FILE *svg, const draw_view *view, const task_scene *sce
   for (int s = 0; s < samples; s++) {
     double q[TASK_MAX_JOINTS], p[3];
     oracle_pose links[TASK_MAX_JOINTS + 1];
-    for (int j = 0; j < scene->joint_count; j++) q[j] = (double)joints[s * scene->joint_count + j];
+    for (int j = 0; j < scene->joint_count; j++)
+      q[j] = (double)joints[s * scene->joint_count + j];
     task_links(scene, q, links);
     draw_project(view, task_body_pose(scene, body, links).position, p);
     fprintf(svg, "%s%.1f %.1f", s ? "L" : "M", p[0], p[1]);
@@ -264,7 +274,8 @@ DRAW_DEF FILE *draw_open(const char *path, int width, int height, const char *ti
 DRAW_DEF int draw_close(FILE *svg) {
   fprintf(svg, "</svg>\n");
   int good = !ferror(svg);
-  if (fclose(svg) == 0 && good) return 1;
+  if (fclose(svg) == 0 && good)
+    return 1;
   return fprintf(stderr, "the picture cannot be written\n"), 0;
 }
 // What follows is drawn in this panel, cut off at its edges, until draw_panel_end.

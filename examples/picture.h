@@ -110,10 +110,12 @@ static picture_triangle *picture_sort(const nsvcd_mesh *mesh, const nsvcd_pose *
   picture_triangle *triangles =
       (picture_triangle *)malloc((mesh->triangle_count + 1) * sizeof *triangles);
   *count = 0;
-  if (!triangles) return NULL;
+  if (!triangles)
+    return NULL;
   for (size_t i = 0; i < mesh->triangle_count; i++) {
     triangles[*count] = picture_look(mesh, i, pose);
-    if (triangles[*count].facing > 0) ++*count;
+    if (triangles[*count].facing > 0)
+      ++*count;
   }
   qsort(triangles, *count, sizeof *triangles, picture_compare);
   return triangles;
@@ -154,14 +156,17 @@ static void picture_moving(FILE *svg, const nsvcd_mesh *mesh, const nsvcd_pose *
                            const picture_colour *colour, double light, int solid) {
   size_t count;
   picture_triangle *triangles = picture_sort(mesh, pose, &count);
-  if (!triangles) return;
+  if (!triangles)
+    return;
   if (solid) {
-    for (size_t i = 0; i < count; i++) picture_shaded(svg, &triangles[i], colour);
+    for (size_t i = 0; i < count; i++)
+      picture_shaded(svg, &triangles[i], colour);
   } else {
     fprintf(svg, "<path fill-opacity=\"%.2f\" fill=\"", 0.16 + 0.30 * (1 - light));
     picture_rgb(svg, colour, 0.25 + 0.75 * light);
     fprintf(svg, "\" d=\"");
-    for (size_t i = 0; i < count; i++) picture_corner_list(svg, &triangles[i]);
+    for (size_t i = 0; i < count; i++)
+      picture_corner_list(svg, &triangles[i]);
     fprintf(svg, "\"/>\n");
   }
   free(triangles);
@@ -179,7 +184,8 @@ static void picture_shadow(FILE *svg, const nsvcd_mesh *mesh, const nsvcd_pose *
     }
     double turn = (t.corners[1][0] - t.corners[0][0]) * (t.corners[2][1] - t.corners[0][1]) -
                   (t.corners[1][1] - t.corners[0][1]) * (t.corners[2][0] - t.corners[0][0]);
-    if (turn < -0.05) picture_corner_list(svg, &t);
+    if (turn < -0.05)
+      picture_corner_list(svg, &t);
   }
   fprintf(svg, "\"/>\n");
 }
@@ -246,7 +252,8 @@ static void picture_fixed(FILE *svg, const picture_triangle *triangles, size_t c
                           double lowest, int covering) {
   for (size_t i = 0; i < count; i++) {
     int covers = triangles[i].depth > depth && triangles[i].top > lowest;
-    if (covers == covering) picture_shaded(svg, &triangles[i], &picture_steel);
+    if (covers == covering)
+      picture_shaded(svg, &triangles[i], &picture_steel);
   }
 }
 // The lowest z of a moving body, and the depth of its middle. What touches it shall not be cut in
@@ -279,7 +286,8 @@ static void picture_scene(FILE *svg, const nsvcd_mesh *moving, const nsvcd_mesh 
   size_t last = panel->count - 1;
   size_t shown = a->collides ? (size_t)((double)a->contact_time * (double)last + 0.5) : last;
   picture_triangle *triangles = picture_sort(fixed, &origin, &count);
-  if (!triangles) return;
+  if (!triangles)
+    return;
   picture_shadow(svg, fixed, &origin);
   picture_shadow(svg, moving, &panel->poses[shown]);
   double depth, lowest;
@@ -294,7 +302,8 @@ static void picture_scene(FILE *svg, const nsvcd_mesh *moving, const nsvcd_mesh 
   picture_moving(svg, moving, &panel->poses[shown], colour, 0, 1);
   picture_fixed(svg, triangles, count, depth, lowest, 1);
   free(triangles);
-  if (a->status == NSVCD_STATUS_WITNESS) picture_contact(svg, panel);
+  if (a->status == NSVCD_STATUS_WITNESS)
+    picture_contact(svg, panel);
 }
 
 // Name and verdict above, facts below.
@@ -314,7 +323,8 @@ static void picture_captions(FILE *svg, const picture_panel *panel) {
   fprintf(svg, "<rect y=\"%d\" width=\"%d\" height=\"44\" fill=\"#fff\" fill-opacity=\".9\"/>\n",
           PICTURE_HEIGHT - 44, PICTURE_WIDTH);
   fprintf(svg, "<text x=\"24\" y=\"%d\" font-size=\"15\" fill=\"#4a5564\">", PICTURE_HEIGHT - 17);
-  if (a->collides) fprintf(svg, "at t = %.2f of the way, ", (double)a->contact_time);
+  if (a->collides)
+    fprintf(svg, "at t = %.2f of the way, ", (double)a->contact_time);
   if (a->status == NSVCD_STATUS_CERTIFIED_FREE) {
     fprintf(svg, "certified free");
   } else if (a->status == NSVCD_STATUS_WITNESS) {
@@ -345,7 +355,8 @@ static void picture_legend(FILE *svg, int x, int y) {
 static int picture_write(const char *path, const nsvcd_mesh *moving, const nsvcd_mesh *fixed,
                          const picture_panel *panels, int count) {
   FILE *svg = fopen(path, "w");
-  if (!svg) return fprintf(stderr, "%s: cannot be written\n", path), 0;
+  if (!svg)
+    return fprintf(stderr, "%s: cannot be written\n", path), 0;
   int width = 24 + (PICTURE_WIDTH + 24) * count;
   int height = PICTURE_TOP + PICTURE_HEIGHT + 56;
   fprintf(
@@ -380,7 +391,8 @@ static int picture_write(const char *path, const nsvcd_mesh *moving, const nsvcd
   picture_legend(svg, 26, height - 22);
   fprintf(svg, "</svg>\n");
   int good = !ferror(svg);
-  if (fclose(svg) == 0 && good) return 1;
+  if (fclose(svg) == 0 && good)
+    return 1;
   return fprintf(stderr, "%s: cannot be written\n", path), 0;
 }
 

@@ -19,15 +19,19 @@ static const nsvcd_body *encode_file(const char *from, const char *path,
   nsvcd_mesh mesh;
   size_t line = 0;
   nsvcd_result result = nsvcd_obj_load(path, NULL, &mesh, &line);
-  if (result && line) complain("%s%s:%zu: %s", from, path, line, nsvcd_result_string(result));
-  if (result && !line) complain("%s%s: %s", from, path, nsvcd_result_string(result));
-  if (result) return NULL;
+  if (result && line)
+    complain("%s%s:%zu: %s", from, path, line, nsvcd_result_string(result));
+  if (result && !line)
+    complain("%s%s: %s", from, path, nsvcd_result_string(result));
+  if (result)
+    return NULL;
   const nsvcd_body *body = NULL;
   double start = seconds();
   result = nsvcd_encode(&mesh, options, NULL, NULL, 0, &body);
   *encode_seconds = seconds() - start;
   nsvcd_mesh_free(&mesh, NULL);
-  if (result) complain("%s%s: %s", from, path, nsvcd_result_string(result));
+  if (result)
+    complain("%s%s: %s", from, path, nsvcd_result_string(result));
   return body;
 }
 
@@ -49,7 +53,8 @@ static int encode_meshes(const problem_file *file, const nsvcd_encode_options *o
     snprintf(path, sizeof path, "%.*s%s", mesh->path[0] == '/' ? 0 : (int)folder, file->path,
              mesh->path);
     bodies[i].body = encode_file(from, path, options, &bodies[i].seconds);
-    if (!bodies[i].body) return 0;
+    if (!bodies[i].body)
+      return 0;
   }
   return 1;
 }
@@ -91,7 +96,8 @@ static int answer(const session *s, const check_options *options, void *workspac
     if (result)
       return complain("%s:%zu: problem %s: %s", s->file.path, p->line, p->id,
                       nsvcd_result_string(result));
-    if (i > 0) out->microseconds = fmin(out->microseconds, taken);
+    if (i > 0)
+      out->microseconds = fmin(out->microseconds, taken);
   }
   return 1;
 }
@@ -113,7 +119,8 @@ static int print_answers(const session *s) {
            a->collides, (double)a->contact_time, (unsigned long)a->patch_a,
            (unsigned long)a->patch_b, nsvcd_status_string(a->status), s->outcomes[i].microseconds);
   }
-  if (fflush(stdout) == 0 && !ferror(stdout)) return 1;
+  if (fflush(stdout) == 0 && !ferror(stdout))
+    return 1;
   return complain("standard output: %s", strerror(errno));
 }
 
@@ -121,7 +128,8 @@ static int print_answers(const session *s) {
 
 static void print_share(const char *name, size_t hits, size_t count, const char *of) {
   double low, high;
-  if (!count) return;
+  if (!count)
+    return;
   wilson(hits, count, &low, &high);
   fprintf(stderr, "%-20s %7.2f %%  [%.2f, %.2f]  %zu of %zu %s\n", name,
           100.0 * (double)hits / (double)count, 100 * low, 100 * high, hits, count, of);
@@ -134,8 +142,10 @@ static const char *const band_names[BANDS + 1] = {"0 - 1",   "1 - 2.5", "2.5 - 5
 
 static size_t band_of(double margin) {  // BANDS if unknown
   size_t band = 0;
-  if (isnan(margin)) return BANDS;
-  while (fabs(margin) > band_edges[band]) band++;
+  if (isnan(margin))
+    return BANDS;
+  while (fabs(margin) > band_edges[band])
+    band++;
   return band;
 }
 
@@ -146,7 +156,8 @@ typedef struct tally {
 
 static size_t tally_sum(const tally *t, int label, int verdict) {
   size_t sum = 0;
-  for (size_t band = 0; band <= BANDS; band++) sum += t->at[band][label][verdict];
+  for (size_t band = 0; band <= BANDS; band++)
+    sum += t->at[band][label][verdict];
   return sum;
 }
 static void print_ratio(size_t right, size_t count) {
@@ -162,7 +173,8 @@ static void print_bands(const tally *t) {
     const size_t(*at)[2] = t->at[band];
     size_t collide = at[1][0] + at[1][1];
     size_t clear = at[0][0] + at[0][1];
-    if (collide + clear == 0) continue;
+    if (collide + clear == 0)
+      continue;
     fprintf(stderr, "%-12s", band_names[band]);
     print_ratio(at[1][1], collide);
     print_ratio(at[0][0], clear);
@@ -175,13 +187,15 @@ static void print_accuracy(const session *s) {
   memset(&t, 0, sizeof t);
   for (size_t i = 0; i < s->file.problem_count; i++) {
     const problem *p = &s->file.problems[i];
-    if (p->label >= 0) t.at[band_of(p->margin)][p->label][s->outcomes[i].answer.collides]++;
+    if (p->label >= 0)
+      t.at[band_of(p->margin)][p->label][s->outcomes[i].answer.collides]++;
   }
   size_t missed = tally_sum(&t, 1, 0);
   size_t found = tally_sum(&t, 1, 1);
   size_t cleared = tally_sum(&t, 0, 0);
   size_t alarms = tally_sum(&t, 0, 1);
-  if (missed + found + cleared + alarms == 0) return;
+  if (missed + found + cleared + alarms == 0)
+    return;
   print_share("accuracy", found + cleared, missed + found + cleared + alarms, "right");
   print_share("false negatives", missed, missed + found, "collisions missed");
   print_share("false positives", alarms, alarms + cleared, "free motions stopped");
@@ -208,9 +222,11 @@ static int compare_doubles(const void *a, const void *b) {
 // Sorts, and prints median, mean, 99th percentile and worst.
 static void print_distribution(const char *name, double *values, size_t count, const char *unit) {
   double sum = 0;
-  if (!count) return;
+  if (!count)
+    return;
   qsort(values, count, sizeof *values, compare_doubles);
-  for (size_t i = 0; i < count; i++) sum += values[i];
+  for (size_t i = 0; i < count; i++)
+    sum += values[i];
   fprintf(stderr, "%s: median %.1f, mean %.1f, 99th percentile %.1f, worst %.1f %s\n", name,
           (values[(count - 1) / 2] + values[count / 2]) / 2, sum / (double)count,
           values[(size_t)ceil(0.99 * (double)count) - 1], values[count - 1], unit);
@@ -221,7 +237,8 @@ static void print_costs(const session *s) {
   double *values = (double *)allocate(most * sizeof(double));
   double bytes = 0;
   double points = 0;
-  for (size_t i = 0; i < file->problem_count; i++) values[i] = s->outcomes[i].microseconds;
+  for (size_t i = 0; i < file->problem_count; i++)
+    values[i] = s->outcomes[i].microseconds;
   print_distribution("a query", values, file->problem_count, "us");
   for (size_t i = 0; i < file->mesh_count; i++) {
     nsvcd_body_facts facts = nsvcd_body_describe(s->bodies[i].body);
@@ -230,17 +247,20 @@ static void print_costs(const session *s) {
     values[i] = 1e3 * s->bodies[i].seconds;
   }
   print_distribution("encoding a mesh", values, file->mesh_count, "ms");
-  if (file->mesh_count) fprintf(stderr, "a body: %.0f bytes, %.1f points (mean)\n", bytes, points);
+  if (file->mesh_count)
+    fprintf(stderr, "a body: %.0f bytes, %.1f points (mean)\n", bytes, points);
   free(values);
 }
 
 static void print_summary(const session *s) {
   const problem_file *file = &s->file;
   size_t labels[3] = {0, 0, 0};  // -1, 0, 1
-  for (size_t i = 0; i < file->problem_count; i++) labels[file->problems[i].label + 1]++;
+  for (size_t i = 0; i < file->problem_count; i++)
+    labels[file->problems[i].label + 1]++;
   fprintf(stderr, "%s: %zu problems (%zu collide, %zu free, %zu without a label), %zu meshes\n",
           file->path, file->problem_count, labels[2], labels[1], labels[0], file->mesh_count);
-  if (!file->problem_count) return;
+  if (!file->problem_count)
+    return;
   print_accuracy(s);
   print_statuses(s);
   print_costs(s);
@@ -290,7 +310,8 @@ static int usage_error(const char *option, const char *reason) {
 static int parse_model(const char *name, nsvcd_model *model) {
   static const char *const names[] = {"tiny", "small", "base"};
   for (int i = 0; i < 3; i++) {
-    if (strcmp(name, names[i]) != 0) continue;
+    if (strcmp(name, names[i]) != 0)
+      continue;
     *model = (nsvcd_model)(NSVCD_MODEL_TINY + i);
     return 1;
   }
@@ -387,9 +408,11 @@ static int parse_check(int argc, char **argv, check_options *options) {
       status = parse_check_option(argv[i], argv[i + 1], options);
       i++;
     }
-    if (status != DONE) return status;
+    if (status != DONE)
+      return status;
   }
-  if (!options->path) return usage();
+  if (!options->path)
+    return usage();
   options->encode.no_triangles = options->sweep.method == NSVCD_METHOD_NETWORK;
   if (options->encode.no_triangles && (options->sweep.clearance > 0 || options->sweep.first > 0)) {
     return usage_error("--method network", "it knows neither --clearance nor --first");
@@ -402,7 +425,8 @@ static int parse_check(int argc, char **argv, check_options *options) {
 static int check(int argc, char **argv) {
   check_options options;
   int status = parse_check(argc, argv, &options);
-  if (status != DONE) return status;
+  if (status != DONE)
+    return status;
   session s;
   memset(&s, 0, sizeof s);
   int good = read_problems(options.path, &s.file);
@@ -413,7 +437,8 @@ static int check(int argc, char **argv) {
   }
   good = good && encode_meshes(&s.file, &options.encode, s.bodies) && answer_all(&s, &options) &&
          print_answers(&s);
-  if (good) print_summary(&s);
+  if (good)
+    print_summary(&s);
   for (size_t i = 0; s.bodies && i < s.file.mesh_count; i++)
     nsvcd_body_free(s.bodies[i].body, NULL);
   free(s.bodies);
@@ -438,7 +463,8 @@ static void array_name(const char *path, char *name, size_t size) {
   snprintf(name, size, "%s%.*s_body", digit ? "_" : "",
            (int)(strlen(base) < 40 ? strlen(base) - 2 : 40), base);
   for (char *c = name; *c; c++)
-    if (!isalnum((unsigned char)*c)) *c = '_';
+    if (!isalnum((unsigned char)*c))
+      *c = '_';
 }
 
 static void write_header(FILE *file, const char *in, const char *name, const nsvcd_body *body) {
@@ -461,7 +487,8 @@ static void write_header(FILE *file, const char *in, const char *name, const nsv
       "static const unsigned char %s[%zu] = {",
       in, facts.points, name, name, NSVCD_ALIGNMENT, NSVCD_ALIGNMENT, NSVCD_ALIGNMENT,
       NSVCD_ALIGNMENT, name, facts.size);
-  for (size_t i = 0; i < facts.size; i++) fprintf(file, "%s%d,", i % 24 ? "" : "\n    ", bytes[i]);
+  for (size_t i = 0; i < facts.size; i++)
+    fprintf(file, "%s%d,", i % 24 ? "" : "\n    ", bytes[i]);
   fprintf(file, "\n};\n");
 }
 
@@ -469,7 +496,8 @@ static int write_body(const char *in, const char *out, const nsvcd_body *body) {
   int header = ends_with(out, ".h");
   int good;
   FILE *file = fopen(out, header ? "w" : "wb");
-  if (!file) return complain("%s: %s", out, strerror(errno));
+  if (!file)
+    return complain("%s: %s", out, strerror(errno));
   if (header) {
     char name[64];
     array_name(out, name, sizeof name);
@@ -478,7 +506,8 @@ static int write_body(const char *in, const char *out, const nsvcd_body *body) {
     fwrite(body, 1, nsvcd_body_describe(body).size, file);
   }
   good = !ferror(file);
-  if (fclose(file) != 0 || !good) return complain("%s: cannot be written", out);
+  if (fclose(file) != 0 || !good)
+    return complain("%s: cannot be written", out);
   return 1;
 }
 
@@ -509,7 +538,8 @@ static int encode(int argc, char **argv) {
   for (int i = 0; i < argc; i++) {
     const char *value = i + 1 < argc ? argv[i + 1] : "";
     if (argv[i][0] != '-') {
-      if (path_count == 2) return usage();
+      if (path_count == 2)
+        return usage();
       paths[path_count++] = argv[i];
     } else if (strcmp(argv[i], "--no-triangles") == 0) {
       options.no_triangles = 1;
@@ -529,7 +559,8 @@ static int encode(int argc, char **argv) {
       return usage_error(argv[i], "no such option");
     }
   }
-  if (path_count != 2) return usage();
+  if (path_count != 2)
+    return usage();
   if (!ends_with(paths[1], ".body") && !ends_with(paths[1], ".h"))
     return usage_error(paths[1], "neither .body nor .h");
   if (options.no_triangles && options.no_latents)
@@ -542,28 +573,37 @@ static int encode(int argc, char **argv) {
   double taken;
   const nsvcd_body *body = encode_file("", paths[0], &options, &taken);
   int good = body && write_body(paths[0], paths[1], body);
-  if (good) print_facts(paths[1], body);
-  if (good) printf("encoded in %.1f ms\n", 1e3 * taken);
+  if (good)
+    print_facts(paths[1], body);
+  if (good)
+    printf("encoded in %.1f ms\n", 1e3 * taken);
   nsvcd_body_free(body, NULL);
   return good ? DONE : REFUSED;
 }
 
 static int info(int argc, char **argv) {
-  if (argc != 1) return usage();
+  if (argc != 1)
+    return usage();
   size_t size;
   char *memory = read_file(argv[0], &size);
-  if (!memory) return REFUSED;
+  if (!memory)
+    return REFUSED;
   const nsvcd_body *body;
   nsvcd_result result = nsvcd_body_load(memory, size, &body);
-  if (result) complain("%s: %s", argv[0], nsvcd_result_string(result));
-  if (!result) print_facts(argv[0], body);
+  if (result)
+    complain("%s: %s", argv[0], nsvcd_result_string(result));
+  if (!result)
+    print_facts(argv[0], body);
   free(memory);
   return result ? REFUSED : DONE;
 }
 
 int main(int argc, char **argv) {
-  if (argc > 1 && strcmp(argv[1], "check") == 0) return check(argc - 2, argv + 2);
-  if (argc > 1 && strcmp(argv[1], "encode") == 0) return encode(argc - 2, argv + 2);
-  if (argc > 1 && strcmp(argv[1], "info") == 0) return info(argc - 2, argv + 2);
+  if (argc > 1 && strcmp(argv[1], "check") == 0)
+    return check(argc - 2, argv + 2);
+  if (argc > 1 && strcmp(argv[1], "encode") == 0)
+    return encode(argc - 2, argv + 2);
+  if (argc > 1 && strcmp(argv[1], "info") == 0)
+    return info(argc - 2, argv + 2);
   return usage();
 }

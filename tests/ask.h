@@ -20,7 +20,8 @@ static inline nsvcd_question question_of(const nsvcd_body *moving, const nsvcd_p
   question.b.body = fixed;
   question.b.poses = fixed_pose;
   question.b.count = fixed_pose ? 1 : 0;
-  if (options) question.options = *options;
+  if (options)
+    question.options = *options;
   return question;
 }
 

@@ -31,7 +31,7 @@ group of eight|for (size_t i = first; i < first + NSVCD__GROUP \&\& i < f->body-
 group's disc at the start only|nsvcd__v3_add(at_start, nsvcd__v3_turned_back(block->turned, l, fixed->normal));|at_start;
 held plane without deviation|lowest - slack - nsvcd__deviation(span, p->held, nsvcd__patch_reach(\&p->moving, i));|lowest - slack;
 held plane without slack|highest + p->fixed.slacks[j] * nsvcd__f3_length(p->held);|highest;
-heights over another plane|if (known->plane == p->plane \&\& known->key == key) return|if (known->key == key) return
+heights over another plane|if (known->plane == p->plane \&\& known->key == key)|if (known->key == key)
 pair without quanta|p->arc.scale * (double)p->moving.quanta[i] + (double)p->fixed.quanta[j] + pair.rounding;|pair.rounding;
 pair without bulge|(arc->bulge * pair->reach * off_axis + arc->drift);|(0 * off_axis + arc->drift);
 pair without drift|(arc->bulge * pair->reach * off_axis + arc->drift);|(arc->bulge * pair->reach * off_axis);
@@ -52,11 +52,11 @@ half of the box|slice \&= nsvcd__v_le(at[k], nsvcd__v_set(outer->box[3 + k] + ro
 rays past half the groups|while (!*unclear \&\& nsvcd__walk_next(\&walk, \&g)) {\n    uint32_t patches|while (!*unclear \&\& nsvcd__walk_next(\&walk, \&g)) {\n    if (g % 2) continue;\n    uint32_t patches
 block's boxes at the start only|nsvcd__block_box(p, 2);|nsvcd__block_box(p, 1);
 last triangle skipped|size_t patience) {\n  const size_t moving_end = p->moving.first_triangle[i + 1];|size_t patience) {\n  const size_t moving_end = p->moving.first_triangle[i + 1] - 1;
-containment one way|if (outer->open) return 0;\n  if (e->inner->components|if (outer->open + !e->inner_moves) return 0;\n  if (e->inner->components
+containment one way|if (outer->open)\n    return 0;\n  if (e->inner->components|if (outer->open + !e->inner_moves)\n    return 0;\n  if (e->inner->components
 first arc only|at < end \&\& (double)at < p->end;) {|at < end \&\& at == work->begin[item->segment];) {
 a segment dropped|        p->met = nsvcd__group_against_members(search, fixed, h, wanted, p->met_in);\n|        p->met = nsvcd__group_against_members(search, fixed, h, wanted, p->met_in);\n        for (size_t l = 0; l < NSVCD__GROUP; l++) {\n          if (p->met_in[l] \& (p->met_in[l] - 1)) p->met_in[l] \&= p->met_in[l] - 1;\n        }\n
-a full buffer forgotten|        if (p->met_in[l]) return 1;\n|
-passing not seen|      if (passage == NSVCD__MEETS) return passage;\n|
+a full buffer forgotten|        if (p->met_in[l])\n          return 1;\n|
+passing not seen|      if (settled == NSVCD__MEETS)\n        return settled;\n|
 passing without a change of sides|  const int falls = before > least_before \&\& after < -least_after;|  const int falls = before != 0;
 both turn, twist forgotten|nsvcd__v_mul(nsvcd__v_mul(turn, nsvcd__v_add(turn, fixed_turn)), eighth)|nsvcd__v_mul(nsvcd__v_mul(turn, turn), eighth)
 both turn, half of the way|nsvcd__v_fma(fixed_turn, remote, nsvcd__v_add(way, way))|nsvcd__v_fma(fixed_turn, remote, way)
@@ -71,17 +71,17 @@ discs without scale|nsvcd__v_mul(scale, nsvcd__v3_dot(w, w)), nsvcd__v_mul(scale
 disc without clearance|const float deviation = a->clearance + span->rounding + nsvcd__deviation|const float deviation = span->rounding + nsvcd__deviation
 moving disc without clearance|nsvcd__v_set(span->rounding + a->clearance);|nsvcd__v_set(span->rounding);
 groups without clearance|nsvcd__v_add(spans.rounding, nsvcd__v_set(clearance));|spans.rounding;
-held plane without clearance|nsvcd__greatest_height(p, item->fixed) + clearance)) return 0;|nsvcd__greatest_height(p, item->fixed) + 0 * clearance)) return 0;
+held plane without clearance|nsvcd__greatest_height(p, item->fixed) + clearance))\n    return 0;|nsvcd__greatest_height(p, item->fixed) + 0 * clearance))\n    return 0;
 search without clearance|block->spread[l] += clearance;|block->spread[l] += 0 * clearance;
 clipped without twice the bulge|    block->bulge[l] *= 2;\n    block->drift[l] *= 2;\n|    block->bulge[l] *= 0.1f;\n
 clipped too early|return (double)search->begin[segment] < p->end;|return (double)search->begin[segment] < 0.9 * p->end;
 every other segment|s += NSVCD__IN_ORDER) {|s += 2 * NSVCD__IN_ORDER) {
 contacts end too much|p->end = fmin(p->found.tick - p->first, p->unsure);|p->end = fmin(0.9 * p->found.tick - p->first, p->unsure);
 a start that is not asked|  if (verdict == NSVCD__MEETS \&\& p->first > 0 \&\& p->found.tick > 0 \&\& p->end <= 0) {|  if (0) {
-half the first distance|return 1.0001 * sqrt((double)least_square)|return 0.5 * sqrt((double)least_square)
+half the first distance|return 1.0001 * nsvcd__vertices_apart(|return 0.5 * nsvcd__vertices_apart(
 distance without tolerance|fmax(0, distance - p->measure);|fmax(0, distance * 1.01);
 exact poses not lifted|at.position = nsvcd__d3_add(at.position, arc->lift);|at.position = nsvcd__d3_add(at.position, nsvcd__d3_scale(arc->lift, 0));
-lift the wrong way|if (lacks > 0) lift = nsvcd__d3_add(|if (lacks > 0) lift = nsvcd__d3_sub(
+lift the wrong way|if (lacks > 0)\n        lift = nsvcd__d3_add(|if (lacks > 0)\n        lift = nsvcd__d3_sub(
 a window of another patch|p->window > 0 \&\& p->fixed_blocks[0].first == first|p->window > 0
 tile: every other group|nsvcd__walk_next(walk, \&g)) {\n    const nsvcd__sphere group|nsvcd__walk_next(walk, \&g) \&\& nsvcd__walk_next(walk, \&g)) {\n    const nsvcd__sphere group
 tile: the first only|nsvcd__search_next_tile(search, p->moving.body, p->fixed.body));\n  return verdict;|0);\n  return verdict;

@@ -42,7 +42,8 @@ static int8_t latents[NSVCD_SMALL_POINTS * NSVCD__LATENT];
 static const nsvcd_body *build(size_t points, blob *memory) {
   const nsvcd_body *body = NULL;
   uint16_t order[NSVCD_SMALL_POINTS], spare[NSVCD_SMALL_POINTS];
-  for (size_t i = 0; i < points; i++) order[i] = (uint16_t)i;
+  for (size_t i = 0; i < points; i++)
+    order[i] = (uint16_t)i;
   nsvcd__body_order(points, centres, order, spare);
   nsvcd_result result =
       nsvcd__body_build(points, centres, radii, areas, latents, order, NSVCD_WEIGHTS_ID, 0,
@@ -111,7 +112,8 @@ static void body_round_trip(void) {
              nsvcd__body_latents(body)[NSVCD__LATENT * (i + 1) - 1];
     }
     CHECK_NEAR(want, got, 1e-9 * (fabs(want) + 1));
-    for (size_t i = points; i < body->padded; i++) CHECK(nsvcd__body_r(body)[i] <= -1e14f);
+    for (size_t i = points; i < body->padded; i++)
+      CHECK(nsvcd__body_r(body)[i] <= -1e14f);
   }
 }
 
@@ -122,10 +124,13 @@ static void body_order(void) {
   for (size_t points = 1; points <= 512; points += 37) {
     const nsvcd_body *body = random_body(points, 1, 0, &blob_a_memory);
     int seen[NSVCD_SMALL_POINTS] = {0};
-    for (size_t i = 0; i < points; i++) order[i] = (uint16_t)i;
+    for (size_t i = 0; i < points; i++)
+      order[i] = (uint16_t)i;
     nsvcd__body_order(points, centres, order, spare);
-    for (size_t i = 0; i < points; i++) seen[order[i]]++;
-    for (size_t i = 0; i < points; i++) CHECK_EQ(seen[i], 1);
+    for (size_t i = 0; i < points; i++)
+      seen[order[i]]++;
+    for (size_t i = 0; i < points; i++)
+      CHECK_EQ(seen[i], 1);
     size_t groups = nsvcd__body_groups(body);
     for (size_t g = 0; g < groups; g++) {
       for (size_t i = NSVCD__GROUP * g; i < NSVCD__GROUP * (g + 1) && i < points; i++) {
@@ -137,8 +142,10 @@ static void body_order(void) {
       }
     }
     double sum = 0;
-    for (size_t g = 0; g < groups; g++) sum += (double)nsvcd__group_spheres(body).r[g];
-    if (points > 256) CHECK_LE(sum / (double)groups, 0.45 * (double)body->radius);
+    for (size_t g = 0; g < groups; g++)
+      sum += (double)nsvcd__group_spheres(body).r[g];
+    if (points > 256)
+      CHECK_LE(sum / (double)groups, 0.45 * (double)body->radius);
   }
 }
 
@@ -180,9 +187,11 @@ static void body_malice(void) {
   size_t floats_end = size - 9 * NSVCD__LATENT;
   char *copy = aligned(&blob_b_memory);
   for (size_t at = offsetof(struct nsvcd_body, centre); at + 4 <= floats_end; at += 4) {
-    if (at >= offsetof(struct nsvcd_body, open) && at < sizeof *body) continue;
+    if (at >= offsetof(struct nsvcd_body, open) && at < sizeof *body)
+      continue;
     // the zeros at the end shift the latents' start by up to 15 bytes
-    if (at + 16 > floats_end) continue;
+    if (at + 16 > floats_end)
+      continue;
     for (size_t n = 0; n < 4; n++) {
       memcpy(copy, body, size);
       memcpy(copy + at, &bad[n], 4);
@@ -253,8 +262,10 @@ static nsvcd_result motion_init(const nsvcd_pose *samples, size_t count,
   static const struct nsvcd_body any = {0};
   const nsvcd_question question = question_of(&any, samples, count, &any, fixed_pose, NULL);
   nsvcd_result result = nsvcd__mover_check(&question.a);
-  if (!result) result = nsvcd__mover_check(&question.b);
-  if (!result) nsvcd__motion_init(&question.a, &question.b, motion);
+  if (!result)
+    result = nsvcd__mover_check(&question.b);
+  if (!result)
+    nsvcd__motion_init(&question.a, &question.b, motion);
   return result;
 }
 
@@ -273,7 +284,8 @@ static void search(const nsvcd_body *moving, const nsvcd_body *fixed, nsvcd__mot
   nsvcd__cut_motion(motion, moving->extent + fixed->extent, space);
   int more = nsvcd__search_begin(moving, fixed, space);
   nsvcd__candidates_start(kept, found, limit);
-  while (more) more = nsvcd__search_step(space, moving, fixed, kept);
+  while (more)
+    more = nsvcd__search_step(space, moving, fixed, kept);
   qsort(found, kept->count, sizeof *found, deepest_first);
 }
 
@@ -288,8 +300,10 @@ static pose64 to_double(const nsvcd_pose *pose) {
     out.q[k] = (double)pose->rotation[k];
     square += out.q[k] * out.q[k];
   }
-  for (int k = 0; k < 4; k++) out.q[k] /= sqrt(square);
-  for (int k = 0; k < 3; k++) out.p[k] = (double)pose->position[k];
+  for (int k = 0; k < 4; k++)
+    out.q[k] /= sqrt(square);
+  for (int k = 0; k < 3; k++)
+    out.p[k] = (double)pose->position[k];
   return out;
 }
 
@@ -297,22 +311,27 @@ static pose64 to_double(const nsvcd_pose *pose) {
 static void rotate64(const double *q, const double *v, double *out) {
   double c[3] = {q[1] * v[2] - q[2] * v[1], q[2] * v[0] - q[0] * v[2], q[0] * v[1] - q[1] * v[0]};
   double d[3] = {q[1] * c[2] - q[2] * c[1], q[2] * c[0] - q[0] * c[2], q[0] * c[1] - q[1] * c[0]};
-  for (int k = 0; k < 3; k++) out[k] = v[k] + 2 * (q[3] * c[k] + d[k]);
+  for (int k = 0; k < 3; k++)
+    out[k] = v[k] + 2 * (q[3] * c[k] + d[k]);
 }
 
 // FORMATS.md's motion, in double.
 static pose64 pose_at(const nsvcd_pose *samples, size_t count, double t) {
-  if (count == 1) return to_double(&samples[0]);
+  if (count == 1)
+    return to_double(&samples[0]);
   double at = t * (double)(count - 1);
   size_t k = (size_t)at;
-  if (k > count - 2) k = count - 2;
+  if (k > count - 2)
+    k = count - 2;
   double u = at - (double)k;
   double dot = 0;
   pose64 a = to_double(&samples[k]);
   pose64 b = to_double(&samples[k + 1]);
   pose64 out;
-  for (int i = 0; i < 4; i++) dot += a.q[i] * b.q[i];
-  for (int i = 0; i < 4 && dot < 0; i++) b.q[i] = -b.q[i];
+  for (int i = 0; i < 4; i++)
+    dot += a.q[i] * b.q[i];
+  for (int i = 0; i < 4 && dot < 0; i++)
+    b.q[i] = -b.q[i];
   double angle = acos(fmin(fabs(dot), 1));
   double wa = 1 - u;
   double wb = u;
@@ -325,8 +344,10 @@ static pose64 pose_at(const nsvcd_pose *samples, size_t count, double t) {
     out.q[i] = wa * a.q[i] + wb * b.q[i];
     square += out.q[i] * out.q[i];
   }
-  for (int i = 0; i < 4; i++) out.q[i] /= sqrt(square);
-  for (int i = 0; i < 3; i++) out.p[i] = (1 - u) * a.p[i] + u * b.p[i];
+  for (int i = 0; i < 4; i++)
+    out.q[i] /= sqrt(square);
+  for (int i = 0; i < 3; i++)
+    out.p[i] = (1 - u) * a.p[i] + u * b.p[i];
   return out;
 }
 
@@ -335,7 +356,8 @@ static void place64(const pose64 *at, const pose64 *fixed, const double *point, 
   double world[3];
   double back[4] = {-fixed->q[0], -fixed->q[1], -fixed->q[2], fixed->q[3]};
   rotate64(at->q, point, world);
-  for (int k = 0; k < 3; k++) world[k] += at->p[k] - fixed->p[k];
+  for (int k = 0; k < 3; k++)
+    world[k] += at->p[k] - fixed->p[k];
   rotate64(back, world, out);
 }
 
@@ -349,7 +371,8 @@ static void random_quat(float *q) {
       square += v[k] * v[k];
     }
   } while (square > 1 || square < 0.01);
-  for (int k = 0; k < 4; k++) q[k] = (float)(v[k] / sqrt(square));
+  for (int k = 0; k < 4; k++)
+    q[k] = (float)(v[k] / sqrt(square));
 }
 
 // Kinds: 0 smooth, turning by `turn` in all about one axis; 1 smooth with a wobble; 2 jumping at
@@ -364,7 +387,8 @@ static void random_motion(size_t count, int kind, double turn, double path, cons
     along[k] = uniform(-1, 1) * path;
   }
   random_quat(q);
-  for (int k = 0; k < 4; k++) start[k] = (double)q[k];
+  for (int k = 0; k < 4; k++)
+    start[k] = (double)q[k];
   for (size_t n = 0; n < count; n++) {
     double t = count > 1 ? (double)n / (double)(count - 1) : 0.5;
     double half = 0.5 * turn * t;
@@ -383,7 +407,8 @@ static void random_motion(size_t count, int kind, double turn, double path, cons
     }
     if (kind == 2) {
       random_quat(poses[n].rotation);
-      for (int k = 0; k < 3; k++) poses[n].position[k] = (float)(middle[k] + uniform(-1, 1) * path);
+      for (int k = 0; k < 3; k++)
+        poses[n].position[k] = (float)(middle[k] + uniform(-1, 1) * path);
     }
     double sign = uniform(-1, 1) < 0 ? -1 : 1;
     double scale = sign * uniform(1 - 9e-5, 1 + 9e-5);  // still unit to 1e-4
@@ -440,13 +465,16 @@ static void poses_at_are_poses(void) {
       nsvcd__v q[4], p[3], m[9];
       nsvcd__v_poses_at(&motion, times + l, NSVCD__SLICE, q, p);
       nsvcd__v_matrix(q, m);
-      for (size_t k = 0; k < 9; k++) nsvcd__v_store(lanes[k] + l, m[k]);
-      for (size_t k = 0; k < 3; k++) nsvcd__v_store(lanes[9 + k] + l, p[k]);
+      for (size_t k = 0; k < 9; k++)
+        nsvcd__v_store(lanes[k] + l, m[k]);
+      for (size_t k = 0; k < 3; k++)
+        nsvcd__v_store(lanes[9 + k] + l, p[k]);
     }
     for (size_t l = 0; l < NSVCD__LANES; l++) {
       float rotation[9], position[3];
       nsvcd__motion_pose(&motion, times[l], rotation, position);
-      for (size_t k = 0; k < 9; k++) worst = fmax(worst, fabs((double)(lanes[k][l] - rotation[k])));
+      for (size_t k = 0; k < 9; k++)
+        worst = fmax(worst, fabs((double)(lanes[k][l] - rotation[k])));
       for (size_t k = 0; k < 3; k++)
         worst = fmax(worst, fabs((double)(lanes[9 + k][l] - position[k])));
     }
@@ -466,9 +494,11 @@ static void half_rotation_vector(void) {
     double sign = trial % 5 ? 1 : -1;
     random_quat(random);
     length = sqrt((double)(random[0] * random[0] + random[1] * random[1] + random[2] * random[2]));
-    for (int k = 0; k < 3; k++) axis[k] = (double)random[k] / length;
+    for (int k = 0; k < 3; k++)
+      axis[k] = (double)random[k] / length;
     nsvcd__v q[4], w[3];
-    for (int k = 0; k < 3; k++) q[k] = nsvcd__v_set((float)(sign * s * axis[k]));
+    for (int k = 0; k < 3; k++)
+      q[k] = nsvcd__v_set((float)(sign * s * axis[k]));
     q[3] = nsvcd__v_set((float)(sign * cos(angle / 2)));
     nsvcd__v_half_rotation(q, w);
     for (int k = 0; k < 3; k++) {
@@ -483,7 +513,8 @@ static void bad_poses(void) {
   nsvcd__motion motion;
   memset(&motion, 7, sizeof motion);
   nsvcd__motion before = motion;
-  for (int n = 0; n < 5; n++) poses[n] = good;
+  for (int n = 0; n < 5; n++)
+    poses[n] = good;
   CHECK_EQ(motion_init(poses, 0, &good, &motion), NSVCD_ERROR_ARGUMENT);
   CHECK_EQ(motion_init(poses, (size_t)NSVCD_MAX_POSES + 1, &good, &motion), NSVCD_ERROR_ARGUMENT);
   CHECK_EQ(motion_init(NULL, 5, &good, &motion), NSVCD_ERROR_ARGUMENT);
@@ -513,8 +544,10 @@ static void bad_poses(void) {
 static int by_pair(const void *a, const void *b) {
   const nsvcd__candidate *x = (const nsvcd__candidate *)a;
   const nsvcd__candidate *y = (const nsvcd__candidate *)b;
-  if (x->moving != y->moving) return x->moving < y->moving ? -1 : 1;
-  if (x->fixed != y->fixed) return x->fixed < y->fixed ? -1 : 1;
+  if (x->moving != y->moving)
+    return x->moving < y->moving ? -1 : 1;
+  if (x->fixed != y->fixed)
+    return x->fixed < y->fixed ? -1 : 1;
   return x->t_enter < y->t_enter ? -1 : x->t_enter > y->t_enter ? 1 : 0;
 }
 
@@ -531,7 +564,8 @@ static int is_covered(const nsvcd__candidate *sorted, size_t count, size_t i, si
       high = middle;
   }
   for (; low < count && sorted[low].moving == i && sorted[low].fixed == j; low++) {
-    if ((double)sorted[low].t_enter - 1e-6 <= t && t <= (double)sorted[low].t_exit + 1e-6) return 1;
+    if ((double)sorted[low].t_enter - 1e-6 <= t && t <= (double)sorted[low].t_exit + 1e-6)
+      return 1;
   }
   return 0;
 }
@@ -555,7 +589,8 @@ static void try_motion(const nsvcd_body *moving, const nsvcd_body *fixed, size_t
   CHECK_EQ(best.count, all.total < limit ? all.total : limit);
   for (size_t n = 0; n < best.count; n++)
     sum->kept_wrong += memcmp(&few[n], &items[n], sizeof few[n]) != 0;
-  for (size_t n = 1; n < all.count; n++) CHECK(items[n - 1].depth >= items[n].depth);
+  for (size_t n = 1; n < all.count; n++)
+    CHECK(items[n - 1].depth >= items[n].depth);
   for (size_t n = 0; n < all.count; n++) {
     const nsvcd__candidate *c = &items[n];
     CHECK(0 <= c->t_enter && c->t_enter <= c->t_least && c->t_least <= c->t_exit && c->t_exit <= 1);
@@ -584,7 +619,8 @@ static void try_motion(const nsvcd_body *moving, const nsvcd_body *fixed, size_t
                        p[1] - (double)nsvcd__body_y(fixed)[j],
                        p[2] - (double)nsvcd__body_z(fixed)[j]};
         double r = ri + (double)nsvcd__body_r(fixed)[j];
-        if (d[0] * d[0] + d[1] * d[1] + d[2] * d[2] > r * r) continue;
+        if (d[0] * d[0] + d[1] * d[1] + d[2] * d[2] > r * r)
+          continue;
         sum->overlaps++;
         pair_met[i][j] = 1;
         sum->lost += !is_covered(items, all.count, i, j, t);
@@ -701,9 +737,11 @@ static void deviation_is_bounded(void) {
       nsvcd__chords_of_sphere(b, point, &chords);
       const float x[3] = {chords.start[0][l], chords.start[1][l], chords.start[2][l]};
       const float v[3] = {chords.way[0][l], chords.way[1][l], chords.way[2][l]};
-      for (int k = 0; k < 3; k++) square += pow((double)x[k] + tau * (double)v[k] - p[k], 2);
+      for (int k = 0; k < 3; k++)
+        square += pow((double)x[k] + tau * (double)v[k] - p[k], 2);
       CHECK_LE(sqrt(square), chords.reach[l]);
-      if (trial % 4 == 3) most = fmax(most, sqrt(square) / (double)chords.reach[l]);
+      if (trial % 4 == 3)
+        most = fmax(most, sqrt(square) / (double)chords.reach[l]);
     }
   }
   printf("  the bound is attained to %.4f\n", most);
@@ -716,7 +754,8 @@ static void ties(void) {
   memset(centres, 0, sizeof centres);
   memset(areas, 0, sizeof areas);
   memset(latents, 0, sizeof latents);
-  for (size_t i = 0; i < 40; i++) radii[i] = 1;
+  for (size_t i = 0; i < 40; i++)
+    radii[i] = 1;
   const nsvcd_body *a = build(40, &blob_a_memory);
   const nsvcd_body *b = build(40, &blob_b_memory);
   nsvcd_pose fixed = {{0.5f, 0, 0}, {0, 0, 0, 1}};
@@ -730,7 +769,8 @@ static void ties(void) {
   for (size_t limit = 1; limit <= 64; limit++) {
     search(a, b, &motion, work, few, limit, &best);
     CHECK(memcmp(few, items, limit * sizeof *few) == 0);
-    for (size_t n = 0; n < limit; n++) CHECK_EQ(few[n].moving * 40 + few[n].fixed, n);
+    for (size_t n = 0; n < limit; n++)
+      CHECK_EQ(few[n].moving * 40 + few[n].fixed, n);
   }
 }
 
@@ -788,7 +828,8 @@ static void runs_are_cut(void) {
   CHECK_EQ(items[kept.count - 1].t_exit, 1);
   for (size_t n = 0; n < kept.count; n++) {
     CHECK_LE((items[n].t_exit - items[n].t_enter) * 360, 46);
-    if (n > 0) CHECK_EQ(items[n].t_enter, items[n - 1].t_exit);
+    if (n > 0)
+      CHECK_EQ(items[n].t_enter, items[n - 1].t_exit);
   }
 }
 
@@ -825,19 +866,23 @@ static void containment(void) {
       int bin = clearance < 1 ? 0 : clearance < 1.5 ? 1 : clearance < 2 ? 2 : 3;
       double want = distance < 1 ? 1 : 0;
       double off = fabs((double)nsvcd__winding_number(outer, at) - want);
-      if (clearance >= 0.75) error[bin] = fmax(error[bin], off);
+      if (clearance >= 0.75)
+        error[bin] = fmax(error[bin], off);
       clear += clearance >= (double)NSVCD__CLEARANCE;
       rough += clearance >= (double)NSVCD__CLEARANCE && off > 0.3;
       // In the clear: exactly when it is inside. On the surface: anything. Outside: never.
-      if (distance < 1 - 0.1 - r) CHECK(nsvcd__is_contained(inner, outer, 1, rotation, at));
+      if (distance < 1 - 0.1 - r)
+        CHECK(nsvcd__is_contained(inner, outer, 1, rotation, at));
       if (distance < 1 - 0.1 - r) {
         float back[9], from[3];
         nsvcd__transpose33(rotation, back);
         nsvcd__mul33_vec(back, at, from);
-        for (int k = 0; k < 3; k++) from[k] = -from[k];
+        for (int k = 0; k < 3; k++)
+          from[k] = -from[k];
         CHECK(nsvcd__is_contained(outer, inner, 1, back, from));
       }
-      if (distance > 1.1) CHECK(!nsvcd__is_contained(inner, outer, 1, rotation, at));
+      if (distance > 1.1)
+        CHECK(!nsvcd__is_contained(inner, outer, 1, rotation, at));
     }
     const float far[3] = {30, 0, 0};
     const float none[3] = {0, 0, 0};
@@ -867,7 +912,8 @@ static void containment_in_a_cavity(void) {
     centres[3 * 256 + n] = inner_centres[n];
     areas[3 * 256 + n] = -inner_areas[n];
   }
-  for (size_t n = 0; n < 256; n++) radii[256 + n] = inner_radii[n];
+  for (size_t n = 0; n < 256; n++)
+    radii[256 + n] = inner_radii[n];
   const nsvcd_body *hollow = build(512, &blob_a_memory);
   const nsvcd_body *ball = shell_body(32, 0.02, &blob_b_memory);
   const float middle[3] = {0, 0, 0};

@@ -47,7 +47,8 @@ static void mesh_area_vector(const nsvcd_mesh *mesh, double *sum) {
     double corners[3][3], v[3];
     nsvcd__triangle(mesh, t, corners);
     nsvcd__area_vector(corners, v);
-    for (int k = 0; k < 3; ++k) sum[k] += v[k];
+    for (int k = 0; k < 3; ++k)
+      sum[k] += v[k];
   }
 }
 
@@ -73,13 +74,15 @@ static nsvcd_mesh mesh_round(size_t rings, size_t segments, double radius, doubl
       double b = 2 * pi * (double)j / (double)segments;
       double r =
           tube > 0 ? radius + tube * cos(a) : radius * sin(a) * (1 + 0.3 * cos(3 * b) * sin(a));
-      if (tube <= 0 && (i == 0 || i == rings - 1)) r = 0;  // exact poles close the surface
+      if (tube <= 0 && (i == 0 || i == rings - 1))
+        r = 0;  // exact poles close the surface
       float *p = mesh.positions + 3 * (i * segments + j);
       p[0] = (float)(r * cos(b));
       p[1] = (float)(r * sin(b));
       p[2] = (float)(tube > 0 ? tube * sin(a) : -radius * cos(a));
       if (tube <= 0 && i == rings - 1) {  // no quads beyond the last ring: points
-        for (int k = 0; k < 6; ++k) *index++ = (uint32_t)(i * segments + j);
+        for (int k = 0; k < 6; ++k)
+          *index++ = (uint32_t)(i * segments + j);
         continue;
       }
       uint32_t i1 = (uint32_t)((i + 1) % rings);
@@ -120,7 +123,8 @@ static nsvcd_mesh mesh_soup(size_t triangles, double size) {
     mesh.indices[i] = (uint32_t)i;
   }
   // no area
-  for (size_t t = 0; t + 1 < triangles; t += 11) mesh.indices[3 * t + 1] = mesh.indices[3 * t];
+  for (size_t t = 0; t + 1 < triangles; t += 11)
+    mesh.indices[3 * t + 1] = mesh.indices[3 * t];
   return mesh;
 }
 // slivers from one point: an open strip
@@ -138,10 +142,12 @@ static nsvcd_mesh mesh_fan(size_t triangles, double length, double width) {
   return mesh;
 }
 static void mesh_scale(nsvcd_mesh *mesh, float s) {
-  for (size_t i = 0; i < 3 * mesh->vertex_count; ++i) mesh->positions[i] *= s;
+  for (size_t i = 0; i < 3 * mesh->vertex_count; ++i)
+    mesh->positions[i] *= s;
 }
 static void mesh_move(nsvcd_mesh *mesh, float d) {
-  for (size_t i = 0; i < 3 * mesh->vertex_count; ++i) mesh->positions[i] += d;
+  for (size_t i = 0; i < 3 * mesh->vertex_count; ++i)
+    mesh->positions[i] += d;
 }
 enum { MESH_KINDS = 9 };
 static nsvcd_mesh mesh_kind(int kind) {
@@ -235,12 +241,14 @@ static void mesh_obj_accepted(void) {
     if (result != NSVCD_OK)
       printf("case %d, line %d: %s\n", (int)i, (int)line, nsvcd_result_string(result));
     CHECK_EQ(result, NSVCD_OK);
-    if (result != NSVCD_OK) continue;
+    if (result != NSVCD_OK)
+      continue;
     CHECK_EQ(line, 0);
     CHECK_EQ(mesh.vertex_count, cases[i].vertices);
     CHECK_EQ(mesh.triangle_count, cases[i].triangles);
     const uint32_t *last = mesh.indices + 3 * (mesh.triangle_count - 1);
-    for (int k = 0; k < 3; ++k) CHECK_EQ(last[k], cases[i].last[k]);
+    for (int k = 0; k < 3; ++k)
+      CHECK_EQ(last[k], cases[i].last[k]);
     CHECK_EQ(nsvcd__mesh_check(&mesh), NSVCD_OK);
     nsvcd_mesh_free(&mesh, NULL);
     CHECK(mesh.positions == NULL && mesh.indices == NULL && mesh.vertex_count == 0 &&
@@ -421,7 +429,8 @@ static void mesh_obj_in_any_locale(void) {
   nsvcd_result result = parse("v 1.5 0 0\nv 0 0 0\nv 0 1 0\nf 1 2 3\n", &mesh, NULL);
   setlocale(LC_ALL, "C");
   CHECK_EQ(result, NSVCD_OK);
-  if (result != NSVCD_OK) return;
+  if (result != NSVCD_OK)
+    return;
   CHECK_EQ(mesh.positions[0], 1.5);
   nsvcd_mesh_free(&mesh, NULL);
 }
@@ -451,11 +460,13 @@ static void mesh_obj_long_lines(void) {
   memset(text + used, ' ', 1000000);
   used += 1000000;
   used += (size_t)sprintf(text + used, "0 0\nv 0 0 0\nv 0 1 0\nf");
-  for (int i = 0; i < CORNERS; ++i) used += (size_t)sprintf(text + used, " %d/1/1", i % 3 + 1);
+  for (int i = 0; i < CORNERS; ++i)
+    used += (size_t)sprintf(text + used, " %d/1/1", i % 3 + 1);
   nsvcd_mesh mesh;
   size_t line = 0;
   nsvcd_result result = nsvcd_obj_parse(text, used, NULL, &mesh, &line);
-  if (result != NSVCD_OK) printf("line %d: %s\n", (int)line, nsvcd_result_string(result));
+  if (result != NSVCD_OK)
+    printf("line %d: %s\n", (int)line, nsvcd_result_string(result));
   CHECK_EQ(result, NSVCD_OK);
   if (result == NSVCD_OK) {
     CHECK_EQ(mesh.triangle_count, CORNERS - 2);
@@ -472,7 +483,8 @@ static void mesh_obj_long_lines(void) {
     used += (size_t)sprintf(text + used, "v %d %d 0\n", i < 50000 ? i : 100000 - i,
                             i % 2 + (i < 50000 ? 0 : 5));
   used += (size_t)sprintf(text + used, "f");
-  for (int i = 0; i < 100000; ++i) used += (size_t)sprintf(text + used, " %d", i + 1);
+  for (int i = 0; i < 100000; ++i)
+    used += (size_t)sprintf(text + used, " %d", i + 1);
   CHECK_EQ(nsvcd_obj_parse(text, used, NULL, &mesh, &line), NSVCD_ERROR_TOO_LARGE);
   CHECK_EQ(line, 100001);
   free(text);
@@ -488,8 +500,10 @@ static void mesh_obj_files(void) {
   char path[L_tmpnam + 1] = "nsvcd_test_mesh.obj";
   FILE *file = fopen(path, "wb");
   CHECK(file != NULL);
-  if (!file) return;
-  for (int i = 0; i < 40000; ++i) fprintf(file, "v %d 0.5 0\n", i);  // larger than the first read
+  if (!file)
+    return;
+  for (int i = 0; i < 40000; ++i)
+    fprintf(file, "v %d 0.5 0\n", i);  // larger than the first read
   fprintf(file, "f 1 2 40000\nf 1 2 40001\n");
   fclose(file);
   for (int fail_at = -1; fail_at < 12; ++fail_at) {
@@ -537,12 +551,14 @@ static void mesh_obj_fuzz(void) {
           text[at] = (char)mesh_below(256);
           break;
         case 2:  // cut out
-          if (at + length > size || size - length < 1) break;
+          if (at + length > size || size - length < 1)
+            break;
           memmove(text + at, text + at + length, size - at - length);
           size -= length;
           break;
         default:  // double
-          if (at + length > size || size + length > sizeof text) break;
+          if (at + length > size || size + length > sizeof text)
+            break;
           memmove(text + at + length, text + at, size - at);
           size += length;
       }
@@ -556,7 +572,8 @@ static void mesh_obj_fuzz(void) {
     size_t line = 999;
     nsvcd_result result = nsvcd_obj_parse(exact, size, &allocator, &mesh, &line);
     size_t lines = 1;
-    for (size_t i = 0; i < size; ++i) lines += exact[i] == '\n';
+    for (size_t i = 0; i < size; ++i)
+      lines += exact[i] == '\n';
     CHECK_LE(line, lines);
     if (result == NSVCD_OK) {
       CHECK_EQ(nsvcd__mesh_check(&mesh), NSVCD_OK);
@@ -620,7 +637,8 @@ static double polygon_cover(const double (*xy)[2], uint32_t count) {
     q[k] = (float)mesh_uniform(-1, 1);
     norm += q[k] * q[k];
   }
-  for (int k = 0; k < 4; ++k) q[k] /= sqrtf(norm);
+  for (int k = 0; k < 4; ++k)
+    q[k] /= sqrtf(norm);
   nsvcd__quat_to_matrix(q, m);
   double area = 0;
   double covered = 0;
@@ -644,7 +662,8 @@ static double polygon_cover(const double (*xy)[2], uint32_t count) {
     covered += nsvcd__area_vector(corner, v);
   }
   mesh_area_vector(&mesh, vector);
-  for (int k = 0; k < 3; ++k) normal[k] = area * (double)m[3 * k + 2] - vector[k];
+  for (int k = 0; k < 3; ++k)
+    normal[k] = area * (double)m[3 * k + 2] - vector[k];
   CHECK_LE(vector_length(normal), 1e-5 * (fabs(area) + covered) + 1e-12);
   return covered / fabs(area);
 }
@@ -785,7 +804,8 @@ static void mesh_samples_are_uniform(void) {
   for (size_t f = 0; f < 6; ++f) {
     double share = (f < 2 ? 0.06 : f < 4 ? 0.03 : 0.02) / (2 * total);
     CHECK_NEAR(face[f], (double)S * share, 1.01);  // stratified: to one sample at each end
-    for (size_t k = 0; k < 2; ++k) CHECK_NEAR(mean[f][k] / face[f], 0, 0.02);
+    for (size_t k = 0; k < 2; ++k)
+      CHECK_NEAR(mean[f][k] / face[f], 0, 0.02);
   }
   nsvcd_mesh_free(&mesh, NULL);
 
@@ -800,7 +820,8 @@ static void mesh_samples_are_uniform(void) {
     double c[3][3], v[3];
     nsvcd__triangle(&mesh, t, c);
     double area = nsvcd__area_vector(c, v) / nsvcd__mesh_area(&mesh);
-    for (int i = 0; i < 3; ++i) exact += area / 3 * pow(0.5 * (c[i][2] + c[(i + 1) % 3][2]), 2);
+    for (int i = 0; i < 3; ++i)
+      exact += area / 3 * pow(0.5 * (c[i][2] + c[(i + 1) % 3][2]), 2);
   }
   CHECK_NEAR(z2 / exact, 1, 2e-3);
   nsvcd_mesh_free(&mesh, NULL);
@@ -833,7 +854,8 @@ static void mesh_samples_lie_mid_stratum(void) {
   mesh.positions[4] = 0.2f;             // now a fifth and four fifths of the whole
   nsvcd__sample_surface(&mesh, 4, points, normals);
   // at 1/8, 3/8, 5/8, 7/8
-  for (int i = 0; i < 4; ++i) CHECK_EQ(points[3 * i + 1] < 0.2f * points[3 * i], i == 0);
+  for (int i = 0; i < 4; ++i)
+    CHECK_EQ(points[3 * i + 1] < 0.2f * points[3 * i], i == 0);
   nsvcd_mesh_free(&mesh, NULL);
 }
 
@@ -874,7 +896,8 @@ static void mesh_farthest_points_are_farthest(void) {
         if (i == p.count)
           CHECK_EQ(nearest, nsvcd__centre_distance(&p, p.owners[s], p.x[s], p.y[s], p.z[s]));
       }
-      if (i < p.count) CHECK_EQ(centre, farthest);
+      if (i < p.count)
+        CHECK_EQ(centre, farthest);
     }
     nsvcd__patches_free(&p, NULL);
   }
@@ -898,7 +921,8 @@ static void mesh_centres_without_samples_are_dropped(void) {
   CHECK_EQ(p.count, 2);
   CHECK_EQ(p.centre_x[0], 47.5);
   CHECK_EQ(p.centre_x[1], 15.5);
-  for (size_t s = 0; s < 64; ++s) CHECK_EQ(p.owners[s], s < 32);
+  for (size_t s = 0; s < 64; ++s)
+    CHECK_EQ(p.owners[s], s < 32);
   // Of two centres at the same distance the first one is nearest, whatever the guess.
   nsvcd__set_centre(&p, 0, 1, 0, 0);
   nsvcd__set_centre(&p, 1, -1, 0, 0);
@@ -935,7 +959,8 @@ static void mesh_patches_are_round(void) {
 static int patches_cover(const nsvcd__patches *p, const double *x) {
   for (size_t i = 0; i < p->count; ++i) {
     double d = nsvcd__squared_distance(p, i, x[0], x[1], x[2]);
-    if (d <= (double)p->radii[i] * (double)p->radii[i]) return 1;
+    if (d <= (double)p->radii[i] * (double)p->radii[i])
+      return 1;
   }
   return 0;
 }
@@ -957,7 +982,8 @@ static void mesh_patches_cover_the_surface(void) {
         double u = mesh_uniform(0, 1);
         double v = mesh_uniform(0, 1 - u);
         nsvcd__triangle(&mesh, s < mesh.triangle_count ? s : mesh_below(mesh.triangle_count), c);
-        if (s % 4 == 1) u = 0;
+        if (s % 4 == 1)
+          u = 0;
         if (s % 4 == 2) {
           u = 0;
           v = 0;
@@ -993,7 +1019,8 @@ static void mesh_patches_are_consistent(void) {
       double reach = 0;
       for (size_t s = p.offsets[i]; s < p.offsets[i + 1]; ++s) {
         const float *x = p.points + 3 * s;
-        for (int k = 0; k < 3; ++k) mean[k] += (double)x[k] / samples;
+        for (int k = 0; k < 3; ++k)
+          mean[k] += (double)x[k] / samples;
         reach =
             fmax(reach, nsvcd__squared_distance(&p, i, (double)x[0], (double)x[1], (double)x[2]));
         CHECK_NEAR(nsvcd__length3(p.normals + 3 * s), 1, 1e-6);
@@ -1003,13 +1030,16 @@ static void mesh_patches_are_consistent(void) {
       CHECK_NEAR((double)p.sample_radii[i] / sqrt(reach), 1, 1e-6);
       CHECK(p.radii[i] > 0 && nsvcd__is_finite(p.radii[i]));
       area += (double)p.areas[i];
-      for (size_t k = 0; k < 3; ++k) vector[k] += (double)p.area_vectors[3 * i + k];
+      for (size_t k = 0; k < 3; ++k)
+        vector[k] += (double)p.area_vectors[3 * i + k];
     }
     double total = nsvcd__mesh_area(&mesh);
     CHECK_NEAR(area / total, 1, 1e-6);
     mesh_area_vector(&mesh, whole);
-    if (mesh_kind_closed[kind]) CHECK_LE(vector_length(whole), 1e-9 * total);
-    for (int k = 0; k < 3; ++k) whole[k] -= vector[k];
+    if (mesh_kind_closed[kind])
+      CHECK_LE(vector_length(whole), 1e-9 * total);
+    for (int k = 0; k < 3; ++k)
+      whole[k] -= vector[k];
     CHECK_LE(vector_length(whole), 1e-6 * total);
     CHECK_LE(p.piece_count, mesh.triangle_count + NSVCD__PIECES_PER_SAMPLE * p.sample_count);
     nsvcd__patches_free(&p, NULL);
@@ -1030,12 +1060,14 @@ static void mesh_nearest_centre_is_nearest(void) {
       const float *at = p.points + 3 * mesh_below(p.sample_count);
       double spread = i % 3 * 3 * (double)p.radii[0];
       float x[3];
-      for (int k = 0; k < 3; ++k) x[k] = at[k] + (float)(spread * mesh_uniform(-1, 1));
+      for (int k = 0; k < 3; ++k)
+        x[k] = at[k] + (float)(spread * mesh_uniform(-1, 1));
       uint32_t found = nsvcd__nearest_centre(&p, (uint32_t)mesh_below(p.count), x[0], x[1], x[2]);
       uint32_t best = 0;
       for (uint32_t c = 1; c < p.count; ++c) {
         float d = nsvcd__centre_distance(&p, c, x[0], x[1], x[2]);
-        if (d < nsvcd__centre_distance(&p, best, x[0], x[1], x[2])) best = c;
+        if (d < nsvcd__centre_distance(&p, best, x[0], x[1], x[2]))
+          best = c;
       }
       tried++;
       wrong += found != best;
@@ -1089,14 +1121,17 @@ static void mesh_patches_edge_cases(void) {
   CHECK(memcmp(&p, &before, sizeof p) == 0);
 
   // No triangle has an area: then each is sampled alike, and all of them are covered.
-  for (int i = 0; i < 36; i += 3) mesh.indices[i] = mesh.indices[i + 1];
+  for (int i = 0; i < 36; i += 3)
+    mesh.indices[i] = mesh.indices[i + 1];
   CHECK_EQ(nsvcd__patches_build(&mesh, 8, NULL, &p), NSVCD_OK);
   for (size_t i = 0; i < 36; ++i) {
     double x[3];
-    for (size_t k = 0; k < 3; ++k) x[k] = (double)mesh.positions[3 * mesh.indices[i] + k];
+    for (size_t k = 0; k < 3; ++k)
+      x[k] = (double)mesh.positions[3 * mesh.indices[i] + k];
     CHECK(patches_cover(&p, x));
   }
-  for (size_t i = 0; i < 3 * p.sample_count; ++i) CHECK_EQ(p.normals[i], 0);
+  for (size_t i = 0; i < 3 * p.sample_count; ++i)
+    CHECK_EQ(p.normals[i], 0);
   nsvcd__patches_free(&p, NULL);
   nsvcd_mesh_free(&mesh, NULL);
 
@@ -1107,7 +1142,8 @@ static void mesh_patches_edge_cases(void) {
   CHECK(p.count >= 1 && p.count < 512);
   for (size_t i = 0; i < 8; ++i) {
     double x[3];
-    for (size_t k = 0; k < 3; ++k) x[k] = (double)mesh.positions[3 * i + k];
+    for (size_t k = 0; k < 3; ++k)
+      x[k] = (double)mesh.positions[3 * i + k];
     CHECK(patches_cover(&p, x));
   }
   nsvcd__patches_free(&p, NULL);
@@ -1153,10 +1189,12 @@ static void mesh_cut_to_a_box(void) {
       int faces = (low[k] < from[k]) + (high[k] > to[k]);
       area += faces * side[(k + 1) % 3] * side[(k + 2) % 3];
     }
-    if (fmin(fmin(side[0], side[1]), side[2]) <= 0) area = 0;  // the box lies beside it
+    if (fmin(fmin(side[0], side[1]), side[2]) <= 0)
+      area = 0;  // the box lies beside it
     nsvcd_result result = nsvcd_mesh_cut(&mesh, low, high, NULL, &part);
     CHECK_EQ(result, area > 0 ? NSVCD_OK : NSVCD_ERROR_EMPTY);
-    if (result) continue;
+    if (result)
+      continue;
     CHECK_NEAR(mesh_total_area(&part), area, 1e-5);
     for (size_t i = 0; i < 3 * part.vertex_count; i++) {
       CHECK(part.positions[i] >= low[i % 3] - 1e-6f && part.positions[i] <= high[i % 3] + 1e-6f);

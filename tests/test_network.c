@@ -17,16 +17,19 @@ static void random_rotation(float *m) {
   float q[4];
   float length = 0;
   do {
-    for (size_t k = 0; k < 4; k++) q[k] = uniform();
+    for (size_t k = 0; k < 4; k++)
+      q[k] = uniform();
     length = sqrtf(q[0] * q[0] + q[1] * q[1] + q[2] * q[2] + q[3] * q[3]);
   } while (length > 1 || length < 0.1f);
-  for (size_t k = 0; k < 4; k++) q[k] /= length;
+  for (size_t k = 0; k < 4; k++)
+    q[k] /= length;
   nsvcd__quat_to_matrix(q, m);
 }
 
 static float largest_difference(const float *a, const float *b, size_t count) {
   float most = 0;
-  for (size_t k = 0; k < count; k++) most = fmaxf(most, fabsf(a[k] - b[k]));
+  for (size_t k = 0; k < count; k++)
+    most = fmaxf(most, fabsf(a[k] - b[k]));
   return most;
 }
 
@@ -77,9 +80,11 @@ static float head_logit(const nsvcd__decoder *head, const float *x, int int8) {
 static void wigner(const float *r, float *d) {
   nsvcd__v m[9];
   float lanes[NSVCD__WIGNER][NSVCD__SLICE];
-  for (size_t k = 0; k < 9; k++) m[k] = nsvcd__v_set(r[k]);
+  for (size_t k = 0; k < 9; k++)
+    m[k] = nsvcd__v_set(r[k]);
   nsvcd__wigner(m, nsvcd__v_set(1), lanes);
-  for (size_t k = 0; k < NSVCD__WIGNER; k++) d[k] = lanes[k][3 % NSVCD__SLICE];
+  for (size_t k = 0; k < NSVCD__WIGNER; k++)
+    d[k] = lanes[k][3 % NSVCD__SLICE];
 }
 
 // D(R) z of a latent's vectors: (3, CHANNELS), then (5, CHANNELS).
@@ -102,7 +107,8 @@ static void heads_fit_their_buffers(void) {
   const size_t widest[3] = {NSVCD__WIDEST_TINY, NSVCD__WIDEST_SMALL, NSVCD__WIDEST};
   for (size_t h = 0; h < 3; h++) {
     const nsvcd__decoder *head = &nsvcd_w_decoders[h];
-    for (size_t l = 1; l <= head->layers; l++) CHECK(head->sizes[l] <= widest[h]);
+    for (size_t l = 1; l <= head->layers; l++)
+      CHECK(head->sizes[l] <= widest[h]);
   }
 }
 
@@ -186,7 +192,8 @@ static void random_patch(float *points, float *normals, size_t count) {
       n[k] = uniform() + lean[k];
     }
     length = nsvcd__length3(n);
-    for (size_t k = 0; k < 3; k++) normals[3 * i + k] = n[k] / length;
+    for (size_t k = 0; k < 3; k++)
+      normals[3 * i + k] = n[k] / length;
   }
 }
 
@@ -201,10 +208,12 @@ static void encoder_is_equivariant(void) {
     random_patch(points, normals, 40);
     random_rotation(m);
     if (trial % 2) {  // mirrored as well: the degree-2 block is even, degree 1 odd
-      for (size_t k = 0; k < 9; k++) m[k] = -m[k];
+      for (size_t k = 0; k < 9; k++)
+        m[k] = -m[k];
     }
     const float scale = powf(10, 3 * uniform());
-    for (size_t k = 0; k < 3; k++) centre[k] = scale * uniform();
+    for (size_t k = 0; k < 3; k++)
+      centre[k] = scale * uniform();
     for (size_t i = 0; i < 40; i++) {
       nsvcd__mul33_vec(m, points + 3 * i, turned_points + 3 * i);
       nsvcd__mul33_vec(m, normals + 3 * i, turned_normals + 3 * i);
@@ -229,7 +238,8 @@ static void rotation_operator_is_a_group(void) {
     random_rotation(a);
     random_rotation(b);
     nsvcd__mul33(a, b, ab);
-    for (size_t k = 0; k < NSVCD__VECTORS; k++) z[k] = uniform();
+    for (size_t k = 0; k < NSVCD__VECTORS; k++)
+      z[k] = uniform();
     rotate_latent(b, z, x);
     rotate_latent(a, x, y);
     rotate_latent(ab, z, w);
@@ -304,7 +314,8 @@ static void inputs_do_not_depend_on_who_moves(void) {
 static void degenerate_pairs_are_finite(void) {
   int8_t z[NSVCD__LATENT] = {0};
   int8_t other[NSVCD__LATENT];
-  for (size_t k = 0; k < NSVCD__LATENT; k++) other[k] = (int8_t)(k % 100);
+  for (size_t k = 0; k < NSVCD__LATENT; k++)
+    other[k] = (int8_t)(k % 100);
   for (int trial = 0; trial < 32; trial++) {
     pair_data pair;
     memset(&pair, 0, sizeof pair);
@@ -319,8 +330,10 @@ static void degenerate_pairs_are_finite(void) {
     }
     float x[NSVCD__DECODER_IN];
     inputs_of(&pair, x);
-    for (size_t k = 0; k < NSVCD__DECODER_IN; k++) CHECK(nsvcd__is_finite(x[k]));
-    for (size_t h = 0; h < 3; h++) CHECK(nsvcd__is_finite(head_logit(&nsvcd_w_decoders[h], x, 0)));
+    for (size_t k = 0; k < NSVCD__DECODER_IN; k++)
+      CHECK(nsvcd__is_finite(x[k]));
+    for (size_t h = 0; h < 3; h++)
+      CHECK(nsvcd__is_finite(head_logit(&nsvcd_w_decoders[h], x, 0)));
   }
 }
 

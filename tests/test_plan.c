@@ -17,14 +17,16 @@ void test_plan(void);
 // ------------------------------------------------------------------------------------------ spline
 
 static void plan_random_numbers(shapes_rng *rng, size_t count, double reach, float *out) {
-  for (size_t k = 0; k < count; k++) out[k] = (float)shapes_uniform(rng, -reach, reach);
+  for (size_t k = 0; k < count; k++)
+    out[k] = (float)shapes_uniform(rng, -reach, reach);
 }
 // The spline in double, of one joint.
 static double plan_spline(const float *control, size_t via, double t, size_t derivative) {
   double weights[PLAN_VIA];
   double sum = 0;
   nsvcd__spline_weights(via, t, derivative, weights);
-  for (size_t k = 0; k < via + 2; k++) sum += weights[k] * (double)control[k];
+  for (size_t k = 0; k < via + 2; k++)
+    sum += weights[k] * (double)control[k];
   return sum;
 }
 
@@ -36,17 +38,20 @@ static void plan_spline_passes_through_its_points_and_rests_at_both_ends(void) {
     plan_random_numbers(&rng, 3 * (via + 2), 2, control);
     for (size_t k = 0; k < via + 2; k++) {
       nsvcd_spline(control, via, 3, (float)((double)k / last), 0, x);
-      for (size_t j = 0; j < 3; j++) CHECK_NEAR(x[j], control[3 * k + j], 1e-4);
+      for (size_t j = 0; j < 3; j++)
+        CHECK_NEAR(x[j], control[3 * k + j], 1e-4);
     }
     for (size_t derivative = 1; derivative <= 2; derivative++) {
       for (int end = 0; end < 2; end++) {
         nsvcd_spline(control, via, 3, (float)end, derivative, x);
-        for (size_t j = 0; j < 3; j++) CHECK_NEAR(x[j], 0, 1e-9 * pow(last, (double)derivative));
+        for (size_t j = 0; j < 3; j++)
+          CHECK_NEAR(x[j], 0, 1e-9 * pow(last, (double)derivative));
       }
     }
     for (int end = 0; end < 2; end++) {  // t is taken into [0,1]
       nsvcd_spline(control, via, 3, end ? 7.0f : -3.0f, 0, x);
-      for (size_t j = 0; j < 3; j++) CHECK_EQ(x[j], control[3 * (end ? via + 1 : 0) + j]);
+      for (size_t j = 0; j < 3; j++)
+        CHECK_EQ(x[j], control[3 * (end ? via + 1 : 0) + j]);
     }
   }
 }
@@ -152,24 +157,29 @@ static void plan_cholesky_solves(void) {
   for (size_t n = 1; n <= NSVCD_MAX_VIA_POINTS; n++) {
     static double a[PLAN_VIA * PLAN_VIA], root[PLAN_VIA * PLAN_VIA], l[PLAN_VIA * PLAN_VIA];
     double x[PLAN_VIA], wanted[PLAN_VIA];
-    for (size_t k = 0; k < n * n; k++) root[k] = shapes_uniform(&rng, -1, 1);
+    for (size_t k = 0; k < n * n; k++)
+      root[k] = shapes_uniform(&rng, -1, 1);
     for (size_t i = 0; i < n; i++) {
       wanted[i] = shapes_uniform(&rng, -1, 1);
       for (size_t j = 0; j < n; j++) {
         a[i * n + j] = i == j ? 0.5 : 0;
-        for (size_t k = 0; k < n; k++) a[i * n + j] += root[i * n + k] * root[j * n + k];
+        for (size_t k = 0; k < n; k++)
+          a[i * n + j] += root[i * n + k] * root[j * n + k];
       }
     }
     for (size_t i = 0; i < n; i++) {
       x[i] = 0;
-      for (size_t j = 0; j < n; j++) x[i] += a[i * n + j] * wanted[j];
+      for (size_t j = 0; j < n; j++)
+        x[i] += a[i * n + j] * wanted[j];
     }
     nsvcd__cholesky(a, n, l);
     nsvcd__solve_lower(l, n, x);
     nsvcd__solve_upper(l, n, x);
-    for (size_t i = 0; i < n; i++) CHECK_NEAR(x[i], wanted[i], 1e-9);
+    for (size_t i = 0; i < n; i++)
+      CHECK_NEAR(x[i], wanted[i], 1e-9);
     nsvcd__cholesky(a, n, a);  // in place
-    for (size_t k = 0; k < n * n; k++) CHECK_EQ(a[k], l[k]);
+    for (size_t k = 0; k < n * n; k++)
+      CHECK_EQ(a[k], l[k]);
   }
 }
 
@@ -220,17 +230,22 @@ static const double plan_base[3] = {0.55, 0, 0};  // of the second arm
 
 static void plan_place_exactly(const plan_scene *s, const double *joints, oracle_pose *poses) {
   for (size_t b = 0; b < s->problem.body_count; b++) {
-    for (int k = 0; k < 3; k++) poses[b].position[k] = (double)s->rest[b].position[k];
-    for (int k = 0; k < 4; k++) poses[b].rotation[k] = (double)s->rest[b].rotation[k];
+    for (int k = 0; k < 3; k++)
+      poses[b].position[k] = (double)s->rest[b].position[k];
+    for (int k = 0; k < 4; k++)
+      poses[b].rotation[k] = (double)s->rest[b].rotation[k];
   }
   if (s->kind == PLAN_XYZ && s->problem.body_count) {
-    for (int k = 0; k < 3; k++) poses[0].position[k] = joints[k];
+    for (int k = 0; k < 3; k++)
+      poses[0].position[k] = joints[k];
     for (size_t b = 1; b <= s->attached; b++) {  // grasped: above the first
-      for (int k = 0; k < 3; k++) poses[b].position[k] = joints[k] + (k == 2 ? 0.12 : 0);
+      for (int k = 0; k < 3; k++)
+        poses[b].position[k] = joints[k] + (k == 2 ? 0.12 : 0);
     }
     return;
   }
-  if (s->kind != PLAN_ARMS) return;
+  if (s->kind != PLAN_ARMS)
+    return;
   const double origin[3] = {0, 0, 0};
   const double lifted[3] = {plan_base[0], plan_base[1], plan_base[2] + joints[4]};
   double first[4], by[4], second[4], other[4];
@@ -250,17 +265,20 @@ static void plan_place(void *user, const float *joints, nsvcd_pose *poses) {
   plan_scene *s = (plan_scene *)user;
   oracle_pose exact[PLAN_BODIES];
   double q[PLAN_JOINTS];
-  for (size_t j = 0; j < s->problem.joints; j++) q[j] = (double)joints[j];
+  for (size_t j = 0; j < s->problem.joints; j++)
+    q[j] = (double)joints[j];
   plan_place_exactly(s, q, exact);
   for (size_t b = 0; b < s->problem.body_count; b++) {
-    for (int k = 0; k < 3; k++) poses[b].position[k] = (float)exact[b].position[k];
+    for (int k = 0; k < 3; k++)
+      poses[b].position[k] = (float)exact[b].position[k];
     for (int k = 0; k < 4; k++)
       poses[b].rotation[k] = (float)(exact[b].rotation[k] * (s->length > 0 ? s->length : 1));
   }
   s->placed++;
   if (s->fault == PLAN_NAN || (s->fault == PLAN_NAN_LATER && s->placed > 50))
     poses[0].position[1] = NAN;
-  if (s->fault == PLAN_LONG_QUATERNION) poses[0].rotation[3] = 1.1f;
+  if (s->fault == PLAN_LONG_QUATERNION)
+    poses[0].rotation[3] = 1.1f;
 }
 static void plan_jacobian(void *user, const float *joints, float *jacobian) {
   const plan_scene *s = (const plan_scene *)user;
@@ -268,13 +286,15 @@ static void plan_jacobian(void *user, const float *joints, float *jacobian) {
   memset(jacobian, 0, s->problem.body_count * 6 * f * sizeof *jacobian);
   if (s->kind == PLAN_XYZ) {
     for (size_t b = 0; b <= s->attached; b++) {
-      for (size_t k = 0; k < 3; k++) jacobian[(6 * b + k) * f + k] = 1;
+      for (size_t k = 0; k < 3; k++)
+        jacobian[(6 * b + k) * f + k] = 1;
     }
     return;
   }
   oracle_pose poses[PLAN_BODIES];
   double q[PLAN_JOINTS];
-  for (size_t j = 0; j < f; j++) q[j] = (double)joints[j];
+  for (size_t j = 0; j < f; j++)
+    q[j] = (double)joints[j];
   plan_place_exactly(s, q, poses);
   // Axes: joint, a point on it, its direction; and the body that it turns.
   const double c0 = cos(q[0]);
@@ -308,7 +328,8 @@ static void plan_bump_point(const oracle_pose *pose, size_t body, double *arm, d
   double m[9];
   oracle_matrix(pose->rotation, m);
   oracle_rotate(m, offset, arm);
-  for (int k = 0; k < 3; k++) point[k] = pose->position[k] + arm[k];
+  for (int k = 0; k < 3; k++)
+    point[k] = pose->position[k] + arm[k];
 }
 // of one sample
 static double plan_bumps(const plan_scene *s, const oracle_pose *poses, double *gradient) {
@@ -324,18 +345,23 @@ static double plan_bumps(const plan_scene *s, const oracle_pose *poses, double *
     sum += bump;
     for (int side = 0; gradient && side < 2; side++) {
       double force[3], torque[3];
-      for (int k = 0; k < 3; k++) force[k] = (side ? 1 : -1) * bump * 2 / 0.04 * d[k];
+      for (int k = 0; k < 3; k++)
+        force[k] = (side ? 1 : -1) * bump * 2 / 0.04 * d[k];
       oracle_cross(arm[side], force, torque);
-      for (int k = 0; k < 3; k++) gradient[6 * body[side] + (size_t)k] += force[k];
-      for (int k = 0; k < 3; k++) gradient[6 * body[side] + 3 + (size_t)k] += torque[k];
+      for (int k = 0; k < 3; k++)
+        gradient[6 * body[side] + (size_t)k] += force[k];
+      for (int k = 0; k < 3; k++)
+        gradient[6 * body[side] + 3 + (size_t)k] += torque[k];
     }
   }
   return sum;
 }
 static oracle_pose plan_exact_pose(const nsvcd_pose *pose) {
   oracle_pose out;
-  for (int k = 0; k < 3; k++) out.position[k] = (double)pose->position[k];
-  for (int k = 0; k < 4; k++) out.rotation[k] = (double)pose->rotation[k];
+  for (int k = 0; k < 3; k++)
+    out.position[k] = (double)pose->position[k];
+  for (int k = 0; k < 4; k++)
+    out.rotation[k] = (double)pose->rotation[k];
   return out;
 }
 static float plan_bump_collision(void *user, const nsvcd_pose *poses, size_t samples, float limit,
@@ -348,7 +374,8 @@ static float plan_bump_collision(void *user, const nsvcd_pose *poses, size_t sam
   for (size_t i = 0; i < samples; i++) {
     oracle_pose exact[PLAN_BODIES];
     double by_poses[6 * PLAN_BODIES] = {0};
-    for (size_t b = 0; b < bodies; b++) exact[b] = plan_exact_pose(&poses[i * bodies + b]);
+    for (size_t b = 0; b < bodies; b++)
+      exact[b] = plan_exact_pose(&poses[i * bodies + b]);
     const double bump = plan_bumps(s, exact, by_poses);
     for (size_t k = 0; gradient && k < 6 * bodies; k++)
       gradient[i * bodies * 6 + k] += (float)by_poses[k];
@@ -394,7 +421,8 @@ static int plan_progress(void *user, const nsvcd_plan_progress *progress) {
 static void plan_begin(plan_scene *s, plan_kind kind, size_t bodies) {
   memset(s, 0, sizeof *s);
   s->kind = kind;
-  for (size_t b = 0; b < PLAN_BODIES; b++) s->rest[b] = query_pose(0, 0, 0);
+  for (size_t b = 0; b < PLAN_BODIES; b++)
+    s->rest[b] = query_pose(0, 0, 0);
   for (size_t j = 0; j < PLAN_JOINTS; j++) {
     s->low[j] = -2;
     s->high[j] = 2;
@@ -422,13 +450,19 @@ static shapes_mesh plan_shapes[PLAN_SHAPES];
 static const nsvcd_body *plan_body(int shape) {
   static const nsvcd_body *bodies[PLAN_SHAPES];
   static query_memory memory[PLAN_SHAPES];
-  if (bodies[shape]) return bodies[shape];
+  if (bodies[shape])
+    return bodies[shape];
   shapes_mesh *mesh = &plan_shapes[shape];
-  if (shape == PLAN_BALL) shapes_capsule(mesh, 0.05, 0, 16);
-  if (shape == PLAN_BOX) shapes_box(mesh, 0.2, 0.16, 0.12, 4);
-  if (shape == PLAN_WALL) shapes_box(mesh, 0.05, 0.4, 0.4, 6);
-  if (shape == PLAN_LINK) shapes_box(mesh, 0.2, 0.06, 0.05, 4);
-  if (shape == PLAN_SHELL) shapes_shell(mesh, 0.4, 0.4, 0.4, 0.03, 0, 16);
+  if (shape == PLAN_BALL)
+    shapes_capsule(mesh, 0.05, 0, 16);
+  if (shape == PLAN_BOX)
+    shapes_box(mesh, 0.2, 0.16, 0.12, 4);
+  if (shape == PLAN_WALL)
+    shapes_box(mesh, 0.05, 0.4, 0.4, 6);
+  if (shape == PLAN_LINK)
+    shapes_box(mesh, 0.2, 0.06, 0.05, 4);
+  if (shape == PLAN_SHELL)
+    shapes_shell(mesh, 0.4, 0.4, 0.4, 0.03, 0, 16);
   if (shape == PLAN_OFF_CENTRE) {
     shapes_box(mesh, 0.2, 0.06, 0.05, 4);
     shapes_place(mesh, 0, NULL, 0.5, 0.1, 0);
@@ -449,13 +483,15 @@ static int plan_open(plan_scene *s, plan_inside *in) {
   const size_t size = nsvcd_plan_workspace_size(&s->problem, &s->options);
   CHECK(size > 0);
   in->memory = query_reserve(size);
-  if (!nsvcd__planner_settings(&s->problem, &s->options, p)) return 0;
+  if (!nsvcd__planner_settings(&s->problem, &s->options, p))
+    return 0;
   CHECK_EQ(nsvcd__planner_memory(p, (char *)in->memory.at), size);
   nsvcd__stage_init(&p->options, &p->explore);
   nsvcd__stage_init(&p->options, &p->refine);
   nsvcd__stage_init(&p->options, &p->check);
   nsvcd__find_boxes(p);
-  for (size_t k = 0; k < s->problem.pair_count; k++) p->order[k] = (uint32_t)k;
+  for (size_t k = 0; k < s->problem.pair_count; k++)
+    p->order[k] = (uint32_t)k;
   return 1;
 }
 static void plan_close(plan_inside *in) { query_release(&in->memory); }
@@ -476,7 +512,8 @@ static double plan_exact_cost(const plan_scene *s, const nsvcd_plan_options *o, 
       nsvcd__spline_weights(via, ((double)n + 0.5) / (double)steps, derivative, w);
       for (size_t j = 0; j < f; j++) {
         double x = 0;
-        for (size_t k = 0; k < via + 2; k++) x += w[k] * control[k * f + j];
+        for (size_t k = 0; k < via + 2; k++)
+          x += w[k] * control[k * f + j];
         x /= pow((double)o->duration, (double)derivative);
         cost += weights[derivative - 1] * x * x / (double)steps;
       }
@@ -488,7 +525,8 @@ static double plan_exact_cost(const plan_scene *s, const nsvcd_plan_options *o, 
     nsvcd__spline_weights(via, (double)n / (double)segments, 0, w);
     for (size_t j = 0; j < f; j++) {
       joints[j] = 0;
-      for (size_t k = 0; k < via + 2; k++) joints[j] += w[k] * control[k * f + j];
+      for (size_t k = 0; k < via + 2; k++)
+        joints[j] += w[k] * control[k * f + j];
       const double inner = 0.005 * (double)(s->high[j] - s->low[j]);
       const double out = fmax(
           0, fmax((double)s->low[j] + inner - joints[j], joints[j] - (double)s->high[j] + inner));
@@ -506,7 +544,8 @@ static void plan_gradient_case(plan_kind kind, int jacobian, int limits, double 
   shapes_rng rng = {(uint64_t)(10 + kind * 4 + jacobian * 2 + limits)};
   plan_begin(&s, kind, kind == PLAN_XYZ ? 3 : 4);
   s.problem.collision = plan_bump_collision;
-  if (jacobian) s.problem.jacobian = plan_jacobian;
+  if (jacobian)
+    s.problem.jacobian = plan_jacobian;
   s.rest[s.problem.body_count - 1] = query_pose(0.2, 0.1, 0.05);
   if (kind == PLAN_XYZ) {
     s.attached = 1;
@@ -536,8 +575,10 @@ static void plan_gradient_case(plan_kind kind, int jacobian, int limits, double 
     s.options.velocity = (float)shapes_uniform(&rng, 1, 20);
     s.options.duration = n % 2 ? 2.0f : 40.0f;  // smoothness outweighs the bumps, or they it
     plan_random_numbers(&rng, numbers, 0.3, control);
-    for (size_t k = 0; k < numbers; k++) exact[k] = (double)control[k];
-    if (!plan_open(&s, &in)) continue;
+    for (size_t k = 0; k < numbers; k++)
+      exact[k] = (double)control[k];
+    if (!plan_open(&s, &in))
+      continue;
     nsvcd__planner *p = &in.planner;
     const size_t segments = p->refine.samples - 1;
     const nsvcd__cost cost = nsvcd__cost_of(p, &p->refine, control, INFINITY, gradient, NULL);
@@ -583,7 +624,8 @@ static uint64_t plan_decisive(nsvcd__planner *p, const nsvcd__stage *stage, cons
   for (uint32_t k = 0; k < p->problem->pair_count; k++) {
     for (size_t s = 0; s + 1 < stage->samples; s++) {
       const nsvcd_answer answer = nsvcd__ask(p, k, s, 1, 0, NULL);
-      if (answer.logit <= -p->options.margin) continue;
+      if (answer.logit <= -p->options.margin)
+        continue;
       hash = (hash ^ (k * 4096 + s)) * 1099511628211u;
       hash = (hash ^ (answer.patch_a * 512 + answer.patch_b)) * 1099511628211u;
     }
@@ -616,7 +658,8 @@ static void plan_network_gradient_case(plan_kind kind, int *tried, int *smooth, 
   s.options.acceleration = -1;
   s.options.collision = 1;
   s.options.sweep.precision = NSVCD_PRECISION_FLOAT;
-  if (!plan_open(&s, &in)) return;
+  if (!plan_open(&s, &in))
+    return;
   nsvcd__planner *p = &in.planner;
   const size_t f = s.problem.joints;
   const size_t numbers = 6 * f;
@@ -627,19 +670,24 @@ static void plan_network_gradient_case(plan_kind kind, int *tried, int *smooth, 
     double slope = 0;
     if (kind == PLAN_XYZ) {
       plan_random_numbers(&rng, numbers, 0.16, control);
-      for (size_t k = 0; k < 6; k++) control[k * f] = -0.25f + 0.1f * (float)k;
+      for (size_t k = 0; k < 6; k++)
+        control[k * f] = -0.25f + 0.1f * (float)k;
     } else {
-      for (size_t k = 0; k < numbers; k++) control[k] = (float)shapes_uniform(&rng, -0.5, 0.5);
+      for (size_t k = 0; k < numbers; k++)
+        control[k] = (float)shapes_uniform(&rng, -0.5, 0.5);
     }
     plan_random_numbers(&rng, numbers, 1, direction);
     const nsvcd__cost cost = nsvcd__cost_of(p, &p->refine, control, INFINITY, gradient, NULL);
-    if (cost.collision <= 0) continue;
-    for (size_t k = 0; k < numbers; k++) slope += (double)gradient[k] * (double)direction[k];
+    if (cost.collision <= 0)
+      continue;
+    for (size_t k = 0; k < numbers; k++)
+      slope += (double)gradient[k] * (double)direction[k];
     (*tried)++;
     const uint64_t who = plan_decisive(p, &p->refine, control);
     int same = 1;
     for (int i = -2; i <= 2; i++) {
-      for (size_t k = 0; k < numbers; k++) moved[k] = control[k] + 1e-4f * (float)i * direction[k];
+      for (size_t k = 0; k < numbers; k++)
+        moved[k] = control[k] + 1e-4f * (float)i * direction[k];
       same = same && plan_decisive(p, &p->refine, moved) == who;
       at[i + 2] = nsvcd__cost_of(p, &p->refine, moved, INFINITY, NULL, NULL).total;
     }
@@ -691,7 +739,8 @@ static void plan_wrenches_are_derivatives(void) {
     double change = 0;
     double expected = 0;
     const nsvcd_body_pair pair = {(uint32_t)(n % 2), (uint32_t)(1 - n % 2)};
-    for (int b = 0; b < 2; b++) query_random_pose(&rng, 1, &poses[b]);
+    for (int b = 0; b < 2; b++)
+      query_random_pose(&rng, 1, &poses[b]);
     plan_random_numbers(&rng, 6, 1, wrench);
     nsvcd__add_wrench(&pair, poses, 0.5f, wrench, wrenches);
     oracle_pose exact[2];
@@ -711,15 +760,18 @@ static void plan_wrenches_are_derivatives(void) {
         plan_turn(moved[b][3] / angle, moved[b][4] / angle, moved[b][5] / angle, angle, by);
         oracle_quat_mul(by, exact[b].rotation, product);
         memcpy(exact[b].rotation, product, sizeof product);
-        for (int k = 0; k < 3; k++) exact[b].position[k] += moved[b][k];
+        for (int k = 0; k < 3; k++)
+          exact[b].position[k] += moved[b][k];
       }
       oracle_matrix(exact[pair.b].rotation, m);
       oracle_sub(exact[pair.a].position, exact[pair.b].position, d);
       oracle_rotate_back(m, d, step ? after : before);
-      for (int k = 0; k < 4; k++) inverse[k] = (k < 3 ? -1 : 1) * exact[pair.b].rotation[k];
+      for (int k = 0; k < 4; k++)
+        inverse[k] = (k < 3 ? -1 : 1) * exact[pair.b].rotation[k];
       oracle_quat_mul(inverse, exact[pair.a].rotation, q[step]);
     }
-    for (int k = 0; k < 4; k++) inverse[k] = (k < 3 ? -1 : 1) * q[0][k];
+    for (int k = 0; k < 4; k++)
+      inverse[k] = (k < 3 ? -1 : 1) * q[0][k];
     oracle_quat_mul(q[1], inverse, turned);
     for (int k = 0; k < 3; k++) {
       change += 0.5 * ((double)wrench[k] * (after[k] - before[k]) +
@@ -741,7 +793,8 @@ static void plan_bundled_gradient_is_a_mean(void) {
   s.rest[3] = query_pose(0.2, 0.1, 0.05);
   plan_pair(&s, 0, 2);
   plan_pair(&s, 1, 3);
-  if (!plan_open(&s, &in)) return;
+  if (!plan_open(&s, &in))
+    return;
   nsvcd__planner *p = &in.planner;
   const nsvcd__stage *stage = &p->refine;
   const size_t f = 5;
@@ -756,9 +809,11 @@ static void plan_bundled_gradient_is_a_mean(void) {
   plan_random_numbers(&rng, stage->count * numbers, 0.2, p->tries);
   for (size_t n = 0; n < stage->count; n++) {
     memcpy(moved, control, sizeof moved);
-    for (size_t k = 0; k < numbers; k++) moved[f + k] += p->tries[n * numbers + k];
+    for (size_t k = 0; k < numbers; k++)
+      moved[f + k] += p->tries[n * numbers + k];
     nsvcd__cost_of(p, stage, moved, INFINITY, gradient, NULL);
-    for (size_t k = 0; k < numbers; k++) sum[k] += (double)gradient[f + k] / (double)stage->count;
+    for (size_t k = 0; k < numbers; k++)
+      sum[k] += (double)gradient[f + k] / (double)stage->count;
   }
   nsvcd__cost_of(p, stage, control, INFINITY, gradient, NULL);
   nsvcd__bundled_gradient(p, stage, control);
@@ -796,7 +851,8 @@ static void plan_refining_converges(void) {
       s.options.refine.samples = 1;
       s.options.bundle = -1;
       s.options.collision = 1;
-      if (!plan_open(&s, &in)) return;
+      if (!plan_open(&s, &in))
+        return;
       nsvcd__smoothest(&in.planner, &in.planner.refine, in.planner.best);
       nsvcd__refine(&in.planner, 0, &unused, &cancelled);
       cost[longer] =
@@ -838,7 +894,8 @@ static void plan_random_poses(shapes_rng *rng, nsvcd__planner *p, size_t samples
       nsvcd_pose *pose = &p->poses[s * bodies + b];
       float by[4];
       plan_turn(axis[0], axis[1], axis[2], angle * (double)s, q);
-      for (int k = 0; k < 4; k++) by[k] = (float)q[k];
+      for (int k = 0; k < 4; k++)
+        by[k] = (float)q[k];
       query_multiply(by, at.rotation, pose->rotation);
       for (int k = 0; k < 3; k++)
         pose->position[k] =
@@ -858,13 +915,16 @@ static void plan_culling_misses_nothing(void) {
   plan_begin(&s, PLAN_XYZ, 6);
   const int shapes[6] = {PLAN_OFF_CENTRE, PLAN_BALL, PLAN_OFF_CENTRE,
                          PLAN_BOX,        PLAN_WALL, PLAN_LINK};
-  for (size_t b = 0; b < 6; b++) s.bodies[b] = plan_body(shapes[b]);
+  for (size_t b = 0; b < 6; b++)
+    s.bodies[b] = plan_body(shapes[b]);
   for (uint32_t a = 0; a < 6; a++) {
     for (uint32_t b = 0; b < 6; b++) {
-      if (a != b) plan_pair(&s, a, b);
+      if (a != b)
+        plan_pair(&s, a, b);
     }
   }
-  if (!plan_open(&s, &in)) return;
+  if (!plan_open(&s, &in))
+    return;
   nsvcd__planner *p = &in.planner;
   for (int n = 0; n < 1500; n++) {
     const size_t samples = 9;
@@ -873,7 +933,8 @@ static void plan_culling_misses_nothing(void) {
                       : n % 3 == 1 ? 0.6
                                    : 2);
     // far off, and rounded
-    for (size_t i = 0; n % 5 == 0 && i < samples * 6; i++) p->poses[i].position[1] += 1e5f;
+    for (size_t i = 0; n % 5 == 0 && i < samples * 6; i++)
+      p->poses[i].position[1] += 1e5f;
     nsvcd__track_bodies(p, samples);
     for (uint32_t k = 0; k < s.problem.pair_count; k++) {
       for (size_t stride = 0; stride < 2; stride++) {
@@ -921,7 +982,8 @@ static void plan_cost_is_the_sum_over_segments(void) {
   plan_pair(&s, 1, 3);
   plan_pair(&s, 0, 3);
   plan_pair(&s, 2, 0);
-  if (!plan_open(&s, &in)) return;
+  if (!plan_open(&s, &in))
+    return;
   nsvcd__planner *p = &in.planner;
   const nsvcd__stage *stage = &p->refine;
   for (int n = 0; n < 400; n++) {
@@ -944,7 +1006,8 @@ static void plan_cost_is_the_sum_over_segments(void) {
       memset(runs, 0, sizeof runs);
       for (size_t i = 0; i + 1 < stage->samples;) {  // which runs are clear
         size_t length = 0;
-        while (length < 8 && i + length + 1 < stage->samples && meets[i + length]) length++;
+        while (length < 8 && i + length + 1 < stage->samples && meets[i + length])
+          length++;
         if (length > 1 && nsvcd__ask(p, k, i, length, 0, NULL).logit <= -p->options.margin)
           memset(runs + i, 1, length);
         i += length ? length : 1;
@@ -955,7 +1018,8 @@ static void plan_cost_is_the_sum_over_segments(void) {
         sum += share;
         collides_at_all |= answer.collides;
         costly += share > 0;
-        if (!meets[i]) CHECK_EQ(share, 0);
+        if (!meets[i])
+          CHECK_EQ(share, 0);
         if (runs[i]) {
           without += share;
           dropped += share > 0;
@@ -994,7 +1058,8 @@ static void plan_cost_stops_at_its_limit(void) {
   s.rest[3] = query_pose(0.3, 0.25, 0);
   plan_pair(&s, 1, 2);
   plan_pair(&s, 1, 3);
-  if (!plan_open(&s, &in)) return;
+  if (!plan_open(&s, &in))
+    return;
   nsvcd__planner *p = &in.planner;
   for (int n = 0; n < 200; n++) {
     float control[PLAN_VIA * PLAN_JOINTS];
@@ -1004,7 +1069,8 @@ static void plan_cost_stops_at_its_limit(void) {
     const nsvcd__cost cost = nsvcd__cost_of(p, &p->refine, control, limit, NULL, NULL);
     if (whole.total < 0.9999f * limit)
       CHECK_NEAR(cost.total, whole.total, 1e-5 * (double)whole.total);
-    if (whole.total > 1.0001f * limit) CHECK_GE(cost.total, limit);
+    if (whole.total > 1.0001f * limit)
+      CHECK_GE(cost.total, limit);
     cut += cost.total < 0.999f * whole.total;
   }
   CHECK_GE(cut, 20);
@@ -1057,10 +1123,12 @@ static plan_outcome plan_run(plan_scene *s) {
       written += ((unsigned char *)&out.answer)[k] != untouched;
   }
   CHECK_EQ(written, 0);
-  if (out.result) return out;
+  if (out.result)
+    return out;
   const nsvcd_plan_answer *a = &out.answer;
   const size_t seeds = o->seeds ? o->seeds : 6;
-  for (size_t k = 0; k < numbers; k++) CHECK(isfinite(out.control[k]));
+  for (size_t k = 0; k < numbers; k++)
+    CHECK(isfinite(out.control[k]));
   for (size_t j = 0; j < f; j++) {
     CHECK_EQ(out.control[j], s->start[j]);
     CHECK_EQ(out.control[(out.via + 1) * f + j], s->goal[j]);
@@ -1075,7 +1143,8 @@ static plan_outcome plan_run(plan_scene *s) {
         a->time <= 1);
   CHECK(a->pair == NSVCD_NONE || a->pair < s->problem.pair_count);
   CHECK(a->joint == NSVCD_NONE || a->joint < f);
-  if (a->status == NSVCD_PLAN_CONVERGED) CHECK(!a->collides && a->joint == NSVCD_NONE);
+  if (a->status == NSVCD_PLAN_CONVERGED)
+    CHECK(!a->collides && a->joint == NSVCD_NONE);
   // there is a reason, and only one
   if (a->status == NSVCD_PLAN_START || a->status == NSVCD_PLAN_GOAL) {
     CHECK((a->joint != NSVCD_NONE) !=
@@ -1146,7 +1215,8 @@ static void plan_goes_round_a_wall(void) {
     for (int n = 0; n <= 400; n++) {
       float x[3];
       nsvcd_spline(out.control, out.via, 3, (float)n / 400, 0, x);
-      for (size_t j = 0; j < 3; j++) CHECK(x[j] >= s.low[j] - 1e-4f && x[j] <= s.high[j] + 1e-4f);
+      for (size_t j = 0; j < 3; j++)
+        CHECK(x[j] >= s.low[j] - 1e-4f && x[j] <= s.high[j] + 1e-4f);
     }
   }
   printf("  of 8 seeds the least exact distance is %.1f mm\n", 1000 * least);
@@ -1228,7 +1298,8 @@ static void plan_grasped_bodies_move_along(void) {
   CHECK_EQ(out.result, NSVCD_OK);
   CHECK_EQ(out.answer.status, NSVCD_PLAN_CONVERGED);
   plan_scene carried = s;  // the second ball alone, above the first
-  for (size_t j = 0; j < 3; j++) CHECK_EQ(carried.start[j], s.start[j]);
+  for (size_t j = 0; j < 3; j++)
+    CHECK_EQ(carried.start[j], s.start[j]);
   oracle_mesh ball, wall;
   CHECK(oracle_mesh_init(&ball, plan_shapes[PLAN_BALL].positions, plan_shapes[PLAN_BALL].vertices,
                          plan_shapes[PLAN_BALL].indices, plan_shapes[PLAN_BALL].triangles, 1));
@@ -1241,7 +1312,8 @@ static void plan_grasped_bodies_move_along(void) {
     nsvcd_pose placed[3];
     nsvcd_spline(out.control, out.via, 3, (float)n / 200, 0, joints);
     plan_place(&s, joints, placed);
-    for (int b = 0; b < 2; b++) poses[b][n] = plan_exact_pose(&placed[b]);
+    for (int b = 0; b < 2; b++)
+      poses[b][n] = plan_exact_pose(&placed[b]);
   }
   for (int b = 0; b < 2; b++)
     CHECK_EQ(oracle_sweep(&ball, poses[b], 201, &wall, &at, NULL).status, ORACLE_FREE);
@@ -1259,7 +1331,8 @@ static void plan_grasped_bodies_move_along(void) {
 // A body of a shared shape, with triangles; it lives until the process ends.
 static const nsvcd_body *plan_solid(int shape) {
   static const nsvcd_body *bodies[PLAN_SHAPES];
-  if (bodies[shape]) return bodies[shape];
+  if (bodies[shape])
+    return bodies[shape];
   plan_body(shape);  // makes the shape
   nsvcd_mesh flat = query_mesh(&plan_shapes[shape], 1);
   CHECK_EQ(nsvcd_encode(&flat, NULL, NULL, NULL, 0, &bodies[shape]), NSVCD_OK);
@@ -1290,7 +1363,8 @@ static void plan_proves_at_the_end(void) {
     const plan_outcome out = plan_run(&s);
     CHECK(out.answer.status == NSVCD_PLAN_CONVERGED ||
           (out.answer.status == NSVCD_PLAN_LIMIT && out.answer.collides));
-    if (out.answer.status != NSVCD_PLAN_CONVERGED) continue;
+    if (out.answer.status != NSVCD_PLAN_CONVERGED)
+      continue;
     CHECK_GE(plan_exact_distance(&s, &out, PLAN_BALL, PLAN_WALL),
              (double)s.options.sweep.clearance - 1e-5);
     converged++;
@@ -1359,7 +1433,8 @@ static void plan_stages_can_be_left_out(void) {
       const double x = (double)out.control[3 * k + j];
       const double y = (double)out.control[3 * (out.via + 1 - k) + j];
       CHECK_NEAR(x + y, (double)s.start[j] + (double)s.goal[j], 1e-5);
-      if (k) CHECK(out.control[3 * k] >= out.control[3 * k - 3] - 1e-6f);
+      if (k)
+        CHECK(out.control[3 * k] >= out.control[3 * k - 3] - 1e-6f);
     }
   }
 }
@@ -1411,8 +1486,10 @@ static void plan_takes_a_custom_cost(void) {
 // ------------------------------------------------------------------------------------------ errors
 
 static void plan_refuses(plan_scene *s, nsvcd_result expected, int measured) {
-  if (!measured) CHECK_EQ(nsvcd_plan_workspace_size(&s->problem, &s->options), 0);
-  if (measured) CHECK(nsvcd_plan_workspace_size(&s->problem, &s->options) > 0);
+  if (!measured)
+    CHECK_EQ(nsvcd_plan_workspace_size(&s->problem, &s->options), 0);
+  if (measured)
+    CHECK(nsvcd_plan_workspace_size(&s->problem, &s->options) > 0);
   const plan_outcome out = plan_run(s);  // checks that nothing is written
   CHECK_EQ(out.result, expected);
 }
@@ -1439,7 +1516,8 @@ static void plan_refuses_options_out_of_range(void) {
     o->check = o->check ? o->check : 10;
     CHECK(nsvcd_plan_workspace_size(&s.problem, o) > 0);
     for (int n = 0; n < 3; n++) {
-      if (n == 2 && (k == 2 || k == 6)) continue;  // NSVCD_NONE
+      if (n == 2 && (k == 2 || k == 6))
+        continue;  // NSVCD_NONE
       *sizes[k] = n == 0 ? most[k] + 1 : n == 1 ? SIZE_MAX / 2 : SIZE_MAX;
       plan_refuses(&s, NSVCD_ERROR_ARGUMENT, 0);
     }
@@ -1492,20 +1570,34 @@ static void plan_refuses_problems(void) {
   CHECK_EQ(nsvcd_plan_workspace_size(NULL, NULL), 0);
   for (int k = 0; k < 14; k++) {
     *p = good;
-    if (k == 0) p->joints = 0;
-    if (k == 1) p->joints = NSVCD_MAX_JOINTS + 1;
-    if (k == 2) p->low = NULL;
-    if (k == 3) p->high = NULL;
-    if (k == 4) p->start = NULL;
-    if (k == 5) p->goal = NULL;
-    if (k == 6) p->bodies = NULL;
-    if (k == 7) p->pairs = NULL;
-    if (k == 8) p->place = NULL;
-    if (k == 9) p->body_count = 1;  // of which the pair's b is none
-    if (k == 10) p->body_count = 65537;
-    if (k == 11) s.pairs[0].b = 0;  // itself
-    if (k == 12) s.pairs[0].b = 0xffffffffu;
-    if (k == 13) s.bodies[1] = NULL;
+    if (k == 0)
+      p->joints = 0;
+    if (k == 1)
+      p->joints = NSVCD_MAX_JOINTS + 1;
+    if (k == 2)
+      p->low = NULL;
+    if (k == 3)
+      p->high = NULL;
+    if (k == 4)
+      p->start = NULL;
+    if (k == 5)
+      p->goal = NULL;
+    if (k == 6)
+      p->bodies = NULL;
+    if (k == 7)
+      p->pairs = NULL;
+    if (k == 8)
+      p->place = NULL;
+    if (k == 9)
+      p->body_count = 1;  // of which the pair's b is none
+    if (k == 10)
+      p->body_count = 65537;
+    if (k == 11)
+      s.pairs[0].b = 0;  // itself
+    if (k == 12)
+      s.pairs[0].b = 0xffffffffu;
+    if (k == 13)
+      s.bodies[1] = NULL;
     plan_refuses(&s, NSVCD_ERROR_ARGUMENT, 0);
     s.pairs[0].b = 1;
   }
@@ -1551,14 +1643,17 @@ static void plan_sizes_do_not_wrap(void) {
   static plan_scene s;
   static const nsvcd_body *bodies[2260];
   plan_wall_scene(&s);
-  for (size_t k = 0; k < 2260; k++) bodies[k] = s.problem.bodies[k % s.problem.body_count];
+  for (size_t k = 0; k < 2260; k++)
+    bodies[k] = s.problem.bodies[k % s.problem.body_count];
   s.problem.bodies = bodies;
   s.problem.body_count = 2260;
   s.options.check = 16384;
   const size_t size = nsvcd_plan_workspace_size(&s.problem, &s.options);
   const double least = 16385.0 * 2260 * (sizeof(nsvcd_pose) + (6 + NSVCD__TRACK) * sizeof(float));
-  if (least > (double)SIZE_MAX) CHECK_EQ(size, 0);
-  if (least < (double)SIZE_MAX) CHECK_LE(least, size);
+  if (least > (double)SIZE_MAX)
+    CHECK_EQ(size, 0);
+  if (least < (double)SIZE_MAX)
+    CHECK_LE(least, size);
   float control[12 * 3];
   nsvcd_plan_answer answer;
   query_memory memory = query_reserve(4096);
@@ -1641,7 +1736,8 @@ static void plan_scale(plan_scene *s, float scale, query_memory *memory) {
     const size_t size = nsvcd_body_describe(s->bodies[b]).size;
     memory[b] = query_reserve(size);
     CHECK_EQ(nsvcd_body_scale(s->bodies[b], scale, memory[b].at, size, &s->bodies[b]), NSVCD_OK);
-    for (int k = 0; k < 3; k++) s->rest[b].position[k] *= scale;
+    for (int k = 0; k < 3; k++)
+      s->rest[b].position[k] *= scale;
   }
   for (size_t j = 0; j < 3; j++) {
     s->low[j] *= scale;
@@ -1683,7 +1779,8 @@ static int plan_trouble_case(plan_trouble trouble, uint64_t seed) {
         query_pose((double)at[0] + shapes_uniform(&rng, -0.08, 0.08), (double)at[1], (double)at[2]);
     plan_pair(&s, 0, 2);
   }
-  if (trouble == PLAN_START_OUT) s.start[joint] = (float)shapes_uniform(&rng, 0.51, 3);
+  if (trouble == PLAN_START_OUT)
+    s.start[joint] = (float)shapes_uniform(&rng, 0.51, 3);
   if (trouble == PLAN_GOAL_OUT) {  // and something near the start, which is not the reason
     s.goal[joint] = (float)shapes_uniform(&rng, -3, -0.51);
     s.problem.body_count = 3;
@@ -1691,7 +1788,8 @@ static int plan_trouble_case(plan_trouble trouble, uint64_t seed) {
     s.rest[2] = query_pose((double)s.start[0] - 0.18, (double)s.start[1], (double)s.start[2]);
     plan_pair(&s, 0, 2);
   }
-  if (trouble == PLAN_EXCLUDED) s.low[joint] = s.high[joint] = s.start[joint] + 1e-3f;
+  if (trouble == PLAN_EXCLUDED)
+    s.low[joint] = s.high[joint] = s.start[joint] + 1e-3f;
   if (trouble == PLAN_ENCLOSED) {
     s.bodies[1] = plan_body(PLAN_SHELL);
     for (size_t j = 0; j < 3; j++) {
@@ -1702,13 +1800,16 @@ static int plan_trouble_case(plan_trouble trouble, uint64_t seed) {
     }
     o->sweep.recall = 0.999f;
   }
-  if (trouble == PLAN_SAME_BODY) s.pairs[0].a = s.pairs[0].b = (uint32_t)shapes_pick(&rng, 2);
-  if (trouble == PLAN_ZERO_LENGTH) memcpy(s.goal, s.start, sizeof s.goal);
+  if (trouble == PLAN_SAME_BODY)
+    s.pairs[0].a = s.pairs[0].b = (uint32_t)shapes_pick(&rng, 2);
+  if (trouble == PLAN_ZERO_LENGTH)
+    memcpy(s.goal, s.start, sizeof s.goal);
   if (trouble == PLAN_NO_WIDTH) {  // y, at a distance; what cannot move stays where it is
     const float at = (float)(shapes_uniform(&rng, 1, 9) * pow(10, shapes_pick(&rng, 5)));
     s.low[1] = s.high[1] = s.start[1] = s.goal[1] = at;
   }
-  if (trouble == PLAN_NO_PAIRS) s.problem.pair_count = 0;
+  if (trouble == PLAN_NO_PAIRS)
+    s.problem.pair_count = 0;
   if (trouble == PLAN_CROWD) {
     s.problem.body_count = PLAN_BODIES;
     for (uint32_t b = 2; b < PLAN_BODIES; b++) {
@@ -1718,7 +1819,8 @@ static int plan_trouble_case(plan_trouble trouble, uint64_t seed) {
       plan_pair(&s, b, (uint32_t)shapes_pick(&rng, 2));
     }
   }
-  if (trouble == PLAN_ONE_VIA) o->explore.via_points = o->refine.via_points = 1;
+  if (trouble == PLAN_ONE_VIA)
+    o->explore.via_points = o->refine.via_points = 1;
   if (trouble == PLAN_HUGE) {
     plan_scale(&s, 1e5f, scaled);
     o->spread = 5e4f;
@@ -1742,7 +1844,8 @@ static int plan_trouble_case(plan_trouble trouble, uint64_t seed) {
                             &o->margin,   &o->spread,       &o->bundle, &o->duration};
   const float extremes[] = {1e20f, 1e-20f, -1, 1e30f, 3e38f, 1e-38f, 0, 1e5f};
   for (size_t k = 0; k < 8; k++) {
-    if (trouble == PLAN_NEGATIVE) *weights[k] = (float)shapes_uniform(&rng, -10, -1e-3);
+    if (trouble == PLAN_NEGATIVE)
+      *weights[k] = (float)shapes_uniform(&rng, -10, -1e-3);
     if (trouble == PLAN_EXTREME && (seed % 8 == k || shapes_pick(&rng, 3) == 0))
       *weights[k] = extremes[shapes_pick(&rng, 8)];
   }
@@ -1750,16 +1853,20 @@ static int plan_trouble_case(plan_trouble trouble, uint64_t seed) {
   const plan_outcome again = plan_run(&s);
   const nsvcd_plan_answer *a = &out.answer;
   CHECK_EQ(out.result, again.result);
-  if (!out.result) CHECK(plan_same(&out, &again, 3));
-  for (int b = 0; b < 2; b++) query_release(&scaled[b]);
+  if (!out.result)
+    CHECK(plan_same(&out, &again, 3));
+  for (int b = 0; b < 2; b++)
+    query_release(&scaled[b]);
   if (trouble == PLAN_SAME_BODY) {
     CHECK_EQ(out.result, NSVCD_ERROR_ARGUMENT);
     return -1;
   }
   // the cost is beyond float's range
-  if (trouble == PLAN_EXTREME && out.result == NSVCD_ERROR_NUMBER) return -1;
+  if (trouble == PLAN_EXTREME && out.result == NSVCD_ERROR_NUMBER)
+    return -1;
   CHECK_EQ(out.result, NSVCD_OK);
-  if (out.result) return -1;
+  if (out.result)
+    return -1;
   if (trouble == PLAN_START_HITS || trouble == PLAN_GOAL_HITS) {
     CHECK_EQ(a->status, trouble == PLAN_START_HITS ? NSVCD_PLAN_START : NSVCD_PLAN_GOAL);
     CHECK(a->pair == 1 && a->collides && a->logit > 0 && a->joint == NSVCD_NONE);
@@ -1771,11 +1878,13 @@ static int plan_trouble_case(plan_trouble trouble, uint64_t seed) {
   }
   if (trouble <= PLAN_EXCLUDED && trouble != PLAN_ENCLOSED)
     CHECK(a->iterations == 0 && s.reports == 0 && a->seeds == 0);
-  if (trouble == PLAN_ENCLOSED) CHECK(a->status == NSVCD_PLAN_LIMIT && a->collides && a->pair == 0);
+  if (trouble == PLAN_ENCLOSED)
+    CHECK(a->status == NSVCD_PLAN_LIMIT && a->collides && a->pair == 0);
   if (trouble == PLAN_ZERO_LENGTH || trouble == PLAN_NO_WIDTH || trouble == PLAN_NO_PAIRS) {
     CHECK_EQ(a->status, NSVCD_PLAN_CONVERGED);
   }
-  if (trouble == PLAN_ZERO_LENGTH) CHECK_LE(a->smoothness, 1e-6);
+  if (trouble == PLAN_ZERO_LENGTH)
+    CHECK_LE(a->smoothness, 1e-6);
   for (size_t k = 0; trouble == PLAN_NO_WIDTH && k < out.via + 2; k++)
     CHECK_NEAR(out.control[3 * k + 1], s.low[1], 1e-6 * (double)s.low[1]);
   return (int)a->status;
@@ -1812,7 +1921,8 @@ static void plan_differences_work_far_from_zero(void) {
     double norm = 0;
     double difference = 0;
     plan_random_numbers(&rng, 36, 0.3, control);
-    for (size_t k = 0; k < 36; k++) control[k] += far;
+    for (size_t k = 0; k < 36; k++)
+      control[k] += far;
     for (int jacobian = 0; jacobian < 2; jacobian++) {
       plan_inside in;
       plan_begin(&s, PLAN_XYZ, 2);
@@ -1824,7 +1934,8 @@ static void plan_differences_work_far_from_zero(void) {
       s.problem.collision = plan_bump_collision;
       s.problem.jacobian = jacobian ? plan_jacobian : NULL;
       plan_pair(&s, 0, 1);
-      if (!plan_open(&s, &in)) return;
+      if (!plan_open(&s, &in))
+        return;
       nsvcd__cost_of(&in.planner, &in.planner.refine, control, INFINITY, gradient[jacobian], NULL);
       CHECK_EQ(in.planner.error, NSVCD_OK);
       plan_close(&in);

@@ -73,7 +73,8 @@ static void query_a_blob_survives_a_file(void) {
     size_t size = nsvcd_body_describe(s.moving).size;
     FILE *file = tmpfile();
     CHECK(file != NULL);
-    if (!file) break;
+    if (!file)
+      break;
     CHECK_EQ(fwrite(s.moving, 1, size, file), size);
     rewind(file);
     query_memory copy = query_reserve(size);
@@ -123,7 +124,8 @@ static void query_facts_contain_the_mesh(void) {
         float radius = 0;
         float away = 0;
         CHECK(nsvcd_body_patch(body, p, centre, &radius));
-        for (int k = 0; k < 3; k++) away += powf(mesh.positions[3 * i + (size_t)k] - centre[k], 2);
+        for (int k = 0; k < 3; k++)
+          away += powf(mesh.positions[3 * i + (size_t)k] - centre[k], 2);
         nearest = fmin(nearest, (double)(sqrtf(away) - radius));
       }
       CHECK_LE(nearest, 1e-6);
@@ -174,11 +176,13 @@ static void query_logit_is_invariant_under_rigid_motion(void) {
     nsvcd_answer before = query_scene_ask(&s);
     nsvcd_pose common;
     query_random_pose(&rng, 1, &common);
-    for (int i = 0; i < QUERY_POSES; i++) s.motion[i] = query_moved(&common, &s.motion[i]);
+    for (int i = 0; i < QUERY_POSES; i++)
+      s.motion[i] = query_moved(&common, &s.motion[i]);
     s.fixed_pose = query_moved(&common, &s.fixed_pose);
     nsvcd_answer after = query_scene_ask(&s);
     CHECK_NEAR(before.logit, after.logit, QUERY_RIGID_TOLERANCE * (1 + fabs((double)before.logit)));
-    if (fabsf(before.logit) > 0.01f) CHECK_EQ(before.collides, after.collides);
+    if (fabsf(before.logit) > 0.01f)
+      CHECK_EQ(before.collides, after.collides);
     compared += before.candidates > 0;
     query_scene_close(&s);
   }
@@ -208,7 +212,8 @@ static void query_logit_is_invariant_under_scale(void) {
     scaled.fixed = to[1];
     for (int k = 0; k < 3; k++) {
       scaled.fixed_pose.position[k] *= scale;
-      for (int i = 0; i < QUERY_POSES; i++) scaled.motion[i].position[k] *= scale;
+      for (int i = 0; i < QUERY_POSES; i++)
+        scaled.motion[i].position[k] *= scale;
     }
     if (to[0] && to[1]) {
       nsvcd_answer after = query_scene_ask(&scaled);
@@ -234,7 +239,8 @@ static void query_scaled_bodies_are_bodies_of_scaled_meshes(void) {
     query_scene s;
     query_scene_open(&s, seed);
     nsvcd_mesh mesh = query_solid(2 * seed, 0.2);
-    for (size_t i = 0; i < 3 * mesh.vertex_count; i++) mesh.positions[i] *= scale;
+    for (size_t i = 0; i < 3 * mesh.vertex_count; i++)
+      mesh.positions[i] *= scale;
     query_memory encoded_memory;
     query_memory scaled_memory = query_reserve(nsvcd_body_describe(s.moving).size);
     const nsvcd_body *encoded = query_encode(&mesh, QUERY_POINTS, &encoded_memory);
@@ -247,7 +253,8 @@ static void query_scaled_bodies_are_bodies_of_scaled_meshes(void) {
       nsvcd_answer b = query_ask(scaled, s.motion, QUERY_POSES, s.fixed, &s.fixed_pose, NULL);
       int near = fabs((double)(a.logit - b.logit)) <= 0.05 * (1 + fabs((double)a.logit));
       CHECK_EQ(a.status, b.status);
-      if (seed % 2) CHECK(near);
+      if (seed % 2)
+        CHECK(near);
       close += near;
       compared++;
       CHECK_NEAR(nsvcd_body_describe(encoded).radius / nsvcd_body_describe(scaled).radius, 1, 1e-3);
@@ -372,7 +379,8 @@ static void query_sizes_at_the_limits(void) {
     nsvcd_pose through[2] = {query_pose(-0.9 * a, 0, 0), query_pose(0.9 * a, 0, 0)};
     nsvcd_pose origin = query_pose(0, 0, 0);
     CHECK_EQ(query_ask(body, through, 2, same, &origin, NULL).collides, 1);
-    for (int k = 0; k < 2; k++) through[k].position[1] = (float)(1.1 * a);  // a gap of a tenth
+    for (int k = 0; k < 2; k++)
+      through[k].position[1] = (float)(1.1 * a);  // a gap of a tenth
     CHECK_EQ(query_ask(body, through, 2, same, &origin, NULL).collides, 0);
     query_release(&memory[0]);
     query_release(&memory[1]);
@@ -437,8 +445,10 @@ static nsvcd_question query_carried(const query_scene *s, uint64_t seed, double 
     const double t = (double)i / (QUERY_POSES - 1);
     const double half = 0.5 * angle * t;
     nsvcd_pose common;
-    for (int k = 0; k < 3; k++) common.position[k] = (float)(0.5 * t * along[k]);
-    for (int k = 0; k < 3; k++) common.rotation[k] = (float)(sin(half) * axis[k]);
+    for (int k = 0; k < 3; k++)
+      common.position[k] = (float)(0.5 * t * along[k]);
+    for (int k = 0; k < 3; k++)
+      common.rotation[k] = (float)(sin(half) * axis[k]);
     common.rotation[3] = (float)cos(half);
     poses[i] = query_moved(&common, &s->motion[i]);
     others[i] = query_moved(&common, &s->fixed_pose);
@@ -482,10 +492,14 @@ static void query_sides_do_not_matter(void) {
     nsvcd_answer one, other;
     query_scene_open(&s, seed);
     nsvcd_question question = query_carried(&s, seed, 1.6, poses, others);
-    if (seed % 4 == 0) question.b.count = 1;
-    if (seed % 4 == 1) question.a.count = 1;
-    if (seed % 4 == 2) question.b.body = question.a.body;
-    if (seed % 8 == 3) question.a.scale = 1.5f;
+    if (seed % 4 == 0)
+      question.b.count = 1;
+    if (seed % 4 == 1)
+      question.a.count = 1;
+    if (seed % 4 == 2)
+      question.b.body = question.a.body;
+    if (seed % 8 == 3)
+      question.a.scale = 1.5f;
     const nsvcd_mover a = question.a;
     CHECK_EQ(nsvcd_sweep(&question, query_workspace(), nsvcd_sweep_workspace_size(NULL), &one),
              NSVCD_OK);
@@ -555,7 +569,8 @@ static void query_all_pairs_are_enough(void) {
         continue;
       }
       CHECK_EQ(a.candidates, b.candidates);
-      if (a.candidates == 0) continue;
+      if (a.candidates == 0)
+        continue;
       CHECK(query_same_answer(&a, &b));
       CHECK(a.status != NSVCD_STATUS_LIMIT);
       compared++;
@@ -594,7 +609,8 @@ static void query_recall_raises_the_logit(void) {
   for (int i = 0; i < 4; i++) {
     nsvcd_sweep_options options = query_options(8, NSVCD_MODEL_BASE, recalls[i]);
     nsvcd_answer a = query_ask(s.moving, s.motion, QUERY_POSES, s.fixed, &s.fixed_pose, &options);
-    if (i > 1) CHECK_GE(a.logit, previous);
+    if (i > 1)
+      CHECK_GE(a.logit, previous);
     previous = a.logit;
   }
   query_scene_close(&s);
@@ -722,7 +738,8 @@ static void query_refuses_bad_poses(void) {
     query_refuses(&s, s.motion, QUERY_POSES, &fixed, NULL, NSVCD_ERROR_POSE);
   }
   nsvcd_pose almost = s.fixed_pose;  // within the tolerance: accepted
-  for (size_t k = 0; k < 4; k++) almost.rotation[k] *= 1.00005f;
+  for (size_t k = 0; k < 4; k++)
+    almost.rotation[k] *= 1.00005f;
   query_ask(s.moving, s.motion, QUERY_POSES, s.fixed, &almost, NULL);
   query_scene_close(&s);
 }
@@ -810,7 +827,8 @@ static void query_encode_refuses_bad_input(void) {
   mesh.positions[4] = 2 * NSVCD_MAX_COORDINATE;
   query_encode_refuses(&mesh, &options, memory.at, size, NSVCD_ERROR_NUMBER);
   mesh.positions[4] = kept;
-  for (size_t i = 0; i < 3 * mesh.vertex_count; i++) mesh.positions[i] = 0.1f;  // no area
+  for (size_t i = 0; i < 3 * mesh.vertex_count; i++)
+    mesh.positions[i] = 0.1f;  // no area
   query_encode_refuses(&mesh, &options, memory.at, size, NSVCD_ERROR_EMPTY);
   query_release(&memory);
   nsvcd_mesh_free(&mesh, NULL);
@@ -860,7 +878,8 @@ static void query_encode_survives_every_failed_allocation(void) {
     }
     CHECK_EQ(result, NSVCD_ERROR_MEMORY);
     CHECK(body == NULL);
-    if (failures > 1000) break;
+    if (failures > 1000)
+      break;
   }
   CHECK(failures >= 1 && failures < 1000);
   query_release(&memory);
@@ -894,11 +913,13 @@ static void query_add_mesh(query_library *library, const char *name, const char 
   char full[512];
   nsvcd_mesh mesh;
   CHECK(library->count < QUERY_MAX_MESHES);
-  if (library->count == QUERY_MAX_MESHES) return;
+  if (library->count == QUERY_MAX_MESHES)
+    return;
   snprintf(full, sizeof full, QUERY_DATA "%s", path);
   nsvcd_result result = nsvcd_obj_load(full, NULL, &mesh, NULL);
   CHECK_EQ(result, NSVCD_OK);
-  if (result) return;
+  if (result)
+    return;
   snprintf(library->names[library->count], sizeof library->names[0], "%s", name);
   library->bodies[library->count] = query_encode(&mesh, 0, &library->memory[library->count]);
   library->count++;
@@ -939,12 +960,15 @@ static int query_answer_problem(FILE *file, const query_library *library, void *
   if (!query_read_pose(file, &fixed_pose) ||
       fscanf(file, "%d %lf %zu", &label, &margin, &count) != 3)
     return 0;
-  if (count > 64 || label < 0 || label > 1) return 0;
+  if (count > 64 || label < 0 || label > 1)
+    return 0;
   for (size_t i = 0; i < count; i++)
-    if (!query_read_pose(file, &motion[i])) return 0;
+    if (!query_read_pose(file, &motion[i]))
+      return 0;
   const nsvcd_body *moving = query_scaled(library, names[0], scales[0], memory[0]);
   const nsvcd_body *fixed = query_scaled(library, names[1], scales[1], memory[1]);
-  if (!moving || !fixed) return 0;
+  if (!moving || !fixed)
+    return 0;
   nsvcd_answer a = query_ask(moving, motion, count, fixed, &fixed_pose, NULL);
   CHECK_EQ(a.collides, a.logit > 0);
   for (int i = 0; i < 3; i++)
@@ -978,7 +1002,8 @@ static void accuracy_on_a_labelled_file(void) {
                            {"inside", QUERY_LEAST_INSIDE, {{0, 0}, {0, 0}}}};
   FILE *file = fopen(QUERY_DATA "problems.txt", "r");
   CHECK(file != NULL);  // run from the repository root
-  if (!file) return;
+  if (!file)
+    return;
   query_memory memory[2] = {query_reserve(nsvcd_body_size(NSVCD_DEFAULT_NETWORK_POINTS)),
                             query_reserve(nsvcd_body_size(NSVCD_DEFAULT_NETWORK_POINTS))};
   void *const scaled[2] = {memory[0].at, memory[1].at};
@@ -987,7 +1012,8 @@ static void accuracy_on_a_labelled_file(void) {
   while (good && fscanf(file, "%63s", word) == 1) {
     if (strcmp(word, "mesh") == 0) {
       good = fscanf(file, "%63s %255s", name, path) == 2;
-      if (good) query_add_mesh(&library, name, path);
+      if (good)
+        query_add_mesh(&library, name, path);
     } else if (strcmp(word, "problem") == 0) {
       good = query_answer_problem(file, &library, scaled, scores);
     } else if (word[0] == '#' || strcmp(word, "nsvcd-problems") == 0) {
@@ -999,7 +1025,8 @@ static void accuracy_on_a_labelled_file(void) {
   CHECK(good);
   fclose(file);
   query_judge(scores);
-  for (size_t i = 0; i < library.count; i++) query_release(&library.memory[i]);
+  for (size_t i = 0; i < library.count; i++)
+    query_release(&library.memory[i]);
   query_release(&memory[0]);
   query_release(&memory[1]);
 }
@@ -1010,7 +1037,8 @@ static void query_sizes_are_what_is_asked(void) {
   static const size_t sizes[6] = {1, 64, 100, 192, 256, 512};
   const nsvcd_pose at = {{0, 0, 0}, {0, 0, 0, 1}};
   nsvcd_mesh mesh = query_solid(1, 0.3);
-  for (size_t i = 0; i < 6; i++) CHECK_EQ(nsvcd_body_size(sizes[i]), NSVCD_BODY_BYTES(sizes[i]));
+  for (size_t i = 0; i < 6; i++)
+    CHECK_EQ(nsvcd_body_size(sizes[i]), NSVCD_BODY_BYTES(sizes[i]));
   for (size_t i = 0; i < 36; i++) {
     const size_t points[2] = {sizes[i / 6], sizes[i % 6]};
     const nsvcd_body *bodies[2];
@@ -1048,12 +1076,15 @@ static void query_sizes_are_what_is_asked(void) {
         memset(memory.at, 0x5a, network + 64 + 16);
         CHECK_EQ(nsvcd_sweep(&question, at_place, network, &one), NSVCD_OK);
         CHECK(query_same_answer(&one, &other));
-        for (size_t n = 0; n < from; n++) CHECK_EQ(((char *)memory.at)[n], 0x5a);
-        for (size_t n = 0; n < 16; n++) CHECK_EQ(at_place[network + n], 0x5a);
+        for (size_t n = 0; n < from; n++)
+          CHECK_EQ(((char *)memory.at)[n], 0x5a);
+        for (size_t n = 0; n < 16; n++)
+          CHECK_EQ(at_place[network + n], 0x5a);
       }
       query_release(&memory);
     }
-    for (size_t k = 0; k < 2; k++) nsvcd_body_free(bodies[k], NULL);
+    for (size_t k = 0; k < 2; k++)
+      nsvcd_body_free(bodies[k], NULL);
   }
   nsvcd_mesh_free(&mesh, NULL);
   nsvcd_question question = question_of(NULL, &at, 1, NULL, NULL, NULL);
@@ -1098,7 +1129,8 @@ static void query_few_segments_are_as_right(void) {
     CHECK(many.status == NSVCD_STATUS_WITNESS || many.status == NSVCD_STATUS_CERTIFIED_FREE ||
           many.status == NSVCD_STATUS_INSIDE);
     hits += (size_t)many.collides;
-    for (size_t k = 0; k < 2; k++) nsvcd_body_free(bodies[k], NULL);
+    for (size_t k = 0; k < 2; k++)
+      nsvcd_body_free(bodies[k], NULL);
     query_scene_close(&s);
   }
   CHECK(hits > 5 && hits < 36);

@@ -47,7 +47,8 @@ static nsvcd_mesh surface_mesh(size_t vertices, size_t triangles) {
 
 static nsvcd_mesh surface_take(shapes_mesh *shape) {
   nsvcd_mesh mesh = surface_mesh(shape->vertices, shape->triangles);
-  for (size_t i = 0; i < 3 * shape->vertices; i++) mesh.positions[i] = (float)shape->positions[i];
+  for (size_t i = 0; i < 3 * shape->vertices; i++)
+    mesh.positions[i] = (float)shape->positions[i];
   memcpy(mesh.indices, shape->indices, 3 * shape->triangles * sizeof(uint32_t));
   shapes_free(shape);
   return mesh;
@@ -86,11 +87,15 @@ static nsvcd_mesh surface_soup(shapes_rng *rng, size_t triangles, double size) {
     for (size_t k = 0; k < 3; k++) {
       const double a = (double)p[k];
       const double b = (double)p[3 + k];
-      if (t % 7 == 0) p[6 + k] = (float)(a + (b - a) * 0.4 + size * 1e-3 * (k == 0));
-      if (t % 11 == 0) p[3 + k] = p[6 + k] = p[k];
-      if (t % 13 == 0) p[6 + k] = (float)(0.5 * (a + b));
+      if (t % 7 == 0)
+        p[6 + k] = (float)(a + (b - a) * 0.4 + size * 1e-3 * (k == 0));
+      if (t % 11 == 0)
+        p[3 + k] = p[6 + k] = p[k];
+      if (t % 13 == 0)
+        p[6 + k] = (float)(0.5 * (a + b));
     }
-    for (uint32_t k = 0; k < 3; k++) mesh.indices[3 * t + k] = 3 * (uint32_t)t + k;
+    for (uint32_t k = 0; k < 3; k++)
+      mesh.indices[3 * t + k] = 3 * (uint32_t)t + k;
   }
   return mesh;
 }
@@ -137,8 +142,10 @@ static nsvcd_mesh surface_solid(uint64_t seed, int hollow) {
   shapes_mesh shape;
   shapes_rng rng = {seed};
   memset(&shape, 0, sizeof shape);
-  if (hollow) shapes_random_hollow(&shape, &rng, (int)(seed % SHAPES_HOLLOWS), 1);
-  if (!hollow) shapes_random_solid(&shape, &rng, 1);
+  if (hollow)
+    shapes_random_hollow(&shape, &rng, (int)(seed % SHAPES_HOLLOWS), 1);
+  if (!hollow)
+    shapes_random_solid(&shape, &rng, 1);
   return surface_take(&shape);
 }
 
@@ -226,8 +233,10 @@ static int place_order(const void *a, const void *b) {
   const place *x = (const place *)a;
   const place *y = (const place *)b;
   for (size_t k = 0; k < 3; k++) {
-    if (x->p[k] < y->p[k]) return -1;
-    if (x->p[k] > y->p[k]) return 1;
+    if (x->p[k] < y->p[k])
+      return -1;
+    if (x->p[k] > y->p[k])
+      return 1;
   }
   return 0;
 }
@@ -240,8 +249,10 @@ typedef struct edge {
 static int edge_order(const void *a, const void *b) {
   const edge *x = (const edge *)a;
   const edge *y = (const edge *)b;
-  if (x->low != y->low) return x->low < y->low ? -1 : 1;
-  if (x->high != y->high) return x->high < y->high ? -1 : 1;
+  if (x->low != y->low)
+    return x->low < y->low ? -1 : 1;
+  if (x->high != y->high)
+    return x->high < y->high ? -1 : 1;
   return 0;
 }
 
@@ -263,11 +274,13 @@ static shells shells_of(const nsvcd_mesh *mesh) {
   }
   qsort(places, vertices, sizeof *places, place_order);
   for (size_t v = 0, first = 0; v < vertices; v++) {
-    if (place_order(&places[first], &places[v])) first = v;
+    if (place_order(&places[first], &places[v]))
+      first = v;
     weld[places[v].vertex] = places[first].vertex;
   }
 
-  for (size_t v = 0; v < vertices; v++) out.part[v] = weld[v];
+  for (size_t v = 0; v < vertices; v++)
+    out.part[v] = weld[v];
   for (int changed = 1; changed;) {  // the least label of a triangle spreads
     changed = 0;
     for (size_t pass = 0; pass < 2 * triangles; pass++) {
@@ -284,17 +297,20 @@ static shells shells_of(const nsvcd_mesh *mesh) {
       }
     }
   }
-  for (size_t v = 0; v < vertices; v++) out.part[v] = out.part[weld[v]];
+  for (size_t v = 0; v < vertices; v++)
+    out.part[v] = out.part[weld[v]];
 
   edge *edges = (edge *)malloc(3 * triangles * sizeof *edges);
   size_t count = 0;
   uint8_t *used = (uint8_t *)calloc(vertices, 1);
   for (size_t t = 0; t < triangles; t++) {
     uint32_t c[3];
-    for (size_t i = 0; i < 3; i++) c[i] = weld[mesh->indices[3 * t + i]];
+    for (size_t i = 0; i < 3; i++)
+      c[i] = weld[mesh->indices[3 * t + i]];
     out.count += !used[out.part[c[0]]];
     used[out.part[c[0]]] = 1;
-    if (c[0] == c[1] || c[1] == c[2] || c[2] == c[0]) continue;
+    if (c[0] == c[1] || c[1] == c[2] || c[2] == c[0])
+      continue;
     for (size_t i = 0; i < 3; i++) {
       const uint32_t a = c[i];
       const uint32_t b = c[(i + 1) % 3];
@@ -307,8 +323,10 @@ static shells shells_of(const nsvcd_mesh *mesh) {
   for (size_t e = 0; e < count;) {
     int sum = 0;
     const size_t first = e;
-    for (; e < count && !edge_order(&edges[first], &edges[e]); e++) sum += edges[e].sign;
-    if (sum) out.closed[out.part[edges[first].low]] = 0;
+    for (; e < count && !edge_order(&edges[first], &edges[e]); e++)
+      sum += edges[e].sign;
+    if (sum)
+      out.closed[out.part[edges[first].low]] = 0;
   }
   free(weld);
   free(places);
@@ -336,10 +354,12 @@ static double triangle_distance(const vec *c, vec x) {
   least = fmin(least, segment_distance(c[1], c[2], x));
   least = fmin(least, segment_distance(c[2], c[0], x));
   const vec n = vec_cross(vec_sub(c[1], c[0]), vec_sub(c[2], c[0]));
-  if (!(vec_length(n) > 0)) return least;
+  if (!(vec_length(n) > 0))
+    return least;
   for (size_t i = 0; i < 3; i++) {
     const vec side = vec_cross(n, vec_sub(c[(i + 1) % 3], c[i]));
-    if (vec_dot(side, vec_sub(x, c[i])) < 0) return least;
+    if (vec_dot(side, vec_sub(x, c[i])) < 0)
+      return least;
   }
   return fmin(least, fabs(vec_dot(n, vec_sub(x, c[0]))) / vec_length(n));
 }
@@ -350,7 +370,8 @@ static int any_triangle_reaches(const vec *points, size_t count, vec x, double r
     for (size_t j = i; j < count; j++) {
       for (size_t k = j; k < count; k++) {
         const vec corners[3] = {points[i], points[j], points[k]};
-        if (triangle_distance(corners, x) <= reach) return 1;
+        if (triangle_distance(corners, x) <= reach)
+          return 1;
       }
     }
   }
@@ -368,9 +389,11 @@ static int in_tetrahedron(vec a, vec b, vec c, vec d, vec x) {
   const double base = vec_length(vec_sub(b, a)) * vec_length(vec_sub(c, a));
   const double size = base * vec_length(vec_sub(d, a));
   const double whole = parts[0] + parts[1] + parts[2] + parts[3];
-  if (fabs(whole) <= 1e-12 * size) return 0;
+  if (fabs(whole) <= 1e-12 * size)
+    return 0;
   for (size_t i = 0; i < 4; i++) {
-    if (parts[i] / whole < 0) return 0;
+    if (parts[i] / whole < 0)
+      return 0;
   }
   return 1;
 }
@@ -379,7 +402,8 @@ static int any_tetrahedron_holds(const vec *points, size_t count, vec x) {
     for (size_t j = i + 1; j < count; j++) {
       for (size_t k = j + 1; k < count; k++) {
         for (size_t l = k + 1; l < count; l++) {
-          if (in_tetrahedron(points[i], points[j], points[k], points[l], x)) return 1;
+          if (in_tetrahedron(points[i], points[j], points[k], points[l], x))
+            return 1;
         }
       }
     }
@@ -394,27 +418,34 @@ static int hull_reaches(const vec *points, size_t count, vec x, double reach) {
   vec v = vec_sub(points[0], x);
   for (int step = 0; step < 60; step++) {
     const double squared = vec_dot(v, v);
-    if (squared <= reach * reach) return 1;
+    if (squared <= reach * reach)
+      return 1;
     size_t to = 0;
     size_t from = 0;
     double least = HUGE_VAL;
     double most = -HUGE_VAL;
     for (size_t i = 0; i < count; i++) {
       const double at = vec_dot(vec_sub(points[i], x), v);
-      if (at < least) to = i;
-      if (at > most && weights[i] > 0) from = i;
+      if (at < least)
+        to = i;
+      if (at > most && weights[i] > 0)
+        from = i;
       least = fmin(least, at);
-      if (weights[i] > 0) most = fmax(most, at);
+      if (weights[i] > 0)
+        most = fmax(most, at);
     }
-    if (least > reach * sqrt(squared)) return 0;
+    if (least > reach * sqrt(squared))
+      return 0;
     const vec d = vec_sub(points[to], points[from]);
     const double way = -vec_dot(v, d) / vec_dot(d, d);
-    if (!(way > 0)) break;
+    if (!(way > 0))
+      break;
     const double share = fmin(way, weights[from]);
     weights[from] -= share;
     weights[to] += share;
     v = vec_of(0, 0, 0);
-    for (size_t i = 0; i < count; i++) v = vec_add(v, vec_scale(vec_sub(points[i], x), weights[i]));
+    for (size_t i = 0; i < count; i++)
+      v = vec_add(v, vec_scale(vec_sub(points[i], x), weights[i]));
   }
   return any_triangle_reaches(points, count, x, reach) || any_tetrahedron_holds(points, count, x);
 }
@@ -457,8 +488,10 @@ static void reader_index(reader *r) {
       r->listings[reader_id(r, l)]++;
     }
   }
-  for (size_t t = 1; t <= r->mesh->triangle_count; t++) r->listings[t] += r->listings[t - 1];
-  for (size_t l = s->listed; l-- > 0;) r->sorted[--r->listings[reader_id(r, l)]] = (uint32_t)l;
+  for (size_t t = 1; t <= r->mesh->triangle_count; t++)
+    r->listings[t] += r->listings[t - 1];
+  for (size_t l = s->listed; l-- > 0;)
+    r->sorted[--r->listings[reader_id(r, l)]] = (uint32_t)l;
 }
 
 // The surface of a mesh, as nsvcd_encode makes it.
@@ -470,7 +503,8 @@ static nsvcd_result surface_of(const nsvcd_mesh *mesh, size_t points,
   plan.points = points;
   plan.triangles = 1;
   const nsvcd_result result = nsvcd__parts_build(mesh, &plan, allocator, &parts);
-  if (result) return result;
+  if (result)
+    return result;
   *surface = parts.surface;
   nsvcd__free(allocator, parts.centres);
   return NSVCD_OK;
@@ -516,7 +550,8 @@ static int check_ranges(const reader *r) {
   CHECK_EQ(s->first_triangle[0], 0);
   CHECK_EQ(s->first_vertex[s->count], s->vertex_count);
   CHECK_EQ(s->first_triangle[s->count], s->listed);
-  for (size_t i = 0; i < 3 * s->vertex_count; i++) bad += s->vertices[i] < -32767;
+  for (size_t i = 0; i < 3 * s->vertex_count; i++)
+    bad += s->vertices[i] < -32767;
   for (size_t i = 0; i < s->count; i++) {
     const float *ball = s->balls + 4 * i;
     const float *disc = s->discs + 6 * i;
@@ -526,9 +561,12 @@ static int check_ranges(const reader *r) {
     const size_t l = s->first_triangle[i + 1] - s->first_triangle[i];
     const int empty = l == 0;
     bad += empty ? s->hull_counts[i] != 0 || n != 0 || ball[3] != NSVCD__NOWHERE : 0;
-    for (size_t k = 0; k < 4; k++) bad += !nsvcd__is_finite(ball[k]);
-    for (size_t k = 0; k < 6; k++) bad += !nsvcd__is_finite(disc[k]);
-    if (empty) continue;
+    for (size_t k = 0; k < 4; k++)
+      bad += !nsvcd__is_finite(ball[k]);
+    for (size_t k = 0; k < 6; k++)
+      bad += !nsvcd__is_finite(disc[k]);
+    if (empty)
+      continue;
     const vec normal = vec_load(disc);
     bad += s->hull_counts[i] < 1 || s->hull_counts[i] > NSVCD__HULL || s->hull_counts[i] > n;
     bad += vec_length(normal) > 1 || vec_length(normal) < 1 - 1e-6;
@@ -538,7 +576,8 @@ static int check_ranges(const reader *r) {
       bad += s->corners[k] >= n;
     }
   }
-  for (size_t l = 0; l < s->listed; l++) bad += reader_id(r, l) >= r->mesh->triangle_count;
+  for (size_t l = 0; l < s->listed; l++)
+    bad += reader_id(r, l) >= r->mesh->triangle_count;
   CHECK_EQ(bad, 0);
   return bad == 0;
 }
@@ -567,7 +606,8 @@ static int patch_holds(const reader *r, size_t i, vec x, misses *m) {
   }
   const vec *hull = r->vertices + s->first_vertex[i];
   const double reach = (double)s->slacks[i] + r->tolerance;
-  if (hull_reaches(hull, s->hull_counts[i], x, reach)) return 1;
+  if (hull_reaches(hull, s->hull_counts[i], x, reach))
+    return 1;
   m->hull++;
   return 0;
 }
@@ -585,9 +625,11 @@ static void check_point(const reader *r, size_t t, vec x, misses *m) {
     const double quantum = (double)r->surface.quanta[r->patch[l]];
     // Tolerances in the triangle's own plane are only as good as its shape; a millionth of the
     // quantum is none.
-    if (triangle_distance(corners, x) > quantum * (1 + 1e-6) + 10 * r->tolerance) continue;
+    if (triangle_distance(corners, x) > quantum * (1 + 1e-6) + 10 * r->tolerance)
+      continue;
     listed = 1;
-    if (patch_holds(r, r->patch[l], x, &tried)) return;
+    if (patch_holds(r, r->patch[l], x, &tried))
+      return;
   }
   *m = tried;
   m->points++;
@@ -600,7 +642,8 @@ static void check_points(const reader *r, shapes_rng *rng, size_t random) {
   memset(&m, 0, sizeof m);
   for (size_t t = 0; t < r->mesh->triangle_count; t++) {
     vec c[3];
-    for (size_t i = 0; i < 3; i++) c[i] = surface_corner(r->mesh, t, i);
+    for (size_t i = 0; i < 3; i++)
+      c[i] = surface_corner(r->mesh, t, i);
     for (size_t i = 0; i < 3; i++) {
       const double share = shapes_uniform(rng, 0, 1);
       const vec along = vec_scale(vec_sub(c[(i + 1) % 3], c[i]), share);
@@ -620,7 +663,8 @@ static void check_points(const reader *r, shapes_rng *rng, size_t random) {
     }
   }
   CHECK_EQ(m.nowhere, 0);
-  if (m.nowhere == 0) return;
+  if (m.nowhere == 0)
+    return;
   printf("  of %zu points: no triangle %zu; ", m.points, m.triangle);
   printf("left out by balls %zu, discs %zu, hulls %zu\n", m.ball, m.disc, m.hull);
 }
@@ -635,8 +679,10 @@ static void check_quanta(const reader *r) {
     const size_t t = reader_id(r, l);
     const double quantum = (double)r->surface.quanta[r->patch[l]] * (1 + 1e-6) + 10 * r->tolerance;
     reader_corners(r, l, corners);
-    for (size_t i = 0; i < 3; i++) mesh_corners[i] = surface_corner(r->mesh, t, i);
-    for (size_t i = 0; i < 3; i++) bad += triangle_distance(mesh_corners, corners[i]) > quantum;
+    for (size_t i = 0; i < 3; i++)
+      mesh_corners[i] = surface_corner(r->mesh, t, i);
+    for (size_t i = 0; i < 3; i++)
+      bad += triangle_distance(mesh_corners, corners[i]) > quantum;
   }
   CHECK_EQ(bad, 0);
 }
@@ -656,8 +702,10 @@ static int is_listed_before(const reader *r, size_t first, size_t k) {
     double most = 0;
     reader_corners(r, r->sorted[i], other);
     const double both = quantum + (double)r->surface.quanta[r->patch[r->sorted[i]]];
-    for (size_t j = 0; j < 3; j++) most = fmax(most, vec_length(vec_sub(own[j], other[j])));
-    if (most <= both + 10 * r->tolerance) return 1;
+    for (size_t j = 0; j < 3; j++)
+      most = fmax(most, vec_length(vec_sub(own[j], other[j])));
+    if (most <= both + 10 * r->tolerance)
+      return 1;
   }
   return 0;
 }
@@ -673,7 +721,8 @@ static void check_enclosing(const reader *r) {
   double volume_error = 0;
   for (size_t t = 0; t < mesh->triangle_count; t++) {
     vec c[3];
-    for (size_t i = 0; i < 3; i++) c[i] = surface_corner(mesh, t, i);
+    for (size_t i = 0; i < 3; i++)
+      c[i] = surface_corner(mesh, t, i);
     const double size = vec_length(vec_sub(c[1], c[0])) + vec_length(vec_sub(c[2], c[0]));
     const int closed = parts.closed[parts.part[mesh->indices[3 * t]]];
     vec sum = closed ? vec_scale(area_vector(c), -1) : vec_of(0, 0, 0);
@@ -687,7 +736,8 @@ static void check_enclosing(const reader *r) {
       const size_t l = r->sorted[k];
       vec part[3];
       flags += (r->surface.ids[l] & NSVCD__ENCLOSES) != 0;
-      if (!closed || is_listed_before(r, r->listings[t], k)) continue;
+      if (!closed || is_listed_before(r, r->listings[t], k))
+        continue;
       reader_corners(r, l, part);
       const double quantum = (double)r->surface.quanta[r->patch[l]];
       const double perimeter = vec_length(vec_sub(part[1], part[0])) +
@@ -708,8 +758,10 @@ static void check_enclosing(const reader *r) {
       volume += part_volume;
       found++;
     }
-    if (closed && !whole) bad += flags != r->listings[t + 1] - r->listings[t];
-    if (!closed) found = flags;
+    if (closed && !whole)
+      bad += flags != r->listings[t + 1] - r->listings[t];
+    if (!closed)
+      found = flags;
     bad += vec_length(sum) > error;
     bad += closed ? found == 0 : found > 0;
     marked += found > 0;
@@ -717,7 +769,8 @@ static void check_enclosing(const reader *r) {
   }
   CHECK_EQ(bad, 0);
   CHECK_LE(fabs(volume), volume_error);
-  if (bad) printf("  %zu of %zu triangles enclose\n", marked, mesh->triangle_count);
+  if (bad)
+    printf("  %zu of %zu triangles enclose\n", marked, mesh->triangle_count);
   shells_free(&parts);
 }
 
@@ -728,16 +781,19 @@ static void check_seeds(const reader *r) {
   uint8_t *taken = (uint8_t *)calloc(mesh->vertex_count, 1);
   uint8_t *used = (uint8_t *)calloc(mesh->vertex_count, 1);
   CHECK_EQ(s->component_count, parts.count);
-  for (size_t i = 0; i < 3 * mesh->triangle_count; i++) used[mesh->indices[i]] = 1;
+  for (size_t i = 0; i < 3 * mesh->triangle_count; i++)
+    used[mesh->indices[i]] = 1;
   for (size_t k = 0; k < s->component_count; k++) {
     size_t v = 0;
     const float *seed = s->seeds + 3 * k;
     for (; v < mesh->vertex_count; v++) {
       const float *p = mesh->positions + 3 * v;
-      if (used[v] && p[0] == seed[0] && p[1] == seed[1] && p[2] == seed[2]) break;
+      if (used[v] && p[0] == seed[0] && p[1] == seed[1] && p[2] == seed[2])
+        break;
     }
     CHECK(v < mesh->vertex_count);
-    if (v == mesh->vertex_count) break;
+    if (v == mesh->vertex_count)
+      break;
     CHECK(!taken[parts.part[v]]);
     taken[parts.part[v]] = 1;
   }
@@ -749,7 +805,8 @@ static void check_seeds(const reader *r) {
 static void check_all(const nsvcd_mesh *mesh, size_t points, shapes_rng *rng, size_t random) {
   reader r;
   const int failures = check.failures_in_test;
-  if (!reader_open(&r, mesh, points)) return;
+  if (!reader_open(&r, mesh, points))
+    return;
   if (check_ranges(&r)) {
     reader_index(&r);
     check_points(&r, rng, random);
@@ -774,8 +831,10 @@ static void surface_is_covered(void) {
     nsvcd_mesh mesh = surface_kind(kind);
     const size_t random = 3 + 2000 / mesh.triangle_count;
     const int failures = check.failures_in_test;
-    for (size_t n = 0; n < 8; n++) check_all(&mesh, surface_points[n], &rng, random);
-    if (check.failures_in_test > failures) printf("  kind %d\n", kind);
+    for (size_t n = 0; n < 8; n++)
+      check_all(&mesh, surface_points[n], &rng, random);
+    if (check.failures_in_test > failures)
+      printf("  kind %d\n", kind);
     nsvcd_mesh_free(&mesh, NULL);
   }
 }
@@ -833,12 +892,15 @@ static void surface_of_large_faces(void) {
 static size_t enclosing(const nsvcd_mesh *mesh, size_t *components) {
   reader r;
   size_t count = 0;
-  if (!reader_open(&r, mesh, 17)) return 0;
+  if (!reader_open(&r, mesh, 17))
+    return 0;
   uint8_t *found = (uint8_t *)calloc(mesh->triangle_count, 1);
   for (size_t l = 0; l < r.surface.listed; l++) {
-    if (r.surface.ids[l] & NSVCD__ENCLOSES) found[reader_id(&r, l)] = 1;
+    if (r.surface.ids[l] & NSVCD__ENCLOSES)
+      found[reader_id(&r, l)] = 1;
   }
-  for (size_t t = 0; t < mesh->triangle_count; t++) count += found[t];
+  for (size_t t = 0; t < mesh->triangle_count; t++)
+    count += found[t];
   *components = r.surface.component_count;
   free(found);
   reader_close(&r);
@@ -881,7 +943,8 @@ static void surface_open_and_closed(void) {
   // -0 is 0: a box of which some zeros are negative.
   mesh = surface_box(2, 2, 2, 2);
   for (size_t i = 0; i < 3 * mesh.vertex_count; i += 2) {
-    if (mesh.positions[i] == 0) mesh.positions[i] = -mesh.positions[i];
+    if (mesh.positions[i] == 0)
+      mesh.positions[i] = -mesh.positions[i];
   }
   CHECK_EQ(enclosing(&mesh, &components), mesh.triangle_count);
   CHECK_EQ(components, 1);
@@ -897,17 +960,20 @@ static void surface_balls_are_minimal(void) {
     for (size_t i = 0; i < count; i++) {
       points[i] = nsvcd__d3_of(shapes_uniform(&rng, -1, 1), shapes_uniform(&rng, -1, 1),
                                trial % 3 ? shapes_uniform(&rng, -1, 1) : 0.25);
-      if (trial % 7 == 0 && i > 3) points[i] = points[i / 2];
+      if (trial % 7 == 0 && i > 3)
+        points[i] = points[i / 2];
     }
     const nsvcd__d3 centre = nsvcd__ball_centre(points, count);
     nsvcd__d3 other = points[0];
     double radius = 0;
     double least = HUGE_VAL;
-    for (size_t i = 0; i < count; i++) radius = fmax(radius, nsvcd__d3_gap(points[i], centre));
+    for (size_t i = 0; i < count; i++)
+      radius = fmax(radius, nsvcd__d3_gap(points[i], centre));
     for (size_t step = 1; step < 5000; step++) {
       size_t farthest = 0;
       for (size_t i = 0; i < count; i++) {
-        if (nsvcd__d3_gap(points[i], other) > nsvcd__d3_gap(points[farthest], other)) farthest = i;
+        if (nsvcd__d3_gap(points[i], other) > nsvcd__d3_gap(points[farthest], other))
+          farthest = i;
       }
       least = fmin(least, nsvcd__d3_gap(points[farthest], other));
       other = nsvcd__d3_mix(other, points[farthest], 1 / (double)(step + 1));
@@ -918,7 +984,8 @@ static void surface_balls_are_minimal(void) {
 
 static int same_surface(const nsvcd__surface *a, const nsvcd__surface *b) {
   const size_t n = a->count;
-  if (n != b->count || a->listed != b->listed || a->vertex_count != b->vertex_count) return 0;
+  if (n != b->count || a->listed != b->listed || a->vertex_count != b->vertex_count)
+    return 0;
   return !memcmp(a->balls, b->balls, 16 * n) && !memcmp(a->discs, b->discs, 24 * n) &&
          !memcmp(a->steps, b->steps, 4 * n) && !memcmp(a->slacks, b->slacks, 4 * n) &&
          !memcmp(a->quanta, b->quanta, 4 * n) && !memcmp(a->hull_counts, b->hull_counts, n) &&
