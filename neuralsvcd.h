@@ -764,40 +764,12 @@ NSVCDDEF nsvcd_result nsvcd_plan(const nsvcd_plan_problem *problem,
 static float nsvcd__dot3(const float *a, const float *b) {
   return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
 }
-static inline void nsvcd__sub3(const float *a, const float *b, float *out) {
-  out[0] = a[0] - b[0];
-  out[1] = a[1] - b[1];
-  out[2] = a[2] - b[2];
-}
-static inline float nsvcd__length3(const float *a) { return sqrtf(nsvcd__dot3(a, a)); }
 
 // Finite test on the bits, so that it survives -ffast-math.
 static int nsvcd__is_finite(float x) {
   uint32_t bits;
   memcpy(&bits, &x, sizeof bits);
   return (bits & 0x7f800000u) != 0x7f800000u;
-}
-// Rotation matrix of a unit quaternion.
-static void nsvcd__quat_to_matrix(const float *q, float *m) {
-  float x = q[0];
-  float y = q[1];
-  float z = q[2];
-  float w = q[3];
-  m[0] = 1 - 2 * (y * y + z * z);
-  m[1] = 2 * (x * y - z * w);
-  m[2] = 2 * (x * z + y * w);
-  m[3] = 2 * (x * y + z * w);
-  m[4] = 1 - 2 * (x * x + z * z);
-  m[5] = 2 * (y * z - x * w);
-  m[6] = 2 * (x * z - y * w);
-  m[7] = 2 * (y * z + x * w);
-  m[8] = 1 - 2 * (x * x + y * y);
-}
-// out = m v, may not alias
-static inline void nsvcd__mul33_vec(const float *m, const float *v, float *out) {
-  out[0] = nsvcd__dot3(m, v);
-  out[1] = nsvcd__dot3(m + 3, v);
-  out[2] = nsvcd__dot3(m + 6, v);
 }
 
 // Vectors as values: f3 of floats, d3 of doubles. A difference of floats, and all that is built of
@@ -813,6 +785,21 @@ static inline nsvcd__f3 nsvcd__f3_of(float x, float y, float z) {
   const nsvcd__f3 out = {x, y, z};
   return out;
 }
+static inline nsvcd__f3 nsvcd__f3_load(const float *p) { return nsvcd__f3_of(p[0], p[1], p[2]); }
+static inline void nsvcd__f3_store(nsvcd__f3 a, float *p) {
+  p[0] = a.x;
+  p[1] = a.y;
+  p[2] = a.z;
+}
+// From, and to, rows of x, y and z, so many numbers apart.
+static inline nsvcd__f3 nsvcd__f3_get(const float *rows, size_t stride) {
+  return nsvcd__f3_of(rows[0], rows[stride], rows[2 * stride]);
+}
+static inline void nsvcd__f3_put(nsvcd__f3 a, float *rows, size_t stride) {
+  rows[0] = a.x;
+  rows[stride] = a.y;
+  rows[2 * stride] = a.z;
+}
 static inline nsvcd__f3 nsvcd__f3_add(nsvcd__f3 a, nsvcd__f3 b) {
   return nsvcd__f3_of(a.x + b.x, a.y + b.y, a.z + b.z);
 }
@@ -822,11 +809,19 @@ static inline nsvcd__f3 nsvcd__f3_sub(nsvcd__f3 a, nsvcd__f3 b) {
 static inline nsvcd__f3 nsvcd__f3_scale(nsvcd__f3 a, float s) {
   return nsvcd__f3_of(s * a.x, s * a.y, s * a.z);
 }
+// a + s b.
+static inline nsvcd__f3 nsvcd__f3_add_scaled(nsvcd__f3 a, float s, nsvcd__f3 b) {
+  return nsvcd__f3_of(a.x + s * b.x, a.y + s * b.y, a.z + s * b.z);
+}
 static inline nsvcd__f3 nsvcd__f3_min(nsvcd__f3 a, nsvcd__f3 b) {
   return nsvcd__f3_of(a.x < b.x ? a.x : b.x, a.y < b.y ? a.y : b.y, a.z < b.z ? a.z : b.z);
 }
 static inline nsvcd__f3 nsvcd__f3_max(nsvcd__f3 a, nsvcd__f3 b) {
   return nsvcd__f3_of(a.x > b.x ? a.x : b.x, a.y > b.y ? a.y : b.y, a.z > b.z ? a.z : b.z);
+}
+// Is a component of a greater than b's?
+static inline int nsvcd__f3_exceeds(nsvcd__f3 a, nsvcd__f3 b) {
+  return (a.x > b.x) | (a.y > b.y) | (a.z > b.z);
 }
 static inline float nsvcd__f3_dot(nsvcd__f3 a, nsvcd__f3 b) {
   return a.x * b.x + a.y * b.y + a.z * b.z;
@@ -851,6 +846,12 @@ static inline nsvcd__d3 nsvcd__d3_sub(nsvcd__d3 a, nsvcd__d3 b) {
 }
 static inline nsvcd__d3 nsvcd__d3_scale(nsvcd__d3 a, double s) {
   return nsvcd__d3_of(s * a.x, s * a.y, s * a.z);
+}
+static inline nsvcd__d3 nsvcd__d3_over(nsvcd__d3 a, double s) {
+  return nsvcd__d3_of(a.x / s, a.y / s, a.z / s);
+}
+static inline nsvcd__f3 nsvcd__d3_narrow(nsvcd__d3 a) {
+  return nsvcd__f3_of((float)a.x, (float)a.y, (float)a.z);
 }
 // a + t (b - a).
 static inline nsvcd__d3 nsvcd__d3_mix(nsvcd__d3 a, nsvcd__d3 b, double t) {
@@ -921,68 +922,161 @@ static inline void nsvcd__sphere_store(nsvcd__sphere sphere, float *first, size_
   first[3 * slots + i] = sphere.radius;
 }
 
-// ---- quaternions and matrices
+// ---- quaternions and rotation matrices, as values
 
-static void nsvcd__quat_normalize(const float *q, float *out) {
-  float scale = 1 / sqrtf(q[0] * q[0] + q[1] * q[1] + q[2] * q[2] + q[3] * q[3]);
-  for (size_t k = 0; k < 4; k++)
-    out[k] = q[k] * scale;
+typedef struct nsvcd__quat {
+  float x, y, z, w;
+} nsvcd__quat;
+
+// A matrix by its rows.
+typedef struct nsvcd__mat3 {
+  nsvcd__f3 x, y, z;
+} nsvcd__mat3;
+
+// A rotation and a position: a -> rotation a + position.
+typedef struct nsvcd__transform {
+  nsvcd__mat3 rotation;
+  nsvcd__f3 position;
+} nsvcd__transform;
+
+static inline nsvcd__quat nsvcd__quat_of(float x, float y, float z, float w) {
+  const nsvcd__quat out = {x, y, z, w};
+  return out;
 }
-
-static void nsvcd__transpose33(const float *m, float *out) {  // may not alias
-  for (size_t i = 0; i < 3; i++) {
-    for (size_t j = 0; j < 3; j++)
-      out[3 * i + j] = m[3 * j + i];
-  }
+static inline nsvcd__quat nsvcd__quat_load(const float *p) {
+  return nsvcd__quat_of(p[0], p[1], p[2], p[3]);
 }
-
-// out = a b, may not alias
-static inline void nsvcd__mul33(const float *a, const float *b, float *out) {
-  for (size_t i = 0; i < 3; i++) {
-    for (size_t j = 0; j < 3; j++)
-      out[3 * i + j] = a[3 * i] * b[j] + a[3 * i + 1] * b[3 + j] + a[3 * i + 2] * b[6 + j];
-  }
+static inline void nsvcd__quat_store(nsvcd__quat q, float *p) {
+  p[0] = q.x;
+  p[1] = q.y;
+  p[2] = q.z;
+  p[3] = q.w;
+}
+// To rows of x, y, z and w, so many numbers apart.
+static inline void nsvcd__quat_put(nsvcd__quat q, float *rows, size_t stride) {
+  rows[0] = q.x;
+  rows[stride] = q.y;
+  rows[2 * stride] = q.z;
+  rows[3 * stride] = q.w;
+}
+static inline float nsvcd__quat_dot(nsvcd__quat a, nsvcd__quat b) {
+  return a.x * b.x + a.y * b.y + a.z * b.z + a.w * b.w;
+}
+static inline nsvcd__quat nsvcd__quat_scale(nsvcd__quat q, float s) {
+  return nsvcd__quat_of(q.x * s, q.y * s, q.z * s, q.w * s);
+}
+static inline nsvcd__quat nsvcd__quat_unit(nsvcd__quat q) {
+  return nsvcd__quat_scale(q, 1 / sqrtf(nsvcd__quat_dot(q, q)));
 }
 
 // Is the shorter arc from a to b the one to -b? Products of floats are exact in double, so that
 // every machine and the exact poses of the proof say the same, also where the arcs are equally long
 // to rounding.
-static int nsvcd__is_opposed(const float *a, const float *b) {
-  double dot = 0;
-  for (size_t k = 0; k < 4; k++)
-    dot += (double)a[k] * (double)b[k];
+static int nsvcd__quats_opposed(nsvcd__quat a, nsvcd__quat b) {
+  double dot = (double)a.x * (double)b.x;
+  dot += (double)a.y * (double)b.y;
+  dot += (double)a.z * (double)b.z;
+  dot += (double)a.w * (double)b.w;
   return dot < 0;
 }
 
-// Puts b on the side of a from which the arc is the shorter one; returns its length in quaternion
-// space, [0, pi/2]: half the angle of rotation. From the chord, because acos of a dot product near
-// 1 has no digits left.
-static float nsvcd__quat_half_angle(const float *a, float *b, int opposed) {
-  float chord = 0;
-  for (size_t k = 0; k < 4; k++) {
-    if (opposed)
-      b[k] = -b[k];
-    chord += (a[k] - b[k]) * (a[k] - b[k]);
-  }
+// The length of the arc from a to b in quaternion space: half the angle of rotation. [0, pi/2]
+// where it is the shorter one. From the chord, because acos of a dot product near 1 has no digits
+// left.
+static float nsvcd__quat_arc(nsvcd__quat a, nsvcd__quat b) {
+  float chord = (a.x - b.x) * (a.x - b.x);
+  chord += (a.y - b.y) * (a.y - b.y);
+  chord += (a.z - b.z) * (a.z - b.z);
+  chord += (a.w - b.w) * (a.w - b.w);
   return 2 * asinf(0.5f * sqrtf(chord));
 }
 
+// The same rotation on the side of another quaternion, to which q is opposed or not.
+static nsvcd__quat nsvcd__quat_beside(nsvcd__quat q, int opposed) {
+  return opposed ? nsvcd__quat_of(-q.x, -q.y, -q.z, -q.w) : q;
+}
+static inline nsvcd__quat nsvcd__quat_inverse(nsvcd__quat q) {  // of a unit one
+  return nsvcd__quat_of(-q.x, -q.y, -q.z, q.w);
+}
+
+// The rotation by b, then by a.
+static inline nsvcd__quat nsvcd__quat_mul(nsvcd__quat a, nsvcd__quat b) {
+  nsvcd__quat out;
+  out.x = a.w * b.x + a.x * b.w + (a.y * b.z - a.z * b.y);
+  out.y = a.w * b.y + a.y * b.w + (a.z * b.x - a.x * b.z);
+  out.z = a.w * b.z + a.z * b.w + (a.x * b.y - a.y * b.x);
+  out.w = a.w * b.w - a.x * b.x - a.y * b.y - a.z * b.z;
+  return out;
+}
+// The turn from a to b, unit ones: its axis, times the sine of half its angle.
+static inline nsvcd__f3 nsvcd__quat_turn(nsvcd__quat a, nsvcd__quat b) {
+  const nsvcd__quat turn = nsvcd__quat_mul(b, nsvcd__quat_inverse(a));
+  return nsvcd__f3_of(turn.x, turn.y, turn.z);
+}
+
 // a, b: unit to 1e-4.
-static void nsvcd__slerp(const float *a, const float *b, float u, float *out) {
-  float start[4];
-  float end[4];
+static nsvcd__quat nsvcd__quat_slerp(nsvcd__quat a, nsvcd__quat b, float u) {
+  const nsvcd__quat start = nsvcd__quat_unit(a);
+  const nsvcd__quat end = nsvcd__quat_beside(nsvcd__quat_unit(b), nsvcd__quats_opposed(a, b));
+  const float angle = nsvcd__quat_arc(start, end);
   float wa = 1 - u;
   float wb = u;
-  nsvcd__quat_normalize(a, start);
-  nsvcd__quat_normalize(b, end);
-  const float angle = nsvcd__quat_half_angle(start, end, nsvcd__is_opposed(a, b));
   if (angle > 1e-3f) {  // below, the difference is less than rounding
     wa = sinf((1 - u) * angle);
     wb = sinf(u * angle);
   }
-  for (size_t k = 0; k < 4; k++)
-    end[k] = wa * start[k] + wb * end[k];
-  nsvcd__quat_normalize(end, out);
+  const nsvcd__quat sum = nsvcd__quat_of(wa * start.x + wb * end.x, wa * start.y + wb * end.y,
+                                         wa * start.z + wb * end.z, wa * start.w + wb * end.w);
+  return nsvcd__quat_unit(sum);
+}
+
+// The matrix of a unit quaternion.
+static nsvcd__mat3 nsvcd__mat3_of(nsvcd__quat q) {
+  nsvcd__mat3 m;
+  m.x.x = 1 - 2 * (q.y * q.y + q.z * q.z);
+  m.x.y = 2 * (q.x * q.y - q.z * q.w);
+  m.x.z = 2 * (q.x * q.z + q.y * q.w);
+  m.y.x = 2 * (q.x * q.y + q.z * q.w);
+  m.y.y = 1 - 2 * (q.x * q.x + q.z * q.z);
+  m.y.z = 2 * (q.y * q.z - q.x * q.w);
+  m.z.x = 2 * (q.x * q.z - q.y * q.w);
+  m.z.y = 2 * (q.y * q.z + q.x * q.w);
+  m.z.z = 1 - 2 * (q.x * q.x + q.y * q.y);
+  return m;
+}
+static nsvcd__mat3 nsvcd__mat3_transpose(nsvcd__mat3 m) {
+  nsvcd__mat3 out;
+  out.x = nsvcd__f3_of(m.x.x, m.y.x, m.z.x);
+  out.y = nsvcd__f3_of(m.x.y, m.y.y, m.z.y);
+  out.z = nsvcd__f3_of(m.x.z, m.y.z, m.z.z);
+  return out;
+}
+static inline nsvcd__f3 nsvcd__mat3_apply(const nsvcd__mat3 *m, nsvcd__f3 a) {
+  return nsvcd__f3_of(nsvcd__f3_dot(m->x, a), nsvcd__f3_dot(m->y, a), nsvcd__f3_dot(m->z, a));
+}
+// The transpose of m, times a.
+static inline nsvcd__f3 nsvcd__mat3_apply_transpose(const nsvcd__mat3 *m, nsvcd__f3 a) {
+  const nsvcd__mat3 back = nsvcd__mat3_transpose(*m);
+  return nsvcd__mat3_apply(&back, a);
+}
+// s (a + t b).
+static nsvcd__mat3 nsvcd__mat3_mix(float s, const nsvcd__mat3 *a, float t, const nsvcd__mat3 *b) {
+  nsvcd__mat3 out;
+  out.x = nsvcd__f3_scale(nsvcd__f3_add_scaled(a->x, t, b->x), s);
+  out.y = nsvcd__f3_scale(nsvcd__f3_add_scaled(a->y, t, b->y), s);
+  out.z = nsvcd__f3_scale(nsvcd__f3_add_scaled(a->z, t, b->z), s);
+  return out;
+}
+static nsvcd__mat3 nsvcd__mat3_mul(const nsvcd__mat3 *a, const nsvcd__mat3 *b) {
+  const nsvcd__mat3 columns = nsvcd__mat3_transpose(*b);
+  nsvcd__mat3 out;
+  out.x = nsvcd__mat3_apply(&columns, a->x);
+  out.y = nsvcd__mat3_apply(&columns, a->y);
+  out.z = nsvcd__mat3_apply(&columns, a->z);
+  return out;
+}
+static inline nsvcd__f3 nsvcd__f3_transform(const nsvcd__transform *t, nsvcd__f3 a) {
+  return nsvcd__f3_add(nsvcd__mat3_apply(&t->rotation, a), t->position);
 }
 
 // ---- bits and sizes
@@ -1271,6 +1365,9 @@ NSVCD__INLINE nsvcd__v3 nsvcd__v3_add(nsvcd__v3 a, nsvcd__v3 b) {
 NSVCD__INLINE nsvcd__v3 nsvcd__v3_sub(nsvcd__v3 a, nsvcd__v3 b) {
   return nsvcd__v3_of(nsvcd__v_sub(a.x, b.x), nsvcd__v_sub(a.y, b.y), nsvcd__v_sub(a.z, b.z));
 }
+NSVCD__INLINE nsvcd__v3 nsvcd__v3_negate(nsvcd__v3 a) {
+  return nsvcd__v3_of(nsvcd__v_negate(a.x), nsvcd__v_negate(a.y), nsvcd__v_negate(a.z));
+}
 NSVCD__INLINE nsvcd__v3 nsvcd__v3_min(nsvcd__v3 a, nsvcd__v3 b) {
   return nsvcd__v3_of(nsvcd__v_min(a.x, b.x), nsvcd__v_min(a.y, b.y), nsvcd__v_min(a.z, b.z));
 }
@@ -1288,24 +1385,16 @@ NSVCD__INLINE nsvcd__v3 nsvcd__v3_fma(nsvcd__v s, nsvcd__v3 b, nsvcd__v3 a) {
 NSVCD__INLINE nsvcd__v nsvcd__v3_dot(nsvcd__v3 a, nsvcd__v3 b) {
   return nsvcd__v_fma(a.x, b.x, nsvcd__v_fma(a.y, b.y, nsvcd__v_mul(a.z, b.z)));
 }
+// s + a b.
+NSVCD__INLINE nsvcd__v nsvcd__v3_dot_add(nsvcd__v3 a, nsvcd__v3 b, nsvcd__v s) {
+  const nsvcd__v sum = nsvcd__v_fma(a.x, b.x, s);
+  return nsvcd__v_fma(a.z, b.z, nsvcd__v_fma(a.y, b.y, sum));
+}
 NSVCD__INLINE nsvcd__v nsvcd__v3_length(nsvcd__v3 a) { return nsvcd__v_sqrt(nsvcd__v3_dot(a, a)); }
 NSVCD__INLINE nsvcd__v3 nsvcd__v3_cross(nsvcd__v3 a, nsvcd__v3 b) {
   return nsvcd__v3_of(nsvcd__v_sub(nsvcd__v_mul(a.y, b.z), nsvcd__v_mul(a.z, b.y)),
                       nsvcd__v_sub(nsvcd__v_mul(a.z, b.x), nsvcd__v_mul(a.x, b.z)),
                       nsvcd__v_sub(nsvcd__v_mul(a.x, b.y), nsvcd__v_mul(a.y, b.x)));
-}
-// A rotation, row-major, and a position: x -> rotation x + position.
-typedef struct nsvcd__transform {
-  float rotation[9];
-  nsvcd__f3 position;
-} nsvcd__transform;
-
-static inline nsvcd__f3 nsvcd__f3_transform(const nsvcd__transform *t, nsvcd__f3 a) {
-  const float *m = t->rotation;
-  const nsvcd__f3 turned =
-      nsvcd__f3_of(m[0] * a.x + m[1] * a.y + m[2] * a.z, m[3] * a.x + m[4] * a.y + m[5] * a.z,
-                   m[6] * a.x + m[7] * a.y + m[8] * a.z);
-  return nsvcd__f3_add(turned, t->position);
 }
 // Lanes l .. l + SLICE - 1 of p (3, LANES).
 NSVCD__INLINE void nsvcd__v3_store(float (*p)[NSVCD__LANES], size_t l, nsvcd__v3 a) {
@@ -1317,83 +1406,206 @@ NSVCD__INLINE void nsvcd__v3_store(float (*p)[NSVCD__LANES], size_t l, nsvcd__v3
 NSVCD__INLINE nsvcd__v3 nsvcd__v3_centres(nsvcd__spheres all, size_t l) {
   return nsvcd__v3_of(nsvcd__v_load(all.x + l), nsvcd__v_load(all.y + l), nsvcd__v_load(all.z + l));
 }
+// Rows of x, y and z, so many numbers apart.
+NSVCD__INLINE nsvcd__v3 nsvcd__v3_load_rows(const float *p, size_t stride) {
+  return nsvcd__v3_of(nsvcd__v_load(p), nsvcd__v_load(p + stride), nsvcd__v_load(p + 2 * stride));
+}
+NSVCD__INLINE void nsvcd__v3_store_rows(nsvcd__v3 a, float *p, size_t stride) {
+  nsvcd__v_store(p, a.x);
+  nsvcd__v_store(p + stride, a.y);
+  nsvcd__v_store(p + 2 * stride, a.z);
+}
 // From three rows of 16 numbers.
 NSVCD__INLINE nsvcd__v3 nsvcd__v3_rows(const float *p) {
-  return nsvcd__v3_of(nsvcd__v_load(p), nsvcd__v_load(p + NSVCD__LANES),
-                      nsvcd__v_load(p + 2 * NSVCD__LANES));
+  return nsvcd__v3_load_rows(p, NSVCD__LANES);
 }
 NSVCD__INLINE nsvcd__v3 nsvcd__v3_load(float (*p)[NSVCD__LANES], size_t l) {
   return nsvcd__v3_of(nsvcd__v_load(p[0] + l), nsvcd__v_load(p[1] + l), nsvcd__v_load(p[2] + l));
 }
 
-NSVCD__INLINE nsvcd__v3 nsvcd__v3_transform(const nsvcd__transform *t, nsvcd__v3 a) {
-  const float *m = t->rotation;
-  const nsvcd__v3 column0 =
-      nsvcd__v3_of(nsvcd__v_set(m[0]), nsvcd__v_set(m[3]), nsvcd__v_set(m[6]));
-  const nsvcd__v3 column1 =
-      nsvcd__v3_of(nsvcd__v_set(m[1]), nsvcd__v_set(m[4]), nsvcd__v_set(m[7]));
-  const nsvcd__v3 column2 =
-      nsvcd__v3_of(nsvcd__v_set(m[2]), nsvcd__v_set(m[5]), nsvcd__v_set(m[8]));
-  const nsvcd__v3 sum = nsvcd__v3_fma(a.z, column2, nsvcd__v3_set(t->position));
-  return nsvcd__v3_fma(a.x, column0, nsvcd__v3_fma(a.y, column1, sum));
+// Of each lane alone: the one in lane l of p (3, LANES).
+static nsvcd__f3 nsvcd__lane_of(float (*lanes)[NSVCD__LANES], size_t l) {
+  return nsvcd__f3_of(lanes[0][l], lanes[1][l], lanes[2][l]);
+}
+static void nsvcd__lane_set(nsvcd__f3 a, float (*lanes)[NSVCD__LANES], size_t l) {
+  lanes[0][l] = a.x;
+  lanes[1][l] = a.y;
+  lanes[2][l] = a.z;
+}
+// Vectors over their lengths; x where there is none.
+static nsvcd__v3 nsvcd__v3_unit(nsvcd__v3 a) {
+  const nsvcd__v zero = nsvcd__v_set(0);
+  const nsvcd__v one = nsvcd__v_set(1);
+  const nsvcd__v least = nsvcd__v_set(1e-18f);
+  const nsvcd__v length = nsvcd__v3_length(a);
+  const nsvcd__v inverse = nsvcd__v_div(one, nsvcd__v_max(length, least));
+  const nsvcd__v3 unit = nsvcd__v3_scale(a, inverse);
+  return nsvcd__v3_of(nsvcd__v_pick(length, least, one, unit.x),
+                      nsvcd__v_pick(length, least, zero, unit.y),
+                      nsvcd__v_pick(length, least, zero, unit.z));
 }
 
 // ---- rotations, lane by lane
 
-// Rotation matrices of quaternions of any length but 0, lane by lane.
-static void nsvcd__v_matrix(const nsvcd__v *q, nsvcd__v *m) {
+typedef struct nsvcd__vquat {
+  nsvcd__v x, y, z, w;
+} nsvcd__vquat;
+
+// Matrices by their rows.
+typedef struct nsvcd__vmat3 {
+  nsvcd__v3 x, y, z;
+} nsvcd__vmat3;
+
+NSVCD__INLINE nsvcd__vquat nsvcd__vquat_of(nsvcd__v3 axis, nsvcd__v w) {
+  const nsvcd__vquat out = {axis.x, axis.y, axis.z, w};
+  return out;
+}
+NSVCD__INLINE nsvcd__v3 nsvcd__vquat_axis(nsvcd__vquat q) {  // times the sine of half the angle
+  return nsvcd__v3_of(q.x, q.y, q.z);
+}
+NSVCD__INLINE nsvcd__vquat nsvcd__vquat_set(nsvcd__quat q) {
+  return nsvcd__vquat_of(nsvcd__v3_set(nsvcd__f3_of(q.x, q.y, q.z)), nsvcd__v_set(q.w));
+}
+// Rows of x, y, z and w, so many numbers apart.
+NSVCD__INLINE nsvcd__vquat nsvcd__vquat_load(const float *p, size_t stride) {
+  return nsvcd__vquat_of(nsvcd__v3_load_rows(p, stride), nsvcd__v_load(p + 3 * stride));
+}
+NSVCD__INLINE void nsvcd__vquat_store(nsvcd__vquat q, float *p, size_t stride) {
+  nsvcd__v3_store_rows(nsvcd__vquat_axis(q), p, stride);
+  nsvcd__v_store(p + 3 * stride, q.w);
+}
+static inline nsvcd__v nsvcd__vquat_dot(nsvcd__vquat a, nsvcd__vquat b) {
+  nsvcd__v sum = nsvcd__v_mul(a.x, b.x);
+  sum = nsvcd__v_fma(a.y, b.y, sum);
+  sum = nsvcd__v_fma(a.z, b.z, sum);
+  return nsvcd__v_fma(a.w, b.w, sum);
+}
+// a + s b.
+static inline nsvcd__vquat nsvcd__vquat_fma(nsvcd__v s, nsvcd__vquat b, nsvcd__vquat a) {
+  const nsvcd__vquat out = {nsvcd__v_fma(s, b.x, a.x), nsvcd__v_fma(s, b.y, a.y),
+                            nsvcd__v_fma(s, b.z, a.z), nsvcd__v_fma(s, b.w, a.w)};
+  return out;
+}
+static inline nsvcd__vquat nsvcd__vquat_unit(nsvcd__vquat q) {
+  const nsvcd__v length = nsvcd__v_sqrt(nsvcd__vquat_dot(q, q));
+  const nsvcd__vquat out = {nsvcd__v_div(q.x, length), nsvcd__v_div(q.y, length),
+                            nsvcd__v_div(q.z, length), nsvcd__v_div(q.w, length)};
+  return out;
+}
+static inline nsvcd__vquat nsvcd__vquat_inverse(nsvcd__vquat q) {  // of unit ones
+  return nsvcd__vquat_of(nsvcd__v3_negate(nsvcd__vquat_axis(q)), q.w);
+}
+static nsvcd__vquat nsvcd__vquat_mul(nsvcd__vquat a, nsvcd__vquat b) {
+  const nsvcd__v3 u = nsvcd__vquat_axis(a);
+  const nsvcd__v3 v = nsvcd__vquat_axis(b);
+  const nsvcd__v3 along = nsvcd__v3_fma(a.w, v, nsvcd__v3_scale(u, b.w));
+  const nsvcd__v cosines = nsvcd__v_mul(a.w, b.w);
+  return nsvcd__vquat_of(nsvcd__v3_add(nsvcd__v3_cross(u, v), along),
+                         nsvcd__v_sub(cosines, nsvcd__v3_dot(u, v)));
+}
+
+NSVCD__INLINE nsvcd__vmat3 nsvcd__vmat3_set(const nsvcd__mat3 *m) {
+  const nsvcd__vmat3 out = {nsvcd__v3_set(m->x), nsvcd__v3_set(m->y), nsvcd__v3_set(m->z)};
+  return out;
+}
+// The matrix in lane l of p (9, LANES), row-major.
+static nsvcd__mat3 nsvcd__mat3_lane(float (*p)[NSVCD__LANES], size_t l) {
+  const nsvcd__mat3 out = {nsvcd__lane_of(p, l), nsvcd__lane_of(p + 3, l),
+                           nsvcd__lane_of(p + 6, l)};
+  return out;
+}
+// p: (9, LANES), row-major.
+NSVCD__INLINE nsvcd__vmat3 nsvcd__vmat3_load(float (*p)[NSVCD__LANES], size_t l) {
+  const nsvcd__vmat3 out = {nsvcd__v3_load(p, l), nsvcd__v3_load(p + 3, l),
+                            nsvcd__v3_load(p + 6, l)};
+  return out;
+}
+NSVCD__INLINE void nsvcd__vmat3_store(float (*p)[NSVCD__LANES], size_t l, nsvcd__vmat3 m) {
+  nsvcd__v3_store(p, l, m.x);
+  nsvcd__v3_store(p + 3, l, m.y);
+  nsvcd__v3_store(p + 6, l, m.z);
+}
+NSVCD__INLINE nsvcd__vmat3 nsvcd__vmat3_scale(nsvcd__vmat3 m, nsvcd__v s) {
+  const nsvcd__vmat3 out = {nsvcd__v3_scale(m.x, s), nsvcd__v3_scale(m.y, s),
+                            nsvcd__v3_scale(m.z, s)};
+  return out;
+}
+NSVCD__INLINE nsvcd__vmat3 nsvcd__vmat3_sub(nsvcd__vmat3 a, nsvcd__vmat3 b) {
+  const nsvcd__vmat3 out = {nsvcd__v3_sub(a.x, b.x), nsvcd__v3_sub(a.y, b.y),
+                            nsvcd__v3_sub(a.z, b.z)};
+  return out;
+}
+// a + s b.
+NSVCD__INLINE nsvcd__vmat3 nsvcd__vmat3_fma(nsvcd__v s, nsvcd__vmat3 b, nsvcd__vmat3 a) {
+  const nsvcd__vmat3 out = {nsvcd__v3_fma(s, b.x, a.x), nsvcd__v3_fma(s, b.y, a.y),
+                            nsvcd__v3_fma(s, b.z, a.z)};
+  return out;
+}
+NSVCD__INLINE nsvcd__vmat3 nsvcd__vmat3_transpose(nsvcd__vmat3 m) {
+  const nsvcd__vmat3 out = {nsvcd__v3_of(m.x.x, m.y.x, m.z.x), nsvcd__v3_of(m.x.y, m.y.y, m.z.y),
+                            nsvcd__v3_of(m.x.z, m.y.z, m.z.z)};
+  return out;
+}
+NSVCD__INLINE nsvcd__v3 nsvcd__vmat3_apply(nsvcd__vmat3 m, nsvcd__v3 a) {
+  return nsvcd__v3_of(nsvcd__v3_dot(m.x, a), nsvcd__v3_dot(m.y, a), nsvcd__v3_dot(m.z, a));
+}
+NSVCD__INLINE nsvcd__vmat3 nsvcd__vmat3_mul(nsvcd__vmat3 a, nsvcd__vmat3 b) {
+  const nsvcd__vmat3 columns = nsvcd__vmat3_transpose(b);
+  const nsvcd__vmat3 out = {nsvcd__vmat3_apply(columns, a.x), nsvcd__vmat3_apply(columns, a.y),
+                            nsvcd__vmat3_apply(columns, a.z)};
+  return out;
+}
+// p + m a.
+NSVCD__INLINE nsvcd__v3 nsvcd__vmat3_apply_add(nsvcd__vmat3 m, nsvcd__v3 a, nsvcd__v3 p) {
+  return nsvcd__v3_of(nsvcd__v3_dot_add(m.x, a, p.x), nsvcd__v3_dot_add(m.y, a, p.y),
+                      nsvcd__v3_dot_add(m.z, a, p.z));
+}
+// The sum of the squares of the entries.
+NSVCD__INLINE nsvcd__v nsvcd__vmat3_square(nsvcd__vmat3 m) {
+  nsvcd__v sum = nsvcd__v3_dot_add(m.x, m.x, nsvcd__v_set(0));
+  sum = nsvcd__v3_dot_add(m.y, m.y, sum);
+  return nsvcd__v3_dot_add(m.z, m.z, sum);
+}
+// The transpose of m, times a.
+NSVCD__INLINE nsvcd__v3 nsvcd__vmat3_apply_transpose(nsvcd__vmat3 m, nsvcd__v3 a) {
+  const nsvcd__v3 sum = nsvcd__v3_fma(a.y, m.y, nsvcd__v3_scale(m.x, a.x));
+  return nsvcd__v3_fma(a.z, m.z, sum);
+}
+// One rotation and position for all lanes.
+NSVCD__INLINE nsvcd__v3 nsvcd__v3_transform(const nsvcd__transform *t, nsvcd__v3 a) {
+  const nsvcd__mat3 columns = nsvcd__mat3_transpose(t->rotation);
+  nsvcd__v3 sum = nsvcd__v3_set(t->position);
+  sum = nsvcd__v3_fma(a.z, nsvcd__v3_set(columns.z), sum);
+  sum = nsvcd__v3_fma(a.y, nsvcd__v3_set(columns.y), sum);
+  return nsvcd__v3_fma(a.x, nsvcd__v3_set(columns.x), sum);
+}
+
+// Of quaternions of any length but 0.
+static nsvcd__vmat3 nsvcd__vmat3_of(nsvcd__vquat q) {
   const nsvcd__v one = nsvcd__v_set(1);
-  nsvcd__v square = nsvcd__v_mul(q[3], q[3]);
-  nsvcd__v s[4];
-  square = nsvcd__v_add(square, nsvcd__v_dot3(q, q));
-  const nsvcd__v scale = nsvcd__v_div(nsvcd__v_set(2), square);
-  for (size_t k = 0; k < 4; k++)
-    s[k] = nsvcd__v_mul(scale, q[k]);
-  const nsvcd__v xx = nsvcd__v_mul(s[0], q[0]);
-  const nsvcd__v yy = nsvcd__v_mul(s[1], q[1]);
-  const nsvcd__v zz = nsvcd__v_mul(s[2], q[2]);
-  const nsvcd__v xy = nsvcd__v_mul(s[0], q[1]);
-  const nsvcd__v yz = nsvcd__v_mul(s[1], q[2]);
-  const nsvcd__v xz = nsvcd__v_mul(s[0], q[2]);
-  const nsvcd__v xw = nsvcd__v_mul(s[0], q[3]);
-  const nsvcd__v yw = nsvcd__v_mul(s[1], q[3]);
-  const nsvcd__v zw = nsvcd__v_mul(s[2], q[3]);
-  m[0] = nsvcd__v_sub(one, nsvcd__v_add(yy, zz));
-  m[1] = nsvcd__v_sub(xy, zw);
-  m[2] = nsvcd__v_add(xz, yw);
-  m[3] = nsvcd__v_add(xy, zw);
-  m[4] = nsvcd__v_sub(one, nsvcd__v_add(xx, zz));
-  m[5] = nsvcd__v_sub(yz, xw);
-  m[6] = nsvcd__v_sub(xz, yw);
-  m[7] = nsvcd__v_add(yz, xw);
-  m[8] = nsvcd__v_sub(one, nsvcd__v_add(xx, yy));
-}
-
-// The product of quaternions a b, lane by lane.
-// may not alias
-static void nsvcd__v_quat_mul(const nsvcd__v *a, const nsvcd__v *b, nsvcd__v *out) {
-  for (size_t k = 0; k < 3; k++) {
-    const size_t i = (k + 1) % 3;
-    const size_t j = (k + 2) % 3;
-    const nsvcd__v cross = nsvcd__v_sub(nsvcd__v_mul(a[i], b[j]), nsvcd__v_mul(a[j], b[i]));
-    out[k] = nsvcd__v_add(cross, nsvcd__v_fma(a[3], b[k], nsvcd__v_mul(a[k], b[3])));
-  }
-  out[3] = nsvcd__v_sub(nsvcd__v_mul(a[3], b[3]), nsvcd__v_dot3(a, b));
-}
-
-// may not alias
-static void nsvcd__v_mul33_vec(const nsvcd__v *m, const nsvcd__v *x, nsvcd__v *out) {
-  for (size_t i = 0; i < 3; i++)
-    out[i] = nsvcd__v_dot3(m + 3 * i, x);
-}
-
-static void nsvcd__v_quat_normalize(nsvcd__v *q) {
-  nsvcd__v square = nsvcd__v_mul(q[0], q[0]);
-  for (size_t k = 1; k < 4; k++)
-    square = nsvcd__v_fma(q[k], q[k], square);
-  const nsvcd__v length = nsvcd__v_sqrt(square);
-  for (size_t k = 0; k < 4; k++)
-    q[k] = nsvcd__v_div(q[k], length);
+  const nsvcd__v3 axis = nsvcd__vquat_axis(q);
+  const nsvcd__v square = nsvcd__v_add(nsvcd__v_mul(q.w, q.w), nsvcd__v3_dot(axis, axis));
+  const nsvcd__v3 s = nsvcd__v3_scale(axis, nsvcd__v_div(nsvcd__v_set(2), square));
+  const nsvcd__v xx = nsvcd__v_mul(s.x, q.x);
+  const nsvcd__v yy = nsvcd__v_mul(s.y, q.y);
+  const nsvcd__v zz = nsvcd__v_mul(s.z, q.z);
+  const nsvcd__v xy = nsvcd__v_mul(s.x, q.y);
+  const nsvcd__v yz = nsvcd__v_mul(s.y, q.z);
+  const nsvcd__v xz = nsvcd__v_mul(s.x, q.z);
+  const nsvcd__v xw = nsvcd__v_mul(s.x, q.w);
+  const nsvcd__v yw = nsvcd__v_mul(s.y, q.w);
+  const nsvcd__v zw = nsvcd__v_mul(s.z, q.w);
+  nsvcd__vmat3 m;
+  m.x.x = nsvcd__v_sub(one, nsvcd__v_add(yy, zz));
+  m.x.y = nsvcd__v_sub(xy, zw);
+  m.x.z = nsvcd__v_add(xz, yw);
+  m.y.x = nsvcd__v_add(xy, zw);
+  m.y.y = nsvcd__v_sub(one, nsvcd__v_add(xx, zz));
+  m.y.z = nsvcd__v_sub(yz, xw);
+  m.z.x = nsvcd__v_sub(xz, yw);
+  m.z.y = nsvcd__v_add(yz, xw);
+  m.z.z = nsvcd__v_sub(one, nsvcd__v_add(xx, yy));
+  return m;
 }
 
 // ------------------------------------------------------------------------------------------ memory
@@ -4683,38 +4895,50 @@ static void nsvcd__encode_patch(const float *points, const float *normals, size_
 #define NSVCD__VECTORS (8 * NSVCD_W_CHANNELS)
 #define NSVCD__WIGNER 34  // numbers of D: (3, 3), then (5, 5)
 
-// D of a slice of matrices m, lane by lane, times `scale`: (TURN, SLICE). Column k of degree 2 is
-// the image of basis vector k, a degree2 of m's columns.
-static void nsvcd__wigner(const nsvcd__v *m, nsvcd__v scale, float (*out)[NSVCD__SLICE]) {
-  const nsvcd__v half_root3 = nsvcd__v_set(0.8660254037844386f);
+// The degree 2 of the symmetric product of a and b, lane by lane: q (5), as nsvcd__degree2.
+static void nsvcd__v_degree2(nsvcd__v3 a, nsvcd__v3 b, nsvcd__v *q) {
   const nsvcd__v half = nsvcd__v_set(0.5f);
+  const nsvcd__v half_root3 = nsvcd__v_set(0.8660254037844386f);
+  const nsvcd__v xx = nsvcd__v_mul(a.x, b.x);
+  const nsvcd__v yy = nsvcd__v_mul(a.y, b.y);
+  const nsvcd__v zz = nsvcd__v_mul(a.z, b.z);
+  const nsvcd__v xy = nsvcd__v_fma(a.x, b.y, nsvcd__v_mul(a.y, b.x));
+  const nsvcd__v yz = nsvcd__v_fma(a.y, b.z, nsvcd__v_mul(a.z, b.y));
+  const nsvcd__v xz = nsvcd__v_fma(a.x, b.z, nsvcd__v_mul(a.z, b.x));
+  q[0] = nsvcd__v_mul(half_root3, xy);
+  q[1] = nsvcd__v_mul(half_root3, yz);
+  q[2] = nsvcd__v_sub(zz, nsvcd__v_mul(half, nsvcd__v_fma(a.x, b.x, yy)));
+  q[3] = nsvcd__v_mul(half_root3, xz);
+  q[4] = nsvcd__v_mul(half_root3, nsvcd__v_sub(xx, yy));
+}
+
+// D of a slice of matrices, lane by lane, times `scale`: out (WIGNER, SLICE). Column k of degree 2
+// is the image of basis vector k, a degree 2 of m's columns.
+static void nsvcd__wigner(const nsvcd__vmat3 *m, nsvcd__v scale, float (*out)[NSVCD__SLICE]) {
   const nsvcd__v third = nsvcd__v_mul(scale, nsvcd__v_set(1.0f / 3));
   const nsvcd__v root = nsvcd__v_mul(scale, nsvcd__v_set(0.5773502691896258f));
-  // columns: xy yz xz xx yy zz
-  static const unsigned char of[6][2] = {{0, 1}, {1, 2}, {0, 2}, {0, 0}, {1, 1}, {2, 2}};
-  nsvcd__v q[6][5];
-  for (size_t k = 0; k < 9; k++)
-    nsvcd__v_store(out[k], nsvcd__v_mul(scale, m[k]));
-  for (size_t n = 0; n < 6; n++) {  // as nsvcd__degree2
-    const nsvcd__v *a = m + of[n][0];
-    const nsvcd__v *b = m + of[n][1];
-    q[n][0] = nsvcd__v_mul(half_root3, nsvcd__v_fma(a[0], b[3], nsvcd__v_mul(a[3], b[0])));
-    q[n][1] = nsvcd__v_mul(half_root3, nsvcd__v_fma(a[3], b[6], nsvcd__v_mul(a[6], b[3])));
-    q[n][2] = nsvcd__v_sub(nsvcd__v_mul(a[6], b[6]),
-                           nsvcd__v_mul(half, nsvcd__v_fma(a[0], b[0], nsvcd__v_mul(a[3], b[3]))));
-    q[n][3] = nsvcd__v_mul(half_root3, nsvcd__v_fma(a[0], b[6], nsvcd__v_mul(a[6], b[0])));
-    q[n][4] =
-        nsvcd__v_mul(half_root3, nsvcd__v_sub(nsvcd__v_mul(a[0], b[0]), nsvcd__v_mul(a[3], b[3])));
-  }
   const nsvcd__v twice = nsvcd__v_add(root, root);
+  const nsvcd__vmat3 scaled = nsvcd__vmat3_scale(*m, scale);
+  const nsvcd__vmat3 columns = nsvcd__vmat3_transpose(*m);
+  nsvcd__v xy[5], yz[5], xz[5], xx[5], yy[5], zz[5];
+  nsvcd__v3_store_rows(scaled.x, out[0], NSVCD__SLICE);
+  nsvcd__v3_store_rows(scaled.y, out[3], NSVCD__SLICE);
+  nsvcd__v3_store_rows(scaled.z, out[6], NSVCD__SLICE);
+  nsvcd__v_degree2(columns.x, columns.y, xy);
+  nsvcd__v_degree2(columns.y, columns.z, yz);
+  nsvcd__v_degree2(columns.x, columns.z, xz);
+  nsvcd__v_degree2(columns.x, columns.x, xx);
+  nsvcd__v_degree2(columns.y, columns.y, yy);
+  nsvcd__v_degree2(columns.z, columns.z, zz);
   for (size_t k = 0; k < 5; k++) {
     float(*row)[NSVCD__SLICE] = out + 9 + 5 * k;
-    const nsvcd__v rest = nsvcd__v_add(q[3][k], q[4][k]);
-    nsvcd__v_store(row[0], nsvcd__v_mul(twice, q[0][k]));
-    nsvcd__v_store(row[1], nsvcd__v_mul(twice, q[1][k]));
-    nsvcd__v_store(row[2], nsvcd__v_mul(third, nsvcd__v_sub(nsvcd__v_add(q[5][k], q[5][k]), rest)));
-    nsvcd__v_store(row[3], nsvcd__v_mul(twice, q[2][k]));
-    nsvcd__v_store(row[4], nsvcd__v_mul(root, nsvcd__v_sub(q[3][k], q[4][k])));
+    const nsvcd__v rest = nsvcd__v_add(xx[k], yy[k]);
+    const nsvcd__v upright = nsvcd__v_sub(nsvcd__v_add(zz[k], zz[k]), rest);
+    nsvcd__v_store(row[0], nsvcd__v_mul(twice, xy[k]));
+    nsvcd__v_store(row[1], nsvcd__v_mul(twice, yz[k]));
+    nsvcd__v_store(row[2], nsvcd__v_mul(third, upright));
+    nsvcd__v_store(row[3], nsvcd__v_mul(twice, xz[k]));
+    nsvcd__v_store(row[4], nsvcd__v_mul(root, nsvcd__v_sub(xx[k], yy[k])));
   }
 }
 
@@ -6404,19 +6628,19 @@ typedef struct nsvcd__track {
 
 typedef struct nsvcd__motion {
   nsvcd__track moving, fixed;
-  uint32_t ticks;           // in all
-  int fixed_moves;          // else it has one pose
-  float scale;              // of the moving body, over that of the fixed one,
-  float per_scale;          // and the other way round
-  float unit;               // of the fixed body's frame: its scale, metres
-  float fixed_position[3];  // of the fixed body at t = 0, metres
-  float to_fixed[9];        // world axes to the fixed body's axes at t = 0
-  float to_fixed_q[4];      // the same as a quaternion
+  uint32_t ticks;            // in all
+  int fixed_moves;           // else it has one pose
+  float scale;               // of the moving body, over that of the fixed one,
+  float per_scale;           // and the other way round
+  float unit;                // of the fixed body's frame: its scale, metres
+  nsvcd__f3 fixed_position;  // of the fixed body at t = 0, metres
+  // world axes to the fixed body's axes at t = 0
+  nsvcd__mat3 to_fixed;
+  nsvcd__quat to_fixed_quat;
   // of the moving body's origin less the fixed one's, in world axes, metres
-  float low[3];
-  float high[3];
+  nsvcd__f3 low, high;
   // by which the moving body is held off its poses, as the fixed one sees it, in its units
-  float lift[3];
+  nsvcd__f3 lift;
 } nsvcd__motion;
 
 // Are all numbers in range and all quaternions of unit length, to 1e-4?
@@ -6493,81 +6717,89 @@ static void nsvcd__motion_set_ticks(nsvcd__motion *motion, uint32_t parts) {
   motion->fixed.ticks = motion->ticks / b;
 }
 
-static void nsvcd__track_box(const nsvcd__track *track, float *low, float *high) {
-  for (size_t k = 0; k < 3; k++)
-    low[k] = high[k] = track->poses->position[k];
+// The box of a track's positions.
+static void nsvcd__track_box(const nsvcd__track *track, nsvcd__f3 *low, nsvcd__f3 *high) {
+  *low = nsvcd__f3_load(track->poses->position);
+  *high = *low;
   for (size_t n = 1; n < track->count; n++) {
-    for (size_t k = 0; k < 3; k++) {
-      const float x = track->poses[n].position[k];
-      low[k] = x < low[k] ? x : low[k];
-      high[k] = x > high[k] ? x : high[k];
-    }
+    const nsvcd__f3 position = nsvcd__f3_load(track->poses[n].position);
+    *low = nsvcd__f3_min(*low, position);
+    *high = nsvcd__f3_max(*high, position);
   }
 }
 
 // Prepares the motion of valid movers. Keeps the pointers to their poses.
 static void nsvcd__motion_init(const nsvcd_mover *moving, const nsvcd_mover *fixed,
                                nsvcd__motion *motion) {
-  float q[4], from_fixed[9], low[3], high[3], fixed_low[3], fixed_high[3];
   motion->moving = nsvcd__track_of(moving);
   motion->fixed = nsvcd__track_of(fixed);
   motion->fixed_moves = motion->fixed.count > 1;
   motion->unit = fixed->scale > 0 ? fixed->scale : 1;
   motion->scale = (moving->scale > 0 ? moving->scale : 1) / motion->unit;
   motion->per_scale = 1 / motion->scale;
+  motion->lift = nsvcd__f3_of(0, 0, 0);
   nsvcd__motion_set_ticks(motion, 1);
 
-  const nsvcd_pose *fixed_pose = motion->fixed.poses;
-  nsvcd__quat_normalize(fixed_pose->rotation, q);
-  nsvcd__quat_to_matrix(q, from_fixed);
-  nsvcd__transpose33(from_fixed, motion->to_fixed);
-  for (size_t k = 0; k < 4; k++)
-    motion->to_fixed_q[k] = k < 3 ? -q[k] : q[k];
-  memcpy(motion->fixed_position, fixed_pose->position, sizeof motion->fixed_position);
+  const nsvcd_pose *first = motion->fixed.poses;
+  const nsvcd__quat q = nsvcd__quat_unit(nsvcd__quat_load(first->rotation));
+  motion->to_fixed = nsvcd__mat3_transpose(nsvcd__mat3_of(q));
+  motion->to_fixed_quat = nsvcd__quat_inverse(q);
+  motion->fixed_position = nsvcd__f3_load(first->position);
 
-  nsvcd__track_box(&motion->moving, low, high);
-  nsvcd__track_box(&motion->fixed, fixed_low, fixed_high);
-  for (size_t k = 0; k < 3; k++) {
-    motion->low[k] = low[k] - fixed_high[k];
-    motion->high[k] = high[k] - fixed_low[k];
-    motion->lift[k] = 0;
-  }
+  nsvcd__f3 fixed_low;
+  nsvcd__f3 fixed_high;
+  nsvcd__track_box(&motion->moving, &motion->low, &motion->high);
+  nsvcd__track_box(&motion->fixed, &fixed_low, &fixed_high);
+  motion->low = nsvcd__f3_sub(motion->low, fixed_high);
+  motion->high = nsvcd__f3_sub(motion->high, fixed_low);
 }
 
 // Does the moving body's origin always stay more than `distance`, in the fixed body's units, from
 // the fixed one's?
 static int nsvcd__motion_is_far(const nsvcd__motion *motion, float distance) {
   const float metres = motion->unit * distance;
-  float square = 0;
-  for (size_t k = 0; k < 3; k++) {
-    const float below = motion->low[k];
-    const float above = -motion->high[k];
-    const float d = below > above ? below : above;
-    square += d > 0 ? d * d : 0;
-  }
-  return square > 1.00001f * metres * metres;
+  const nsvcd__f3 above = nsvcd__f3_scale(motion->high, -1);
+  const nsvcd__f3 gap = nsvcd__f3_max(motion->low, above);
+  const nsvcd__f3 apart = nsvcd__f3_max(gap, nsvcd__f3_of(0, 0, 0));
+  return nsvcd__f3_dot(apart, apart) > 1.00001f * metres * metres;
 }
 
-// A track's pose at a tick: its rotation, unit to 1e-4, and its position, metres. In double: on a
-// long way past the other body, roundings of its ends would be large beside what is near.
-static void nsvcd__track_pose(const nsvcd__track *track, uint32_t tick, float *q,
-                              double *position) {
+// Is the shorter arc from a to b the one to -b?
+static int nsvcd__poses_opposed(const nsvcd_pose *a, const nsvcd_pose *b) {
+  return nsvcd__quats_opposed(nsvcd__quat_load(a->rotation), nsvcd__quat_load(b->rotation));
+}
+
+// A body's pose in the world: rotation unit to 1e-4, position in metres. In double: on a long way
+// past the other body, roundings of its ends would be large beside what is near.
+typedef struct nsvcd__world_pose {
+  nsvcd__quat rotation;
+  nsvcd__d3 position;
+} nsvcd__world_pose;
+
+static nsvcd__world_pose nsvcd__world_pose_of(const nsvcd_pose *pose) {
+  const nsvcd__world_pose out = {nsvcd__quat_load(pose->rotation), nsvcd__d3_load(pose->position)};
+  return out;
+}
+
+// Between two poses, a share of the way from the first.
+static nsvcd__world_pose nsvcd__world_pose_between(const nsvcd_pose *a, const nsvcd_pose *b,
+                                                   double share) {
+  const nsvcd__world_pose from = nsvcd__world_pose_of(a);
+  const nsvcd__world_pose to = nsvcd__world_pose_of(b);
+  nsvcd__world_pose out;
+  out.rotation = nsvcd__quat_slerp(from.rotation, to.rotation, (float)share);
+  out.position = nsvcd__d3_mix(from.position, to.position, share);
+  return out;
+}
+
+// A track's pose at a tick.
+static nsvcd__world_pose nsvcd__track_pose(const nsvcd__track *track, uint32_t tick) {
   const uint32_t k = track->ticks == 1 ? tick : tick / track->ticks;
   const uint32_t past = tick - k * track->ticks;
   const nsvcd_pose *a = &track->poses[k < track->count ? k : track->count - 1];
-  if (past == 0 || track->count == 1) {
-    memcpy(q, a->rotation, sizeof a->rotation);
-    for (size_t n = 0; n < 3; n++)
-      position[n] = (double)a->position[n];
-    return;
-  }
-  const nsvcd_pose *b = a + 1;
-  const double share = (double)past / (double)track->ticks;
-  nsvcd__slerp(a->rotation, b->rotation, (float)share, q);
-  for (size_t n = 0; n < 3; n++) {
-    position[n] =
-        (double)a->position[n] + share * ((double)b->position[n] - (double)a->position[n]);
-  }
+  if (past == 0 || track->count == 1)
+    return nsvcd__world_pose_of(a);
+  return nsvcd__world_pose_between(a, a + 1, (double)past / (double)track->ticks);
 }
 
 // The knot after a tick.
@@ -6583,66 +6815,62 @@ static uint32_t nsvcd__next_knot(const nsvcd__motion *motion, uint32_t tick) {
 
 // Poses of both bodies at the times of one slice, in the world.
 typedef struct nsvcd__v_poses {
-  nsvcd__v q[4];        // of the moving body, of any length
-  nsvcd__v fixed_q[4];  // of the fixed one, unit; only where it moves
-  nsvcd__v p[3];        // of the moving one's origin, from the fixed one's, metres
+  nsvcd__vquat moving;  // of any length
+  nsvcd__vquat fixed;   // unit; only where that body moves
+  nsvcd__v3 offset;     // of the moving body's origin from the fixed one's, metres
 } nsvcd__v_poses;
 
-// The moving body's poses as the fixed one sees them: quaternions of any length, and positions in
-// its units.
-static void nsvcd__v_seen(const nsvcd__motion *motion, const nsvcd__v_poses *at, nsvcd__v *q,
-                          nsvcd__v *p) {
-  nsvcd__v turn[4], m[9];
+// A slice of poses.
+typedef struct nsvcd__v_pose {
+  nsvcd__vquat rotation;
+  nsvcd__v3 position;
+} nsvcd__v_pose;
+
+// The moving body's poses as the fixed one sees them: quaternions of any length, positions in its
+// units.
+static nsvcd__v_pose nsvcd__v_seen(const nsvcd__motion *motion, const nsvcd__v_poses *at) {
   const nsvcd__v per_metre = nsvcd__v_set(1 / motion->unit);
-  if (!motion->fixed_moves) {
-    for (size_t k = 0; k < 4; k++)
-      turn[k] = nsvcd__v_set(motion->to_fixed_q[k]);
-    for (size_t k = 0; k < 9; k++)
-      m[k] = nsvcd__v_set(motion->to_fixed[k]);
+  nsvcd__vquat to_fixed;
+  nsvcd__vmat3 matrix;
+  if (motion->fixed_moves) {
+    to_fixed = nsvcd__vquat_inverse(at->fixed);
+    matrix = nsvcd__vmat3_of(to_fixed);
   } else {
-    for (size_t k = 0; k < 4; k++)
-      turn[k] = k < 3 ? nsvcd__v_negate(at->fixed_q[k]) : at->fixed_q[k];
-    nsvcd__v_matrix(turn, m);
+    to_fixed = nsvcd__vquat_set(motion->to_fixed_quat);
+    matrix = nsvcd__vmat3_set(&motion->to_fixed);
   }
-  nsvcd__v_quat_mul(turn, at->q, q);
-  nsvcd__v_mul33_vec(m, at->p, p);
-  for (size_t k = 0; k < 3; k++)
-    p[k] = nsvcd__v_fma(per_metre, p[k], nsvcd__v_set(motion->lift[k]));
+  const nsvcd__v3 metres = nsvcd__vmat3_apply(matrix, at->offset);
+  nsvcd__v_pose out;
+  out.rotation = nsvcd__vquat_mul(to_fixed, at->moving);
+  out.position = nsvcd__v3_fma(per_metre, metres, nsvcd__v3_set(motion->lift));
+  return out;
 }
 
 #ifndef NSVCD_NO_NETWORK
-// A track's pose at time t in [0,1], position in double.
-static void nsvcd__track_pose_at(const nsvcd__track *track, float t, float *q, double *position) {
-  const size_t last = track->count > 1 ? track->count - 2 : 0;
-  const float at = track->count > 1 ? t * (float)(last + 1) : 0;
+// A track's pose at time t in [0,1].
+static nsvcd__world_pose nsvcd__track_pose_at(const nsvcd__track *track, float t) {
+  if (track->count == 1)
+    return nsvcd__world_pose_between(track->poses, track->poses, 0);
+  const size_t last = track->count - 2;
+  const float at = t * (float)(last + 1);
   const size_t k = (size_t)at < last ? (size_t)at : last;
-  const double u = (double)(at - (float)k);
-  const nsvcd_pose *a = &track->poses[k];
-  const nsvcd_pose *b = track->count > 1 ? a + 1 : a;
-  nsvcd__slerp(a->rotation, b->rotation, (float)u, q);
-  for (size_t n = 0; n < 3; n++) {
-    position[n] = (double)a->position[n] + u * ((double)b->position[n] - (double)a->position[n]);
-  }
+  return nsvcd__world_pose_between(&track->poses[k], &track->poses[k + 1], (double)(at - (float)k));
 }
 
-// Pose of the moving body in the fixed body's frame at time t, clamped to [0,1]: x_fixed = scale
-// rotation x + position.
-static void nsvcd__motion_pose(const nsvcd__motion *motion, float t, float *rotation,
-                               float *position) {
-  float q[4], fixed_q[4], r[9], fixed[9], to_fixed[9], d[3];
-  double p[3], fixed_p[3];
+// The moving body in the fixed body's frame at time t, clamped to [0,1]; its points are to be
+// multiplied by the scale first.
+static nsvcd__transform nsvcd__motion_pose(const nsvcd__motion *motion, float t) {
   const float when = t < 0 ? 0 : t > 1 ? 1 : t;
-  nsvcd__track_pose_at(&motion->moving, when, q, p);
-  nsvcd__track_pose_at(&motion->fixed, when, fixed_q, fixed_p);
-  nsvcd__quat_to_matrix(q, r);
-  nsvcd__quat_to_matrix(fixed_q, fixed);
-  nsvcd__transpose33(fixed, to_fixed);
-  for (size_t k = 0; k < 3; k++)
-    d[k] = (float)((p[k] - fixed_p[k]) / (double)motion->unit);
-  nsvcd__mul33(to_fixed, r, rotation);
-  nsvcd__mul33_vec(to_fixed, d, position);
-  for (size_t k = 0; k < 3; k++)
-    position[k] += motion->lift[k];
+  const nsvcd__world_pose moving = nsvcd__track_pose_at(&motion->moving, when);
+  const nsvcd__world_pose fixed = nsvcd__track_pose_at(&motion->fixed, when);
+  const nsvcd__mat3 rotation = nsvcd__mat3_of(moving.rotation);
+  const nsvcd__mat3 to_fixed = nsvcd__mat3_transpose(nsvcd__mat3_of(fixed.rotation));
+  const nsvcd__d3 metres = nsvcd__d3_sub(moving.position, fixed.position);
+  const nsvcd__f3 offset = nsvcd__d3_narrow(nsvcd__d3_over(metres, (double)motion->unit));
+  nsvcd__transform out;
+  out.rotation = nsvcd__mat3_mul(&to_fixed, &rotation);
+  out.position = nsvcd__f3_add(nsvcd__mat3_apply(&to_fixed, offset), motion->lift);
+  return out;
 }
 #endif
 
@@ -6727,9 +6955,12 @@ typedef struct nsvcd__segments {
 
 // Poses of both bodies at 16 ticks, and one more, in the world; and quaternions as the fixed body
 // sees them.
+#define NSVCD__KNOTS (NSVCD__LANES + 1)
 typedef struct nsvcd__knots {
-  float q[4][NSVCD__LANES + 1], p[3][NSVCD__LANES + 1], fixed_q[4][NSVCD__LANES + 1];
-  float seen[4][NSVCD__LANES];
+  float moving[4 * NSVCD__KNOTS];  // (4, KNOTS) quaternions, as the next two
+  float fixed[4 * NSVCD__KNOTS];
+  float seen[4 * NSVCD__KNOTS];
+  float offset[3 * NSVCD__KNOTS];  // (3, KNOTS) see nsvcd__v_poses
 } nsvcd__knots;
 
 // What is kept of 16 segments while their knots are visited, lane by lane.
@@ -6867,35 +7098,25 @@ static nsvcd__v nsvcd__v_arc_bound(nsvcd__v chord2) {
 
 // The vector part of b a^-1, of two quaternions: the axis of the turn from a to b, times the sine
 // of half its angle.
-static nsvcd__v3 nsvcd__v_turn_between(const nsvcd__v *a, const nsvcd__v *b) {
-  const nsvcd__v3 u = nsvcd__v3_of(a[0], a[1], a[2]);
-  const nsvcd__v3 v = nsvcd__v3_of(b[0], b[1], b[2]);
-  const nsvcd__v3 across = nsvcd__v3_cross(u, v);
-  return nsvcd__v3_fma(a[3], v, nsvcd__v3_fma(nsvcd__v_negate(b[3]), u, across));
+static nsvcd__v3 nsvcd__v_turn_between(nsvcd__vquat a, nsvcd__vquat b) {
+  const nsvcd__v3 u = nsvcd__vquat_axis(a);
+  const nsvcd__v3 v = nsvcd__vquat_axis(b);
+  const nsvcd__v3 sum = nsvcd__v3_fma(nsvcd__v_negate(b.w), u, nsvcd__v3_cross(u, v));
+  return nsvcd__v3_fma(a.w, v, sum);
+}
+
+// 1 where x >= 0, else -1.
+static nsvcd__v nsvcd__v_sign(nsvcd__v x) {
+  return nsvcd__v_pick(nsvcd__v_set(0), x, nsvcd__v_set(1), nsvcd__v_set(-1));
 }
 
 // The same on the shorter arc. cosine: of half the angle; near 0, rounding may have taken the
 // longer one.
-static nsvcd__v3 nsvcd__v_shorter_turn_between(const nsvcd__v *a, const nsvcd__v *b,
-                                               nsvcd__v *cosine) {
-  nsvcd__v dot = nsvcd__v_mul(a[0], b[0]);
-  for (size_t k = 1; k < 4; k++)
-    dot = nsvcd__v_fma(a[k], b[k], dot);
-  const nsvcd__v sign = nsvcd__v_pick(nsvcd__v_set(0), dot, nsvcd__v_set(1), nsvcd__v_set(-1));
+static nsvcd__v3 nsvcd__v_shorter_turn_between(nsvcd__vquat a, nsvcd__vquat b, nsvcd__v *cosine) {
+  const nsvcd__v dot = nsvcd__vquat_dot(a, b);
+  const nsvcd__v sign = nsvcd__v_sign(dot);
   *cosine = nsvcd__v_mul(sign, dot);
   return nsvcd__v3_scale(nsvcd__v_turn_between(a, b), sign);
-}
-
-// Vectors over their lengths; x where there is none.
-static nsvcd__v3 nsvcd__v3_unit(nsvcd__v3 a) {
-  const nsvcd__v length = nsvcd__v_sqrt(nsvcd__v3_dot(a, a));
-  const nsvcd__v least = nsvcd__v_set(1e-18f);
-  const nsvcd__v3 unit =
-      nsvcd__v3_scale(a, nsvcd__v_div(nsvcd__v_set(1), nsvcd__v_max(length, least)));
-  const nsvcd__v zero = nsvcd__v_set(0);
-  return nsvcd__v3_of(nsvcd__v_pick(length, least, nsvcd__v_set(1), unit.x),
-                      nsvcd__v_pick(length, least, zero, unit.y),
-                      nsvcd__v_pick(length, least, zero, unit.z));
 }
 
 // Bounds of the total length of a track's rotation arcs, radians, and of the longest.
@@ -6964,33 +7185,36 @@ static size_t nsvcd__segment_count(const nsvcd__motion *motion, size_t greatest,
   return ticks * *parts;
 }
 
+// The caller's own poses, of one body: no need to ask.
+static void nsvcd__knots_copy(const nsvcd__motion *motion, const uint32_t *ticks, size_t count,
+                              nsvcd__knots *out) {
+  for (size_t l = 0; l < count; l++) {
+    const nsvcd_pose *pose = &motion->moving.poses[ticks[l]];
+    const nsvcd__f3 position = nsvcd__f3_load(pose->position);
+    const nsvcd__f3 offset = nsvcd__f3_sub(position, motion->fixed_position);
+    nsvcd__quat_put(nsvcd__quat_load(pose->rotation), out->moving + l, NSVCD__KNOTS);
+    nsvcd__f3_put(offset, out->offset + l, NSVCD__KNOTS);
+  }
+}
+
 // Reads the poses of both bodies at the first `count` of these ticks.
 static void nsvcd__knots_read(const nsvcd__motion *motion, const uint32_t *ticks, size_t count,
                               nsvcd__knots *out) {
-  const int plain = motion->moving.ticks == 1 && motion->moving.count > 1 && !motion->fixed_moves;
-  // the caller's own poses, of one body: no need to ask
-  for (size_t l = 0; plain && l < count; l++) {
-    const nsvcd_pose *pose = &motion->moving.poses[ticks[l]];
-    for (size_t k = 0; k < 3; k++)
-      out->p[k][l] = pose->position[k] - motion->fixed_position[k];
-    for (size_t k = 0; k < 4; k++)
-      out->q[k][l] = pose->rotation[k];
+  if (motion->moving.ticks == 1 && motion->moving.count > 1 && !motion->fixed_moves) {
+    nsvcd__knots_copy(motion, ticks, count, out);
+    return;
   }
-  for (size_t l = 0; !plain && l < count; l++) {
-    float q[4];
-    float fixed_q[4] = {0, 0, 0, 1};
-    double p[3], fixed_p[3];
-    nsvcd__track_pose(&motion->moving, ticks[l], q, p);
-    for (size_t k = 0; k < 3; k++)
-      fixed_p[k] = (double)motion->fixed_position[k];
+  const nsvcd__d3 at_start = nsvcd__d3_widen(motion->fixed_position);
+  nsvcd__world_pose fixed = {{0, 0, 0, 1}, at_start};
+  for (size_t l = 0; l < count; l++) {
+    const nsvcd__world_pose moving = nsvcd__track_pose(&motion->moving, ticks[l]);
     if (motion->fixed_moves)
-      nsvcd__track_pose(&motion->fixed, ticks[l], fixed_q, fixed_p);
-    for (size_t k = 0; k < 3; k++)
-      out->p[k][l] = (float)(p[k] - fixed_p[k]);
-    for (size_t k = 0; k < 4; k++)
-      out->q[k][l] = q[k];
-    for (size_t k = 0; motion->fixed_moves && k < 4; k++)
-      out->fixed_q[k][l] = fixed_q[k];
+      fixed = nsvcd__track_pose(&motion->fixed, ticks[l]);
+    const nsvcd__d3 offset = nsvcd__d3_sub(moving.position, fixed.position);
+    nsvcd__f3_put(nsvcd__d3_narrow(offset), out->offset + l, NSVCD__KNOTS);
+    nsvcd__quat_put(moving.rotation, out->moving + l, NSVCD__KNOTS);
+    if (motion->fixed_moves)
+      nsvcd__quat_put(fixed.rotation, out->fixed + l, NSVCD__KNOTS);
   }
 }
 
@@ -6999,109 +7223,88 @@ static void nsvcd__knots_read(const nsvcd__motion *motion, const uint32_t *ticks
 static nsvcd__v_poses nsvcd__knots_load(const nsvcd__motion *motion, const nsvcd__knots *from,
                                         size_t first) {
   nsvcd__v_poses out;
-  for (size_t k = 0; k < 3; k++)
-    out.p[k] = nsvcd__v_load(from->p[k] + first);
-  for (size_t k = 0; k < 4; k++)
-    out.q[k] = nsvcd__v_load(from->q[k] + first);
-  for (size_t k = 0; k < 4; k++)
-    out.fixed_q[k] = out.q[k];
+  out.offset = nsvcd__v3_load_rows(from->offset + first, NSVCD__KNOTS);
+  out.moving = nsvcd__vquat_load(from->moving + first, NSVCD__KNOTS);
+  out.fixed = out.moving;
   if (motion->fixed_moves) {
-    for (size_t k = 0; k < 4; k++)
-      out.fixed_q[k] = nsvcd__v_load(from->fixed_q[k] + first);
-    nsvcd__v_quat_normalize(out.q);
-    nsvcd__v_quat_normalize(out.fixed_q);
+    out.moving = nsvcd__vquat_unit(out.moving);
+    out.fixed = nsvcd__vquat_unit(nsvcd__vquat_load(from->fixed + first, NSVCD__KNOTS));
   }
   return out;
 }
 
 // `seen`: the quaternions as the fixed body sees them. l: the slice's first lane, here and below.
 static void nsvcd__knots_keep(const nsvcd__motion *motion, const nsvcd__v_poses *at,
-                              const nsvcd__v *seen, size_t l, nsvcd__knots *out) {
-  for (size_t k = 0; k < 4; k++)
-    nsvcd__v_store(out->q[k] + l, at->q[k]);
-  for (size_t k = 0; k < 4; k++)
-    nsvcd__v_store(out->seen[k] + l, seen[k]);
+                              nsvcd__vquat seen, size_t l, nsvcd__knots *out) {
+  nsvcd__vquat_store(at->moving, out->moving + l, NSVCD__KNOTS);
+  nsvcd__vquat_store(seen, out->seen + l, NSVCD__KNOTS);
   if (!motion->fixed_moves)
     return;
-  for (size_t k = 0; k < 3; k++)
-    nsvcd__v_store(out->p[k] + l, at->p[k]);
-  for (size_t k = 0; k < 4; k++)
-    nsvcd__v_store(out->fixed_q[k] + l, at->fixed_q[k]);
+  nsvcd__v3_store_rows(at->offset, out->offset + l, NSVCD__KNOTS);
+  nsvcd__vquat_store(at->fixed, out->fixed + l, NSVCD__KNOTS);
 }
 
-// A bound of the angle between a (4) and b (4), unit quaternions, lane by lane.
-static nsvcd__v nsvcd__v_arc(const nsvcd__v *a, const nsvcd__v *b) {
-  nsvcd__v dot = nsvcd__v_mul(a[0], b[0]);
-  nsvcd__v square = nsvcd__v_set(0);
-  for (size_t k = 1; k < 4; k++)
-    dot = nsvcd__v_fma(a[k], b[k], dot);
-  const nsvcd__v sign = nsvcd__v_pick(nsvcd__v_set(0), dot, nsvcd__v_set(1), nsvcd__v_set(-1));
-  for (size_t k = 0; k < 4; k++) {
-    const nsvcd__v d = nsvcd__v_sub(nsvcd__v_mul(sign, b[k]), a[k]);
-    square = nsvcd__v_fma(d, d, square);
-  }
-  return nsvcd__v_arc_bound(square);
+// A bound of the angle between two unit quaternions, lane by lane.
+static nsvcd__v nsvcd__v_arc(nsvcd__vquat a, nsvcd__vquat b) {
+  const nsvcd__v sign = nsvcd__v_sign(nsvcd__vquat_dot(a, b));
+  const nsvcd__v x = nsvcd__v_sub(nsvcd__v_mul(sign, b.x), a.x);
+  const nsvcd__v y = nsvcd__v_sub(nsvcd__v_mul(sign, b.y), a.y);
+  const nsvcd__v z = nsvcd__v_sub(nsvcd__v_mul(sign, b.z), a.z);
+  const nsvcd__v w = nsvcd__v_sub(nsvcd__v_mul(sign, b.w), a.w);
+  const nsvcd__vquat chord = {x, y, z, w};
+  return nsvcd__v_arc_bound(nsvcd__vquat_dot(chord, chord));
 }
 
 // A bound of h^2 / 8 |axis x a|, of a turn by h (arc: a bound of it) about a: with w = a sin(h / 2)
 // that is no more than pi / 8 h |axis x w|.
-static nsvcd__v nsvcd__v_turn_off_axis(nsvcd__v3 axis, const nsvcd__v *from, const nsvcd__v *to,
+static nsvcd__v nsvcd__v_turn_off_axis(nsvcd__v3 axis, nsvcd__vquat from, nsvcd__vquat to,
                                        nsvcd__v arc) {
   const nsvcd__v3 across = nsvcd__v3_cross(axis, nsvcd__v_turn_between(from, to));
-  return nsvcd__v_mul(nsvcd__v_mul(arc, nsvcd__v_set(0.3931f)),
-                      nsvcd__v_sqrt(nsvcd__v3_dot(across, across)));
+  return nsvcd__v_mul(nsvcd__v_mul(arc, nsvcd__v_set(0.3931f)), nsvcd__v3_length(across));
 }
 
-static void nsvcd__v_load_all(float (*from)[NSVCD__LANES], size_t l, nsvcd__v *values,
-                              size_t count) {
-  for (size_t k = 0; k < count; k++)
-    values[k] = nsvcd__v_load(from[k] + l);
-}
-// most: of the slice.
+// most, sum: of the slice.
 static void nsvcd__v_keep_most(float *most, nsvcd__v value) {
   nsvcd__v_store(most, nsvcd__v_max(nsvcd__v_load(most), value));
+}
+static void nsvcd__v_add_to(float *sum, nsvcd__v value) {
+  nsvcd__v_store(sum, nsvcd__v_add(nsvcd__v_load(sum), value));
 }
 
 // Poses at the starts of 16 segments, whose ticks are begin[0..16]. Starts the visit of the knots
 // within.
 static NSVCD__APART void nsvcd__cut_starts(const nsvcd__motion *motion, const uint32_t *begin,
                                            nsvcd__segments *out, nsvcd__cut *cut) {
+  const nsvcd__v scale = nsvcd__v_set(motion->scale);
   memset(&cut->most, 0, sizeof cut->most);
-  nsvcd__knots_read(motion, begin, NSVCD__LANES + 1, &cut->here);
+  nsvcd__knots_read(motion, begin, NSVCD__KNOTS, &cut->here);
   NSVCD__EACH_SLICE(l) {
-    nsvcd__v seen[4], m[9], p[3];
-    const nsvcd__v scale = nsvcd__v_set(motion->scale);
     const nsvcd__v_poses at = nsvcd__knots_load(motion, &cut->here, l);
-    nsvcd__v_seen(motion, &at, seen, p);
-    nsvcd__v_matrix(seen, m);
-    nsvcd__knots_keep(motion, &at, seen, l, &cut->last);
-    for (size_t i = 0; i < 9; i++)
-      nsvcd__v_store(out->rotation[i] + l, nsvcd__v_mul(scale, m[i]));
-    for (size_t i = 0; i < 3; i++)
-      nsvcd__v_store(out->position[i] + l, p[i]);
+    const nsvcd__v_pose seen = nsvcd__v_seen(motion, &at);
+    const nsvcd__vmat3 rotation = nsvcd__vmat3_of(seen.rotation);
+    nsvcd__knots_keep(motion, &at, seen.rotation, l, &cut->last);
+    nsvcd__vmat3_store(out->rotation, l, nsvcd__vmat3_scale(rotation, scale));
+    nsvcd__v3_store(out->position, l, seen.position);
   }
 }
 
 // And at their ends, of which the starts are known.
 static NSVCD__APART void nsvcd__cut_ends(const nsvcd__motion *motion, nsvcd__segments *out,
                                          nsvcd__cut *cut) {
+  const nsvcd__v scale = nsvcd__v_set(motion->scale);
   NSVCD__EACH_SLICE(l) {
-    nsvcd__v seen[4], m[9], p[3], last_seen[4];
-    const nsvcd__v scale = nsvcd__v_set(motion->scale);
     const nsvcd__v_poses at = nsvcd__knots_load(motion, &cut->here, l + 1);
-    nsvcd__v_seen(motion, &at, seen, p);
-    nsvcd__v_matrix(seen, m);
-    nsvcd__knots_keep(motion, &at, seen, l, &cut->end);
-    for (size_t i = 0; i < 9; i++) {
-      const nsvcd__v end = nsvcd__v_mul(scale, m[i]);
-      nsvcd__v_store(out->turned[i] + l, nsvcd__v_sub(end, nsvcd__v_load(out->rotation[i] + l)));
-    }
-    for (size_t i = 0; i < 3; i++) {
-      nsvcd__v_store(out->moved[i] + l, nsvcd__v_sub(p[i], nsvcd__v_load(out->position[i] + l)));
-    }
-    nsvcd__v_load_all(cut->last.seen, l, last_seen, 4);
-    nsvcd__v3_store(out->axis, l, nsvcd__v3_unit(nsvcd__v_turn_between(last_seen, seen)));
-    nsvcd__v3_store(out->way, l, nsvcd__v3_unit(nsvcd__v3_load(out->moved, l)));
+    const nsvcd__v_pose seen = nsvcd__v_seen(motion, &at);
+    const nsvcd__vmat3 end = nsvcd__vmat3_scale(nsvcd__vmat3_of(seen.rotation), scale);
+    const nsvcd__vmat3 start = nsvcd__vmat3_load(out->rotation, l);
+    const nsvcd__v3 moved = nsvcd__v3_sub(seen.position, nsvcd__v3_load(out->position, l));
+    const nsvcd__vquat seen_first = nsvcd__vquat_load(cut->last.seen + l, NSVCD__KNOTS);
+    const nsvcd__v3 turn = nsvcd__v_turn_between(seen_first, seen.rotation);
+    nsvcd__knots_keep(motion, &at, seen.rotation, l, &cut->end);
+    nsvcd__vmat3_store(out->turned, l, nsvcd__vmat3_sub(end, start));
+    nsvcd__v3_store(out->moved, l, moved);
+    nsvcd__v3_store(out->axis, l, nsvcd__v3_unit(turn));
+    nsvcd__v3_store(out->way, l, nsvcd__v3_unit(moved));
   }
 }
 
@@ -7115,52 +7318,53 @@ static NSVCD__APART void nsvcd__cut_ends(const nsvcd__motion *motion, nsvcd__seg
 static void nsvcd__cut_double_arc(const nsvcd__motion *motion, const nsvcd__v_poses *from,
                                   const nsvcd__v_poses *to, size_t l, nsvcd__cut *cut) {
   const nsvcd__v eighth = nsvcd__v_set(0.12501f);
-  nsvcd__v cosine, fixed_cosine;
-  const nsvcd__v3 half = nsvcd__v_shorter_turn_between(from->q, to->q, &cosine);
-  const nsvcd__v3 fixed_half =
-      nsvcd__v_shorter_turn_between(from->fixed_q, to->fixed_q, &fixed_cosine);
+  nsvcd__v cosine;
+  nsvcd__v fixed_cosine;
+  const nsvcd__v3 half = nsvcd__v_shorter_turn_between(from->moving, to->moving, &cosine);
+  const nsvcd__v3 fixed_half = nsvcd__v_shorter_turn_between(from->fixed, to->fixed, &fixed_cosine);
   const nsvcd__v sine = nsvcd__v3_length(half);
   const nsvcd__v fixed_sine = nsvcd__v3_length(fixed_half);
-  const nsvcd__v difference = nsvcd__v_pick(nsvcd__v_min(cosine, fixed_cosine),
-                                            nsvcd__v_set(0.001f), nsvcd__v_add(sine, fixed_sine),
-                                            nsvcd__v3_length(nsvcd__v3_sub(half, fixed_half)));
+  const nsvcd__v sines = nsvcd__v_add(sine, fixed_sine);
+  const nsvcd__v least_cosine = nsvcd__v_min(cosine, fixed_cosine);
+  const nsvcd__v apart = nsvcd__v3_length(nsvcd__v3_sub(half, fixed_half));
+  const nsvcd__v difference = nsvcd__v_pick(least_cosine, nsvcd__v_set(0.001f), sines, apart);
   // A rotation vector is 2 asin(s) / s times these halves of length s, and asin(s) - s is at most
   // (pi / 2 - 1) s^3.
-  const nsvcd__v cubes =
-      nsvcd__v_fma(nsvcd__v_mul(sine, sine), sine,
-                   nsvcd__v_mul(nsvcd__v_mul(fixed_sine, fixed_sine), fixed_sine));
+  const nsvcd__v square = nsvcd__v_mul(sine, sine);
+  const nsvcd__v fixed_square = nsvcd__v_mul(fixed_sine, fixed_sine);
+  const nsvcd__v cubes = nsvcd__v_fma(square, sine, nsvcd__v_mul(fixed_square, fixed_sine));
   nsvcd__v turn = nsvcd__v_mul(nsvcd__v_set(2.00001f), difference);
   turn = nsvcd__v_fma(nsvcd__v_set(1.1417f), cubes, turn);
-  turn = nsvcd__v_fma(nsvcd__v_set(2e-6f), nsvcd__v_add(sine, fixed_sine), turn);
-  const nsvcd__v fixed_turn = nsvcd__v_arc(from->fixed_q, to->fixed_q);
-  const nsvcd__v bulge = nsvcd__v_mul(nsvcd__v_mul(turn, nsvcd__v_add(turn, fixed_turn)), eighth);
-  nsvcd__v_keep_most(cut->most.arc_bulge + l, bulge);
+  turn = nsvcd__v_fma(nsvcd__v_set(2e-6f), sines, turn);
+  const nsvcd__v fixed_turn = nsvcd__v_arc(from->fixed, to->fixed);
+  const nsvcd__v squares = nsvcd__v_mul(turn, nsvcd__v_add(turn, fixed_turn));
+  nsvcd__v_keep_most(cut->most.arc_bulge + l, nsvcd__v_mul(squares, eighth));
 
-  const nsvcd__v3 d0 = nsvcd__v3_of(from->p[0], from->p[1], from->p[2]);
-  const nsvcd__v3 d1 = nsvcd__v3_of(to->p[0], to->p[1], to->p[2]);
-  const nsvcd__v remote = nsvcd__v_max(nsvcd__v3_length(d0), nsvcd__v3_length(d1));
-  const nsvcd__v way = nsvcd__v3_length(nsvcd__v3_sub(d1, d0));
+  const nsvcd__v remote_start = nsvcd__v3_length(from->offset);
+  const nsvcd__v remote = nsvcd__v_max(remote_start, nsvcd__v3_length(to->offset));
+  const nsvcd__v way = nsvcd__v3_length(nsvcd__v3_sub(to->offset, from->offset));
   const nsvcd__v both = nsvcd__v_fma(fixed_turn, remote, nsvcd__v_add(way, way));
   const nsvcd__v metres = nsvcd__v_mul(nsvcd__v_mul(fixed_turn, both), eighth);
   nsvcd__v_keep_most(cut->most.arc_drift + l, nsvcd__v_div(metres, nsvcd__v_set(motion->unit)));
-  nsvcd__v_store(cut->most.sum + l, nsvcd__v_add(nsvcd__v_load(cut->most.sum + l), fixed_turn));
+  nsvcd__v_add_to(cut->most.sum + l, fixed_turn);
 }
 
-// Adds the arc from the last knot to this one, which becomes the last.
-static void nsvcd__cut_arc(const nsvcd__motion *motion, const nsvcd__v_poses *at,
-                           const nsvcd__v *seen, size_t l, nsvcd__segments *out, nsvcd__cut *cut) {
+// Adds the arc from the last knot to this one, which becomes the last. seen: its rotation as the
+// fixed body sees it.
+static void nsvcd__cut_arc(const nsvcd__motion *motion, const nsvcd__v_poses *at, nsvcd__vquat seen,
+                           size_t l, nsvcd__segments *out, nsvcd__cut *cut) {
   const nsvcd__v_poses last = nsvcd__knots_load(motion, &cut->last, l);
-  const nsvcd__v arc = nsvcd__v_arc(last.q, at->q);
-  nsvcd__v_store(cut->most.sum + l, nsvcd__v_add(nsvcd__v_load(cut->most.sum + l), arc));
+  const nsvcd__v arc = nsvcd__v_arc(last.moving, at->moving);
+  nsvcd__v_add_to(cut->most.sum + l, arc);
   if (motion->fixed_moves) {
     nsvcd__cut_double_arc(motion, &last, at, l, cut);
   } else {
-    nsvcd__v last_seen[4];
     const nsvcd__v3 axis = nsvcd__v3_load(out->axis, l);
-    nsvcd__v_load_all(cut->last.seen, l, last_seen, 4);
-    nsvcd__v_keep_most(cut->most.arc_bulge + l,
-                       nsvcd__v_mul(nsvcd__v_mul(arc, arc), nsvcd__v_set(0.125f)));
-    nsvcd__v_keep_most(cut->most.axis_turn + l, nsvcd__v_turn_off_axis(axis, last_seen, seen, arc));
+    const nsvcd__vquat last_seen = nsvcd__vquat_load(cut->last.seen + l, NSVCD__KNOTS);
+    const nsvcd__v bulge = nsvcd__v_mul(nsvcd__v_mul(arc, arc), nsvcd__v_set(0.125f));
+    const nsvcd__v off_axis = nsvcd__v_turn_off_axis(axis, last_seen, seen, arc);
+    nsvcd__v_keep_most(cut->most.arc_bulge + l, bulge);
+    nsvcd__v_keep_most(cut->most.axis_turn + l, off_axis);
   }
   nsvcd__knots_keep(motion, at, seen, l, &cut->last);
 }
@@ -7168,42 +7372,30 @@ static void nsvcd__cut_arc(const nsvcd__motion *motion, const nsvcd__v_poses *at
 static NSVCD__APART void nsvcd__cut_last_arc(const nsvcd__motion *motion, nsvcd__segments *out,
                                              nsvcd__cut *cut) {
   NSVCD__EACH_SLICE(l) {
-    nsvcd__v seen[4];
     const nsvcd__v_poses end = nsvcd__knots_load(motion, &cut->end, l);
-    nsvcd__v_load_all(cut->end.seen, l, seen, 4);
+    const nsvcd__vquat seen = nsvcd__vquat_load(cut->end.seen + l, NSVCD__KNOTS);
     nsvcd__cut_arc(motion, &end, seen, l, out, cut);
   }
 }
 
-// Adds what a knot is off its segment's chord by, of which a share of u lies before it. seen, at:
-// its pose as the fixed body sees it.
-static void nsvcd__cut_off_chord(const nsvcd__motion *motion, nsvcd__v u, const nsvcd__v *seen,
-                                 const nsvcd__v *at, size_t l, nsvcd__segments *out,
-                                 nsvcd__cut *cut) {
-  nsvcd__v r[9];
-  const nsvcd__v scale = nsvcd__v_set(motion->scale);
-  nsvcd__v square = nsvcd__v_set(0);
-  nsvcd__v_matrix(seen, r);
-  for (size_t i = 0; i < 9; i++) {
-    const nsvcd__v chord =
-        nsvcd__v_fma(u, nsvcd__v_load(out->turned[i] + l), nsvcd__v_load(out->rotation[i] + l));
-    r[i] = nsvcd__v_sub(nsvcd__v_mul(scale, r[i]), chord);
-    square = nsvcd__v_fma(r[i], r[i], square);
-  }
-  const nsvcd__v3 chord =
-      nsvcd__v3_fma(u, nsvcd__v3_load(out->moved, l), nsvcd__v3_load(out->position, l));
-  const nsvcd__v3 off = nsvcd__v3_sub(nsvcd__v3_of(at[0], at[1], at[2]), chord);
-  nsvcd__v_keep_most(cut->most.bulge + l, square);
-  nsvcd__v_keep_most(cut->most.spread + l, nsvcd__v3_dot(off, off));
+// Adds what a knot is off its segment's chord by, of which a share of u lies before it.
+static void nsvcd__cut_off_chord(const nsvcd__motion *motion, nsvcd__v u, const nsvcd__v_pose *seen,
+                                 size_t l, nsvcd__segments *out, nsvcd__cut *cut) {
+  const nsvcd__vmat3 start = nsvcd__vmat3_load(out->rotation, l);
+  const nsvcd__vmat3 turned = nsvcd__vmat3_load(out->turned, l);
+  const nsvcd__vmat3 rotation = nsvcd__vmat3_of(seen->rotation);
+  const nsvcd__vmat3 scaled = nsvcd__vmat3_scale(rotation, nsvcd__v_set(motion->scale));
+  const nsvcd__vmat3 off = nsvcd__vmat3_sub(scaled, nsvcd__vmat3_fma(u, turned, start));
+  const nsvcd__v3 position = nsvcd__v3_load(out->position, l);
+  const nsvcd__v3 chord = nsvcd__v3_fma(u, nsvcd__v3_load(out->moved, l), position);
+  const nsvcd__v3 aside = nsvcd__v3_sub(seen->position, chord);
+  nsvcd__v_keep_most(cut->most.bulge + l, nsvcd__vmat3_square(off));
+  nsvcd__v_keep_most(cut->most.spread + l, nsvcd__v3_dot(aside, aside));
 
   const nsvcd__v3 axis = nsvcd__v3_load(out->axis, l);
-  const nsvcd__v3 row0 = nsvcd__v3_of(r[0], r[1], r[2]);
-  const nsvcd__v3 row1 = nsvcd__v3_of(r[3], r[4], r[5]);
-  const nsvcd__v3 row2 = nsvcd__v3_of(r[6], r[7], r[8]);
-  const nsvcd__v3 along =
-      nsvcd__v3_fma(axis.x, row0, nsvcd__v3_fma(axis.y, row1, nsvcd__v3_scale(row2, axis.z)));
-  const nsvcd__v3 off_way = nsvcd__v3_cross(nsvcd__v3_load(out->way, l), off);
-  const nsvcd__v off_axis = nsvcd__v3_dot(axis, off);
+  const nsvcd__v3 along = nsvcd__vmat3_apply_transpose(off, axis);
+  const nsvcd__v3 off_way = nsvcd__v3_cross(nsvcd__v3_load(out->way, l), aside);
+  const nsvcd__v off_axis = nsvcd__v3_dot(axis, aside);
   nsvcd__v_keep_most(cut->most.axis_bulge + l, nsvcd__v3_dot(along, along));
   nsvcd__v_keep_most(cut->most.axis_drift + l, nsvcd__v_mul(off_axis, off_axis));
   nsvcd__v_keep_most(cut->most.way_drift + l, nsvcd__v3_dot(off_way, off_way));
@@ -7221,35 +7413,37 @@ static NSVCD__APART void nsvcd__cut_knot(const nsvcd__motion *motion, const uint
     share[l] = length ? (float)(ticks[l] - begin[l]) / (float)length : 0;
   }
   NSVCD__EACH_SLICE(l) {
-    nsvcd__v seen[4], at[3];
-    const nsvcd__v_poses poses = nsvcd__knots_load(motion, &cut->here, l);
-    nsvcd__v_seen(motion, &poses, seen, at);
-    nsvcd__cut_arc(motion, &poses, seen, l, out, cut);
-    nsvcd__cut_off_chord(motion, nsvcd__v_load(share + l), seen, at, l, out, cut);
+    const nsvcd__v_poses at = nsvcd__knots_load(motion, &cut->here, l);
+    const nsvcd__v_pose seen = nsvcd__v_seen(motion, &at);
+    nsvcd__cut_arc(motion, &at, seen.rotation, l, out, cut);
+    nsvcd__cut_off_chord(motion, nsvcd__v_load(share + l), &seen, l, out, cut);
   }
 }
 
 // The deviations of segments whose knots have all been visited.
 static void nsvcd__cut_deviations(const nsvcd__motion *motion, float lengths, size_t l,
                                   nsvcd__segments *out, const nsvcd__cut *cut) {
+  const nsvcd__bends *most = &cut->most;
   const nsvcd__v scale = nsvcd__v_set(motion->scale);
-  const nsvcd__v off_chord = nsvcd__v_sqrt(nsvcd__v_load(cut->most.spread + l));
-  const nsvcd__v drift = nsvcd__v_add(off_chord, nsvcd__v_load(cut->most.arc_drift + l));
-  const nsvcd__v arc_bulge = nsvcd__v_mul(scale, nsvcd__v_load(cut->most.arc_bulge + l));
-  const nsvcd__v bulge = nsvcd__v_add(arc_bulge, nsvcd__v_sqrt(nsvcd__v_load(cut->most.bulge + l)));
+  const nsvcd__v off_chord = nsvcd__v_sqrt(nsvcd__v_load(most->spread + l));
+  const nsvcd__v drift = nsvcd__v_add(off_chord, nsvcd__v_load(most->arc_drift + l));
+  const nsvcd__v arc_bulge = nsvcd__v_mul(scale, nsvcd__v_load(most->arc_bulge + l));
+  const nsvcd__v bulge = nsvcd__v_add(arc_bulge, nsvcd__v_sqrt(nsvcd__v_load(most->bulge + l)));
+  nsvcd__v bulge_along_axis = bulge;
+  nsvcd__v drift_along_axis = drift;
+  nsvcd__v drift_off_way = drift;
+  if (!motion->fixed_moves) {
+    const nsvcd__v axis_turn = nsvcd__v_mul(scale, nsvcd__v_load(most->axis_turn + l));
+    const nsvcd__v axis_bulge = nsvcd__v_sqrt(nsvcd__v_load(most->axis_bulge + l));
+    bulge_along_axis = nsvcd__v_add(axis_bulge, axis_turn);
+    drift_along_axis = nsvcd__v_sqrt(nsvcd__v_load(most->axis_drift + l));
+    drift_off_way = nsvcd__v_sqrt(nsvcd__v_load(most->way_drift + l));
+  }
   nsvcd__v_store(out->bulge + l, bulge);
   nsvcd__v_store(out->drift + l, drift);
-  nsvcd__v_store(out->bulge_along_axis + l, bulge);
-  nsvcd__v_store(out->drift_along_axis + l, drift);
-  nsvcd__v_store(out->drift_off_way + l, drift);
-  if (!motion->fixed_moves) {
-    const nsvcd__v axis_turn = nsvcd__v_mul(scale, nsvcd__v_load(cut->most.axis_turn + l));
-    const nsvcd__v axis_bulge = nsvcd__v_sqrt(nsvcd__v_load(cut->most.axis_bulge + l));
-    nsvcd__v_store(out->bulge_along_axis + l, nsvcd__v_add(axis_bulge, axis_turn));
-    nsvcd__v_store(out->drift_along_axis + l,
-                   nsvcd__v_sqrt(nsvcd__v_load(cut->most.axis_drift + l)));
-    nsvcd__v_store(out->drift_off_way + l, nsvcd__v_sqrt(nsvcd__v_load(cut->most.way_drift + l)));
-  }
+  nsvcd__v_store(out->bulge_along_axis + l, bulge_along_axis);
+  nsvcd__v_store(out->drift_along_axis + l, drift_along_axis);
+  nsvcd__v_store(out->drift_off_way + l, drift_off_way);
 
   const nsvcd__v3 start = nsvcd__v3_load(out->position, l);
   const nsvcd__v3 end = nsvcd__v3_add(start, nsvcd__v3_load(out->moved, l));
@@ -7338,61 +7532,51 @@ static NSVCD__APART void nsvcd__cut_motion(nsvcd__motion *motion, float lengths,
 }
 #endif
 
-// Stores a slice of chords, from lane l on: start (3), way (3), reach. FLT_MIN keeps a chord of no
-// length finite.
-static void nsvcd__chords_store(nsvcd__chords *c, size_t l, const nsvcd__v *start,
-                                const nsvcd__v *way, nsvcd__v reach) {
-  const nsvcd__v square = nsvcd__v_max(nsvcd__v_dot3(way, way), nsvcd__v_set(1.2e-38f));
-  for (size_t k = 0; k < 3; k++) {
-    nsvcd__v_store(c->start[k] + l, start[k]);
-    nsvcd__v_store(c->way[k] + l, way[k]);
-  }
+// Stores a slice of chords, from lane l on. FLT_MIN keeps a chord of no length finite.
+static void nsvcd__chords_store(nsvcd__chords *c, size_t l, nsvcd__v3 start, nsvcd__v3 way,
+                                nsvcd__v reach) {
+  const nsvcd__v square = nsvcd__v_max(nsvcd__v3_dot(way, way), nsvcd__v_set(1.2e-38f));
+  nsvcd__v3_store(c->start, l, start);
+  nsvcd__v3_store(c->way, l, way);
   nsvcd__v_store(c->inverse + l, nsvcd__v_div(nsvcd__v_set(-1), square));
   nsvcd__v_store(c->reach + l, reach);
 }
 
 // Chords of one sphere, body frame, in the segments of a block.
-static void nsvcd__chords_of_sphere(const nsvcd__segments *b, nsvcd__sphere sphere,
-                                    nsvcd__chords *out) {
-  const nsvcd__f3 c = sphere.centre;
-  const float length = nsvcd__f3_length(c);
+static void nsvcd__chords_of_sphere(nsvcd__segments *b, nsvcd__sphere sphere, nsvcd__chords *out) {
+  const nsvcd__v3 centre = nsvcd__v3_set(sphere.centre);
+  const nsvcd__v length = nsvcd__v_set(nsvcd__f3_length(sphere.centre));
+  const nsvcd__v radius = nsvcd__v_set(sphere.radius);
   NSVCD__EACH_SLICE(l) {
-    const nsvcd__v centre[3] = {nsvcd__v_set(c.x), nsvcd__v_set(c.y), nsvcd__v_set(c.z)};
-    nsvcd__v start[3], way[3];
-    for (size_t i = 0; i < 3; i++) {
-      start[i] = nsvcd__v_load(b->position[i] + l);
-      way[i] = nsvcd__v_load(b->moved[i] + l);
-      for (size_t k = 0; k < 3; k++) {
-        start[i] = nsvcd__v_fma(nsvcd__v_load(b->rotation[3 * i + k] + l), centre[k], start[i]);
-        way[i] = nsvcd__v_fma(nsvcd__v_load(b->turned[3 * i + k] + l), centre[k], way[i]);
-      }
-    }
+    const nsvcd__vmat3 rotation = nsvcd__vmat3_load(b->rotation, l);
+    const nsvcd__vmat3 turned = nsvcd__vmat3_load(b->turned, l);
+    const nsvcd__v3 position = nsvcd__v3_load(b->position, l);
+    const nsvcd__v3 moved = nsvcd__v3_load(b->moved, l);
+    const nsvcd__v3 start = nsvcd__vmat3_apply_add(rotation, centre, position);
+    const nsvcd__v3 way = nsvcd__vmat3_apply_add(turned, centre, moved);
     const nsvcd__v spread = nsvcd__v_load(b->spread + l);
-    const nsvcd__v bulge = nsvcd__v_load(b->bulge + l);
-    const nsvcd__v deviation = nsvcd__v_fma(bulge, nsvcd__v_set(length), spread);
-    nsvcd__chords_store(out, l, start, way, nsvcd__v_add(deviation, nsvcd__v_set(sphere.radius)));
+    const nsvcd__v deviation = nsvcd__v_fma(nsvcd__v_load(b->bulge + l), length, spread);
+    nsvcd__chords_store(out, l, start, way, nsvcd__v_add(deviation, radius));
   }
 }
 
 // Chords of 16 spheres in one segment: lane s of a block. No centre is farther from the body's
 // origin than `remote`, in that body's own frame, as all that is given; scale: of the body.
-static void nsvcd__chords_of_members(const nsvcd__segments *b, size_t s, nsvcd__spheres members,
+static void nsvcd__chords_of_members(nsvcd__segments *b, size_t s, nsvcd__spheres members,
                                      float scale, float remote, nsvcd__chords *out) {
-  const float deviation = b->spread[s] + b->bulge[s] * remote;
+  const nsvcd__v deviation = nsvcd__v_set(b->spread[s] + b->bulge[s] * remote);
+  const nsvcd__mat3 rotation = nsvcd__mat3_lane(b->rotation, s);
+  const nsvcd__mat3 turned = nsvcd__mat3_lane(b->turned, s);
+  const nsvcd__v3 position = nsvcd__v3_set(nsvcd__lane_of(b->position, s));
+  const nsvcd__v3 moved = nsvcd__v3_set(nsvcd__lane_of(b->moved, s));
   NSVCD__EACH_SLICE(l) {
-    const nsvcd__v3 c = nsvcd__v3_centres(members, l);
-    const nsvcd__v centre[3] = {c.x, c.y, c.z};
-    const nsvcd__v r = nsvcd__v_load(members.r + l);
-    nsvcd__v start[3], way[3];
-    for (size_t i = 0; i < 3; i++) {
-      start[i] = nsvcd__v_set(b->position[i][s]);
-      way[i] = nsvcd__v_set(b->moved[i][s]);
-      for (size_t k = 0; k < 3; k++) {
-        start[i] = nsvcd__v_fma(nsvcd__v_set(b->rotation[3 * i + k][s]), centre[k], start[i]);
-        way[i] = nsvcd__v_fma(nsvcd__v_set(b->turned[3 * i + k][s]), centre[k], way[i]);
-      }
-    }
-    const nsvcd__v reach = nsvcd__v_fma(nsvcd__v_set(scale), r, nsvcd__v_set(deviation));
+    const nsvcd__v3 centre = nsvcd__v3_centres(members, l);
+    const nsvcd__vmat3 rotations = nsvcd__vmat3_set(&rotation);
+    const nsvcd__vmat3 turns = nsvcd__vmat3_set(&turned);
+    const nsvcd__v3 start = nsvcd__vmat3_apply_add(rotations, centre, position);
+    const nsvcd__v3 way = nsvcd__vmat3_apply_add(turns, centre, moved);
+    const nsvcd__v radius = nsvcd__v_load(members.r + l);
+    const nsvcd__v reach = nsvcd__v_fma(nsvcd__v_set(scale), radius, deviation);
     nsvcd__chords_store(out, l, start, way, reach);
   }
 }
@@ -8447,7 +8631,7 @@ static void nsvcd__leg_init(const nsvcd__track *track, uint32_t first, uint32_t 
   ends[0] = nsvcd__d3_add(start, nsvcd__d3_scale(way, leg->from));
   ends[1] = nsvcd__d3_add(start, nsvcd__d3_scale(way, leg->from + leg->share));
 
-  const double sign = nsvcd__is_opposed(a->rotation, b->rotation) ? -1 : 1;
+  const double sign = nsvcd__poses_opposed(a, b) ? -1 : 1;
   double apart = 0;
   double together = 0;
   nsvcd__unit_quaternion(a->rotation, leg->start);
@@ -8507,7 +8691,7 @@ static const nsvcd__arc *nsvcd__arc_at(nsvcd__proof *p, uint32_t first) {
   arc->ticks = ticks;
   arc->fixed_moves = motion->fixed_moves;
   arc->scale = (double)motion->scale;
-  arc->lift = nsvcd__d3_load(motion->lift);
+  arc->lift = nsvcd__d3_widen(motion->lift);
   nsvcd__leg_init(&motion->moving, first, ticks, &arc->moving, ends);
   nsvcd__leg_init(&motion->fixed, first, ticks, &arc->fixed, fixed_ends);
   arc->from = nsvcd__d3_scale(nsvcd__d3_sub(ends[0], fixed_ends[0]), per_metre);
@@ -8585,11 +8769,9 @@ static const nsvcd__placement *nsvcd__placed_at(nsvcd__proof *p, double u) {
 
 static nsvcd__transform nsvcd__transform_of(const nsvcd__placement *at) {
   nsvcd__transform out;
-  for (size_t k = 0; k < 3; k++) {
-    out.rotation[3 * k] = (float)at->rows[k].x;
-    out.rotation[3 * k + 1] = (float)at->rows[k].y;
-    out.rotation[3 * k + 2] = (float)at->rows[k].z;
-  }
+  out.rotation.x = nsvcd__d3_narrow(at->rows[0]);
+  out.rotation.y = nsvcd__d3_narrow(at->rows[1]);
+  out.rotation.z = nsvcd__d3_narrow(at->rows[2]);
   out.position = nsvcd__f3_round(at->position);
   return out;
 }
@@ -8608,23 +8790,20 @@ static double nsvcd__time_in_arc(const nsvcd__proof *p, double u) {
 
 static nsvcd__span nsvcd__span_of_segment(const nsvcd__motion *motion, const nsvcd__search *search,
                                           size_t s) {
-  const nsvcd__segments *block = &search->blocks[s / NSVCD__LANES];
+  nsvcd__segments *block = &search->blocks[s / NSVCD__LANES];
   const size_t l = s % NSVCD__LANES;
+  const nsvcd__mat3 turned = nsvcd__mat3_lane(block->turned, l);
   nsvcd__span span;
-  for (size_t i = 0; i < 9; i++) {
-    span.start.rotation[i] = block->rotation[i][l];
-    span.end.rotation[i] = block->rotation[i][l] + block->turned[i][l];
-  }
-  span.start.position =
-      nsvcd__f3_of(block->position[0][l], block->position[1][l], block->position[2][l]);
-  const nsvcd__f3 moved = nsvcd__f3_of(block->moved[0][l], block->moved[1][l], block->moved[2][l]);
-  span.end.position = nsvcd__f3_add(span.start.position, moved);
+  span.start.rotation = nsvcd__mat3_lane(block->rotation, l);
+  span.end.rotation = nsvcd__mat3_mix(1, &span.start.rotation, 1, &turned);
+  span.start.position = nsvcd__lane_of(block->position, l);
+  span.end.position = nsvcd__f3_add(span.start.position, nsvcd__lane_of(block->moved, l));
   span.spread = block->rounding[l] + block->drift[l];
   span.bulge = block->bulge[l];
   span.rounding = block->rounding[l];
   span.drift = block->drift[l];
-  span.axis = nsvcd__f3_of(block->axis[0][l], block->axis[1][l], block->axis[2][l]);
-  span.way = nsvcd__f3_of(block->way[0][l], block->way[1][l], block->way[2][l]);
+  span.axis = nsvcd__lane_of(block->axis, l);
+  span.way = nsvcd__lane_of(block->way, l);
   span.bulge_along_axis = block->bulge_along_axis[l];
   span.drift_along_axis = block->drift_along_axis[l];
   span.drift_off_way = block->drift_off_way[l];
@@ -8768,12 +8947,6 @@ NSVCD__INLINE nsvcd__reach_along nsvcd__disc_along(nsvcd__v low, nsvcd__v high,
   return out;
 }
 
-// A matrix's columns, as values: the matrix back, times a.
-static inline nsvcd__f3 nsvcd__f3_rotate_back(const float *m, nsvcd__f3 a) {
-  return nsvcd__f3_of(m[0] * a.x + m[3] * a.y + m[6] * a.z, m[1] * a.x + m[4] * a.y + m[7] * a.z,
-                      m[2] * a.x + m[5] * a.y + m[8] * a.z);
-}
-
 // The lanes of a slice among 16.
 static inline uint32_t nsvcd__lanes_of_slice(uint32_t lanes, size_t l) {
   return lanes >> l & (((uint32_t)1 << NSVCD__SLICE) - 1);
@@ -8842,8 +9015,8 @@ static void nsvcd__certify_discs(const nsvcd__approach *a, const nsvcd__span *sp
 // the other (`below`).
 static uint32_t nsvcd__apart_by_fixed_disc(const nsvcd__approach *a, const nsvcd__span *span,
                                            nsvcd__f3 normal, float low, float high, uint32_t met) {
-  const nsvcd__f3 normal_at_start = nsvcd__f3_rotate_back(span->start.rotation, normal);
-  const nsvcd__f3 normal_at_end = nsvcd__f3_rotate_back(span->end.rotation, normal);
+  const nsvcd__f3 normal_at_start = nsvcd__mat3_apply_transpose(&span->start.rotation, normal);
+  const nsvcd__f3 normal_at_end = nsvcd__mat3_apply_transpose(&span->end.rotation, normal);
   const float deviation = a->clearance + span->rounding + nsvcd__deviation(span, normal, a->reach);
   uint32_t apart = 0;
   NSVCD__EACH_SLICE(l) {
@@ -8884,12 +9057,11 @@ static uint32_t nsvcd__apart_by_moving_disc(const nsvcd__approach *a, const nsvc
                                             uint32_t met) {
   const float half = 0.5f * a->per_scale;  // rotations in a span are times the scale
   uint32_t apart = 0;
-  nsvcd__transform middle, half_turn;
-  for (size_t i = 0; i < 9; i++) {
-    half_turn.rotation[i] = half * (span->end.rotation[i] - span->start.rotation[i]);
-    middle.rotation[i] = half * (span->end.rotation[i] + span->start.rotation[i]);
-  }
-  middle.position = half_turn.position = nsvcd__f3_of(0, 0, 0);
+  const nsvcd__mat3 *from = &span->start.rotation;
+  const nsvcd__mat3 *to = &span->end.rotation;
+  const nsvcd__f3 origin = {0, 0, 0};
+  const nsvcd__transform middle = {nsvcd__mat3_mix(half, to, 1, from), origin};
+  const nsvcd__transform half_turn = {nsvcd__mat3_mix(half, to, -1, from), origin};
   NSVCD__EACH_SLICE(l) {
     const uint32_t wanted = nsvcd__lanes_of_slice(met, l);
     if (!wanted)
@@ -8975,19 +9147,6 @@ NSVCD__INLINE nsvcd__reach_along nsvcd__one_disc_along(const nsvcd__disc *disc, 
                            nsvcd__v_set(disc->across), along, across);
 }
 
-// A slice of 16 matrices, (9, LANES), times one vector; and back.
-NSVCD__INLINE nsvcd__v3 nsvcd__v3_turned(float (*m)[NSVCD__LANES], size_t l, nsvcd__f3 a) {
-  const nsvcd__v3 v = nsvcd__v3_set(a);
-  return nsvcd__v3_of(nsvcd__v3_dot(nsvcd__v3_load(m, l), v),
-                      nsvcd__v3_dot(nsvcd__v3_load(m + 3, l), v),
-                      nsvcd__v3_dot(nsvcd__v3_load(m + 6, l), v));
-}
-NSVCD__INLINE nsvcd__v3 nsvcd__v3_turned_back(float (*m)[NSVCD__LANES], size_t l, nsvcd__f3 a) {
-  const nsvcd__v3 sum = nsvcd__v3_scale(nsvcd__v3_load(m, l), nsvcd__v_set(a.x));
-  return nsvcd__v3_fma(nsvcd__v_set(a.z), nsvcd__v3_load(m + 6, l),
-                       nsvcd__v3_fma(nsvcd__v_set(a.y), nsvcd__v3_load(m + 3, l), sum));
-}
-
 // Segments of a slice of a block in which discs part a moving group from a resting one. The planes
 // are those of single discs, nsvcd__apart_by_fixed_disc and nsvcd__apart_by_moving_disc, with all
 // in lanes but the discs.
@@ -9003,9 +9162,10 @@ static uint32_t nsvcd__groups_apart(nsvcd__segments *block, const nsvcd__chords 
   const nsvcd__v3 from = nsvcd__v3_sub(centre, nsvcd__v3_set(fixed_centre));
   const nsvcd__v3 chord = nsvcd__v3_rows(c->way[0] + l);
 
-  const nsvcd__v3 at_start = nsvcd__v3_turned_back(block->rotation, l, fixed->normal);
-  const nsvcd__v3 at_end =
-      nsvcd__v3_add(at_start, nsvcd__v3_turned_back(block->turned, l, fixed->normal));
+  const nsvcd__vmat3 rotation = nsvcd__vmat3_load(block->rotation, l);
+  const nsvcd__vmat3 turn = nsvcd__vmat3_load(block->turned, l);
+  const nsvcd__v3 at_start = nsvcd__vmat3_apply_transpose(rotation, n);
+  const nsvcd__v3 at_end = nsvcd__v3_add(at_start, nsvcd__vmat3_apply_transpose(turn, n));
   const nsvcd__reach_along start = nsvcd__one_disc_along(
       moving, nsvcd__v3_dot(at_start, m), nsvcd__v3_length(nsvcd__v3_cross(at_start, m)));
   const nsvcd__reach_along end = nsvcd__one_disc_along(
@@ -9024,10 +9184,8 @@ static uint32_t nsvcd__groups_apart(nsvcd__segments *block, const nsvcd__chords 
   const nsvcd__v half = nsvcd__v_set(0.5f / scale);
   const nsvcd__v whole = nsvcd__v_set(1 / scale);
   const nsvcd__v size = nsvcd__v_set(scale);
-  const nsvcd__v3 turned =
-      nsvcd__v3_scale(nsvcd__v3_turned(block->turned, l, moving->normal), half);
-  const nsvcd__v3 w =
-      nsvcd__v3_fma(whole, nsvcd__v3_turned(block->rotation, l, moving->normal), turned);
+  const nsvcd__v3 turned = nsvcd__v3_scale(nsvcd__vmat3_apply(turn, m), half);
+  const nsvcd__v3 w = nsvcd__v3_fma(whole, nsvcd__vmat3_apply(rotation, m), turned);
   const nsvcd__reach_along own =
       nsvcd__one_disc_along(moving, nsvcd__v_mul(size, nsvcd__v3_dot(w, w)),
                             nsvcd__v_mul(size, nsvcd__v3_length(turned)));
@@ -9134,9 +9292,6 @@ static void nsvcd__pose_hulls(nsvcd__proof *p, size_t i, size_t j, const nsvcd__
   }
 }
 
-static nsvcd__f3 nsvcd__lane_of(float (*lanes)[NSVCD__LANES], size_t l) {
-  return nsvcd__f3_of(lanes[0][l], lanes[1][l], lanes[2][l]);
-}
 static float nsvcd__clamp01(float x) { return x < 0 ? 0 : x < 1 ? x : 1; }
 
 // Posed hulls along a direction: how far the moving one, at both ends of the span, stays ahead of
@@ -10391,11 +10546,13 @@ static NSVCD__APART void nsvcd__clip_segment(nsvcd__proof *p, nsvcd__search *sea
   const uint32_t first = nsvcd__arc_and_share(p->motion, p->end, &u);
   const nsvcd__placement at = nsvcd__placement_at(nsvcd__arc_at(p, first), u);
   const nsvcd__transform end = nsvcd__transform_of(&at);
-  const float position[3] = {end.position.x, end.position.y, end.position.z};
-  for (size_t k = 0; k < 9; k++)
-    block->turned[k][l] = end.rotation[k] - block->rotation[k][l];
-  for (size_t k = 0; k < 3; k++)
-    block->moved[k][l] = position[k] - block->position[k][l];
+  const nsvcd__mat3 start = nsvcd__mat3_lane(block->rotation, l);
+  const nsvcd__mat3 turned = nsvcd__mat3_mix(1, &end.rotation, -1, &start);
+  const nsvcd__f3 position = nsvcd__lane_of(block->position, l);
+  nsvcd__lane_set(nsvcd__f3_sub(end.position, position), block->moved, l);
+  nsvcd__lane_set(turned.x, block->turned, l);
+  nsvcd__lane_set(turned.y, block->turned + 3, l);
+  nsvcd__lane_set(turned.z, block->turned + 6, l);
   if (!(p->clipped >> s & 1)) {
     block->spread[l] += block->drift[l];
     block->bulge[l] *= 2;
@@ -11181,8 +11338,7 @@ static nsvcd__verdict nsvcd__prove_in_order(nsvcd__proof *p, nsvcd__search *sear
 }
 
 static nsvcd__verdict nsvcd__prove(nsvcd__proof *p, nsvcd__search *search) {
-  const float lifted =
-      nsvcd__f3_length(nsvcd__f3_of(p->motion->lift[0], p->motion->lift[1], p->motion->lift[2]));
+  const float lifted = nsvcd__f3_length(p->motion->lift);
   const float apart = p->lengths + nsvcd__clearance_of(p) + 1.0001f * lifted;
   if (!(p->measure > 0) && nsvcd__motion_is_far(p->motion, apart)) {
     return NSVCD__FREE;
@@ -11362,10 +11518,7 @@ static NSVCD__APART void nsvcd__lift_motion(nsvcd__proof *p, nsvcd__search *sear
   p->gathers = 0;
   p->clearance = clearance;
   p->motion = whole;
-  const nsvcd__f3 lift = nsvcd__f3_round(liftable ? nsvcd__lift_off(p) : nsvcd__d3_of(0, 0, 0));
-  whole->lift[0] = lift.x;
-  whole->lift[1] = lift.y;
-  whole->lift[2] = lift.z;
+  whole->lift = nsvcd__f3_round(liftable ? nsvcd__lift_off(p) : nsvcd__d3_of(0, 0, 0));
   nsvcd__proof_restart(p);
 }
 #endif  // NSVCD_NO_PROOF
@@ -11401,7 +11554,7 @@ static nsvcd__sphere nsvcd__cover_places(float (*places)[NSVCD__PLACES]) {
   nsvcd__f3 low = nsvcd__f3_of(HUGE_VALF, HUGE_VALF, HUGE_VALF);
   nsvcd__f3 high = nsvcd__f3_scale(low, -1);
   for (size_t k = 0; k < NSVCD__PLACES; k++) {
-    const nsvcd__f3 place = nsvcd__f3_of(places[0][k], places[1][k], places[2][k]);
+    const nsvcd__f3 place = nsvcd__lane_of(places, k);
     low = nsvcd__f3_min(low, place);
     high = nsvcd__f3_max(high, place);
   }
@@ -11428,21 +11581,18 @@ static uint32_t nsvcd__may_be_close(const void *what, nsvcd__spheres all) {
 
 // Least |p_i - x| / r_i, squared, at a slice of places, over the patches of a group, or what it
 // was.
-static nsvcd__v nsvcd__clearance2(const nsvcd_body *body, size_t group, const nsvcd__v *place,
+static nsvcd__v nsvcd__clearance2(const nsvcd_body *body, size_t group, nsvcd__v3 place,
                                   nsvcd__v least) {
-  const float *x = nsvcd__body_x(body);
-  const float *y = nsvcd__body_y(body);
-  const float *z = nsvcd__body_z(body);
-  const float *r = nsvcd__body_r(body);
-  const size_t end =
-      NSVCD__GROUP * (group + 1) < body->points ? NSVCD__GROUP * (group + 1) : body->points;
+  const nsvcd__spheres patches = nsvcd__body_patches(body);
+  const size_t next = NSVCD__GROUP * (group + 1);
+  const size_t end = next < body->points ? next : body->points;
   for (size_t i = NSVCD__GROUP * group; i < end; i++) {
-    const nsvcd__v d[3] = {nsvcd__v_sub(nsvcd__v_set(x[i]), place[0]),
-                           nsvcd__v_sub(nsvcd__v_set(y[i]), place[1]),
-                           nsvcd__v_sub(nsvcd__v_set(z[i]), place[2])};
-    const float square = r[i] * r[i];
+    const nsvcd__sphere patch = nsvcd__sphere_of(patches, i);
+    const nsvcd__v3 d = nsvcd__v3_sub(nsvcd__v3_set(patch.centre), place);
+    const float square = patch.radius * patch.radius;
     const float inverse = 1 / (square > 1e-37f ? square : 1e-37f);
-    least = nsvcd__v_min(least, nsvcd__v_mul(nsvcd__v_dot3(d, d), nsvcd__v_set(inverse)));
+    const nsvcd__v ratio = nsvcd__v_mul(nsvcd__v3_dot(d, d), nsvcd__v_set(inverse));
+    least = nsvcd__v_min(least, ratio);
   }
   return least;
 }
@@ -11458,8 +11608,7 @@ static void nsvcd__clearances(const nsvcd_body *body, float (*places)[NSVCD__PLA
   nsvcd__walk_begin(&walk, body, nsvcd__may_be_close, &near_to);
   while (nsvcd__walk_next(&walk, &g)) {
     NSVCD__EACH_SLICE(l) {
-      const nsvcd__v place[3] = {nsvcd__v_load(places[0] + l), nsvcd__v_load(places[1] + l),
-                                 nsvcd__v_load(places[2] + l)};
+      const nsvcd__v3 place = nsvcd__v3_load(places, l);
       nsvcd__v_store(out + l, nsvcd__clearance2(body, g, place, nsvcd__v_load(out + l)));
     }
   }
@@ -11469,25 +11618,23 @@ static void nsvcd__clearances(const nsvcd_body *body, float (*places)[NSVCD__PLA
 // their area vectors. Where radii are given, they say which spheres count: those that are far from
 // the point, and the bits of the others are returned, of 64 at most.
 static uint64_t nsvcd__dipoles(const float *x, size_t stride, const float *areas, size_t count,
-                               const float *radii, const float *point, float *lanes) {
+                               const float *radii, nsvcd__f3 point, float *lanes) {
+  const nsvcd__v3 at = nsvcd__v3_set(point);
+  const nsvcd__v zero = nsvcd__v_set(0);
   uint64_t close = 0;
   NSVCD__EACH_SLICE(l) {
-    const nsvcd__v at[3] = {nsvcd__v_set(point[0]), nsvcd__v_set(point[1]), nsvcd__v_set(point[2])};
-    const nsvcd__v zero = nsvcd__v_set(0);
     nsvcd__v sum = nsvcd__v_load(lanes + l);
     for (size_t i = l; i < count; i += NSVCD__LANES) {
-      const nsvcd__v d[3] = {nsvcd__v_sub(nsvcd__v_load(x + i), at[0]),
-                             nsvcd__v_sub(nsvcd__v_load(x + stride + i), at[1]),
-                             nsvcd__v_sub(nsvcd__v_load(x + 2 * stride + i), at[2])};
-      const nsvcd__v area[3] = {nsvcd__v_load(areas + i), nsvcd__v_load(areas + stride + i),
-                                nsvcd__v_load(areas + 2 * stride + i)};
-      const nsvcd__v length = nsvcd__v_max(nsvcd__v_length3(d), nsvcd__v_set(1e-30f));
+      const nsvcd__v3 d = nsvcd__v3_sub(nsvcd__v3_load_rows(x + i, stride), at);
+      const nsvcd__v3 area = nsvcd__v3_load_rows(areas + i, stride);
+      const nsvcd__v length = nsvcd__v_max(nsvcd__v3_length(d), nsvcd__v_set(1e-30f));
       const nsvcd__v inverse = nsvcd__v_div(nsvcd__v_set(1), length);
       // step by step: the cube may overflow
-      const nsvcd__v cosine = nsvcd__v_mul(nsvcd__v_dot3(area, d), inverse);
+      const nsvcd__v cosine = nsvcd__v_mul(nsvcd__v3_dot(area, d), inverse);
       nsvcd__v term = nsvcd__v_mul(nsvcd__v_mul(cosine, inverse), inverse);
       if (radii) {
-        const nsvcd__v reach = nsvcd__v_mul(nsvcd__v_set(NSVCD__DIPOLE), nsvcd__v_load(radii + i));
+        const nsvcd__v radius = nsvcd__v_load(radii + i);
+        const nsvcd__v reach = nsvcd__v_mul(nsvcd__v_set(NSVCD__DIPOLE), radius);
         close |= (uint64_t)nsvcd__v_le(length, reach) << i;
         term = nsvcd__v_pick(length, reach, zero, term);
       }
@@ -11501,7 +11648,7 @@ static uint64_t nsvcd__dipoles(const float *x, size_t stride, const float *areas
 // Adds the terms of the spheres of a level from `first` on: of those that are far from the point,
 // and of the members of the others.
 static void nsvcd__dipoles_of_level(const nsvcd_body *body, size_t n, size_t first, size_t count,
-                                    const float *point, float *lanes) {
+                                    nsvcd__f3 point, float *lanes) {
   const nsvcd__level level = nsvcd__level_of(body->padded, n);
   const float *x = nsvcd__body_floats(body, level.first + first);
   uint64_t close = nsvcd__dipoles(x, level.slots, nsvcd__level_areas(body, level) + first, count,
@@ -11518,7 +11665,7 @@ static void nsvcd__dipoles_of_level(const nsvcd_body *body, size_t n, size_t fir
   }
 }
 
-static float nsvcd__winding_number(const nsvcd_body *body, const float *point) {
+static float nsvcd__winding_number(const nsvcd_body *body, nsvcd__f3 point) {
   float lanes[NSVCD__LANES] = {0};
   float total = 0;
   const size_t top = nsvcd__level_count(body->padded) - 1;
@@ -11535,28 +11682,27 @@ static float nsvcd__winding_number(const nsvcd_body *body, const float *point) {
   return total / 12.5663706f;
 }
 
-// 1 if `inner`, of this scale and at the pose (rotation, position) in the frame of `outer`, lies
-// inside it.
+// 1 if `inner`, of this scale and at this pose in the frame of `outer`, lies inside it.
 static int nsvcd__is_inside(const nsvcd_body *inner, const nsvcd_body *outer, float scale,
-                            const float *rotation, const float *position) {
-  float places[3][NSVCD__PLACES], clearance[NSVCD__PLACES], point[3];
+                            const nsvcd__transform *pose) {
+  const nsvcd__spheres patches = nsvcd__body_patches(inner);
+  float places[3][NSVCD__PLACES];
+  float clearance[NSVCD__PLACES];
   if (outer->open)
     return 0;
   for (size_t k = 0; k < NSVCD__PLACES; k++) {
     // neighbours are stored together: equal steps spread over it
-    const size_t i = k * inner->points / NSVCD__PLACES;
-    const float p[3] = {nsvcd__body_x(inner)[i], nsvcd__body_y(inner)[i], nsvcd__body_z(inner)[i]};
-    nsvcd__mul33_vec(rotation, p, point);
-    for (size_t n = 0; n < 3; n++)
-      places[n][k] = scale * point[n] + position[n];
+    const nsvcd__f3 own = nsvcd__centre_of(patches, k * inner->points / NSVCD__PLACES);
+    const nsvcd__f3 turned = nsvcd__mat3_apply(&pose->rotation, own);
+    const nsvcd__f3 place = nsvcd__f3_add(nsvcd__f3_scale(turned, scale), pose->position);
+    nsvcd__lane_set(place, places, k);
   }
   // One that sticks out of the outer body's sphere says it all.
+  const nsvcd__v3 centre = nsvcd__v3_set(nsvcd__f3_load(outer->centre));
   uint32_t within = 0;
   NSVCD__EACH_SLICE(l) {
-    nsvcd__v off[3];
-    for (size_t n = 0; n < 3; n++)
-      off[n] = nsvcd__v_sub(nsvcd__v_load(places[n] + l), nsvcd__v_set(outer->centre[n]));
-    within |= nsvcd__v_le(nsvcd__v_length3(off), nsvcd__v_set(outer->radius)) << l;
+    const nsvcd__v3 off = nsvcd__v3_sub(nsvcd__v3_load(places, l), centre);
+    within |= nsvcd__v_le(nsvcd__v3_length(off), nsvcd__v_set(outer->radius)) << l;
   }
   if (within != 0xffff)
     return 0;
@@ -11566,22 +11712,20 @@ static int nsvcd__is_inside(const nsvcd_body *inner, const nsvcd_body *outer, fl
     best = clearance[k] > clearance[best] ? k : best;
   if (clearance[best] < NSVCD__CLEARANCE * NSVCD__CLEARANCE)
     return 0;
-  for (size_t n = 0; n < 3; n++)
-    point[n] = places[n][best];
-  return fabsf(nsvcd__winding_number(outer, point)) > 0.5f;  // -1 where the mesh is inside out
+  const float winding = nsvcd__winding_number(outer, nsvcd__lane_of(places, best));
+  return fabsf(winding) > 0.5f;  // -1 where the mesh is inside out
 }
 
-// 1 if one body lies inside the other, whichever, when the moving one, of this scale, is at
-// (rotation, position) in the fixed frame.
+// 1 if one body lies inside the other, whichever, when the moving one, of this scale, is at this
+// pose in the fixed frame.
 static int nsvcd__is_contained(const nsvcd_body *moving, const nsvcd_body *fixed, float scale,
-                               const float *rotation, const float *position) {
-  float back[9], from[3];
-  nsvcd__transpose33(rotation, back);
-  nsvcd__mul33_vec(back, position, from);
-  for (size_t k = 0; k < 3; k++)
-    from[k] = -from[k] / scale;
-  return nsvcd__is_inside(moving, fixed, scale, rotation, position) ||
-         nsvcd__is_inside(fixed, moving, 1 / scale, back, from);
+                               const nsvcd__transform *pose) {
+  nsvcd__transform back;
+  back.rotation = nsvcd__mat3_transpose(pose->rotation);
+  const nsvcd__f3 from = nsvcd__mat3_apply(&back.rotation, pose->position);
+  back.position = nsvcd__f3_of(-from.x / scale, -from.y / scale, -from.z / scale);
+  return nsvcd__is_inside(moving, fixed, scale, pose) ||
+         nsvcd__is_inside(fixed, moving, 1 / scale, &back);
 }
 
 // ----------------------------------------------------------------------------------------- decoder
@@ -11641,20 +11785,21 @@ static int nsvcd__is_contained(const nsvcd_body *moving, const nsvcd_body *fixed
 // A slice of pairs.
 typedef struct nsvcd__pairs {
   // centres at mid-interval: of the moving patch, of the fixed one; the fixed body's frame
-  nsvcd__v p1[3], p2[3];
-  nsvcd__v r1, r2;       // metres
-  nsvcd__v rotation[9];  // of the moving body at mid-interval
+  nsvcd__v3 p1, p2;
+  nsvcd__v r1, r2;        // metres
+  nsvcd__vmat3 rotation;  // of the moving body at mid-interval
   // half displacement of the point midway between p1 and p2, as part of the moving body
-  nsvcd__v v[3];
-  nsvcd__v w[3];                                      // half rotation vector
+  nsvcd__v3 v;
+  nsvcd__v3 w;                                        // half rotation vector
   const int8_t *z1[NSVCD__SLICE], *z2[NSVCD__SLICE];  // latents, body frames
 } nsvcd__pairs;
 
 // Half the rotation vector of a unit quaternion, from the sine s of half the angle: asin(s) / s
 // times its vector part.
-static void nsvcd__v_half_rotation(const nsvcd__v *q, nsvcd__v *w) {
-  const nsvcd__v sign = nsvcd__v_pick(nsvcd__v_set(0), q[3], nsvcd__v_set(1), nsvcd__v_set(-1));
-  const nsvcd__v square = nsvcd__v_dot3(q, q);
+static nsvcd__v3 nsvcd__v_half_rotation(nsvcd__vquat q) {
+  const nsvcd__v3 axis = nsvcd__vquat_axis(q);
+  const nsvcd__v sign = nsvcd__v_sign(q.w);
+  const nsvcd__v square = nsvcd__v3_dot(axis, axis);
   nsvcd__v ratio = nsvcd__v_set(0.02237216f);  // the series of asin(s) / s, to 2e-6 for s < 0.5
   static const float series[5] = {0.03038194f, 0.04464286f, 0.075f, 0.16666667f, 1};
   for (size_t k = 0; k < 5; k++)
@@ -11665,75 +11810,75 @@ static void nsvcd__v_half_rotation(const nsvcd__v *q, nsvcd__v *w) {
     float r[NSVCD__SLICE], s2[NSVCD__SLICE], c[NSVCD__SLICE];
     nsvcd__v_store(r, ratio);
     nsvcd__v_store(s2, square);
-    nsvcd__v_store(c, nsvcd__v_mul(sign, q[3]));
+    nsvcd__v_store(c, nsvcd__v_mul(sign, q.w));
     for (; wide; wide &= wide - 1) {
       const size_t l = nsvcd__lowest_bit(wide);
       r[l] = atan2f(sqrtf(s2[l]), c[l]) / sqrtf(s2[l]);
     }
     ratio = nsvcd__v_load(r);
   }
-  for (size_t k = 0; k < 3; k++)
-    w[k] = nsvcd__v_mul(nsvcd__v_mul(sign, ratio), q[k]);
+  return nsvcd__v3_scale(axis, nsvcd__v_mul(sign, ratio));
 }
 
-// A track's poses at `count` times t in [0,1], 1 to SLICE, one per lane: unit quaternions q (4),
-// and positions from an origin, (3).
-static void nsvcd__track_poses_at(const nsvcd__track *track, const float *t, size_t count,
-                                  const float *origin, nsvcd__v *q, nsvcd__v *p) {
-  float from[7][NSVCD__SLICE] = {{0}};
-  float to[7][NSVCD__SLICE] = {{0}};
+// What is to be added to a, the whole way, to go straight to b, or to -b where that is nearer.
+static nsvcd__quat nsvcd__quat_chord(nsvcd__quat a, nsvcd__quat b) {
+  const float sign = nsvcd__quat_dot(a, b) < 0 ? -1.0f : 1.0f;
+  return nsvcd__quat_of(sign * b.x - a.x, sign * b.y - a.y, sign * b.z - a.z, sign * b.w - a.w);
+}
+
+// A track's poses at `count` times t in [0,1], 1 to SLICE, one per lane: unit quaternions, and
+// positions from an origin.
+static nsvcd__v_pose nsvcd__track_poses_at(const nsvcd__track *track, const float *t, size_t count,
+                                           nsvcd__f3 origin) {
   float share[NSVCD__SLICE] = {0};
+  float rotation[4 * NSVCD__SLICE] = {0};
+  float turned[4 * NSVCD__SLICE] = {0};
+  float position[3 * NSVCD__SLICE] = {0};
+  float moved[3 * NSVCD__SLICE] = {0};
   const size_t last = track->count > 1 ? track->count - 2 : 0;
   for (size_t l = count; l < NSVCD__SLICE; l++)
-    from[6][l] = 1;
+    rotation[3 * NSVCD__SLICE + l] = 1;
   for (size_t l = 0; l < count; l++) {
     const float at = track->count > 1 ? t[l] * (float)(last + 1) : 0;
     const size_t k = (size_t)at < last ? (size_t)at : last;
     const nsvcd_pose *a = &track->poses[k];
     const nsvcd_pose *b = track->count > 1 ? a + 1 : a;
-    float slerped[4];
-    const float *qa = a->rotation;
-    const float *qb = b->rotation;
-    const float u = at - (float)k;
-    const float dot = qa[0] * qb[0] + qa[1] * qb[1] + qa[2] * qb[2] + qa[3] * qb[3];
-    const float sign = dot < 0 ? -1.0f : 1.0f;
-    if (fabsf(dot) < 0.999f) {
-      nsvcd__slerp(qa, qb, u, slerped);
-      qa = qb = slerped;
-    }
-    share[l] = u;
-    for (size_t n = 0; n < 3; n++) {
-      from[n][l] = a->position[n] - origin[n];
-      to[n][l] = b->position[n] - a->position[n];
-    }
+    const nsvcd__f3 from = nsvcd__f3_load(a->position);
+    const nsvcd__f3 to = nsvcd__f3_load(b->position);
+    nsvcd__quat q = nsvcd__quat_load(a->rotation);
+    const nsvcd__quat next = nsvcd__quat_load(b->rotation);
+    share[l] = at - (float)k;
     // Within 5 degrees the straight line, brought back to unit length, is the slerp to 2e-6
     // radians.
-    for (size_t n = 0; n < 4; n++) {
-      from[3 + n][l] = qa[n];
-      to[3 + n][l] = qa == qb ? 0 : sign * qb[n] - qa[n];
-    }
+    if (fabsf(nsvcd__quat_dot(q, next)) < 0.999f)
+      q = nsvcd__quat_slerp(q, next, share[l]);
+    else
+      nsvcd__quat_put(nsvcd__quat_chord(q, next), turned + l, NSVCD__SLICE);
+    nsvcd__quat_put(q, rotation + l, NSVCD__SLICE);
+    nsvcd__f3_put(nsvcd__f3_sub(from, origin), position + l, NSVCD__SLICE);
+    nsvcd__f3_put(nsvcd__f3_sub(to, from), moved + l, NSVCD__SLICE);
   }
   const nsvcd__v u = nsvcd__v_load(share);
-  for (size_t n = 0; n < 3; n++)
-    p[n] = nsvcd__v_fma(u, nsvcd__v_load(to[n]), nsvcd__v_load(from[n]));
-  for (size_t n = 0; n < 4; n++)
-    q[n] = nsvcd__v_fma(u, nsvcd__v_load(to[3 + n]), nsvcd__v_load(from[3 + n]));
-  nsvcd__v_quat_normalize(q);
+  const nsvcd__vquat start = nsvcd__vquat_load(rotation, NSVCD__SLICE);
+  const nsvcd__vquat chord = nsvcd__vquat_load(turned, NSVCD__SLICE);
+  const nsvcd__v3 way = nsvcd__v3_load_rows(moved, NSVCD__SLICE);
+  nsvcd__v_pose out;
+  out.rotation = nsvcd__vquat_unit(nsvcd__vquat_fma(u, chord, start));
+  out.position = nsvcd__v3_fma(u, way, nsvcd__v3_load_rows(position, NSVCD__SLICE));
+  return out;
 }
 
-// Poses in the fixed body's frame at `count` times t in [0,1], 1 to SLICE, one per lane: unit
-// quaternions q (4), positions p (3).
-static void nsvcd__v_poses_at(const nsvcd__motion *motion, const float *t, size_t count,
-                              nsvcd__v *q, nsvcd__v *p) {
-  nsvcd__v_poses at;
-  nsvcd__track_poses_at(&motion->moving, t, count, motion->fixed_position, at.q, at.p);
+// The moving body's poses in the fixed frame at `count` times, 1 to SLICE, one per lane.
+static nsvcd__v_pose nsvcd__v_poses_at(const nsvcd__motion *motion, const float *t, size_t count) {
+  const nsvcd__f3 origin = motion->fixed_position;
+  const nsvcd__v_pose moving = nsvcd__track_poses_at(&motion->moving, t, count, origin);
+  nsvcd__v_poses at = {moving.rotation, moving.rotation, moving.position};
   if (motion->fixed_moves) {
-    nsvcd__v fixed_p[3];
-    nsvcd__track_poses_at(&motion->fixed, t, count, motion->fixed_position, at.fixed_q, fixed_p);
-    for (size_t k = 0; k < 3; k++)
-      at.p[k] = nsvcd__v_sub(at.p[k], fixed_p[k]);
+    const nsvcd__v_pose fixed = nsvcd__track_poses_at(&motion->fixed, t, count, origin);
+    at.fixed = fixed.rotation;
+    at.offset = nsvcd__v3_sub(moving.position, fixed.position);
   }
-  nsvcd__v_seen(motion, &at, q, p);
+  return nsvcd__v_seen(motion, &at);
 }
 
 // The pairs of `count` candidates, 1 to SLICE. What is in the lanes beyond does not matter.
@@ -11741,7 +11886,10 @@ static NSVCD__APART void nsvcd__pairs_of(const nsvcd_body *moving, const nsvcd_b
                                          const nsvcd__motion *motion,
                                          nsvcd__candidate *const *candidates, size_t count,
                                          nsvcd__pairs *pairs) {
-  float lanes[8][NSVCD__SLICE] = {{0}};
+  float centres1[3 * NSVCD__SLICE] = {0};
+  float centres2[3 * NSVCD__SLICE] = {0};
+  float r1[NSVCD__SLICE] = {0};
+  float r2[NSVCD__SLICE] = {0};
   float enter[NSVCD__SLICE];
   float leave[NSVCD__SLICE];
   float middle[NSVCD__SLICE];
@@ -11750,14 +11898,12 @@ static NSVCD__APART void nsvcd__pairs_of(const nsvcd_body *moving, const nsvcd_b
     const nsvcd__candidate *candidate = candidates[l];
     const size_t i = candidate->moving;
     const size_t j = candidate->fixed;
-    lanes[0][l] = scale * nsvcd__body_x(moving)[i];
-    lanes[1][l] = scale * nsvcd__body_y(moving)[i];
-    lanes[2][l] = scale * nsvcd__body_z(moving)[i];
-    lanes[3][l] = nsvcd__body_x(fixed)[j];
-    lanes[4][l] = nsvcd__body_y(fixed)[j];
-    lanes[5][l] = nsvcd__body_z(fixed)[j];
-    lanes[6][l] = scale * nsvcd__body_r(moving)[i];
-    lanes[7][l] = nsvcd__body_r(fixed)[j];
+    const nsvcd__sphere patch1 = nsvcd__sphere_of(nsvcd__body_patches(moving), i);
+    const nsvcd__sphere patch2 = nsvcd__sphere_of(nsvcd__body_patches(fixed), j);
+    nsvcd__f3_put(nsvcd__f3_scale(patch1.centre, scale), centres1 + l, NSVCD__SLICE);
+    nsvcd__f3_put(patch2.centre, centres2 + l, NSVCD__SLICE);
+    r1[l] = scale * patch1.radius;
+    r2[l] = patch2.radius;
     enter[l] = candidate->t_enter;
     leave[l] = candidate->t_exit;
     middle[l] = 0.5f * (enter[l] + leave[l]);
@@ -11765,196 +11911,168 @@ static NSVCD__APART void nsvcd__pairs_of(const nsvcd_body *moving, const nsvcd_b
     pairs->z2[l] = nsvcd__body_latents(fixed) + NSVCD__LATENT * j;
   }
   const nsvcd__v half = nsvcd__v_set(0.5f);
-  const nsvcd__v c[3] = {nsvcd__v_load(lanes[0]), nsvcd__v_load(lanes[1]), nsvcd__v_load(lanes[2])};
-  nsvcd__v q1[4], q2[4], p1[3], p2[3], q[4], p[3], x1[3], x2[3], r[9], arm[3];
-  nsvcd__v_poses_at(motion, enter, count, q1, p1);
-  nsvcd__v_poses_at(motion, leave, count, q2, p2);
-  nsvcd__v_poses_at(motion, middle, count, q, p);
-  nsvcd__v_matrix(q1, r);
-  nsvcd__v_mul33_vec(r, c, x1);
-  nsvcd__v_matrix(q2, r);
-  nsvcd__v_mul33_vec(r, c, x2);
-  nsvcd__v_matrix(q, pairs->rotation);
-  nsvcd__v_mul33_vec(pairs->rotation, c, pairs->p1);
-  for (size_t k = 0; k < 3; k++)
-    q1[k] = nsvcd__v_sub(nsvcd__v_set(0), q1[k]);
-  nsvcd__v_quat_mul(q2, q1, q);
-  nsvcd__v_half_rotation(q, pairs->w);
-  for (size_t k = 0; k < 3; k++) {
-    pairs->p1[k] = nsvcd__v_add(pairs->p1[k], p[k]);
-    pairs->p2[k] = nsvcd__v_load(lanes[3 + k]);
-    arm[k] = nsvcd__v_mul(half, nsvcd__v_sub(pairs->p2[k], pairs->p1[k]));
-  }
-  nsvcd__v_cross(pairs->w, arm, pairs->v);
-  for (size_t k = 0; k < 3; k++) {
-    const nsvcd__v step = nsvcd__v_add(nsvcd__v_sub(x2[k], x1[k]), nsvcd__v_sub(p2[k], p1[k]));
-    pairs->v[k] = nsvcd__v_fma(half, step, pairs->v[k]);
-  }
-  pairs->r1 = nsvcd__v_load(lanes[6]);
-  pairs->r2 = nsvcd__v_load(lanes[7]);
-}
-
-// Removes from a its part along the unit vector e.
-static void nsvcd__v_across(const nsvcd__v *a, const nsvcd__v *e, nsvcd__v *out) {
-  const nsvcd__v along = nsvcd__v_sub(nsvcd__v_set(0), nsvcd__v_dot3(a, e));
-  for (size_t k = 0; k < 3; k++)
-    out[k] = nsvcd__v_fma(along, e[k], a[k]);
-}
-
-// a over its length, where that exceeds `least`; elsewhere `instead`.
-static void nsvcd__v_unit3(const nsvcd__v *a, float least, const nsvcd__v *instead, nsvcd__v *out) {
-  const nsvcd__v length = nsvcd__v_length3(a);
-  const nsvcd__v floor = nsvcd__v_set(least);
-  const nsvcd__v inverse = nsvcd__v_div(nsvcd__v_set(1), nsvcd__v_max(length, floor));
-  for (size_t k = 0; k < 3; k++)
-    out[k] = nsvcd__v_pick(length, floor, instead[k], nsvcd__v_mul(a[k], inverse));
-}
-
-// The pairs' frames: rows are their axes in the fixed body's frame. d: the line from the larger
-// patch to the smaller one, over r1 + r2; lean likewise. Reverses v and w where time is to run
-// backwards. Returns -1 where mirrored, else 1.
-static nsvcd__v nsvcd__v_pair_frame(const nsvcd__v *d, const nsvcd__v *lean, nsvcd__v *v,
-                                    nsvcd__v *w, nsvcd__v *frame) {
-  const nsvcd__v zero = nsvcd__v_set(0);
-  const nsvcd__v one = nsvcd__v_set(1);
-  const nsvcd__v minus = nsvcd__v_set(-1);
-  const nsvcd__v x_axis[3] = {one, zero, zero};
-  const nsvcd__v line[3] = {nsvcd__v_add(lean[0], nsvcd__v_set(1e-6f)), lean[1], lean[2]};
-  nsvcd__v *e1 = frame;
-  nsvcd__v *e2 = frame + 3;
-  nsvcd__v *e3 = frame + 6;
-  nsvcd__v lean_across[3];
-  nsvcd__v v_across[3];
-  nsvcd__v ref[3];
-  nsvcd__v instead[3];
-  nsvcd__v_unit3(line, 1e-9f, x_axis, instead);
-  nsvcd__v_unit3(d, 1e-5f, instead, e1);
-  nsvcd__v_across(lean, e1, lean_across);
-  nsvcd__v_across(v, e1, v_across);
-  const nsvcd__v sign = nsvcd__v_pick(zero, nsvcd__v_dot3(lean_across, v_across), one, minus);
-  for (size_t k = 0; k < 3; k++) {
-    v[k] = nsvcd__v_mul(sign, v[k]);
-    w[k] = nsvcd__v_mul(sign, w[k]);
-    ref[k] =
-        nsvcd__v_fma(nsvcd__v_set(NSVCD__LEAN), lean_across[k], nsvcd__v_mul(sign, v_across[k]));
-  }
-  if (nsvcd__v_le(nsvcd__v_length3(ref),
-                  nsvcd__v_set(1e-7f))) {  // somewhere: then the coordinate axis farthest from e1
-    nsvcd__v size[3], axis[3];
-    for (size_t k = 0; k < 3; k++)
-      size[k] = nsvcd__v_max(e1[k], nsvcd__v_sub(zero, e1[k]));
-    axis[0] = nsvcd__v_pick(size[0], nsvcd__v_min(size[1], size[2]), one, zero);
-    axis[1] = nsvcd__v_mul(nsvcd__v_sub(one, axis[0]), nsvcd__v_pick(size[1], size[2], one, zero));
-    axis[2] = nsvcd__v_sub(one, nsvcd__v_add(axis[0], axis[1]));
-    nsvcd__v_across(axis, e1, axis);
-    nsvcd__v_unit3(axis, 1e-9f, x_axis, instead);
-  }
-  nsvcd__v_unit3(ref, 1e-7f, instead, e2);
-  nsvcd__v_cross(e1, e2, e3);
-  const nsvcd__v side =
-      nsvcd__v_pick(nsvcd__v_set(-NSVCD__SIDE), nsvcd__v_dot3(lean, e3), one, minus);
-  for (size_t k = 0; k < 3; k++)
-    e3[k] = nsvcd__v_mul(side, e3[k]);
-  return side;
+  const nsvcd__v3 centre = nsvcd__v3_load_rows(centres1, NSVCD__SLICE);
+  const nsvcd__v_pose first = nsvcd__v_poses_at(motion, enter, count);
+  const nsvcd__v_pose last = nsvcd__v_poses_at(motion, leave, count);
+  const nsvcd__v_pose mean = nsvcd__v_poses_at(motion, middle, count);
+  const nsvcd__v3 x1 = nsvcd__vmat3_apply(nsvcd__vmat3_of(first.rotation), centre);
+  const nsvcd__v3 x2 = nsvcd__vmat3_apply(nsvcd__vmat3_of(last.rotation), centre);
+  const nsvcd__vquat back = nsvcd__vquat_inverse(first.rotation);
+  pairs->w = nsvcd__v_half_rotation(nsvcd__vquat_mul(last.rotation, back));
+  pairs->rotation = nsvcd__vmat3_of(mean.rotation);
+  pairs->p1 = nsvcd__v3_add(nsvcd__vmat3_apply(pairs->rotation, centre), mean.position);
+  pairs->p2 = nsvcd__v3_load_rows(centres2, NSVCD__SLICE);
+  const nsvcd__v3 arm = nsvcd__v3_scale(nsvcd__v3_sub(pairs->p2, pairs->p1), half);
+  const nsvcd__v3 moved = nsvcd__v3_sub(last.position, first.position);
+  const nsvcd__v3 step = nsvcd__v3_add(nsvcd__v3_sub(x2, x1), moved);
+  pairs->v = nsvcd__v3_fma(half, step, nsvcd__v3_cross(pairs->w, arm));
+  pairs->r1 = nsvcd__v_load(r1);
+  pairs->r2 = nsvcd__v_load(r2);
 }
 
 // The unit of length: r1 + r2; for points without extent whatever keeps the inputs finite.
-static nsvcd__v nsvcd__v_reach(const nsvcd__pairs *pairs) {
-  nsvcd__v line[3];
-  for (size_t k = 0; k < 3; k++)
-    line[k] = nsvcd__v_sub(pairs->p2[k], pairs->p1[k]);
-  const nsvcd__v least = nsvcd__v_fma(
-      nsvcd__v_set(1e-6f), nsvcd__v_add(nsvcd__v_length3(line), nsvcd__v_length3(pairs->v)),
-      nsvcd__v_set(1e-30f));
+static nsvcd__v nsvcd__v_unit_of_length(const nsvcd__pairs *pairs) {
+  const nsvcd__v3 line = nsvcd__v3_sub(pairs->p2, pairs->p1);
+  const nsvcd__v lengths = nsvcd__v_add(nsvcd__v3_length(line), nsvcd__v3_length(pairs->v));
+  const nsvcd__v least = nsvcd__v_fma(nsvcd__v_set(1e-6f), lengths, nsvcd__v_set(1e-30f));
   return nsvcd__v_max(nsvcd__v_add(pairs->r1, pairs->r2), least);
 }
 
 // Pairs in their own units, in the fixed body's axes, and their frames.
 typedef struct nsvcd__views {
-  nsvcd__v inverse, k1, k2;            // 1 over the unit of length; the radii
-  nsvcd__v order;                      // -1: the other patch is the larger
-  nsvcd__v d[3], v[3], w[3], lean[3];  // as nsvcd__v_pair_frame takes and leaves them
-  nsvcd__v frame[9], side;
+  nsvcd__v inverse, k1, k2;  // 1 over the unit of length; the radii
+  nsvcd__v order;            // -1: the other patch is the larger
+  nsvcd__v3 d;               // the line from the larger patch to the smaller one
+  nsvcd__v3 lean;
+  nsvcd__v3 v, w;      // reversed where time is to run backwards
+  nsvcd__vmat3 frame;  // rows are its axes in the fixed body's frame
+  nsvcd__v side;       // -1 where mirrored, else 1
 } nsvcd__views;
 
+// Removes from a its part along the unit vector e.
+static nsvcd__v3 nsvcd__v_across(nsvcd__v3 a, nsvcd__v3 e) {
+  return nsvcd__v3_fma(nsvcd__v_negate(nsvcd__v3_dot(a, e)), e, a);
+}
+
+// a over its length, where that exceeds `least`; elsewhere `instead`.
+static nsvcd__v3 nsvcd__v_unit_or(nsvcd__v3 a, float least, nsvcd__v3 instead) {
+  const nsvcd__v length = nsvcd__v3_length(a);
+  const nsvcd__v floor = nsvcd__v_set(least);
+  const nsvcd__v inverse = nsvcd__v_div(nsvcd__v_set(1), nsvcd__v_max(length, floor));
+  const nsvcd__v3 unit = nsvcd__v3_scale(a, inverse);
+  return nsvcd__v3_of(nsvcd__v_pick(length, floor, instead.x, unit.x),
+                      nsvcd__v_pick(length, floor, instead.y, unit.y),
+                      nsvcd__v_pick(length, floor, instead.z, unit.z));
+}
+
+// The coordinate axis farthest from e.
+static nsvcd__v3 nsvcd__v_farthest_axis(nsvcd__v3 e) {
+  const nsvcd__v zero = nsvcd__v_set(0);
+  const nsvcd__v one = nsvcd__v_set(1);
+  const nsvcd__v3 size = nsvcd__v3_max(e, nsvcd__v3_negate(e));
+  const nsvcd__v x = nsvcd__v_pick(size.x, nsvcd__v_min(size.y, size.z), one, zero);
+  const nsvcd__v y_of_two = nsvcd__v_pick(size.y, size.z, one, zero);
+  const nsvcd__v y = nsvcd__v_mul(nsvcd__v_sub(one, x), y_of_two);
+  return nsvcd__v3_of(x, y, nsvcd__v_sub(one, nsvcd__v_add(x, y)));
+}
+
+// Chooses the pairs' frames, and which way their time runs.
+static void nsvcd__views_set_frame(nsvcd__views *view) {
+  const nsvcd__v one = nsvcd__v_set(1);
+  const nsvcd__v minus = nsvcd__v_set(-1);
+  const nsvcd__v3 lean = view->lean;
+  const nsvcd__v3 x_axis = nsvcd__v3_set(nsvcd__f3_of(1, 0, 0));
+  const nsvcd__v3 line = nsvcd__v3_of(nsvcd__v_add(lean.x, nsvcd__v_set(1e-6f)), lean.y, lean.z);
+  nsvcd__v3 instead = nsvcd__v_unit_or(line, 1e-9f, x_axis);
+  const nsvcd__v3 e1 = nsvcd__v_unit_or(view->d, 1e-5f, instead);
+  const nsvcd__v3 lean_across = nsvcd__v_across(lean, e1);
+  const nsvcd__v3 v_across = nsvcd__v_across(view->v, e1);
+  const nsvcd__v sign = nsvcd__v_sign(nsvcd__v3_dot(lean_across, v_across));
+  view->v = nsvcd__v3_scale(view->v, sign);
+  view->w = nsvcd__v3_scale(view->w, sign);
+  const nsvcd__v3 forward = nsvcd__v3_scale(v_across, sign);
+  const nsvcd__v3 ref = nsvcd__v3_fma(nsvcd__v_set(NSVCD__LEAN), lean_across, forward);
+  if (nsvcd__v_le(nsvcd__v3_length(ref), nsvcd__v_set(1e-7f))) {  // somewhere
+    const nsvcd__v3 axis = nsvcd__v_across(nsvcd__v_farthest_axis(e1), e1);
+    instead = nsvcd__v_unit_or(axis, 1e-9f, x_axis);
+  }
+  const nsvcd__v3 e2 = nsvcd__v_unit_or(ref, 1e-7f, instead);
+  const nsvcd__v3 e3 = nsvcd__v3_cross(e1, e2);
+  const nsvcd__v beside = nsvcd__v3_dot(lean, e3);
+  view->side = nsvcd__v_pick(nsvcd__v_set(-NSVCD__SIDE), beside, one, minus);
+  view->frame.x = e1;
+  view->frame.y = e2;
+  view->frame.z = nsvcd__v3_scale(e3, view->side);
+}
+
+// The mean direction of a stored latent, channel 0 of degree 1, in steps of 1/127.
+static nsvcd__f3 nsvcd__mean_direction(const int8_t *z) {
+  return nsvcd__f3_of((float)z[0], (float)z[NSVCD_W_CHANNELS], (float)z[2 * NSVCD_W_CHANNELS]);
+}
+
 static void nsvcd__views_of(const nsvcd__pairs *pairs, size_t count, nsvcd__views *view) {
-  const nsvcd__v inverse = nsvcd__v_div(nsvcd__v_set(1), nsvcd__v_reach(pairs));
   const nsvcd__v step = nsvcd__v_set(1.0f / 127);
-  const nsvcd__v k1 = nsvcd__v_mul(pairs->r1, inverse);
-  const nsvcd__v k2 = nsvcd__v_mul(pairs->r2, inverse);
-  const nsvcd__v order = nsvcd__v_pick(pairs->r2, pairs->r1, nsvcd__v_set(1), nsvcd__v_set(-1));
-  float mean[6][NSVCD__SLICE] = {{0}};
-  nsvcd__v mean1[3], turned[3];
+  float means1[3 * NSVCD__SLICE] = {0};
+  float means2[3 * NSVCD__SLICE] = {0};
   for (size_t l = 0; l < count; l++) {
-    for (size_t k = 0; k < 3; k++) {
-      mean[k][l] = (float)pairs->z1[l][NSVCD_W_CHANNELS * k];
-      mean[3 + k][l] = (float)pairs->z2[l][NSVCD_W_CHANNELS * k];
-    }
+    nsvcd__f3_put(nsvcd__mean_direction(pairs->z1[l]), means1 + l, NSVCD__SLICE);
+    nsvcd__f3_put(nsvcd__mean_direction(pairs->z2[l]), means2 + l, NSVCD__SLICE);
   }
-  for (size_t k = 0; k < 3; k++)
-    mean1[k] = nsvcd__v_mul(step, nsvcd__v_load(mean[k]));
-  nsvcd__v_mul33_vec(pairs->rotation, mean1, turned);
-  for (size_t k = 0; k < 3; k++) {
-    const nsvcd__v mean2 = nsvcd__v_mul(step, nsvcd__v_load(mean[3 + k]));
-    // Seen from the other body the motion is reversed as well, but time may run either way: v and w
-    // can stay.
-    view->lean[k] =
-        nsvcd__v_mul(order, nsvcd__v_sub(nsvcd__v_mul(turned[k], k1), nsvcd__v_mul(mean2, k2)));
-    view->d[k] =
-        nsvcd__v_mul(order, nsvcd__v_mul(inverse, nsvcd__v_sub(pairs->p2[k], pairs->p1[k])));
-    view->v[k] = nsvcd__v_mul(inverse, pairs->v[k]);
-    view->w[k] = pairs->w[k];
-  }
+  const nsvcd__v3 own1 = nsvcd__v3_scale(nsvcd__v3_load_rows(means1, NSVCD__SLICE), step);
+  const nsvcd__v3 mean2 = nsvcd__v3_scale(nsvcd__v3_load_rows(means2, NSVCD__SLICE), step);
+  const nsvcd__v3 mean1 = nsvcd__vmat3_apply(pairs->rotation, own1);
+  const nsvcd__v inverse = nsvcd__v_div(nsvcd__v_set(1), nsvcd__v_unit_of_length(pairs));
   view->inverse = inverse;
-  view->k1 = k1;
-  view->k2 = k2;
-  view->order = order;
-  view->side = nsvcd__v_pair_frame(view->d, view->lean, view->v, view->w, view->frame);
+  view->k1 = nsvcd__v_mul(pairs->r1, inverse);
+  view->k2 = nsvcd__v_mul(pairs->r2, inverse);
+  view->order = nsvcd__v_pick(pairs->r2, pairs->r1, nsvcd__v_set(1), nsvcd__v_set(-1));
+  // Seen from the other body the motion is reversed as well, but time may run either way: v and w
+  // can stay.
+  const nsvcd__v3 lean1 = nsvcd__v3_scale(mean1, view->k1);
+  const nsvcd__v3 lean2 = nsvcd__v3_scale(mean2, view->k2);
+  const nsvcd__v3 line = nsvcd__v3_scale(nsvcd__v3_sub(pairs->p2, pairs->p1), inverse);
+  view->lean = nsvcd__v3_scale(nsvcd__v3_sub(lean1, lean2), view->order);
+  view->d = nsvcd__v3_scale(line, view->order);
+  view->v = nsvcd__v3_scale(pairs->v, inverse);
+  view->w = pairs->w;
+  nsvcd__views_set_frame(view);
 }
 
 // What the decoder sees of a slice of pairs, besides the latents, which it sees turned.
 typedef struct nsvcd__scenes {
-  nsvcd__v turn1[9], turn2[9];  // matrices from the bodies' frames to the pairs'
-  nsvcd__v k1, k2;              // radii, in units of the pairs' lengths
-  uint32_t keep;                // lanes in which the first patch is the larger
-  float facts[NSVCD__FACTS][NSVCD__SLICE];
+  nsvcd__vmat3 turn1, turn2;  // from the bodies' frames to the pairs'
+  nsvcd__v k1, k2;            // radii, in units of the pairs' lengths
+  uint32_t keep;              // lanes in which the first patch is the larger
+  float facts[NSVCD__FACTS * NSVCD__SLICE];
 } nsvcd__scenes;
 
 static NSVCD__APART void nsvcd__scenes_of(const nsvcd__pairs *pairs, size_t count,
                                           nsvcd__scenes *scene) {
   nsvcd__views view;
   nsvcd__views_of(pairs, count, &view);
-  const nsvcd__v *d = view.d;
-  const nsvcd__v *v = view.v;
-  nsvcd__v closest[3], turn[3];
-  for (size_t i = 0; i < 9; i++) {
-    const nsvcd__v *row = view.frame + i / 3 * 3;
-    const nsvcd__v *column = pairs->rotation + i % 3;
-    const nsvcd__v rest = nsvcd__v_fma(row[1], column[3], nsvcd__v_mul(row[2], column[6]));
-    scene->turn1[i] = nsvcd__v_fma(row[0], column[0], rest);
-    scene->turn2[i] = view.frame[i];
-  }
+  scene->turn1 = nsvcd__vmat3_mul(view.frame, pairs->rotation);
+  scene->turn2 = view.frame;
   scene->k1 = view.k1;
   scene->k2 = view.k2;
   scene->keep = nsvcd__v_le(nsvcd__v_set(0), view.order);
 
-  const nsvcd__v speed2 = nsvcd__v_dot3(v, v);
-  nsvcd__v tau = nsvcd__v_div(nsvcd__v_dot3(d, v), nsvcd__v_add(speed2, nsvcd__v_set(1e-6f)));
-  tau = nsvcd__v_clamp(tau, -1, 1);  // nearest approach of the centres, in half intervals
-  for (size_t k = 0; k < 3; k++)
-    closest[k] = nsvcd__v_sub(d[k], nsvcd__v_mul(tau, v[k]));
-  nsvcd__v_store(scene->facts[0], nsvcd__v_length3(d));
-  nsvcd__v_store(scene->facts[1], nsvcd__v_max(view.k1, view.k2));
-  nsvcd__v_store(scene->facts[2], nsvcd__v_length3(closest));
-  nsvcd__v_store(scene->facts[3], tau);
-  nsvcd__v_mul33_vec(view.frame, v, closest);
-  nsvcd__v_mul33_vec(view.frame, view.w, turn);
-  for (size_t k = 0; k < 3; k++) {
-    nsvcd__v_store(scene->facts[4 + k], closest[k]);
-    nsvcd__v_store(scene->facts[7 + k], nsvcd__v_mul(view.side, turn[k]));  // an axial vector
-  }
-  nsvcd__v_store(scene->facts[10], nsvcd__v_sqrt(speed2));
-  nsvcd__v_store(scene->facts[11], nsvcd__v_length3(view.w));
+  const nsvcd__v speed2 = nsvcd__v3_dot(view.v, view.v);
+  const nsvcd__v above = nsvcd__v_add(speed2, nsvcd__v_set(1e-6f));
+  // nearest approach of the centres, in half intervals
+  const nsvcd__v tau = nsvcd__v_clamp(nsvcd__v_div(nsvcd__v3_dot(view.d, view.v), above), -1, 1);
+  const nsvcd__v3 closest = nsvcd__v3_sub(view.d, nsvcd__v3_scale(view.v, tau));
+  const nsvcd__v3 velocity = nsvcd__vmat3_apply(view.frame, view.v);
+  const nsvcd__v3 turn = nsvcd__vmat3_apply(view.frame, view.w);
+  float *facts = scene->facts;
+  nsvcd__v_store(facts, nsvcd__v3_length(view.d));
+  nsvcd__v_store(facts + NSVCD__SLICE, nsvcd__v_max(view.k1, view.k2));
+  nsvcd__v_store(facts + 2 * NSVCD__SLICE, nsvcd__v3_length(closest));
+  nsvcd__v_store(facts + 3 * NSVCD__SLICE, tau);
+  nsvcd__v3_store_rows(velocity, facts + 4 * NSVCD__SLICE, NSVCD__SLICE);
+  // an axial vector
+  nsvcd__v3_store_rows(nsvcd__v3_scale(turn, view.side), facts + 7 * NSVCD__SLICE, NSVCD__SLICE);
+  nsvcd__v_store(facts + 10 * NSVCD__SLICE, nsvcd__v_sqrt(speed2));
+  nsvcd__v_store(facts + 11 * NSVCD__SLICE, nsvcd__v3_length(view.w));
 }
 
 // Appendix F: the inputs of the decoder for the first `count` pairs of a slice, x (count,
@@ -11965,17 +12083,17 @@ static NSVCD__APART void nsvcd__invariants(const nsvcd__pairs *pairs, size_t cou
   float wigner[NSVCD__WIGNER][NSVCD__SLICE];
   const nsvcd__v step = nsvcd__v_set(1.0f / 127);
   nsvcd__scenes_of(pairs, count, &scene);
-  nsvcd__wigner(scene.turn1, nsvcd__v_mul(scene.k1, step), wigner);
+  nsvcd__wigner(&scene.turn1, nsvcd__v_mul(scene.k1, step), wigner);
   for (size_t l = 0; l < count; l++) {
     nsvcd__rotate_latent(pairs->z1[l], wigner, l, scene.keep >> l & 1 ? 0 : 1,
                          x + NSVCD__DECODER_IN * l);
   }
-  nsvcd__wigner(scene.turn2, nsvcd__v_mul(scene.k2, step), wigner);
+  nsvcd__wigner(&scene.turn2, nsvcd__v_mul(scene.k2, step), wigner);
   for (size_t l = 0; l < count; l++, x += NSVCD__DECODER_IN) {
     float *scalars = x + 2 * NSVCD__VECTORS;
     nsvcd__rotate_latent(pairs->z2[l], wigner, l, scene.keep >> l & 1 ? 1 : 0, x);
     for (size_t k = 0; k < NSVCD__FACTS; k++)
-      scalars[2 * NSVCD_W_SCALARS + k] = scene.facts[k][l];
+      scalars[2 * NSVCD_W_SCALARS + k] = scene.facts[k * NSVCD__SLICE + l];
     for (size_t k = NSVCD__INPUTS; k < NSVCD__DECODER_IN; k++)
       x[k] = 0;
   }
@@ -12493,9 +12611,8 @@ static nsvcd_result nsvcd__settings_of(const nsvcd_sweep_options *options, size_
 }
 
 static NSVCD__APART int nsvcd__starts_inside(const nsvcd__task *ask) {
-  float rotation[9], position[3];
-  nsvcd__motion_pose(&ask->motion, 0, rotation, position);
-  return nsvcd__is_contained(ask->moving, ask->fixed, ask->motion.scale, rotation, position);
+  const nsvcd__transform pose = nsvcd__motion_pose(&ask->motion, 0);
+  return nsvcd__is_contained(ask->moving, ask->fixed, ask->motion.scale, &pose);
 }
 
 // Scores candidates that have no score yet, `most` at most: the deeper ones, roughly, because a
@@ -12821,7 +12938,7 @@ static void nsvcd__answer_by_proof(nsvcd__task *ask, nsvcd__query *query, nsvcd_
                    : verdict == NSVCD__FREE   ? NSVCD_STATUS_CERTIFIED_FREE
                                               : NSVCD_STATUS_UNDECIDED;
   const nsvcd__to_world start = nsvcd__to_world_at(p->motion, 0);
-  const nsvcd__d3 lift = nsvcd__rotate(start.rows, nsvcd__d3_load(p->motion->lift));
+  const nsvcd__d3 lift = nsvcd__rotate(start.rows, nsvcd__d3_widen(p->motion->lift));
   const nsvcd__f3 lifted = nsvcd__f3_round(nsvcd__d3_scale(lift, p->skin > 0 ? start.unit : 0));
   memcpy(answer->lift, &lifted, sizeof answer->lift);
   answer->collides = verdict != NSVCD__FREE;
@@ -13105,41 +13222,36 @@ NSVCDDEF nsvcd_result nsvcd_sweep_batch(const nsvcd_question *questions, size_t 
 // and a torque (by a small rotation about that). A force f on a point at `arm` from the origin is
 // that force, and the torque arm x f.
 
-static void nsvcd__add_scaled3(float scale, const float *a, float *out) {
-  for (size_t k = 0; k < 3; k++)
-    out[k] += scale * a[k];
-}
-static void nsvcd__add_cross3(const float *a, const float *b, float *out) {  // out += a x b
-  out[0] += a[1] * b[2] - a[2] * b[1];
-  out[1] += a[2] * b[0] - a[0] * b[2];
-  out[2] += a[0] * b[1] - a[1] * b[0];
-}
-// by_a += the derivative of |a|, times `by`. At 0, to rounding, where it has none: nothing, the
+// The derivative of |a| by a, times `by`. At 0, to rounding, where it has none, it is nothing: the
 // mean of all directions.
-static void nsvcd__by_length3(const float *a, float by, float *by_a) {
-  const float length = nsvcd__length3(a);
-  if (length > 1e-6f)
-    nsvcd__add_scaled3(by / length, a, by_a);
-}
-static void nsvcd__first_lanes(const nsvcd__v *a, size_t count, float *out) {
-  float lanes[NSVCD__SLICE];
-  for (size_t k = 0; k < count; k++) {
-    nsvcd__v_store(lanes, a[k]);
-    out[k] = lanes[0];
-  }
+static nsvcd__f3 nsvcd__by_length(nsvcd__f3 a, float by) {
+  const float length = nsvcd__f3_length(a);
+  return nsvcd__f3_scale(a, length > 1e-6f ? by / length : 0);
 }
 
-// Adds to `out`: a's part along the unit vector n (or 0), times `along`, and the rest, turned about
-// n by `angle`, times `across`. All that commutes with rotations about n is of this kind.
-static void nsvcd__add_turned3(const float *a, const float *n, float along, float across,
-                               float angle, float *out) {
-  const float s = across * sinf(angle);
+// What is in lane 0.
+static float nsvcd__first_lane(nsvcd__v a) {
+  float lanes[NSVCD__SLICE];
+  nsvcd__v_store(lanes, a);
+  return lanes[0];
+}
+static nsvcd__f3 nsvcd__first_f3(nsvcd__v3 a) {
+  return nsvcd__f3_of(nsvcd__first_lane(a.x), nsvcd__first_lane(a.y), nsvcd__first_lane(a.z));
+}
+static nsvcd__mat3 nsvcd__first_mat3(const nsvcd__vmat3 *m) {
+  const nsvcd__mat3 out = {nsvcd__first_f3(m->x), nsvcd__first_f3(m->y), nsvcd__first_f3(m->z)};
+  return out;
+}
+
+// sum + a's part along the unit vector n (or 0), times `along`, and the rest, turned about n by
+// `angle`, times `across`. All that commutes with rotations about n is of this kind.
+static nsvcd__f3 nsvcd__add_turned(nsvcd__f3 sum, nsvcd__f3 a, nsvcd__f3 n, float along,
+                                   float across, float angle) {
   const float c = across * cosf(angle);
-  const float dot = nsvcd__dot3(n, a);
-  const float side[3] = {s * n[0], s * n[1], s * n[2]};
-  nsvcd__add_scaled3(c, a, out);
-  nsvcd__add_scaled3((along - c) * dot, n, out);
-  nsvcd__add_cross3(side, a, out);
+  const nsvcd__f3 side = nsvcd__f3_scale(n, across * sinf(angle));
+  sum = nsvcd__f3_add_scaled(sum, c, a);
+  sum = nsvcd__f3_add_scaled(sum, (along - c) * nsvcd__f3_dot(n, a), n);
+  return nsvcd__f3_add(sum, nsvcd__f3_cross(side, a));
 }
 
 // ---- decoder
@@ -13219,111 +13331,138 @@ static NSVCD__APART void nsvcd__decoder_gradient(const nsvcd__decoder *decoder, 
 
 // ---- pair
 
-// torque += the derivative by a small rotation of a latent's vectors, as they are (x) and the
-// derivative by them (by), both (3, CHANNELS), then (5, CHANNELS). On degree 2, in the basis of
-// nsvcd__degree2, a rotation by w adds to q
+// The part of degree 2 of nsvcd__latent_torque: q, h (5). root3: the root of 3.
+static nsvcd__f3 nsvcd__degree2_torque(const float *q, const float *h, float root3) {
+  const float x = h[3] * q[0] - h[0] * q[3] + root3 * (h[2] * q[1] - h[1] * q[2]);
+  const float y = h[0] * q[1] - h[1] * q[0] + root3 * (h[3] * q[2] - h[2] * q[3]);
+  const float z = h[1] * q[3] - h[3] * q[1] + 2 * (h[0] * q[4] - h[4] * q[0]);
+  return nsvcd__f3_of(x + h[4] * q[1] - h[1] * q[4], y + h[4] * q[3] - h[3] * q[4], z);
+}
+
+// The derivative by a small rotation of a latent's vectors, as they are (x) and the derivative by
+// them (by), both (3, CHANNELS), then (5, CHANNELS). On degree 2, in the basis of nsvcd__degree2, a
+// rotation by w adds to q
 //   (wy q1 - wx q3 + 2 wz q4, wz q3 - wy q0 - wx (r q2 + q4), r (wx q1 - wy q3),
 //    wx q0 - wz q1 + wy (r q2 - q4), wx q1 + wy q3 - 2 wz q0), r being the root of 3.
-static void nsvcd__add_latent_torque(const float *x, const float *by, float *torque) {
+static nsvcd__f3 nsvcd__latent_torque(const float *x, const float *by) {
   const float root3 = 1.7320508075688772f;
+  nsvcd__f3 torque = {0, 0, 0};
   for (size_t c = 0; c < NSVCD_W_CHANNELS; c++) {
-    float a[8], g[8];
+    float q[8], h[8];
     for (size_t k = 0; k < 8; k++) {
-      a[k] = x[NSVCD_W_CHANNELS * k + c];
-      g[k] = by[NSVCD_W_CHANNELS * k + c];
+      q[k] = x[NSVCD_W_CHANNELS * k + c];
+      h[k] = by[NSVCD_W_CHANNELS * k + c];
     }
-    const float *q = a + 3;
-    const float *h = g + 3;
-    nsvcd__add_cross3(a, g, torque);
-    torque[0] +=
-        h[3] * q[0] - h[0] * q[3] + root3 * (h[2] * q[1] - h[1] * q[2]) + h[4] * q[1] - h[1] * q[4];
-    torque[1] +=
-        h[0] * q[1] - h[1] * q[0] + root3 * (h[3] * q[2] - h[2] * q[3]) + h[4] * q[3] - h[3] * q[4];
-    torque[2] += h[1] * q[3] - h[3] * q[1] + 2 * (h[0] * q[4] - h[4] * q[0]);
+    torque = nsvcd__f3_add(torque, nsvcd__f3_cross(nsvcd__f3_load(q), nsvcd__f3_load(h)));
+    torque = nsvcd__f3_add(torque, nsvcd__degree2_torque(q + 3, h + 3, root3));
   }
+  return torque;
 }
 
 // The derivative of a logit by a pair, as nsvcd__pairs has it: metres and radians, the fixed body's
 // axes.
 typedef struct nsvcd__by_pair {
-  float p1[3], v[3], w[3];
-  float rotation[3];  // by a small rotation of the moving patch about its centre
+  nsvcd__f3 p1, v, w;
+  nsvcd__f3 rotation;  // by a small rotation of the moving patch about its centre
 } nsvcd__by_pair;
 
 // A pair in its own units: lane 0 of nsvcd__views.
 typedef struct nsvcd__view {
-  float inverse, order, side, d[3], v[3], w[3], lean[3], frame[9];
+  float inverse, k1, order, side;
+  nsvcd__f3 d, v, w, lean;
+  nsvcd__mat3 frame;
 } nsvcd__view;
 
-// The adjoint of the facts: by (FACTS) -> by_d, by_v, by_w, and the torque on what they see in the
-// frame.
-static void nsvcd__by_facts(const nsvcd__view *view, const float *facts, const float *by,
-                            float *by_d, float *by_v, float *by_w, float *torque) {
-  const float tau = facts[3];
-  const float scale = 1 / (nsvcd__dot3(view->v, view->v) + 1e-6f);
-  float closest[3];
-  float by_closest[3] = {0};
-  for (size_t k = 0; k < 3; k++)
-    closest[k] = view->d[k] - tau * view->v[k];
-  nsvcd__by_length3(view->d, by[0], by_d);
-  nsvcd__by_length3(closest, by[2], by_closest);
-  nsvcd__add_scaled3(1, by_closest, by_d);
-  nsvcd__add_scaled3(-tau, by_closest, by_v);
-  if (fabsf(tau) < 1) {  // else it is clamped
-    const float by_tau = scale * (by[3] - nsvcd__dot3(by_closest, view->v));
-    nsvcd__add_scaled3(by_tau, view->v, by_d);
-    nsvcd__add_scaled3(by_tau, view->d, by_v);
-    nsvcd__add_scaled3(-2 * by_tau * tau, view->v, by_v);
-  }
-  for (size_t k = 0; k < 3; k++) {
-    nsvcd__add_scaled3(by[4 + k], view->frame + 3 * k, by_v);
-    nsvcd__add_scaled3(view->side * by[7 + k], view->frame + 3 * k, by_w);
-  }
-  nsvcd__add_cross3(facts + 4, by + 4, torque);
-  nsvcd__add_cross3(facts + 7, by + 7, torque);
-  nsvcd__by_length3(view->v, by[10], by_v);
-  nsvcd__by_length3(view->w, by[11], by_w);
+static nsvcd__view nsvcd__first_view(const nsvcd__views *views) {
+  nsvcd__view out;
+  out.inverse = nsvcd__first_lane(views->inverse);
+  out.k1 = nsvcd__first_lane(views->k1);
+  out.order = nsvcd__first_lane(views->order);
+  out.side = nsvcd__first_lane(views->side);
+  out.d = nsvcd__first_f3(views->d);
+  out.v = nsvcd__first_f3(views->v);
+  out.w = nsvcd__first_f3(views->w);
+  out.lean = nsvcd__first_f3(views->lean);
+  out.frame = nsvcd__first_mat3(&views->frame);
+  return out;
 }
 
-// The adjoint of nsvcd__v_pair_frame, whose conventions are constant between its switches. torque:
-// on all that the frame sees, in its coordinates; turning the frame does the opposite.
-static void nsvcd__by_frame(const nsvcd__view *view, const float *torque, float *by_d, float *by_v,
-                            float *by_lean) {
-  const float *e1 = view->frame;
-  const float *e2 = e1 + 3;
-  const float *e3 = e1 + 6;
-  const float length = nsvcd__length3(view->d);
-  float a[3];
-  float across[3];
-  float line[3] = {view->lean[0] + 1e-6f, view->lean[1], view->lean[2]};
-  float by_e1[3] = {0};
-  for (size_t k = 0; k < 3; k++)
-    a[k] = NSVCD__LEAN * view->lean[k] + view->v[k];
-  for (size_t k = 0; k < 3; k++)
-    across[k] = a[k] - nsvcd__dot3(a, e1) * e1[k];
-  const int vanishes = nsvcd__length3(across) <= 1e-7f;
-  if (vanishes) {  // axis 2 came from a coordinate axis
-    const float x = fabsf(e1[0]);
-    const float y = fabsf(e1[1]);
-    const float z = fabsf(e1[2]);
-    const size_t axis = x <= y && x <= z ? 0 : y <= z ? 1 : 2;
-    for (size_t k = 0; k < 3; k++) {
-      a[k] = k == axis;
-      across[k] = a[k] - e1[axis] * e1[k];
-    }
+// The derivative of a logit by what the frame sees, and the torque on that, in the frame.
+typedef struct nsvcd__by_view {
+  nsvcd__f3 d, v, w, lean, torque;
+} nsvcd__by_view;
+
+// sum + the rows of m, times the components of a.
+static nsvcd__f3 nsvcd__add_along_rows(nsvcd__f3 sum, const nsvcd__mat3 *m, nsvcd__f3 a) {
+  sum = nsvcd__f3_add_scaled(sum, a.x, m->x);
+  sum = nsvcd__f3_add_scaled(sum, a.y, m->y);
+  return nsvcd__f3_add_scaled(sum, a.z, m->z);
+}
+
+// The adjoint of the facts: by (FACTS), added to `out`.
+static void nsvcd__by_facts(const nsvcd__view *view, const float *facts, const float *by,
+                            nsvcd__by_view *out) {
+  const float tau = facts[3];
+  const float scale = 1 / (nsvcd__f3_dot(view->v, view->v) + 1e-6f);
+  const nsvcd__f3 closest = nsvcd__f3_sub(view->d, nsvcd__f3_scale(view->v, tau));
+  const nsvcd__f3 by_closest = nsvcd__by_length(closest, by[2]);
+  const nsvcd__f3 by_velocity = nsvcd__f3_load(by + 4);
+  const nsvcd__f3 by_turn = nsvcd__f3_load(by + 7);
+  out->d = nsvcd__f3_add(out->d, nsvcd__by_length(view->d, by[0]));
+  out->d = nsvcd__f3_add(out->d, by_closest);
+  out->v = nsvcd__f3_add_scaled(out->v, -tau, by_closest);
+  if (fabsf(tau) < 1) {  // else it is clamped
+    const float by_tau = scale * (by[3] - nsvcd__f3_dot(by_closest, view->v));
+    out->d = nsvcd__f3_add_scaled(out->d, by_tau, view->v);
+    out->v = nsvcd__f3_add_scaled(out->v, by_tau, view->d);
+    out->v = nsvcd__f3_add_scaled(out->v, -2 * by_tau * tau, view->v);
   }
-  const float about = torque[0] / nsvcd__length3(across);
+  out->v = nsvcd__add_along_rows(out->v, &view->frame, by_velocity);
+  out->w = nsvcd__add_along_rows(out->w, &view->frame, nsvcd__f3_scale(by_turn, view->side));
+  const nsvcd__f3 velocity = nsvcd__f3_load(facts + 4);
+  const nsvcd__f3 turn = nsvcd__f3_load(facts + 7);
+  out->torque = nsvcd__f3_add(out->torque, nsvcd__f3_cross(velocity, by_velocity));
+  out->torque = nsvcd__f3_add(out->torque, nsvcd__f3_cross(turn, by_turn));
+  out->v = nsvcd__f3_add(out->v, nsvcd__by_length(view->v, by[10]));
+  out->w = nsvcd__f3_add(out->w, nsvcd__by_length(view->w, by[11]));
+}
+
+// The coordinate axis farthest from e.
+static nsvcd__f3 nsvcd__farthest_axis(nsvcd__f3 e) {
+  const float x = fabsf(e.x);
+  const float y = fabsf(e.y);
+  const float z = fabsf(e.z);
+  if (x <= y && x <= z)
+    return nsvcd__f3_of(1, 0, 0);
+  return y <= z ? nsvcd__f3_of(0, 1, 0) : nsvcd__f3_of(0, 0, 1);
+}
+
+// The adjoint of nsvcd__views_set_frame, whose conventions are constant between its switches, added
+// to `by`. Turning the frame does the opposite of turning all that it sees.
+static void nsvcd__by_frame(const nsvcd__view *view, nsvcd__by_view *by) {
+  const nsvcd__f3 e1 = view->frame.x;
+  const nsvcd__f3 e2 = view->frame.y;
+  const nsvcd__f3 e3 = view->frame.z;
+  const float length = nsvcd__f3_length(view->d);
+  const nsvcd__f3 line = nsvcd__f3_of(view->lean.x + 1e-6f, view->lean.y, view->lean.z);
+  nsvcd__f3 a = nsvcd__f3_add(nsvcd__f3_scale(view->lean, NSVCD__LEAN), view->v);
+  nsvcd__f3 across = nsvcd__f3_sub(a, nsvcd__f3_scale(e1, nsvcd__f3_dot(a, e1)));
+  const int vanishes = nsvcd__f3_length(across) <= 1e-7f;
+  if (vanishes) {
+    a = nsvcd__farthest_axis(e1);
+    across = nsvcd__f3_sub(a, nsvcd__f3_scale(e1, nsvcd__f3_dot(a, e1)));
+  }
+  const float about = by->torque.x / nsvcd__f3_length(across);
   if (!vanishes) {
-    nsvcd__add_scaled3(-about, e3, by_v);
-    nsvcd__add_scaled3(-about * NSVCD__LEAN, e3, by_lean);
+    by->v = nsvcd__f3_add_scaled(by->v, -about, e3);
+    by->lean = nsvcd__f3_add_scaled(by->lean, -about * NSVCD__LEAN, e3);
   }
-  nsvcd__add_scaled3(torque[1] + about * nsvcd__dot3(e1, a), e3, by_e1);
-  nsvcd__add_scaled3(-torque[2], e2, by_e1);
-  if (length > 1e-5f) {
-    nsvcd__add_scaled3(1 / length, by_e1, by_d);
-  } else if (nsvcd__length3(line) > 1e-9f) {
-    nsvcd__add_scaled3(1 / nsvcd__length3(line), by_e1, by_lean);
-  }
+  nsvcd__f3 by_e1 = nsvcd__f3_scale(e3, by->torque.y + about * nsvcd__f3_dot(e1, a));
+  by_e1 = nsvcd__f3_add_scaled(by_e1, -by->torque.z, e2);
+  if (length > 1e-5f)
+    by->d = nsvcd__f3_add_scaled(by->d, 1 / length, by_e1);
+  else if (nsvcd__f3_length(line) > 1e-9f)
+    by->lean = nsvcd__f3_add_scaled(by->lean, 1 / nsvcd__f3_length(line), by_e1);
 }
 
 // The adjoint of nsvcd__invariants for the pair in lane 0. x, by_x (DECODER_IN). The unit of length
@@ -13331,102 +13470,92 @@ static void nsvcd__by_frame(const nsvcd__view *view, const float *torque, float 
 static NSVCD__APART void nsvcd__by_invariants(const nsvcd__pairs *pairs, const float *x,
                                               const float *by_x, nsvcd__by_pair *by) {
   nsvcd__views views;
-  nsvcd__view view;
-  float rotation[9];
-  float v[3];
-  float w[3];
-  float mean1[3];
-  float lean1[3];
-  float k1;
-  float by_d[3] = {0};
-  float by_v[3] = {0};
-  float by_w[3] = {0};
-  float by_lean[3] = {0};
   nsvcd__views_of(pairs, 1, &views);
-  nsvcd__first_lanes(&views.inverse, 1, &view.inverse);
-  nsvcd__first_lanes(&views.order, 1, &view.order);
-  nsvcd__first_lanes(&views.side, 1, &view.side);
-  nsvcd__first_lanes(&views.k1, 1, &k1);
-  nsvcd__first_lanes(views.d, 3, view.d);
-  nsvcd__first_lanes(views.v, 3, view.v);
-  nsvcd__first_lanes(views.w, 3, view.w);
-  nsvcd__first_lanes(views.lean, 3, view.lean);
-  nsvcd__first_lanes(views.frame, 9, view.frame);
-  nsvcd__first_lanes(pairs->rotation, 9, rotation);
-  nsvcd__first_lanes(pairs->v, 3, v);
-  nsvcd__first_lanes(pairs->w, 3, w);
+  const nsvcd__view view = nsvcd__first_view(&views);
+  const nsvcd__mat3 rotation = nsvcd__first_mat3(&pairs->rotation);
   // Which way time runs. 0 at rest, to rounding: the logit is even in the motion, with a kink
   // there, and the mean of its two sides is 0.
-  const float same = nsvcd__dot3(view.v, v) * view.inverse + nsvcd__dot3(view.w, w);
+  const float same = nsvcd__f3_dot(view.v, nsvcd__first_f3(pairs->v)) * view.inverse +
+                     nsvcd__f3_dot(view.w, nsvcd__first_f3(pairs->w));
   const float sign = fabsf(same) < 1e-12f ? 0.0f : same < 0 ? -1.0f : 1.0f;
 
   // Torques in the frame: on the moving patch's latent, then on all that the frame sees.
   const size_t facts = 2 * NSVCD__LATENT;
   const size_t first = view.order > 0 ? 0 : NSVCD__VECTORS;
   const size_t second = NSVCD__VECTORS - first;
-  float torque[3] = {0};
-  memset(by, 0, sizeof *by);
-  nsvcd__add_latent_torque(x + first, by_x + first, torque);
-  for (size_t k = 0; k < 3; k++)
-    nsvcd__add_scaled3(view.side * torque[k], view.frame + 3 * k, by->rotation);
-  nsvcd__add_latent_torque(x + second, by_x + second, torque);
-  nsvcd__by_facts(&view, x + facts, by_x + facts, by_d, by_v, by_w, torque);
-  nsvcd__by_frame(&view, torque, by_d, by_v, by_lean);
+  const nsvcd__f3 on_moving = nsvcd__latent_torque(x + first, by_x + first);
+  const nsvcd__f3 on_fixed = nsvcd__latent_torque(x + second, by_x + second);
+  nsvcd__by_view seen;
+  memset(&seen, 0, sizeof seen);
+  seen.torque = nsvcd__f3_add(on_moving, on_fixed);
+  nsvcd__by_facts(&view, x + facts, by_x + facts, &seen);
+  nsvcd__by_frame(&view, &seen);
 
-  for (size_t k = 0; k < 3; k++)
-    mean1[k] = view.order * k1 / 127 * (float)pairs->z1[0][NSVCD_W_CHANNELS * k];
-  nsvcd__mul33_vec(rotation, mean1, lean1);
-  nsvcd__add_cross3(lean1, by_lean, by->rotation);
-  nsvcd__add_scaled3(-view.order * view.inverse, by_d, by->p1);
-  nsvcd__add_scaled3(sign * view.inverse, by_v, by->v);
-  nsvcd__add_scaled3(sign, by_w, by->w);
+  const nsvcd__f3 mean = nsvcd__mean_direction(pairs->z1[0]);
+  const nsvcd__f3 scaled = nsvcd__f3_scale(mean, view.order * view.k1 / 127);
+  const nsvcd__f3 lean1 = nsvcd__mat3_apply(&rotation, scaled);
+  const nsvcd__f3 none = {0, 0, 0};
+  const nsvcd__f3 turned = nsvcd__f3_scale(on_moving, view.side);
+  by->rotation = nsvcd__add_along_rows(none, &view.frame, turned);
+  by->rotation = nsvcd__f3_add(by->rotation, nsvcd__f3_cross(lean1, seen.lean));
+  by->p1 = nsvcd__f3_scale(seen.d, -view.order * view.inverse);
+  by->v = nsvcd__f3_scale(seen.v, sign * view.inverse);
+  by->w = nsvcd__f3_scale(seen.w, sign);
 }
 
 // ---- samples
 
-// From a force and a torque on a body at time t, in the world, to `gradient` (count, 6), unless
-// that is NULL, by its poses before and after t. Returns the derivative by t. With R = exp(2 u h n)
-// A, the shorter arc from A to B = exp(2 h n) A, small rotations a of A and b of B (on the left)
-// turn R along n by (1 - u) a + u b, and across n by
+// The derivative by the pose of a rigid body.
+typedef struct nsvcd__wrench {
+  nsvcd__f3 force, torque;
+} nsvcd__wrench;
+
+// row (6) += (force, torque).
+static void nsvcd__add_to_row(float *row, nsvcd__f3 force, nsvcd__f3 torque) {
+  nsvcd__f3_store(nsvcd__f3_add(nsvcd__f3_load(row), force), row);
+  nsvcd__f3_store(nsvcd__f3_add(nsvcd__f3_load(row + 3), torque), row + 3);
+}
+
+// From a wrench on a body at time t, in the world, to `gradient` (count, 6), or NULL, by its poses
+// before and after t. Returns the derivative by t. With R = exp(2 u h n) A, the shorter
+// arc from A to B = exp(2 h n) A, small rotations a of A and b of B (on the left) turn R along n by
+// (1 - u) a + u b, and across n by
 //   sin((1 - u) h) / sin h of a turned by u h about n, and sin(u h) / sin h of b turned by -(1 - u)
 //   h.
-static float nsvcd__by_poses(const nsvcd__track *track, float t, const float *force,
-                             const float *torque, float *gradient) {
-  float qa[4], qb[4], n[3], moved[3];
+static float nsvcd__by_poses(const nsvcd__track *track, float t, const nsvcd__wrench *by,
+                             float *gradient) {
   const size_t arcs = track->count - 1;
   if (arcs == 0) {
     if (gradient)
-      nsvcd__add_scaled3(1, force, gradient);
-    if (gradient)
-      nsvcd__add_scaled3(1, torque, gradient + 3);
+      nsvcd__add_to_row(gradient, by->force, by->torque);
     return 0;
   }
   const float at = t * (float)arcs;
   const size_t k = (size_t)at < arcs - 1 ? (size_t)at : arcs - 1;
   const float u = at - (float)k;
-  const nsvcd_pose *a = &track->poses[k];
-  const nsvcd_pose *b = a + 1;
-  nsvcd__quat_normalize(a->rotation, qa);
-  nsvcd__quat_normalize(b->rotation, qb);
-  const float h = nsvcd__quat_half_angle(qa, qb, nsvcd__is_opposed(a->rotation, b->rotation));
-  for (size_t i = 0; i < 3; i++)
-    n[i] = qa[3] * qb[i] - qb[3] * qa[i];
-  nsvcd__add_cross3(qa, qb, n);  // sin(h) times the axis of B A^-1
-  const float sine = nsvcd__length3(n);
+  const nsvcd__world_pose a = nsvcd__world_pose_of(&track->poses[k]);
+  const nsvcd__world_pose b = nsvcd__world_pose_of(&track->poses[k + 1]);
+  const int opposed = nsvcd__poses_opposed(&track->poses[k], &track->poses[k + 1]);
+  const nsvcd__quat qa = nsvcd__quat_unit(a.rotation);
+  const nsvcd__quat qb = nsvcd__quat_beside(nsvcd__quat_unit(b.rotation), opposed);
+  const float h = nsvcd__quat_arc(qa, qb);
+  const nsvcd__f3 axis = nsvcd__quat_turn(qa, qb);  // times sin(h)
+  const float sine = nsvcd__f3_length(axis);
   const float inverse = sine > 0 ? 1 / sine : 0;
-  for (size_t i = 0; i < 3; i++)
-    n[i] *= inverse;
+  const nsvcd__f3 n = nsvcd__f3_scale(axis, inverse);
   const float wa = h > 1e-3f ? sinf((1 - u) * h) * inverse : 1 - u;
   const float wb = h > 1e-3f ? sinf(u * h) * inverse : u;
   if (gradient) {
-    float *row = gradient + 6 * k;
-    nsvcd__add_scaled3(1 - u, force, row);
-    nsvcd__add_scaled3(u, force, row + 6);
-    nsvcd__add_turned3(torque, n, 1 - u, wa, -u * h, row + 3);
-    nsvcd__add_turned3(torque, n, u, wb, (1 - u) * h, row + 9);
+    const nsvcd__f3 none = {0, 0, 0};
+    const nsvcd__f3 on_a = nsvcd__add_turned(none, by->torque, n, 1 - u, wa, -u * h);
+    const nsvcd__f3 on_b = nsvcd__add_turned(none, by->torque, n, u, wb, (1 - u) * h);
+    nsvcd__add_to_row(gradient + 6 * k, nsvcd__f3_scale(by->force, 1 - u), on_a);
+    nsvcd__add_to_row(gradient + 6 * (k + 1), nsvcd__f3_scale(by->force, u), on_b);
   }
-  nsvcd__sub3(b->position, a->position, moved);
-  return (float)arcs * (nsvcd__dot3(force, moved) + 2 * h * nsvcd__dot3(torque, n));
+  const nsvcd__f3 from = nsvcd__f3_load(track->poses[k].position);
+  const nsvcd__f3 moved = nsvcd__f3_sub(nsvcd__f3_load(track->poses[k + 1].position), from);
+  const float by_turn = 2 * h * nsvcd__f3_dot(by->torque, n);
+  return (float)arcs * (nsvcd__f3_dot(by->force, moved) + by_turn);
 }
 
 // The derivatives by both bodies' poses; NULL: not wanted.
@@ -13434,26 +13563,24 @@ typedef struct nsvcd__gradients {
   float *moving, *fixed;  // (count, 6)
 } nsvcd__gradients;
 
-// The same from a force and a torque on the moving body in the fixed one's axes and units. What
-// they do to one body they do to the other the opposite way.
-static float nsvcd__by_motion(const nsvcd__motion *motion, float t, const float *seen_force,
-                              const float *seen_torque, const nsvcd__gradients *out) {
-  float from_fixed[9], force[3], torque[3], q[4], d[3], back[3], back_torque[3];
-  double p[3], fixed_p[3];
-  nsvcd__track_pose_at(&motion->moving, t, q, p);
-  nsvcd__track_pose_at(&motion->fixed, t, q, fixed_p);
-  nsvcd__quat_to_matrix(q, from_fixed);
-  nsvcd__mul33_vec(from_fixed, seen_force, force);
-  nsvcd__mul33_vec(from_fixed, seen_torque, torque);
-  for (size_t k = 0; k < 3; k++) {
-    force[k] /= motion->unit;
-    d[k] = (float)(p[k] - fixed_p[k]);
-    back[k] = -force[k];
-    back_torque[k] = -torque[k];
-  }
-  nsvcd__add_cross3(d, back, back_torque);
-  const float by_time = nsvcd__by_poses(&motion->moving, t, force, torque, out->moving);
-  return by_time + nsvcd__by_poses(&motion->fixed, t, back, back_torque, out->fixed);
+// The same from a wrench on the moving body in the fixed one's axes and units. What it does to one
+// body it does to the other the opposite way.
+static float nsvcd__by_motion(const nsvcd__motion *motion, float t, const nsvcd__wrench *seen,
+                              const nsvcd__gradients *out) {
+  const nsvcd__world_pose moving = nsvcd__track_pose_at(&motion->moving, t);
+  const nsvcd__world_pose fixed = nsvcd__track_pose_at(&motion->fixed, t);
+  const nsvcd__mat3 from_fixed = nsvcd__mat3_of(fixed.rotation);
+  const nsvcd__f3 offset = nsvcd__d3_narrow(nsvcd__d3_sub(moving.position, fixed.position));
+  const nsvcd__f3 force = nsvcd__mat3_apply(&from_fixed, seen->force);
+  const float unit = motion->unit;
+  nsvcd__wrench by;
+  by.force = nsvcd__f3_of(force.x / unit, force.y / unit, force.z / unit);
+  by.torque = nsvcd__mat3_apply(&from_fixed, seen->torque);
+  nsvcd__wrench back;
+  back.force = nsvcd__f3_scale(by.force, -1);
+  back.torque = nsvcd__f3_sub(nsvcd__f3_cross(offset, back.force), by.torque);
+  const float by_moving = nsvcd__by_poses(&motion->moving, t, &by, out->moving);
+  return by_moving + nsvcd__by_poses(&motion->fixed, t, &back, out->fixed);
 }
 
 // ---- instants and contact
@@ -13461,7 +13588,9 @@ static float nsvcd__by_motion(const nsvcd__motion *motion, float t, const float 
 // The moving patch at seven times: entry, exit, the middle between them, and the ends of the
 // segments in which it enters (3, 4) and leaves (5, 6). The fixed body's axes, metres.
 typedef struct nsvcd__instants {
-  float t[7], arm[7][3], place[7][3];  // from the body's origin to its centre; its centre
+  float t[7];
+  nsvcd__f3 arm[7];    // from the body's origin to its centre
+  nsvcd__f3 place[7];  // its centre
   // does it within the segment? else at one of its ends, and these do not move
   int enters, leaves;
 } nsvcd__instants;
@@ -13470,8 +13599,9 @@ static void nsvcd__instants_of(const nsvcd__task *ask, const nsvcd__candidate *c
                                const float *time, nsvcd__instants *at) {
   const float t0 = candidate->t_enter;
   const float t1 = candidate->t_exit;
-  const nsvcd_body *moving = ask->moving;
-  const size_t i = candidate->moving;
+  const nsvcd__motion *motion = &ask->motion;
+  const nsvcd__f3 own = nsvcd__centre_of(nsvcd__body_patches(ask->moving), candidate->moving);
+  const nsvcd__v3 centre = nsvcd__v3_set(nsvcd__f3_scale(own, motion->scale));
   size_t a = 0;
   size_t b = 0;
   while (!(t0 < time[a + 1]) && time[a + 1] < 1)
@@ -13482,38 +13612,29 @@ static void nsvcd__instants_of(const nsvcd__task *ask, const nsvcd__candidate *c
   memcpy(at->t, t, sizeof t);
   at->enters = time[a] < t0 && t0 < time[a + 1];
   at->leaves = time[b] < t1 && t1 < time[b + 1];
-  const float scale = ask->motion.scale;
   for (size_t first = 0; first < 7; first += NSVCD__SLICE) {
     const size_t count = 7 - first < NSVCD__SLICE ? 7 - first : NSVCD__SLICE;
-    const nsvcd__v c[3] = {nsvcd__v_set(scale * nsvcd__body_x(moving)[i]),
-                           nsvcd__v_set(scale * nsvcd__body_y(moving)[i]),
-                           nsvcd__v_set(scale * nsvcd__body_z(moving)[i])};
-    nsvcd__v q[4], p[3], r[9], arm[3];
-    float lanes[NSVCD__SLICE], places[NSVCD__SLICE];
-    nsvcd__v_poses_at(&ask->motion, t + first, count, q, p);
-    nsvcd__v_matrix(q, r);
-    nsvcd__v_mul33_vec(r, c, arm);
-    for (size_t k = 0; k < 3; k++) {
-      nsvcd__v_store(lanes, arm[k]);
-      nsvcd__v_store(places, nsvcd__v_add(arm[k], p[k]));
-      for (size_t l = 0; l < count; l++) {
-        at->arm[first + l][k] = lanes[l];
-        at->place[first + l][k] = places[l];
-      }
+    float arms[3][NSVCD__LANES], places[3][NSVCD__LANES];
+    const nsvcd__v_pose pose = nsvcd__v_poses_at(motion, t + first, count);
+    const nsvcd__v3 arm = nsvcd__vmat3_apply(nsvcd__vmat3_of(pose.rotation), centre);
+    nsvcd__v3_store(arms, 0, arm);
+    nsvcd__v3_store(places, 0, nsvcd__v3_add(arm, pose.position));
+    for (size_t l = 0; l < count; l++) {
+      at->arm[first + l] = nsvcd__lane_of(arms, l);
+      at->place[first + l] = nsvcd__lane_of(places, l);
     }
   }
 }
 
-// A force on the patch's centre at instant l, and a torque on the body (or NULL). Returns the
-// derivative by the time.
+// A force on the patch's centre at instant l, and a torque on the body. Returns the derivative by
+// the time.
 static float nsvcd__by_instant(const nsvcd__task *ask, const nsvcd__instants *at, size_t l,
-                               const float *force, const float *torque,
+                               nsvcd__f3 force, nsvcd__f3 torque,
                                const nsvcd__gradients *gradients) {
-  float sum[3] = {0};
-  if (torque)
-    nsvcd__add_scaled3(1, torque, sum);
-  nsvcd__add_cross3(at->arm[l], force, sum);
-  return nsvcd__by_motion(&ask->motion, at->t[l], force, sum, gradients);
+  nsvcd__wrench by;
+  by.force = force;
+  by.torque = nsvcd__f3_add(torque, nsvcd__f3_cross(at->arm[l], force));
+  return nsvcd__by_motion(&ask->motion, at->t[l], &by, gradients);
 }
 
 // The adjoint of the time at which the spheres meet (l = 0) or part (l = 1): |y| = reach with y =
@@ -13521,26 +13642,23 @@ static float nsvcd__by_instant(const nsvcd__task *ask, const nsvcd__instants *at
 // (y across x) do so for a time whose derivative has no limit: it is bounded where float32 has no
 // digits left.
 static void nsvcd__by_contact(const nsvcd__task *ask, const nsvcd__instants *at, size_t l,
-                              const float *centre, float by_time,
-                              const nsvcd__gradients *gradients) {
+                              nsvcd__f3 centre, float by_time, const nsvcd__gradients *gradients) {
+  const nsvcd__f3 none = {0, 0, 0};
   const size_t s = 3 + 2 * l;
   const float length = at->t[s + 1] - at->t[s];
   const float tau = (at->t[l] - at->t[s]) / length;
-  float chord[3], y[3], before[3], after[3];
-  nsvcd__sub3(at->place[s + 1], at->place[s], chord);
-  nsvcd__sub3(at->place[s], centre, y);
-  nsvcd__add_scaled3(tau, chord, y);
-  const float least = 1e-3f * nsvcd__length3(y) * nsvcd__length3(chord);
-  const float dot = fabsf(nsvcd__dot3(y, chord));
+  const nsvcd__f3 chord = nsvcd__f3_sub(at->place[s + 1], at->place[s]);
+  const nsvcd__f3 from = nsvcd__f3_sub(at->place[s], centre);
+  const nsvcd__f3 y = nsvcd__f3_add_scaled(from, tau, chord);
+  const float least = 1e-3f * nsvcd__f3_length(y) * nsvcd__f3_length(chord);
+  const float dot = fabsf(nsvcd__f3_dot(y, chord));
   if (!(least > 0))
     return;
   const float rate = (l == 0 ? length : -length) * by_time / (dot > least ? dot : least);
-  for (size_t k = 0; k < 3; k++) {
-    before[k] = (1 - tau) * rate * y[k];
-    after[k] = tau * rate * y[k];
-  }
-  nsvcd__by_instant(ask, at, s, before, NULL, gradients);
-  nsvcd__by_instant(ask, at, s + 1, after, NULL, gradients);
+  const nsvcd__f3 before = nsvcd__f3_scale(y, (1 - tau) * rate);
+  const nsvcd__f3 after = nsvcd__f3_scale(y, tau * rate);
+  nsvcd__by_instant(ask, at, s, before, none, gradients);
+  nsvcd__by_instant(ask, at, s + 1, after, none, gradients);
 }
 
 // The derivative of the decisive logit by the poses, added to the gradients. time: of the segments'
@@ -13552,43 +13670,35 @@ static void nsvcd__gradient(const nsvcd__task *ask, const nsvcd__decisive *decis
   nsvcd__pairs pairs;
   nsvcd__by_pair by;
   nsvcd__instants at;
-  float x[NSVCD__DECODER_IN], by_x[NSVCD__DECODER_IN], w[3], n[3], centre[3], arm[3];
+  float x[NSVCD__DECODER_IN], by_x[NSVCD__DECODER_IN];
   nsvcd__pairs_of(ask->moving, ask->fixed, &ask->motion, &one, 1, &pairs);
   nsvcd__invariants(&pairs, 1, x);
   nsvcd__decoder_gradient(decisive->decoder, x, by_x);
   nsvcd__by_invariants(&pairs, x, by_x, &by);
   nsvcd__instants_of(ask, &candidate, time, &at);
-  nsvcd__first_lanes(pairs.w, 3, w);
-  nsvcd__first_lanes(pairs.p2, 3, centre);
 
   // The adjoint of nsvcd__pairs_of. v = w x arm + (x1 - x0) / 2, where arm goes from the moving
   // centre half way to the other; w is half the rotation vector of R1 R0^-1, which small rotations
-  // of R0 and R1 turn as nsvcd__by_samples says.
-  float enter[3];
-  float leave[3];
-  float across[3] = {0};
-  float torque0[3] = {0};
-  float torque1[3] = {0};
-  for (size_t k = 0; k < 3; k++) {
-    enter[k] = -0.5f * by.v[k];
-    leave[k] = 0.5f * by.v[k];
-    arm[k] = 0.5f * (centre[k] - at.place[2][k]);
-  }
-  nsvcd__add_cross3(arm, by.v, by.w);
-  nsvcd__add_cross3(by.v, w, across);
-  nsvcd__add_scaled3(-0.5f, across, by.p1);
-  const float h = nsvcd__length3(w);
+  // of R0 and R1 turn as nsvcd__by_poses says.
+  const nsvcd__f3 none = {0, 0, 0};
+  const nsvcd__f3 w = nsvcd__first_f3(pairs.w);
+  const nsvcd__f3 centre = nsvcd__first_f3(pairs.p2);
+  const nsvcd__f3 enter = nsvcd__f3_scale(by.v, -0.5f);
+  const nsvcd__f3 leave = nsvcd__f3_scale(by.v, 0.5f);
+  const nsvcd__f3 arm = nsvcd__f3_scale(nsvcd__f3_sub(centre, at.place[2]), 0.5f);
+  by.w = nsvcd__f3_add(by.w, nsvcd__f3_cross(arm, by.v));
+  by.p1 = nsvcd__f3_add_scaled(by.p1, -0.5f, nsvcd__f3_cross(by.v, w));
+  const float h = nsvcd__f3_length(w);
   const float half = 0.5f * (h > 1e-3f ? h / sinf(h) : 1);
-  for (size_t k = 0; k < 3; k++)
-    n[k] = h > 0 ? w[k] / h : 0;
-  nsvcd__add_turned3(by.w, n, -0.5f, -half, -h, torque0);
-  nsvcd__add_turned3(by.w, n, 0.5f, half, h, torque1);
+  const nsvcd__f3 n = h > 0 ? nsvcd__f3_of(w.x / h, w.y / h, w.z / h) : none;
+  const nsvcd__f3 torque0 = nsvcd__add_turned(none, by.w, n, -0.5f, -half, -h);
+  const nsvcd__f3 torque1 = nsvcd__add_turned(none, by.w, n, 0.5f, half, h);
 
   const float by_middle = nsvcd__by_instant(ask, &at, 2, by.p1, by.rotation, gradients);
-  const float by_enter =
-      0.5f * by_middle + nsvcd__by_instant(ask, &at, 0, enter, torque0, gradients);
-  const float by_exit =
-      0.5f * by_middle + nsvcd__by_instant(ask, &at, 1, leave, torque1, gradients);
+  float by_enter = 0.5f * by_middle;
+  float by_exit = 0.5f * by_middle;
+  by_enter += nsvcd__by_instant(ask, &at, 0, enter, torque0, gradients);
+  by_exit += nsvcd__by_instant(ask, &at, 1, leave, torque1, gradients);
   if (at.enters)
     nsvcd__by_contact(ask, &at, 0, centre, by_enter, gradients);
   if (at.leaves)
@@ -13994,17 +14104,13 @@ static void nsvcd__stage_init(const nsvcd_plan_options *o, nsvcd__stage *stage) 
 
 // a as seen from b.
 static void nsvcd__relative_pose(const nsvcd_pose *a, const nsvcd_pose *b, nsvcd_pose *out) {
-  const float *p = a->rotation;
-  const float *q = b->rotation;
-  float m[9], back[9], d[3];
-  nsvcd__quat_to_matrix(q, m);
-  nsvcd__transpose33(m, back);
-  nsvcd__sub3(a->position, b->position, d);
-  nsvcd__mul33_vec(back, d, out->position);
-  out->rotation[0] = q[3] * p[0] - q[0] * p[3] - (q[1] * p[2] - q[2] * p[1]);
-  out->rotation[1] = q[3] * p[1] - q[1] * p[3] - (q[2] * p[0] - q[0] * p[2]);
-  out->rotation[2] = q[3] * p[2] - q[2] * p[3] - (q[0] * p[1] - q[1] * p[0]);
-  out->rotation[3] = q[3] * p[3] + q[0] * p[0] + q[1] * p[1] + q[2] * p[2];
+  const nsvcd__quat to_b = nsvcd__quat_inverse(nsvcd__quat_load(b->rotation));
+  const nsvcd__mat3 axes = nsvcd__mat3_of(nsvcd__quat_load(b->rotation));
+  const nsvcd__f3 from = nsvcd__f3_load(b->position);
+  const nsvcd__f3 offset = nsvcd__f3_sub(nsvcd__f3_load(a->position), from);
+  const nsvcd__quat seen = nsvcd__quat_mul(to_b, nsvcd__quat_load(a->rotation));
+  nsvcd__f3_store(nsvcd__mat3_apply_transpose(&axes, offset), out->position);
+  nsvcd__quat_store(seen, out->rotation);
 }
 
 // Tracks of all bodies: from the origin to the bounding sphere's centre, the pose as origin and
@@ -14019,18 +14125,17 @@ static void nsvcd__track_bodies(nsvcd__planner *p, size_t samples) {
     for (size_t s = 0; s < samples; s++) {
       const nsvcd_pose *pose = &p->poses[s * bodies + b];
       const nsvcd_pose *next = s + 1 < samples ? pose + bodies : pose;
-      const float *q = pose->rotation;
-      const float *r = next->rotation;
-      float m[9], turned[3];
-      nsvcd__quat_to_matrix(q, m);
-      nsvcd__mul33_vec(m, body->centre, turned);
-      for (size_t k = 0; k < 3; k++) {
-        track[(NSVCD__CENTRE + k) * samples + s] = turned[k];
-        track[(NSVCD__ORIGIN + k) * samples + s] = pose->position[k];
-      }
-      for (size_t k = 0; k < 9; k++)
-        track[(NSVCD__AXES + k) * samples + s] = m[k];
-      const float bend = 1.000001f - fabsf(q[0] * r[0] + q[1] * r[1] + q[2] * r[2] + q[3] * r[3]);
+      const nsvcd__quat q = nsvcd__quat_load(pose->rotation);
+      const nsvcd__quat r = nsvcd__quat_load(next->rotation);
+      const nsvcd__mat3 m = nsvcd__mat3_of(q);
+      const nsvcd__f3 turned = nsvcd__mat3_apply(&m, nsvcd__f3_load(body->centre));
+      const nsvcd__f3 position = nsvcd__f3_load(pose->position);
+      nsvcd__f3_put(turned, track + NSVCD__CENTRE * samples + s, samples);
+      nsvcd__f3_put(position, track + NSVCD__ORIGIN * samples + s, samples);
+      nsvcd__f3_put(m.x, track + NSVCD__AXES * samples + s, samples);
+      nsvcd__f3_put(m.y, track + (NSVCD__AXES + 3) * samples + s, samples);
+      nsvcd__f3_put(m.z, track + (NSVCD__AXES + 6) * samples + s, samples);
+      const float bend = 1.000001f - fabsf(nsvcd__quat_dot(q, r));
       track[NSVCD__BEND * samples + s] = sqrtf(bend > 0 ? bend : 0);
     }
   }
@@ -14048,43 +14153,40 @@ static void nsvcd__meet_box(nsvcd__planner *p, size_t a, size_t b, int resting, 
   const nsvcd_body *body = p->problem->bodies[a];
   const float *from = p->tracks + NSVCD__TRACK * samples * a;
   const float *to = p->tracks + NSVCD__TRACK * samples * b;
-  const float *box = p->boxes + 6 * b;
   const float *axes = to + NSVCD__AXES * samples;
-  const float arm = nsvcd__length3(body->centre);
+  const nsvcd__f3 low = nsvcd__f3_load(p->boxes + 6 * b);
+  const nsvcd__f3 high = nsvcd__f3_load(p->boxes + 6 * b + 3);
+  const float arm = nsvcd__f3_length(nsvcd__f3_load(body->centre));
   const float radius = 1.00001f * body->radius;
-  float *x = p->seen;  // (4, samples): a's centre as b sees it, and its distance from b's origin
+  float *seen = p->seen;  // (4, samples): a's centre as b sees it, and its distance from b's origin
   for (size_t s = 0; s < samples; s++) {
-    float d[3];
-    float square = 0;
-    for (size_t k = 0; k < 3; k++) {
-      d[k] = from[(NSVCD__ORIGIN + k) * samples + s] - to[(NSVCD__ORIGIN + k) * samples + s] +
-             from[(NSVCD__CENTRE + k) * samples + s];
-      square += d[k] * d[k];
-    }
-    for (size_t k = 0; k < 3; k++) {
-      x[k * samples + s] = axes[k * samples + s] * d[0] + axes[(3 + k) * samples + s] * d[1] +
-                           axes[(6 + k) * samples + s] * d[2];
-    }
-    x[3 * samples + s] = sqrtf(square);
+    const nsvcd__f3 origin = nsvcd__f3_get(from + NSVCD__ORIGIN * samples + s, samples);
+    const nsvcd__f3 other = nsvcd__f3_get(to + NSVCD__ORIGIN * samples + s, samples);
+    const nsvcd__f3 centre = nsvcd__f3_get(from + NSVCD__CENTRE * samples + s, samples);
+    const nsvcd__f3 d = nsvcd__f3_add(nsvcd__f3_sub(origin, other), centre);
+    nsvcd__mat3 m;
+    m.x = nsvcd__f3_get(axes + s, samples);
+    m.y = nsvcd__f3_get(axes + 3 * samples + s, samples);
+    m.z = nsvcd__f3_get(axes + 6 * samples + s, samples);
+    nsvcd__f3_put(nsvcd__mat3_apply_transpose(&m, d), seen + s, samples);
+    seen[3 * samples + s] = nsvcd__f3_length(d);
   }
   for (size_t s = 0; s + stride < samples; s++) {
     // The roots of 1 - cos of half an angle: that of the sum of two angles is no more than their
     // sum, and c < 3.15 bend.
     const float bend = from[NSVCD__BEND * samples + s] + to[NSVCD__BEND * samples + s];
-    float way = 0;
-    for (size_t k = 0; k < 3; k++)
-      way += fabsf(x[k * samples + s + stride] - x[k * samples + s]);
-    const float reaches = x[3 * samples + s] + x[3 * samples + s + stride];
+    const nsvcd__f3 u = nsvcd__f3_get(seen + s, samples);
+    const nsvcd__f3 v = nsvcd__f3_get(seen + s + stride, samples);
+    const nsvcd__f3 step = nsvcd__f3_sub(v, u);
+    const float way = fabsf(step.x) + fabsf(step.y) + fabsf(step.z);
+    const float reaches = seen[3 * samples + s] + seen[3 * samples + s + stride];
     const float leaves = resting ? (3.75f * bend * reaches + 0.8f * way) * bend : arm * bend * bend;
     const float reach =
         radius + p->options.sweep.clearance + (float)stride * leaves + NSVCD__ROUNDING * reaches;
-    int apart = 0;
-    for (size_t k = 0; k < 3; k++) {
-      const float u = x[k * samples + s];
-      const float v = x[k * samples + s + stride];
-      apart |= ((u < v ? u : v) > box[3 + k] + reach) | ((u < v ? v : u) < box[k] - reach);
-    }
-    p->meets[s] &= (unsigned char)!apart;
+    const nsvcd__f3 about = nsvcd__f3_of(reach, reach, reach);
+    const int above = nsvcd__f3_exceeds(nsvcd__f3_min(u, v), nsvcd__f3_add(high, about));
+    const int below = nsvcd__f3_exceeds(nsvcd__f3_sub(low, about), nsvcd__f3_max(u, v));
+    p->meets[s] &= (unsigned char)!(above | below);
   }
 }
 
@@ -14109,22 +14211,17 @@ static float nsvcd__cost_of_logit(float logit, float margin, float *slope) {
 // (B, 6).
 static void nsvcd__add_wrench(const nsvcd_body_pair *pair, const nsvcd_pose *poses, float scale,
                               const float *wrench, float *wrenches) {
-  float m[9];
-  float force[3];
-  float torque[3];
-  float arm[3];
-  float moment[3] = {0, 0, 0};
-  nsvcd__quat_to_matrix(poses[pair->b].rotation, m);
-  nsvcd__mul33_vec(m, wrench, force);
-  nsvcd__mul33_vec(m, wrench + 3, torque);
-  nsvcd__sub3(poses[pair->a].position, poses[pair->b].position, arm);
-  nsvcd__add_cross3(arm, force, moment);
-  for (size_t k = 0; k < 3; k++) {
-    wrenches[6 * pair->a + k] += scale * force[k];
-    wrenches[6 * pair->a + 3 + k] += scale * torque[k];
-    wrenches[6 * pair->b + k] -= scale * force[k];
-    wrenches[6 * pair->b + 3 + k] -= scale * (torque[k] + moment[k]);
-  }
+  const nsvcd_pose *a = &poses[pair->a];
+  const nsvcd_pose *b = &poses[pair->b];
+  const nsvcd__mat3 axes = nsvcd__mat3_of(nsvcd__quat_load(b->rotation));
+  const nsvcd__f3 force = nsvcd__mat3_apply(&axes, nsvcd__f3_load(wrench));
+  const nsvcd__f3 torque = nsvcd__mat3_apply(&axes, nsvcd__f3_load(wrench + 3));
+  const nsvcd__f3 arm = nsvcd__f3_sub(nsvcd__f3_load(a->position), nsvcd__f3_load(b->position));
+  const nsvcd__f3 back = nsvcd__f3_add(torque, nsvcd__f3_cross(arm, force));
+  float *on_a = wrenches + 6 * pair->a;
+  float *on_b = wrenches + 6 * pair->b;
+  nsvcd__add_to_row(on_a, nsvcd__f3_scale(force, scale), nsvcd__f3_scale(torque, scale));
+  nsvcd__add_to_row(on_b, nsvcd__f3_scale(force, -scale), nsvcd__f3_scale(back, -scale));
 }
 
 // The most suspicious moment of a trajectory.
@@ -14258,19 +14355,14 @@ static int nsvcd__by_joints(nsvcd__planner *p, const float *joints, const nsvcd_
           by_joints[j] += w[i] * p->jacobian[(6 * b + i) * f + j];
         continue;
       }
-      const float *q = poses[b].rotation;
-      float *r = p->moved[b].rotation;
-      float sign = 2;
-      float turn[3] = {0, 0, 0};
-      if (q[0] * r[0] + q[1] * r[1] + q[2] * r[2] + q[3] * r[3] < 0)
-        sign = -2;
-      for (size_t i = 0; i < 3; i++)
-        turn[i] = q[3] * r[i] - r[3] * q[i];
-      nsvcd__add_cross3(q, r, turn);  // the vector of r q^-1
-      for (size_t i = 0; i < 3; i++) {
-        by_joints[j] += w[i] * (p->moved[b].position[i] - poses[b].position[i]) / step +
-                        w[3 + i] * sign * turn[i] / step;
-      }
+      const nsvcd__quat q = nsvcd__quat_load(poses[b].rotation);
+      const nsvcd__quat r = nsvcd__quat_load(p->moved[b].rotation);
+      const float twice = nsvcd__quat_dot(q, r) < 0 ? -2.0f : 2.0f;
+      const nsvcd__f3 turn = nsvcd__f3_scale(nsvcd__quat_turn(q, r), twice / step);
+      const nsvcd__f3 from = nsvcd__f3_load(poses[b].position);
+      const nsvcd__f3 way = nsvcd__f3_sub(nsvcd__f3_load(p->moved[b].position), from);
+      by_joints[j] += nsvcd__f3_dot(nsvcd__f3_load(w), way) / step;
+      by_joints[j] += nsvcd__f3_dot(nsvcd__f3_load(w + 3), turn);
     }
   }
   return 1;
@@ -14288,8 +14380,10 @@ static void nsvcd__place(nsvcd__planner *p, const float *joints, size_t samples)
     p->error = NSVCD_ERROR_POSE;
     return;
   }
-  for (size_t k = 0; k < samples * bodies; k++)
-    nsvcd__quat_normalize(p->poses[k].rotation, p->poses[k].rotation);
+  for (size_t k = 0; k < samples * bodies; k++) {
+    const nsvcd__quat unit = nsvcd__quat_unit(nsvcd__quat_load(p->poses[k].rotation));
+    nsvcd__quat_store(unit, p->poses[k].rotation);
+  }
 }
 
 // The smoothness of a trajectory; gradient: (M + 2, F), written, or NULL.

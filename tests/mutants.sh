@@ -28,7 +28,7 @@ lanes without bulge|return nsvcd__v_fma(turn, nsvcd__v_set(reach), nsvcd__v_min(
 lanes without drift|return nsvcd__v_fma(turn, nsvcd__v_set(reach), nsvcd__v_min(by_axis, by_way));|return nsvcd__v_mul(turn, nsvcd__v_set(reach));
 disc without across|nsvcd__v_mul(radius_across, across);|nsvcd__v_mul(nsvcd__v_set(0), nsvcd__v_mul(radius_across, across));
 group of eight|for (size_t i = first; i < first + NSVCD__GROUP \&\& i < f->body->points; i++) {\n    const size_t all|for (size_t i = first; i < first + 8 \&\& i < f->body->points; i++) {\n    const size_t all
-group's disc at the start only|nsvcd__v3_add(at_start, nsvcd__v3_turned_back(block->turned, l, fixed->normal));|at_start;
+group's disc at the start only|nsvcd__v3_add(at_start, nsvcd__vmat3_apply_transpose(turn, n));|at_start;
 held plane without deviation|lowest - slack - nsvcd__deviation(span, p->held, nsvcd__patch_reach(\&p->moving, i));|lowest - slack;
 held plane without slack|highest + p->fixed.slacks[j] * nsvcd__f3_length(p->held);|highest;
 heights over another plane|if (known->plane == p->plane \&\& known->key == key)|if (known->key == key)
@@ -58,7 +58,7 @@ a segment dropped|        p->met = nsvcd__group_against_members(search, fixed, h
 a full buffer forgotten|        if (p->met_in[l])\n          return 1;\n|
 passing not seen|      if (settled == NSVCD__MEETS)\n        return settled;\n|
 passing without a change of sides|  const int falls = before > least_before \&\& after < -least_after;|  const int falls = before != 0;
-both turn, twist forgotten|nsvcd__v_mul(nsvcd__v_mul(turn, nsvcd__v_add(turn, fixed_turn)), eighth)|nsvcd__v_mul(nsvcd__v_mul(turn, turn), eighth)
+both turn, twist forgotten|nsvcd__v_mul(turn, nsvcd__v_add(turn, fixed_turn));|nsvcd__v_mul(turn, turn);
 both turn, half of the way|nsvcd__v_fma(fixed_turn, remote, nsvcd__v_add(way, way))|nsvcd__v_fma(fixed_turn, remote, way)
 both turn, no swing|nsvcd__v_fma(fixed_turn, remote, nsvcd__v_add(way, way))|nsvcd__v_add(way, way)
 arcs of both, twist forgotten|(arc->turn * arc->turn + twist);|(arc->turn * arc->turn);
@@ -66,7 +66,7 @@ arcs of both, no swing|(2 * across + angle * swing);|(2 * across);
 arcs of both, half of the way|(2 * across + angle * swing);|(across + angle * swing);
 knots of one body only|return after_a < after_b ? after_a : after_b;|return after_a;
 group without scale|  sphere.radius *= search->scale;\n|
-members without scale|nsvcd__v_fma(nsvcd__v_set(scale), r, nsvcd__v_set(deviation))|nsvcd__v_add(r, nsvcd__v_set(deviation))
+members without scale|nsvcd__v_fma(nsvcd__v_set(scale), radius, deviation);|nsvcd__v_add(radius, deviation);
 discs without scale|nsvcd__v_mul(scale, nsvcd__v3_dot(w, w)), nsvcd__v_mul(scale, turned));|nsvcd__v3_dot(w, w), turned);
 disc without clearance|const float deviation = a->clearance + span->rounding + nsvcd__deviation|const float deviation = span->rounding + nsvcd__deviation
 moving disc without clearance|nsvcd__v_set(span->rounding + a->clearance);|nsvcd__v_set(span->rounding);
