@@ -887,7 +887,89 @@ static inline nsvcd__d3 nsvcd__d3_widen(nsvcd__f3 a) {
   return nsvcd__d3_of((double)a.x, (double)a.y, (double)a.z);
 }
 
-// ---- spheres
+// ---- the same in double
+
+typedef struct nsvcd__dquat {
+  double x, y, z, w;
+} nsvcd__dquat;
+
+typedef struct nsvcd__dmat3 {
+  nsvcd__d3 x, y, z;
+} nsvcd__dmat3;
+
+static nsvcd__dquat nsvcd__dquat_scale(nsvcd__dquat q, double s) {
+  const nsvcd__dquat out = {q.x * s, q.y * s, q.z * s, q.w * s};
+  return out;
+}
+// a + s b.
+static nsvcd__dquat nsvcd__dquat_add_scaled(nsvcd__dquat a, double s, nsvcd__dquat b) {
+  const nsvcd__dquat out = {a.x + s * b.x, a.y + s * b.y, a.z + s * b.z, a.w + s * b.w};
+  return out;
+}
+static double nsvcd__dquat_square(nsvcd__dquat q) {
+  return q.x * q.x + q.y * q.y + q.z * q.z + q.w * q.w;
+}
+static nsvcd__dquat nsvcd__dquat_unit(nsvcd__dquat q) {
+  return nsvcd__dquat_scale(q, 1 / sqrt(nsvcd__dquat_square(q)));
+}
+static nsvcd__d3 nsvcd__dquat_axis(nsvcd__dquat q) {  // times the sine of half the angle
+  return nsvcd__d3_of(q.x, q.y, q.z);
+}
+// The inverse of a, unit, times b.
+static nsvcd__dquat nsvcd__dquat_inverse_mul(nsvcd__dquat a, nsvcd__dquat b) {
+  const nsvcd__d3 u = nsvcd__dquat_axis(a);
+  const nsvcd__d3 v = nsvcd__dquat_axis(b);
+  const nsvcd__d3 across = nsvcd__d3_cross(u, v);
+  nsvcd__dquat out;
+  out.x = a.w * v.x - b.w * u.x - across.x;
+  out.y = a.w * v.y - b.w * u.y - across.y;
+  out.z = a.w * v.z - b.w * u.z - across.z;
+  out.w = a.w * b.w + nsvcd__d3_dot(u, v);
+  return out;
+}
+
+// The matrix of a unit quaternion.
+static nsvcd__dmat3 nsvcd__dmat3_of(nsvcd__dquat q) {
+  nsvcd__dmat3 m;
+  m.x.x = 1 - 2 * (q.y * q.y + q.z * q.z);
+  m.x.y = 2 * (q.x * q.y - q.z * q.w);
+  m.x.z = 2 * (q.x * q.z + q.y * q.w);
+  m.y.x = 2 * (q.x * q.y + q.z * q.w);
+  m.y.y = 1 - 2 * (q.x * q.x + q.z * q.z);
+  m.y.z = 2 * (q.y * q.z - q.x * q.w);
+  m.z.x = 2 * (q.x * q.z - q.y * q.w);
+  m.z.y = 2 * (q.y * q.z + q.x * q.w);
+  m.z.z = 1 - 2 * (q.x * q.x + q.y * q.y);
+  return m;
+}
+static nsvcd__dmat3 nsvcd__dmat3_scale(const nsvcd__dmat3 *m, double s) {
+  nsvcd__dmat3 out;
+  out.x = nsvcd__d3_scale(m->x, s);
+  out.y = nsvcd__d3_scale(m->y, s);
+  out.z = nsvcd__d3_scale(m->z, s);
+  return out;
+}
+static nsvcd__dmat3 nsvcd__dmat3_transpose(const nsvcd__dmat3 *m) {
+  nsvcd__dmat3 out;
+  out.x = nsvcd__d3_of(m->x.x, m->y.x, m->z.x);
+  out.y = nsvcd__d3_of(m->x.y, m->y.y, m->z.y);
+  out.z = nsvcd__d3_of(m->x.z, m->y.z, m->z.z);
+  return out;
+}
+static nsvcd__d3 nsvcd__dmat3_apply(const nsvcd__dmat3 *m, nsvcd__d3 a) {
+  return nsvcd__d3_of(nsvcd__d3_dot(m->x, a), nsvcd__d3_dot(m->y, a), nsvcd__d3_dot(m->z, a));
+}
+// The transpose of m, times a.
+static nsvcd__d3 nsvcd__dmat3_apply_transpose(const nsvcd__dmat3 *m, nsvcd__d3 a) {
+  const nsvcd__d3 sum = nsvcd__d3_add(nsvcd__d3_scale(m->x, a.x), nsvcd__d3_scale(m->y, a.y));
+  return nsvcd__d3_add(sum, nsvcd__d3_scale(m->z, a.z));
+}
+
+// ---- boxes and spheres
+
+typedef struct nsvcd__box {
+  nsvcd__f3 low, high;
+} nsvcd__box;
 
 typedef struct nsvcd__sphere {
   nsvcd__f3 centre;
@@ -1346,6 +1428,8 @@ static inline nsvcd__v nsvcd__v_clamp(nsvcd__v a, float low, float high) {
   return nsvcd__v_min(nsvcd__v_max(a, nsvcd__v_set(low)), nsvcd__v_set(high));
 }
 static inline nsvcd__v nsvcd__v_negate(nsvcd__v a) { return nsvcd__v_sub(nsvcd__v_set(0), a); }
+
+static inline nsvcd__v nsvcd__v_abs(nsvcd__v a) { return nsvcd__v_max(a, nsvcd__v_negate(a)); }
 
 // 16 vectors as a value, lane by lane.
 typedef struct nsvcd__v3 {
@@ -7005,6 +7089,7 @@ typedef struct nsvcd__needs {
 } nsvcd__needs;
 
 typedef struct nsvcd__search {
+  const nsvcd_body *moving, *fixed;
   size_t segments;       // S
   size_t most_segments;  // that there is room for
   float scale;           // of the moving body
@@ -7021,7 +7106,7 @@ typedef struct nsvcd__search {
   uint64_t near_segments;  // in which the bodies' spheres meet
   // through the groups that come near; where a body is large
   nsvcd__walk moving_walk, fixed_walk;
-  float near_low[3], near_high[3];  // a box about the way of the moving tile
+  nsvcd__box near_box;  // about the way of the moving tile
   // the groups that are searched now; below, places in these
   nsvcd__tile moving_tile, fixed_tile;
   // (moving groups, fixed groups) segments in which they meet
@@ -7601,31 +7686,40 @@ NSVCD__INLINE uint32_t nsvcd__comes_within(nsvcd__v3 d, nsvcd__v3 way, nsvcd__v 
   return nsvcd__v_le(nsvcd__nearest2(d, way, inverse), nsvcd__v_signed_square(reach));
 }
 
+NSVCD__INLINE nsvcd__v3 nsvcd__chords_start(const nsvcd__chords *c, size_t l) {
+  return nsvcd__v3_rows(c->start[0] + l);
+}
+NSVCD__INLINE nsvcd__v3 nsvcd__chords_way(const nsvcd__chords *c, size_t l) {
+  return nsvcd__v3_rows(c->way[0] + l);
+}
+
 // 16 moving spheres, or one in 16 segments, against one resting sphere.
 static uint32_t nsvcd__meet(const nsvcd__chords *c, nsvcd__sphere resting) {
+  const nsvcd__v3 centre = nsvcd__v3_set(resting.centre);
+  const nsvcd__v radius = nsvcd__v_set(resting.radius);
   uint32_t met = 0;
   NSVCD__TALLY(tests, 1);
   NSVCD__EACH_SLICE(l) {
-    const nsvcd__v3 start = nsvcd__v3_rows(c->start[0] + l);
-    const nsvcd__v3 way = nsvcd__v3_rows(c->way[0] + l);
-    const nsvcd__v3 d = nsvcd__v3_sub(start, nsvcd__v3_set(resting.centre));
-    const nsvcd__v reach = nsvcd__v_add(nsvcd__v_load(c->reach + l), nsvcd__v_set(resting.radius));
-    met |= nsvcd__comes_within(d, way, nsvcd__v_load(c->inverse + l), reach) << l;
+    const nsvcd__v3 d = nsvcd__v3_sub(nsvcd__chords_start(c, l), centre);
+    const nsvcd__v reach = nsvcd__v_add(nsvcd__v_load(c->reach + l), radius);
+    const nsvcd__v inverse = nsvcd__v_load(c->inverse + l);
+    met |= nsvcd__comes_within(d, nsvcd__chords_way(c, l), inverse, reach) << l;
   }
   return met;
 }
 
-// Lane s of a chord against 16 resting spheres.
+// Lane s of chords against 16 resting spheres.
 static uint32_t nsvcd__meet_members(const nsvcd__chords *c, size_t s, nsvcd__spheres resting) {
-  const nsvcd__f3 start = nsvcd__f3_of(c->start[0][s], c->start[1][s], c->start[2][s]);
-  const nsvcd__f3 way = nsvcd__f3_of(c->way[0][s], c->way[1][s], c->way[2][s]);
+  const nsvcd__v3 start = nsvcd__v3_set(nsvcd__f3_get(c->start[0] + s, NSVCD__LANES));
+  const nsvcd__v3 way = nsvcd__v3_set(nsvcd__f3_get(c->way[0] + s, NSVCD__LANES));
+  const nsvcd__v inverse = nsvcd__v_set(c->inverse[s]);
+  const nsvcd__v own = nsvcd__v_set(c->reach[s]);
   uint32_t met = 0;
   NSVCD__TALLY(tests, 1);
   NSVCD__EACH_SLICE(l) {
-    const nsvcd__v3 centres = nsvcd__v3_centres(resting, l);
-    const nsvcd__v3 d = nsvcd__v3_sub(nsvcd__v3_set(start), centres);
-    const nsvcd__v reach = nsvcd__v_add(nsvcd__v_set(c->reach[s]), nsvcd__v_load(resting.r + l));
-    met |= nsvcd__comes_within(d, nsvcd__v3_set(way), nsvcd__v_set(c->inverse[s]), reach) << l;
+    const nsvcd__v3 d = nsvcd__v3_sub(start, nsvcd__v3_centres(resting, l));
+    const nsvcd__v reach = nsvcd__v_add(own, nsvcd__v_load(resting.r + l));
+    met |= nsvcd__comes_within(d, way, inverse, reach) << l;
   }
   return met;
 }
@@ -7697,8 +7791,8 @@ static void nsvcd__candidates_add(nsvcd__candidates *kept, const nsvcd__candidat
 }
 
 // Contact intervals of a slice that are still growing, one per lane. Places on a segment's line are
-// counted in segments from its start: `nearest` on the whole line, `half2` the square of what it is
-// from there to where the spheres first touch.
+// counted in segments from its start: `nearest` is where the line comes nearest to the other
+// centre. The spheres touch from `nearest` - h to `nearest` + h; half2 is the square of h.
 typedef struct nsvcd__intervals {
   uint32_t open;  // lanes
   // segments: in which the oldest of them began, and the last that all of them reach
@@ -7708,51 +7802,63 @@ typedef struct nsvcd__intervals {
   nsvcd__v square, least_segment, least;  // of the least distance: its square, and where
 } nsvcd__intervals;
 
+// The time at a share of segment s.
+static float nsvcd__time_in_segment(const nsvcd__search *search, size_t s, float share) {
+  const float start = search->time[s];
+  return start + share * (search->time[s + 1] - start);
+}
+
+// Lanes that are deeper than the shallowest of a full heap. square: of the least distance.
+static uint32_t nsvcd__deeper_than_kept(const nsvcd__candidates *kept, nsvcd__v square,
+                                        nsvcd__v radii) {
+  if (!kept->limit)
+    return 0;
+  const float share = (1 - kept->items[0].depth) * 1.000001f;
+  const nsvcd__v most = nsvcd__v_mul(radii, nsvcd__v_set(share > 0 ? share : 0));
+  return nsvcd__v_le(square, nsvcd__v_mul(most, most));
+}
+
 // Ends the intervals of `lanes` of a slice and hands them on. Its first lane is patch i of the
 // moving body; j: the patch of the fixed one.
 static void nsvcd__intervals_close(nsvcd__intervals *intervals, uint32_t lanes,
-                                   const nsvcd__search *search, const nsvcd_body *moving, size_t i,
-                                   const nsvcd_body *fixed, size_t j, nsvcd__candidates *kept) {
-  const float *time = search->time;
+                                   const nsvcd__search *search, size_t i, size_t j,
+                                   nsvcd__candidates *kept) {
   const nsvcd__v zero = nsvcd__v_set(0);
   const nsvcd__v one = nsvcd__v_set(1);
-  const nsvcd__v r =
-      nsvcd__v_mul(nsvcd__v_set(search->scale), nsvcd__v_load(nsvcd__body_r(moving) + i));
-  const nsvcd__v radii =
-      nsvcd__v_max(nsvcd__v_add(r, nsvcd__v_set(nsvcd__body_r(fixed)[j])), nsvcd__v_set(1e-30f));
-  float first[NSVCD__SLICE], enter[NSVCD__SLICE], leave[NSVCD__SLICE], least_segment[NSVCD__SLICE],
-      least[NSVCD__SLICE], depth[NSVCD__SLICE];
+  const nsvcd__v own = nsvcd__v_load(nsvcd__body_r(search->moving) + i);
+  const nsvcd__v other = nsvcd__v_set(nsvcd__body_r(search->fixed)[j]);
+  const nsvcd__v scaled = nsvcd__v_mul(nsvcd__v_set(search->scale), own);
+  const nsvcd__v radii = nsvcd__v_max(nsvcd__v_add(scaled, other), nsvcd__v_set(1e-30f));
   intervals->open &= ~lanes;
   if (kept->count == kept->limit) {  // most are shallower than all that is kept: only counted
-    const float share = kept->limit ? (1 - kept->items[0].depth) * 1.000001f : 0;
-    const nsvcd__v most = nsvcd__v_mul(radii, nsvcd__v_set(share > 0 ? share : 0));
-    const uint32_t deep =
-        kept->limit ? lanes & nsvcd__v_le(intervals->square, nsvcd__v_mul(most, most)) : 0;
+    const uint32_t deep = lanes & nsvcd__deeper_than_kept(kept, intervals->square, radii);
     kept->total += nsvcd__bit_count(lanes & ~deep);
     lanes = deep;
     if (!lanes)
       return;
   }
+
+  float first[NSVCD__SLICE], enter[NSVCD__SLICE], leave[NSVCD__SLICE];
+  float least_segment[NSVCD__SLICE], least[NSVCD__SLICE], depth[NSVCD__SLICE];
   const nsvcd__v before = nsvcd__v_sqrt(nsvcd__v_max(intervals->first_half2, zero));
   const nsvcd__v after = nsvcd__v_sqrt(nsvcd__v_max(intervals->last_half2, zero));
+  const nsvcd__v share = nsvcd__v_div(nsvcd__v_sqrt(intervals->square), radii);
   nsvcd__v_store(first, intervals->first);
   nsvcd__v_store(least_segment, intervals->least_segment);
   nsvcd__v_store(enter, nsvcd__v_max(nsvcd__v_sub(intervals->first_nearest, before), zero));
   nsvcd__v_store(leave, nsvcd__v_min(nsvcd__v_add(intervals->last_nearest, after), one));
   nsvcd__v_store(least, intervals->least);
-  nsvcd__v_store(depth, nsvcd__v_sub(one, nsvcd__v_div(nsvcd__v_sqrt(intervals->square), radii)));
+  nsvcd__v_store(depth, nsvcd__v_sub(one, share));
   for (; lanes; lanes &= lanes - 1) {
     const size_t l = nsvcd__lowest_bit(lanes);
-    const size_t a = (size_t)first[l];
-    const size_t b = intervals->last;
-    const size_t c = (size_t)least_segment[l];
-    nsvcd__candidate candidate = {(uint16_t)(i + l),
-                                  (uint16_t)j,
-                                  time[a] + enter[l] * (time[a + 1] - time[a]),
-                                  time[b] + leave[l] * (time[b + 1] - time[b]),
-                                  time[c] + least[l] * (time[c + 1] - time[c]),
-                                  depth[l],
-                                  NSVCD__NO_SCORE};
+    nsvcd__candidate candidate;
+    candidate.moving = (uint16_t)(i + l);
+    candidate.fixed = (uint16_t)j;
+    candidate.t_enter = nsvcd__time_in_segment(search, (size_t)first[l], enter[l]);
+    candidate.t_exit = nsvcd__time_in_segment(search, intervals->last, leave[l]);
+    candidate.t_least = nsvcd__time_in_segment(search, (size_t)least_segment[l], least[l]);
+    candidate.depth = depth[l];
+    candidate.score = NSVCD__NO_SCORE;
     // Rounding must not put the least distance outside.
     if (candidate.t_enter > candidate.t_least)
       candidate.t_enter = candidate.t_least;
@@ -7765,9 +7871,8 @@ static void nsvcd__intervals_close(nsvcd__intervals *intervals, uint32_t lanes,
 // The segments before which all contact intervals of the members of a group against patch j of the
 // fixed body are cut: the oldest of them would turn too far, or a segment is left out in between.
 // Asked for all 16 beforehand, so that machines with narrower slices find the same intervals.
-static uint64_t nsvcd__interval_cuts(const nsvcd__search *search, const nsvcd_body *fixed, size_t j,
-                                     uint64_t wanted) {
-  const nsvcd__sphere patch = nsvcd__sphere_of(nsvcd__body_patches(fixed), j);
+static uint64_t nsvcd__interval_cuts(const nsvcd__search *search, size_t j, uint64_t wanted) {
+  const nsvcd__sphere patch = nsvcd__sphere_of(nsvcd__body_patches(search->fixed), j);
   uint64_t cuts = wanted & ~(wanted << 1);  // where the segment before is left out
   uint32_t open = 0;
   size_t oldest = 0;
@@ -7801,9 +7906,8 @@ typedef struct nsvcd__meetings {
 NSVCD__INLINE nsvcd__meetings nsvcd__meetings_of(const nsvcd__chords *c, size_t l,
                                                  nsvcd__sphere resting) {
   nsvcd__meetings out;
-  const nsvcd__v3 start = nsvcd__v3_rows(c->start[0] + l);
-  const nsvcd__v3 way = nsvcd__v3_rows(c->way[0] + l);
-  const nsvcd__v3 d = nsvcd__v3_sub(start, nsvcd__v3_set(resting.centre));
+  const nsvcd__v3 way = nsvcd__chords_way(c, l);
+  const nsvcd__v3 d = nsvcd__v3_sub(nsvcd__chords_start(c, l), nsvcd__v3_set(resting.centre));
   const nsvcd__v inverse = nsvcd__v_load(c->inverse + l);
   const nsvcd__v reach = nsvcd__v_add(nsvcd__v_load(c->reach + l), nsvcd__v_set(resting.radius));
   out.limit = nsvcd__v_signed_square(reach);
@@ -7853,45 +7957,44 @@ NSVCD__INLINE int nsvcd__intervals_are_cut(const nsvcd__intervals *at, const nsv
   return at->last + 1 != s || turns;
 }
 
-// A slice of the members of moving group g, from lane l on, against patch j of the fixed body, in
-// the segments `wanted`.
-static void nsvcd__slice_against_patch(const nsvcd__search *search, const nsvcd_body *moving,
-                                       size_t g, size_t l, const nsvcd_body *fixed, size_t j,
+// A slice of the moving patches, from patch i on, against patch j of the fixed body, in the
+// segments `wanted`. cuts: nsvcd__interval_cuts.
+static void nsvcd__slice_against_patch(const nsvcd__search *search, size_t i, size_t j,
                                        uint64_t wanted, uint64_t cuts, nsvcd__candidates *kept) {
-  const size_t i = NSVCD__GROUP * g + l;
   const nsvcd__v one = nsvcd__v_set(1);
   const nsvcd__v zero = nsvcd__v_set(0);
-  const nsvcd__sphere patch = nsvcd__sphere_of(nsvcd__body_patches(fixed), j);
+  const nsvcd__sphere patch = nsvcd__sphere_of(nsvcd__body_patches(search->fixed), j);
   nsvcd__intervals at = {0, 0, 0, one, zero, zero, zero, zero, zero, zero, zero, zero};
   for (; wanted; wanted &= wanted - 1) {
     const size_t s = nsvcd__lowest_bit(wanted);
-    const nsvcd__meetings now = nsvcd__meetings_of(&search->members[s], l, patch);
+    const nsvcd__chords *chords = &search->members[s];
+    const nsvcd__meetings now = nsvcd__meetings_of(chords, i % NSVCD__GROUP, patch);
     uint32_t ended = at.open & ~now.met;
     if (nsvcd__intervals_are_cut(&at, search, s, cuts)) {
       ended = at.open;
       at.fresh = one;
     }
     if (ended)
-      nsvcd__intervals_close(&at, ended, search, moving, i, fixed, j, kept);
-    if (now.met) {
+      nsvcd__intervals_close(&at, ended, search, i, j, kept);
+    if (now.met)
       nsvcd__intervals_grow(&at, s, &now);
-    } else {
+    else
       at.fresh = one;
-    }
   }
   if (at.open)
-    nsvcd__intervals_close(&at, at.open, search, moving, i, fixed, j, kept);
+    nsvcd__intervals_close(&at, at.open, search, i, j, kept);
 }
 
 // The 16 members of moving group g against patch j of the fixed body, in the segments `wanted`.
-static void nsvcd__members_against_patch(const nsvcd__search *search, const nsvcd_body *moving,
-                                         size_t g, const nsvcd_body *fixed, size_t j,
+static void nsvcd__members_against_patch(const nsvcd__search *search, size_t g, size_t j,
                                          uint64_t wanted, nsvcd__candidates *kept) {
+  uint64_t cuts = 0;
   NSVCD__TALLY(tests, nsvcd__bit_count(wanted));
-  const uint64_t cuts =
-      NSVCD__SLICE < NSVCD__LANES ? nsvcd__interval_cuts(search, fixed, j, wanted) : 0;
-  NSVCD__EACH_SLICE(l)
-  nsvcd__slice_against_patch(search, moving, g, l, fixed, j, wanted, cuts, kept);
+  if (NSVCD__SLICE < NSVCD__LANES)
+    cuts = nsvcd__interval_cuts(search, j, wanted);
+  NSVCD__EACH_SLICE(l) {
+    nsvcd__slice_against_patch(search, NSVCD__GROUP * g + l, j, wanted, cuts, kept);
+  }
 }
 
 #endif  // NSVCD_NO_NETWORK
@@ -7906,23 +8009,29 @@ static void nsvcd__chords_in_all(nsvcd__search *search, nsvcd__sphere sphere) {
   }
 }
 
-static void nsvcd__chords_of_group(nsvcd__search *search, const nsvcd_body *moving, size_t g) {
-  nsvcd__chords_in_all(search, nsvcd__sphere_of(nsvcd__group_spheres(moving), g));
+static void nsvcd__chords_of_group(nsvcd__search *search, size_t g) {
+  nsvcd__chords_in_all(search, nsvcd__sphere_of(nsvcd__group_spheres(search->moving), g));
 }
 
-// Grows a slice of boxes, from lane l on, by chords where they are near the fixed body.
-static void nsvcd__boxes_grow(const nsvcd__chords *c, size_t l, const nsvcd_body *fixed,
+// Chords of 16 spheres of the moving body in segment s; none of their centres is farther from its
+// origin than `remote`.
+static void nsvcd__chords_in_segment(const nsvcd__search *search, size_t s, nsvcd__spheres spheres,
+                                     float remote, nsvcd__chords *out) {
+  nsvcd__segments *block = &search->blocks[s / NSVCD__LANES];
+  nsvcd__chords_of_members(block, s % NSVCD__LANES, spheres, search->scale, remote, out);
+}
+
+// Grows a slice of boxes, from lane l on, by chords where they are near a resting sphere.
+static void nsvcd__boxes_grow(const nsvcd__chords *c, size_t l, nsvcd__sphere resting,
                               nsvcd__boxes *out) {
-  const nsvcd__v3 start = nsvcd__v3_rows(c->start[0] + l);
-  const nsvcd__v3 way = nsvcd__v3_rows(c->way[0] + l);
-  const nsvcd__v3 centre =
-      nsvcd__v3_set(nsvcd__f3_of(fixed->centre[0], fixed->centre[1], fixed->centre[2]));
-  const nsvcd__v3 d = nsvcd__v3_sub(start, centre);
+  const nsvcd__v nowhere = nsvcd__v_set(NSVCD__NOWHERE);
+  const nsvcd__v3 start = nsvcd__chords_start(c, l);
+  const nsvcd__v3 way = nsvcd__chords_way(c, l);
+  const nsvcd__v3 d = nsvcd__v3_sub(start, nsvcd__v3_set(resting.centre));
   const nsvcd__v reach = nsvcd__v_load(c->reach + l);
-  const nsvcd__v sum = nsvcd__v_add(reach, nsvcd__v_set(fixed->radius));
+  const nsvcd__v sum = nsvcd__v_add(reach, nsvcd__v_set(resting.radius));
   const nsvcd__v square = nsvcd__nearest2(d, way, nsvcd__v_load(c->inverse + l));
-  const nsvcd__v nearby =
-      nsvcd__v_pick(square, nsvcd__v_signed_square(sum), reach, nsvcd__v_set(NSVCD__NOWHERE));
+  const nsvcd__v nearby = nsvcd__v_pick(square, nsvcd__v_signed_square(sum), reach, nowhere);
   const nsvcd__v3 end = nsvcd__v3_add(start, way);
   const nsvcd__v3 around = nsvcd__v3_of(nearby, nearby, nearby);
   const nsvcd__v3 low = nsvcd__v3_sub(nsvcd__v3_min(start, end), around);
@@ -7934,10 +8043,11 @@ static void nsvcd__boxes_grow(const nsvcd__chords *c, size_t l, const nsvcd_body
 // Boxes in which 16 groups of the moving tile, from `first`, stay as long as they are near the
 // fixed body: its axes, metres. Empty ones, low above high, for those that never are. wanted: the
 // segments to look at.
-static void nsvcd__boxes_of_groups(const nsvcd__search *search, const nsvcd_body *moving,
-                                   size_t first, const nsvcd_body *fixed, uint64_t wanted,
+static void nsvcd__boxes_of_groups(const nsvcd__search *search, size_t first, uint64_t wanted,
                                    nsvcd__boxes *out) {
   const nsvcd__spheres groups = nsvcd__spheres_from(search->moving_tile.spheres, first);
+  const nsvcd__sphere fixed = nsvcd__body_sphere(search->fixed);
+  nsvcd__chords *chords = nsvcd__spare_chords(search);
   NSVCD__TALLY(tests, nsvcd__bit_count(wanted));
   for (size_t n = 0; n < 3 * NSVCD__LANES; n++) {
     out->low[n / NSVCD__LANES][n % NSVCD__LANES] = -NSVCD__NOWHERE;
@@ -7945,24 +8055,20 @@ static void nsvcd__boxes_of_groups(const nsvcd__search *search, const nsvcd_body
   }
   for (; wanted; wanted &= wanted - 1) {
     const size_t s = nsvcd__lowest_bit(wanted);
-    nsvcd__chords *c = nsvcd__spare_chords(search);
-    nsvcd__chords_of_members(&search->blocks[s / NSVCD__LANES], s % NSVCD__LANES, groups,
-                             search->scale, moving->extent, c);
-    NSVCD__EACH_SLICE(l) nsvcd__boxes_grow(c, l, fixed, out);
+    nsvcd__chords_in_segment(search, s, groups, search->moving->extent, chords);
+    NSVCD__EACH_SLICE(l) nsvcd__boxes_grow(chords, l, fixed, out);
   }
 }
 
 // 16 spheres that touch a box.
-static uint32_t nsvcd__spheres_at_box(const float *low, const float *high, nsvcd__spheres all) {
-  const nsvcd__f3 least = nsvcd__f3_of(low[0], low[1], low[2]);
-  const nsvcd__f3 most = nsvcd__f3_of(high[0], high[1], high[2]);
+static uint32_t nsvcd__spheres_at_box(nsvcd__box box, nsvcd__spheres all) {
+  const nsvcd__v3 none = nsvcd__v3_set(nsvcd__f3_of(0, 0, 0));
   uint32_t touched = 0;
   NSVCD__EACH_SLICE(l) {
-    const nsvcd__v zero = nsvcd__v_set(0);
     const nsvcd__v3 centre = nsvcd__v3_centres(all, l);
-    const nsvcd__v3 below = nsvcd__v3_sub(nsvcd__v3_set(least), centre);
-    const nsvcd__v3 above = nsvcd__v3_sub(centre, nsvcd__v3_set(most));
-    const nsvcd__v3 d = nsvcd__v3_max(nsvcd__v3_max(below, above), nsvcd__v3_of(zero, zero, zero));
+    const nsvcd__v3 below = nsvcd__v3_sub(nsvcd__v3_set(box.low), centre);
+    const nsvcd__v3 above = nsvcd__v3_sub(centre, nsvcd__v3_set(box.high));
+    const nsvcd__v3 d = nsvcd__v3_max(nsvcd__v3_max(below, above), none);
     const nsvcd__v reach = nsvcd__v_load(all.r + l);
     touched |= nsvcd__v_le(nsvcd__v3_dot(d, d), nsvcd__v_signed_square(reach)) << l;
   }
@@ -7970,26 +8076,28 @@ static uint32_t nsvcd__spheres_at_box(const float *low, const float *high, nsvcd
 }
 
 // Groups of the fixed tile whose spheres touch the box in lane l.
-static uint32_t nsvcd__groups_at_box(const nsvcd__boxes *boxes, size_t l, const nsvcd__tile *tile) {
-  const float low[3] = {boxes->low[0][l], boxes->low[1][l], boxes->low[2][l]};
-  const float high[3] = {boxes->high[0][l], boxes->high[1][l], boxes->high[2][l]};
+static uint32_t nsvcd__groups_at_box(nsvcd__boxes *boxes, size_t l, const nsvcd__tile *tile) {
+  const nsvcd__box box = {nsvcd__lane_of(boxes->low, l), nsvcd__lane_of(boxes->high, l)};
   uint32_t groups = 0;
   for (size_t first = 0; first < tile->count; first += NSVCD__LANES) {
     const nsvcd__spheres some = nsvcd__spheres_from(tile->spheres, first);
-    groups |= nsvcd__spheres_at_box(low, high, some) << first;
+    groups |= nsvcd__spheres_at_box(box, some) << first;
   }
   return groups;
 }
 
+static uint64_t nsvcd__all_segments(const nsvcd__search *search) {
+  return ~(uint64_t)0 >> (NSVCD__MAX_SEGMENTS - search->segments);
+}
+
 // Fills nearby[g] with the segments in which group g of the moving tile meets each one of the fixed
 // tile, of those `groups`. Returns how many they are over all groups.
-static size_t nsvcd__group_against_tile(nsvcd__search *search, const nsvcd_body *moving, size_t g,
-                                        uint32_t groups) {
+static size_t nsvcd__group_against_tile(nsvcd__search *search, size_t g, uint32_t groups) {
   const nsvcd__tile *tile = &search->fixed_tile;
-  const uint64_t all = ~(uint64_t)0 >> (NSVCD__MAX_SEGMENTS - search->segments);
+  const uint64_t all = nsvcd__all_segments(search);
   uint64_t *nearby = nsvcd__nearby(search, g);
   size_t meetings = 0;
-  nsvcd__chords_of_group(search, moving, search->moving_tile.groups[g]);
+  nsvcd__chords_of_group(search, search->moving_tile.groups[g]);
   memset(nearby, 0, tile->count * sizeof *nearby);
   for (; groups; groups &= groups - 1) {
     const size_t h = nsvcd__lowest_bit(groups);
@@ -8001,8 +8109,7 @@ static size_t nsvcd__group_against_tile(nsvcd__search *search, const nsvcd_body 
 
 // Puts the steps of the search of both tiles in order. wanted: segments in which the bodies'
 // spheres meet.
-static void nsvcd__search_tile(nsvcd__search *search, const nsvcd_body *moving,
-                               const nsvcd_body *fixed, uint64_t wanted) {
+static void nsvcd__search_tile(nsvcd__search *search, uint64_t wanted) {
   uint16_t meetings[NSVCD__TILE_SLOTS];
   nsvcd__boxes *boxes = nsvcd__spare_boxes(search);
   search->steps = 0;
@@ -8010,9 +8117,9 @@ static void nsvcd__search_tile(nsvcd__search *search, const nsvcd_body *moving,
   search->waiting = 0;
   for (size_t g = 0; g < search->moving_tile.count; g++) {
     if (g % NSVCD__LANES == 0)
-      nsvcd__boxes_of_groups(search, moving, g, fixed, wanted, boxes);
+      nsvcd__boxes_of_groups(search, g, wanted, boxes);
     const uint32_t groups = nsvcd__groups_at_box(boxes, g % NSVCD__LANES, &search->fixed_tile);
-    const size_t count = groups ? nsvcd__group_against_tile(search, moving, g, groups) : 0;
+    const size_t count = groups ? nsvcd__group_against_tile(search, g, groups) : 0;
     size_t at = search->steps;
     if (!count)
       continue;
@@ -8063,14 +8170,12 @@ static uint32_t nsvcd__exists(const void *what, nsvcd__spheres all) {
 // Spheres of the moving body that meet that of the fixed one.
 static uint32_t nsvcd__comes_near(const void *what, nsvcd__spheres all) {
   const nsvcd__search *search = (const nsvcd__search *)what;
-  const nsvcd__sphere fixed = nsvcd__body_sphere(search->fixed_walk.body);
-  const float extent = search->moving_walk.body->extent;
+  const nsvcd__sphere fixed = nsvcd__body_sphere(search->fixed);
+  nsvcd__chords *chords = nsvcd__spare_chords(search);
   uint32_t met = 0;
   for (uint64_t wanted = search->near_segments; wanted; wanted &= wanted - 1) {
     const size_t s = nsvcd__lowest_bit(wanted);
-    nsvcd__chords *chords = nsvcd__spare_chords(search);
-    nsvcd__chords_of_members(&search->blocks[s / NSVCD__LANES], s % NSVCD__LANES, all,
-                             search->scale, extent, chords);
+    nsvcd__chords_in_segment(search, s, all, search->moving->extent, chords);
     met |= nsvcd__meet(chords, fixed);
   }
   return met;
@@ -8079,7 +8184,7 @@ static uint32_t nsvcd__comes_near(const void *what, nsvcd__spheres all) {
 // Spheres of the fixed body that meet that of the moving tile, whose chords are search->group.
 static uint32_t nsvcd__is_approached(const void *what, nsvcd__spheres all) {
   const nsvcd__search *search = (const nsvcd__search *)what;
-  const uint32_t nearby = nsvcd__spheres_at_box(search->near_low, search->near_high, all);
+  const uint32_t nearby = nsvcd__spheres_at_box(search->near_box, all);
   uint32_t met = 0;
   for (uint64_t wanted = search->near_segments; wanted && nearby & ~met; wanted &= wanted - 1) {
     const size_t s = nsvcd__lowest_bit(wanted);
@@ -8090,59 +8195,55 @@ static uint32_t nsvcd__is_approached(const void *what, nsvcd__spheres all) {
 }
 
 // Poses the sphere over all groups of the moving tile, into search->group.
-static void nsvcd__chords_of_tile(nsvcd__search *search, const nsvcd_body *moving) {
+static void nsvcd__chords_of_tile(nsvcd__search *search) {
   const nsvcd__tile *tile = &search->moving_tile;
-  nsvcd__sphere sphere = nsvcd__body_sphere(moving);
-  if (nsvcd__is_large(moving))
+  nsvcd__sphere sphere = nsvcd__body_sphere(search->moving);
+  if (nsvcd__is_large(search->moving))
     sphere = nsvcd__cover_spheres(tile->spheres, tile->count);
   nsvcd__chords_in_all(search, sphere);
 }
 
-// Puts a box about the chords of search->group.
-static void nsvcd__box_of_way(nsvcd__search *search) {
-  float least[6] = {HUGE_VALF, HUGE_VALF, HUGE_VALF, HUGE_VALF, HUGE_VALF, HUGE_VALF};
-  for (size_t b = 0; NSVCD__LANES * b < search->segments; b++) {
-    const nsvcd__chords *c = &search->group[b];
-    for (size_t l = 0; l < NSVCD__LANES && NSVCD__LANES * b + l < search->segments; l++) {
-      for (size_t k = 0; k < 3; k++) {
-        const float start = c->start[k][l];
-        const float end = start + c->way[k][l];
-        least[k] = fminf(least[k], fminf(start, end) - c->reach[l]);
-        least[3 + k] = fminf(least[3 + k], -fmaxf(start, end) - c->reach[l]);
-      }
-    }
+// A box about the chords of search->group.
+static nsvcd__box nsvcd__box_of_way(const nsvcd__search *search) {
+  nsvcd__box box = {{HUGE_VALF, HUGE_VALF, HUGE_VALF}, {-HUGE_VALF, -HUGE_VALF, -HUGE_VALF}};
+  for (size_t s = 0; s < search->segments; s++) {
+    const nsvcd__chords *c = &search->group[s / NSVCD__LANES];
+    const size_t l = s % NSVCD__LANES;
+    const nsvcd__f3 start = nsvcd__f3_get(c->start[0] + l, NSVCD__LANES);
+    const nsvcd__f3 way = nsvcd__f3_get(c->way[0] + l, NSVCD__LANES);
+    const nsvcd__f3 end = nsvcd__f3_add(start, way);
+    const nsvcd__f3 around = nsvcd__f3_of(c->reach[l], c->reach[l], c->reach[l]);
+    const nsvcd__f3 low = nsvcd__f3_sub(nsvcd__f3_min(start, end), around);
+    const nsvcd__f3 high = nsvcd__f3_add(nsvcd__f3_max(start, end), around);
+    box.low = nsvcd__f3_min(box.low, low);
+    box.high = nsvcd__f3_max(box.high, high);
   }
-  for (size_t k = 0; k < 3; k++) {
-    search->near_low[k] = least[k];
-    search->near_high[k] = -least[3 + k];
-  }
+  return box;
 }
 
 // Finds the next moving tile, an empty one if there is none, and starts the walk through the fixed
 // body's groups that come near it.
-static void nsvcd__search_moving_tile(nsvcd__search *search, const nsvcd_body *moving,
-                                      const nsvcd_body *fixed) {
+static void nsvcd__search_moving_tile(nsvcd__search *search) {
   nsvcd__tile_fill(&search->moving_tile, &search->moving_walk);
   if (search->moving_tile.count == 0)
     return;
-  nsvcd__chords_of_tile(search, moving);
-  nsvcd__box_of_way(search);
-  nsvcd__walk_begin(&search->fixed_walk, fixed, nsvcd__is_approached, search);
+  nsvcd__chords_of_tile(search);
+  search->near_box = nsvcd__box_of_way(search);
+  nsvcd__walk_begin(&search->fixed_walk, search->fixed, nsvcd__is_approached, search);
 }
 
 // Goes on to the next tile that has a step. 0 if there is none.
-static int nsvcd__search_next_tile(nsvcd__search *search, const nsvcd_body *moving,
-                                   const nsvcd_body *fixed) {
-  if (!nsvcd__is_large(moving) && !nsvcd__is_large(fixed))
+static int nsvcd__search_next_tile(nsvcd__search *search) {
+  if (!nsvcd__is_large(search->moving) && !nsvcd__is_large(search->fixed))
     return 0;
   while (search->moving_tile.count > 0) {
-    nsvcd__chords_of_tile(search, moving);
+    nsvcd__chords_of_tile(search);
     nsvcd__tile_fill(&search->fixed_tile, &search->fixed_walk);
     if (search->fixed_tile.count == 0) {
-      nsvcd__search_moving_tile(search, moving, fixed);
+      nsvcd__search_moving_tile(search);
       continue;
     }
-    nsvcd__search_tile(search, moving, fixed, search->near_segments);
+    nsvcd__search_tile(search, search->near_segments);
     if (search->steps > 0)
       return 1;
   }
@@ -8153,54 +8254,57 @@ static int nsvcd__search_next_tile(nsvcd__search *search, const nsvcd_body *movi
 // then there is no step to take.
 static int nsvcd__search_begin(const nsvcd_body *moving, const nsvcd_body *fixed,
                                nsvcd__search *search) {
+  search->moving = moving;
+  search->fixed = fixed;
   nsvcd__chords_in_all(search, nsvcd__body_sphere(moving));
-  uint64_t wanted = ~(uint64_t)0 >> (NSVCD__MAX_SEGMENTS - search->segments);
-  wanted = nsvcd__meet_in(search->group, wanted, nsvcd__body_sphere(fixed));
+  const uint64_t all = nsvcd__all_segments(search);
+  const uint64_t wanted = nsvcd__meet_in(search->group, all, nsvcd__body_sphere(fixed));
   search->near_segments = wanted;
   search->wanted = ~(uint64_t)0;
-  search->steps = search->step = 0;
+  search->steps = 0;
+  search->step = 0;
   search->waiting = 0;
   if (!nsvcd__is_large(moving) && !nsvcd__is_large(fixed)) {
     nsvcd__tile_fill_all(&search->moving_tile, moving);
     nsvcd__tile_fill_all(&search->fixed_tile, fixed);
     if (wanted)
-      nsvcd__search_tile(search, moving, fixed, wanted);
+      nsvcd__search_tile(search, wanted);
     return search->steps > 0;
   }
   search->moving_tile.count = 0;
   if (!wanted)
     return 0;
-  search->fixed_walk.body = fixed;  // the filters below ask for them
-  search->moving_walk.body = moving;
-  nsvcd__walk_begin(&search->moving_walk, moving,
-                    nsvcd__is_large(moving) ? nsvcd__comes_near : nsvcd__exists, search);
-  nsvcd__search_moving_tile(search, moving, fixed);
-  return nsvcd__search_next_tile(search, moving, fixed);
+  nsvcd__filter *filter = nsvcd__is_large(moving) ? nsvcd__comes_near : nsvcd__exists;
+  nsvcd__walk_begin(&search->moving_walk, moving, filter, search);
+  nsvcd__search_moving_tile(search);
+  return nsvcd__search_next_tile(search);
+}
+
+// No point of a group is farther from its body's origin; in the body's own units.
+static float nsvcd__group_reach(const nsvcd_body *body, size_t g) {
+  const nsvcd__sphere group = nsvcd__sphere_of(nsvcd__group_spheres(body), g);
+  return 1.000002f * (nsvcd__f3_length(group.centre) + group.radius);
 }
 
 // Fills members[] with what is missing of the segments `wanted`.
-static void nsvcd__pose_members(nsvcd__search *search, const nsvcd_body *moving, size_t g,
-                                uint64_t wanted) {
+static void nsvcd__pose_members(nsvcd__search *search, size_t g, uint64_t wanted) {
   if (!(wanted & ~search->posed))
     return;
-  const nsvcd__sphere group = nsvcd__sphere_of(nsvcd__group_spheres(moving), g);
-  const nsvcd__spheres patches = nsvcd__body_patches(moving);
+  const nsvcd__spheres patches = nsvcd__body_patches(search->moving);
   const nsvcd__spheres members = nsvcd__spheres_from(patches, NSVCD__GROUP * g);
-  search->remote = 1.000002f * (nsvcd__f3_length(group.centre) + group.radius);
+  search->remote = nsvcd__group_reach(search->moving, g);
   for (uint64_t missing = wanted & ~search->posed; missing; missing &= missing - 1) {
     const size_t s = nsvcd__lowest_bit(missing);
-    nsvcd__chords_of_members(&search->blocks[s / NSVCD__LANES], s % NSVCD__LANES, members,
-                             search->scale, search->remote, &search->members[s]);
+    nsvcd__chords_in_segment(search, s, members, search->remote, &search->members[s]);
   }
   search->posed |= wanted;
 }
 
 // Patches of group h of the fixed body that moving group g meets, and in which segments, of those
-// `wanted`.
-static uint32_t nsvcd__group_against_members(const nsvcd__search *search, const nsvcd_body *fixed,
-                                             size_t h, uint64_t wanted,
-                                             uint64_t *segments) {  // (GROUP)
-  const nsvcd__spheres patches = nsvcd__body_patches(fixed);
+// `wanted`: segments (GROUP), written for these patches.
+static uint32_t nsvcd__group_against_members(const nsvcd__search *search, size_t h, uint64_t wanted,
+                                             uint64_t *segments) {
+  const nsvcd__spheres patches = nsvcd__body_patches(search->fixed);
   const nsvcd__spheres members = nsvcd__spheres_from(patches, NSVCD__GROUP * h);
   uint32_t met = 0;
   for (; wanted; wanted &= wanted - 1) {
@@ -8218,7 +8322,7 @@ static uint32_t nsvcd__group_against_members(const nsvcd__search *search, const 
 
 // Turns to the moving group that is next in order. Returns the fixed group, its place in the tile,
 // that it meets for the longest time.
-static size_t nsvcd__search_group(nsvcd__search *search, const nsvcd_body *moving) {
+static size_t nsvcd__search_group(nsvcd__search *search) {
   const size_t g = search->order[search->step];
   const uint64_t *nearby = nsvcd__nearby(search, g);
   size_t longest = 0;
@@ -8233,7 +8337,7 @@ static size_t nsvcd__search_group(nsvcd__search *search, const nsvcd_body *movin
     }
   }
   if (search->waiting)
-    nsvcd__chords_of_group(search, moving, search->moving_tile.groups[g]);
+    nsvcd__chords_of_group(search, search->moving_tile.groups[g]);
   search->posed = 0;
   return longest;
 }
@@ -8241,38 +8345,41 @@ static size_t nsvcd__search_group(nsvcd__search *search, const nsvcd_body *movin
 #ifndef NSVCD_NO_NETWORK
 // A step of the search: all contact intervals of one pair of groups. Returns 1 if there are more
 // steps to take.
-static NSVCD__APART int nsvcd__search_step(nsvcd__search *search, const nsvcd_body *moving,
-                                           const nsvcd_body *fixed, nsvcd__candidates *kept) {
-  const size_t at =
-      search->waiting ? nsvcd__lowest_bit(search->waiting) : nsvcd__search_group(search, moving);
+static NSVCD__APART int nsvcd__search_step(nsvcd__search *search, nsvcd__candidates *kept) {
+  uint64_t segments[NSVCD__GROUP];
+  size_t at;
+  if (search->waiting)
+    at = nsvcd__lowest_bit(search->waiting);
+  else
+    at = nsvcd__search_group(search);
   const size_t next = search->order[search->step];
   const size_t g = search->moving_tile.groups[next];
   const size_t h = search->fixed_tile.groups[at];
-  uint64_t segments[NSVCD__GROUP];
-  uint32_t met =
-      nsvcd__group_against_members(search, fixed, h, nsvcd__nearby(search, next)[at], segments);
+  const uint64_t wanted = nsvcd__nearby(search, next)[at];
+  uint32_t met = nsvcd__group_against_members(search, h, wanted, segments);
   for (; met; met &= met - 1) {
     const size_t l = nsvcd__lowest_bit(met);
-    nsvcd__pose_members(search, moving, g, segments[l]);
-    nsvcd__members_against_patch(search, moving, g, fixed, NSVCD__GROUP * h + l, segments[l], kept);
+    nsvcd__pose_members(search, g, segments[l]);
+    nsvcd__members_against_patch(search, g, NSVCD__GROUP * h + l, segments[l], kept);
   }
   search->waiting &= ~((uint32_t)1 << at);
   if (!search->waiting)
     search->step++;
-  return search->step < search->steps || nsvcd__search_next_tile(search, moving, fixed);
+  return search->step < search->steps || nsvcd__search_next_tile(search);
 }
 
 // Instead of a search, in a motion that has been cut: all contact intervals of one moving group and
 // one patch of the fixed body.
 static void nsvcd__search_patch(nsvcd__search *search, const nsvcd_body *moving, size_t g,
                                 const nsvcd_body *fixed, size_t j, nsvcd__candidates *kept) {
-  const uint64_t all = ~(uint64_t)0 >> (NSVCD__MAX_SEGMENTS - search->segments);
-  nsvcd__chords_of_group(search, moving, g);
   const nsvcd__sphere patch = nsvcd__sphere_of(nsvcd__body_patches(fixed), j);
-  const uint64_t wanted = nsvcd__meet_in(search->group, all, patch);
+  search->moving = moving;
+  search->fixed = fixed;
+  nsvcd__chords_of_group(search, g);
+  const uint64_t wanted = nsvcd__meet_in(search->group, nsvcd__all_segments(search), patch);
   search->posed = 0;
-  nsvcd__pose_members(search, moving, g, wanted);
-  nsvcd__members_against_patch(search, moving, g, fixed, j, wanted, kept);
+  nsvcd__pose_members(search, g, wanted);
+  nsvcd__members_against_patch(search, g, j, wanted, kept);
 }
 
 static void nsvcd__candidates_start(nsvcd__candidates *kept, nsvcd__candidate *items,
@@ -8295,35 +8402,30 @@ static void nsvcd__candidates_start(nsvcd__candidates *kept, nsvcd__candidate *i
 // then at no t in [0,1] do the surfaces of the two meshes come within the clearance of each other,
 // and no component of one lies within the other.
 //   1. Every point of a surface lies in a piece of some patch (section *surface*). So it is enough
-//   to part each patch of
-//      one body from each of the other, at all times.
+//      to part each patch of one body from each of the other, at all times.
 //   2. The broad phase leaves out only patches and segments of time in which the spheres over the
-//   pieces stay apart. What
-//      it leaves, a pair of patches in one segment, is an *item*. Every item is parted by one of
-//      the steps below, or the verdict is not CERTIFIED_FREE.
+//      pieces stay apart. What it leaves, a pair of patches in one segment, is an *item*. Every
+//      item is parted by one of the steps below, or the verdict is not CERTIFIED_FREE.
 //   3. A *span* is a stretch of the motion: a segment or a part of one. In it the true place of a
-//   point x of the moving
-//      body (body frame) leaves the chord between its places at the ends by no more than
-//      nsvcd__deviation along any direction: that is the bulge of section *broad phase*, taken
-//      along a plane's normal (within one arc of angle h of one body it is h^2 / 8 |x|, and nothing
-//      along the axis). A plane that has the moving side's places at both ends on one side, by more
-//      than that and the clearance, has their chords there too, for a chord is convex, and so all
-//      places between.
+//      point x of the moving body (body frame) leaves the chord between its places at the ends by
+//      no more than nsvcd__deviation along any direction: that is the bulge of section *broad
+//      phase*, taken along a plane's normal (within one arc of angle h of one body it is h^2 / 8
+//      |x|, and nothing along the axis). A plane that has the moving side's places at both ends on
+//      one side, by more than that and the clearance, has their chords there too, for a chord is
+//      convex, and so all places between.
 //   4. Discs: the plane is normal to a patch, or to a group of 16; what each side reaches along it
-//   follows from its disc.
-//      Hulls: any plane; a patch's pieces are within its slack of the hull of its first vertices.
-//      Triangles: a plane for a pair of listed triangles. A patch lists all triangles of its
-//      pieces, whole or in parts.
+//      follows from its disc. Hulls: any plane; a patch's pieces are within its slack of the hull
+//      of its first vertices. Triangles: a plane for a pair of listed triangles. A patch lists all
+//      triangles of its pieces, whole or in parts.
 //   5. Rounding: every plane allows for NSVCD__ROUNDING of all lengths that enter a float
-//   computation (`rounding`, part of
-//      `spread`). Stored vertices are off by the patch's slack or quantum, which every plane allows
-//      for too. Pairs of triangles are parted in double. Comparisons are such that a number that is
-//      none parts nothing.
+//      computation (`rounding`, part of `spread`). Stored vertices are off by the patch's slack or
+//      quantum, which every plane allows for too. Pairs of triangles are parted in double.
+//      Comparisons are such that a NaN parts nothing.
 //   6. Containment is decided at t = 0, component by component: a body that gets in or out later
-//   crosses a surface. The
-//      crossings of a ray with the closed components of the other body are counted with their sign;
-//      a ray that passes an edge too closely is replaced by another. Open components enclose
-//      nothing.
+//      crosses a surface. The crossings of a ray with the closed components of the other body are
+//      counted with their sign; a ray that passes an edge too closely is replaced by another. Open
+//      components enclose nothing.
+//
 // A WITNESS is a pair of stored triangles that share a point at the true pose, in double; the
 // mesh's own triangles are then within the two quanta of each other. Faces that are parallel when
 // they meet do so at one time only, which rounded numbers miss: there, a corner that is on one side
@@ -8335,7 +8437,9 @@ static void nsvcd__candidates_start(nsvcd__candidates *kept, nsvcd__candidate *i
 // FIRST CONTACT. Contacts end the motion: whenever one is found, only what is more than the
 // tolerance before it matters from then on, and is proven free or gives an earlier contact.
 // Segments are searched some at a time, in their order, so that the first ones found are early
-// ones. THE LEAST DISTANCE. Contacts lower the clearance: it begins as a distance that two vertices
+// ones.
+//
+// THE LEAST DISTANCE. Contacts lower the clearance: it begins as a distance that two vertices
 // have, and whenever triangles are found nearer than that, it becomes their distance less the
 // tolerance. What has been parted stays parted, by more than that. So both are one search whose
 // question shrinks, and in the end all of the motion that matters is proven free at the clearance
@@ -8380,7 +8484,7 @@ typedef struct nsvcd__item {
 
 // How a body turns over an arc.
 typedef struct nsvcd__leg {
-  double start[4], end[4];  // at its poses before and after: unit quaternions, on the shorter side
+  nsvcd__dquat start, end;  // at its poses before and after: unit, on the shorter side
   double half_angle;        // between them as quaternions: half the angle of the turn
   // where between these poses the arc begins, and how much of the way it lasts
   double from, share;
@@ -8404,9 +8508,9 @@ typedef struct nsvcd__arc {
   double bulge, drift;
 } nsvcd__arc;
 
-// A pose in double: rows of the rotation.
+// A pose in double.
 typedef struct nsvcd__placement {
-  nsvcd__d3 rows[3];
+  nsvcd__dmat3 rotation;
   nsvcd__d3 position;
 } nsvcd__placement;
 
@@ -8429,10 +8533,6 @@ typedef struct nsvcd__block {
   float low[3][NSVCD__LANES], high[3][NSVCD__LANES];
   size_t first, count;  // listings
 } nsvcd__block;
-
-typedef struct nsvcd__box {
-  nsvcd__f3 low, high;
-} nsvcd__box;
 
 typedef struct nsvcd__contact {
   double tick;              // when
@@ -8544,78 +8644,40 @@ enum { NSVCD__BY_DISC, NSVCD__BY_HULL, NSVCD__BY_TRIANGLES };
 
 // ---- exact poses
 
-static void nsvcd__unit_quaternion(const float *q, double *out) {
-  double square = 0;
-  for (size_t k = 0; k < 4; k++)
-    square += (double)q[k] * (double)q[k];
-  const double inverse = 1 / sqrt(square);
-  for (size_t k = 0; k < 4; k++)
-    out[k] = (double)q[k] * inverse;
+static nsvcd__dquat nsvcd__unit_rotation(const nsvcd_pose *pose) {
+  const nsvcd__quat q = nsvcd__quat_load(pose->rotation);
+  const nsvcd__dquat out = {(double)q.x, (double)q.y, (double)q.z, (double)q.w};
+  return nsvcd__dquat_unit(out);
 }
 
-// The conjugate of a, times b.
-static void nsvcd__conjugate_times(const double *a, const double *b, double *out) {
-  const nsvcd__d3 u = nsvcd__d3_of(a[0], a[1], a[2]);
-  const nsvcd__d3 v = nsvcd__d3_of(b[0], b[1], b[2]);
-  const nsvcd__d3 across = nsvcd__d3_cross(u, v);
-  out[0] = a[3] * v.x - b[3] * u.x - across.x;
-  out[1] = a[3] * v.y - b[3] * u.y - across.y;
-  out[2] = a[3] * v.z - b[3] * u.z - across.z;
-  out[3] = a[3] * b[3] + nsvcd__d3_dot(u, v);
-}
-
-static void nsvcd__rows_of(const double *q, nsvcd__d3 *rows) {  // q unit
-  const double x = q[0];
-  const double y = q[1];
-  const double z = q[2];
-  const double w = q[3];
-  rows[0] = nsvcd__d3_of(1 - 2 * (y * y + z * z), 2 * (x * y - z * w), 2 * (x * z + y * w));
-  rows[1] = nsvcd__d3_of(2 * (x * y + z * w), 1 - 2 * (x * x + z * z), 2 * (y * z - x * w));
-  rows[2] = nsvcd__d3_of(2 * (x * z - y * w), 2 * (y * z + x * w), 1 - 2 * (x * x + y * y));
-}
-static nsvcd__d3 nsvcd__rotate(const nsvcd__d3 *rows, nsvcd__d3 a) {
-  return nsvcd__d3_of(nsvcd__d3_dot(rows[0], a), nsvcd__d3_dot(rows[1], a),
-                      nsvcd__d3_dot(rows[2], a));
-}
-static nsvcd__d3 nsvcd__rotate_back(const nsvcd__d3 *rows, nsvcd__d3 a) {
-  const nsvcd__d3 sum = nsvcd__d3_add(nsvcd__d3_scale(rows[0], a.x), nsvcd__d3_scale(rows[1], a.y));
-  return nsvcd__d3_add(sum, nsvcd__d3_scale(rows[2], a.z));
-}
 static nsvcd__d3 nsvcd__place_point(const nsvcd__placement *at, nsvcd__d3 a) {
-  return nsvcd__d3_add(nsvcd__rotate(at->rows, a), at->position);
+  return nsvcd__d3_add(nsvcd__dmat3_apply(&at->rotation, a), at->position);
 }
 
-static double nsvcd__turn_weights(double half_angle, double u, double *after) {
-  *after = u;
-  if (!(half_angle > 1e-7))
-    return 1 - u;  // the difference is less than rounding
-  *after = sin(u * half_angle);
-  return sin((1 - u) * half_angle);
-}
-
-// The rotation a share u in [0,1] of the arc later than its start; q unit.
-static void nsvcd__leg_at(const nsvcd__leg *leg, double u, double *q) {
-  double after;
-  double square = 0;
-  const double before = nsvcd__turn_weights(leg->half_angle, leg->from + leg->share * u, &after);
-  for (size_t k = 0; k < 4; k++) {
-    q[k] = before * leg->start[k] + after * leg->end[k];
-    square += q[k] * q[k];
+// The rotation a share u in [0,1] of the arc later than its start; unit.
+static nsvcd__dquat nsvcd__leg_at(const nsvcd__leg *leg, double u) {
+  const double way = leg->from + leg->share * u;
+  double before = 1 - way;
+  double after = way;
+  if (leg->half_angle > 1e-7) {  // below, the difference is less than rounding
+    before = sin((1 - way) * leg->half_angle);
+    after = sin(way * leg->half_angle);
   }
-  const double inverse = 1 / sqrt(square);
-  for (size_t k = 0; k < 4; k++)
-    q[k] *= inverse;
+  const nsvcd__dquat start = nsvcd__dquat_scale(leg->start, before);
+  return nsvcd__dquat_unit(nsvcd__dquat_add_scaled(start, after, leg->end));
 }
 
 // A track's leg of an arc, and its positions at both ends of it, metres.
 static void nsvcd__leg_init(const nsvcd__track *track, uint32_t first, uint32_t ticks,
                             nsvcd__leg *leg, nsvcd__d3 *ends) {
   if (track->count == 1) {
-    nsvcd__unit_quaternion(track->poses->rotation, leg->start);
-    memcpy(leg->end, leg->start, sizeof leg->end);
-    leg->half_angle = leg->from = 0;
+    leg->start = nsvcd__unit_rotation(track->poses);
+    leg->end = leg->start;
+    leg->half_angle = 0;
+    leg->from = 0;
     leg->share = 1;
-    ends[0] = ends[1] = nsvcd__d3_load(track->poses->position);
+    ends[0] = nsvcd__d3_load(track->poses->position);
+    ends[1] = ends[0];
     return;
   }
   const uint32_t last = (uint32_t)(track->count - 2);
@@ -8632,24 +8694,19 @@ static void nsvcd__leg_init(const nsvcd__track *track, uint32_t first, uint32_t 
   ends[1] = nsvcd__d3_add(start, nsvcd__d3_scale(way, leg->from + leg->share));
 
   const double sign = nsvcd__poses_opposed(a, b) ? -1 : 1;
-  double apart = 0;
-  double together = 0;
-  nsvcd__unit_quaternion(a->rotation, leg->start);
-  nsvcd__unit_quaternion(b->rotation, leg->end);
-  for (size_t i = 0; i < 4; i++) {
-    leg->end[i] *= sign;
-    apart += (leg->start[i] - leg->end[i]) * (leg->start[i] - leg->end[i]);
-    together += (leg->start[i] + leg->end[i]) * (leg->start[i] + leg->end[i]);
-  }
+  leg->start = nsvcd__unit_rotation(a);
+  leg->end = nsvcd__dquat_scale(nsvcd__unit_rotation(b), sign);
+  const double apart = nsvcd__dquat_square(nsvcd__dquat_add_scaled(leg->start, -1, leg->end));
+  const double together = nsvcd__dquat_square(nsvcd__dquat_add_scaled(leg->start, 1, leg->end));
   leg->half_angle = 2 * atan2(sqrt(apart), sqrt(together));
 }
 
 // The rotation vector of a leg, over its arc.
 static nsvcd__d3 nsvcd__leg_turn(const nsvcd__leg *leg) {
-  const nsvcd__d3 u = nsvcd__d3_of(leg->start[0], leg->start[1], leg->start[2]);
-  const nsvcd__d3 v = nsvcd__d3_of(leg->end[0], leg->end[1], leg->end[2]);
-  const nsvcd__d3 difference =
-      nsvcd__d3_sub(nsvcd__d3_scale(v, leg->start[3]), nsvcd__d3_scale(u, leg->end[3]));
+  const nsvcd__d3 u = nsvcd__dquat_axis(leg->start);
+  const nsvcd__d3 v = nsvcd__dquat_axis(leg->end);
+  const nsvcd__d3 ahead = nsvcd__d3_scale(v, leg->start.w);
+  const nsvcd__d3 difference = nsvcd__d3_sub(ahead, nsvcd__d3_scale(u, leg->end.w));
   const nsvcd__d3 across = nsvcd__d3_add(difference, nsvcd__d3_cross(u, v));
   const double sine = nsvcd__d3_length(across);
   return nsvcd__d3_scale(across, sine > 0 ? 2 * leg->half_angle * leg->share / sine : 0);
@@ -8662,8 +8719,9 @@ static void nsvcd__arc_bend(nsvcd__arc *arc) {
   const nsvcd__d3 to = nsvcd__d3_add(arc->from, arc->moved);
   const double twist = nsvcd__d3_length(nsvcd__d3_cross(turn, fixed_turn));
   const double angle = nsvcd__d3_length(fixed_turn);
-  const double swing = fmax(nsvcd__d3_length(nsvcd__d3_cross(fixed_turn, arc->from)),
-                            nsvcd__d3_length(nsvcd__d3_cross(fixed_turn, to)));
+  const double swing_from = nsvcd__d3_length(nsvcd__d3_cross(fixed_turn, arc->from));
+  const double swing_to = nsvcd__d3_length(nsvcd__d3_cross(fixed_turn, to));
+  const double swing = fmax(swing_from, swing_to);
   const double across = nsvcd__d3_length(nsvcd__d3_cross(fixed_turn, arc->moved));
   arc->has_axis = !(angle > 0);
   arc->turn = nsvcd__d3_length(turn);
@@ -8672,9 +8730,8 @@ static void nsvcd__arc_bend(nsvcd__arc *arc) {
   arc->drift = 0.1250001 * (2 * across + angle * swing);
   arc->axis = nsvcd__d3_unit(turn, nsvcd__d3_of(1, 0, 0));
   if (arc->has_axis) {  // the fixed body only goes along: its axes are those of its start
-    nsvcd__d3 rows[3];
-    nsvcd__rows_of(arc->fixed.start, rows);
-    arc->axis = nsvcd__rotate_back(rows, arc->axis);
+    const nsvcd__dmat3 fixed = nsvcd__dmat3_of(arc->fixed.start);
+    arc->axis = nsvcd__dmat3_apply_transpose(&fixed, arc->axis);
   }
 }
 
@@ -8694,24 +8751,20 @@ static const nsvcd__arc *nsvcd__arc_at(nsvcd__proof *p, uint32_t first) {
   arc->lift = nsvcd__d3_widen(motion->lift);
   nsvcd__leg_init(&motion->moving, first, ticks, &arc->moving, ends);
   nsvcd__leg_init(&motion->fixed, first, ticks, &arc->fixed, fixed_ends);
-  arc->from = nsvcd__d3_scale(nsvcd__d3_sub(ends[0], fixed_ends[0]), per_metre);
-  arc->moved = nsvcd__d3_scale(
-      nsvcd__d3_sub(nsvcd__d3_sub(ends[1], fixed_ends[1]), nsvcd__d3_sub(ends[0], fixed_ends[0])),
-      per_metre);
+  const nsvcd__d3 from = nsvcd__d3_sub(ends[0], fixed_ends[0]);
+  const nsvcd__d3 to = nsvcd__d3_sub(ends[1], fixed_ends[1]);
+  arc->from = nsvcd__d3_scale(from, per_metre);
+  arc->moved = nsvcd__d3_scale(nsvcd__d3_sub(to, from), per_metre);
   if (arc->fixed_moves) {
     nsvcd__arc_bend(arc);
     return arc;
   }
 
-  nsvcd__d3 rows[3];
-  double start[4], end[4];
-  memcpy(start, arc->moving.start, sizeof start);
-  memcpy(end, arc->moving.end, sizeof end);
-  nsvcd__conjugate_times(arc->fixed.start, start, arc->moving.start);
-  nsvcd__conjugate_times(arc->fixed.start, end, arc->moving.end);
-  nsvcd__rows_of(arc->fixed.start, rows);
-  arc->from = nsvcd__rotate_back(rows, arc->from);
-  arc->moved = nsvcd__rotate_back(rows, arc->moved);
+  const nsvcd__dmat3 fixed = nsvcd__dmat3_of(arc->fixed.start);
+  arc->moving.start = nsvcd__dquat_inverse_mul(arc->fixed.start, arc->moving.start);
+  arc->moving.end = nsvcd__dquat_inverse_mul(arc->fixed.start, arc->moving.end);
+  arc->from = nsvcd__dmat3_apply_transpose(&fixed, arc->from);
+  arc->moved = nsvcd__dmat3_apply_transpose(&fixed, arc->moved);
   const nsvcd__d3 turn = nsvcd__leg_turn(&arc->moving);
   arc->has_axis = 1;
   arc->axis = nsvcd__d3_unit(turn, nsvcd__d3_of(1, 0, 0));
@@ -8722,26 +8775,21 @@ static const nsvcd__arc *nsvcd__arc_at(nsvcd__proof *p, uint32_t first) {
   return arc;
 }
 
-// The true pose, seen from the fixed body, a share u in [0,1] of the arc later than its start. Rows
-// are those of the rotation times the moving body's scale.
+// The true pose, seen from the fixed body, a share u in [0,1] of the arc later than its start. Its
+// rotation is times the moving body's scale.
 static nsvcd__placement nsvcd__placement_at(const nsvcd__arc *arc, double u) {
-  double q[4];
+  nsvcd__dquat q = nsvcd__leg_at(&arc->moving, u);
   nsvcd__placement at;
-  nsvcd__leg_at(&arc->moving, u, q);
   at.position = nsvcd__d3_add(arc->from, nsvcd__d3_scale(arc->moved, u));
   if (arc->fixed_moves) {
-    double fixed[4], seen[4];
-    nsvcd__d3 rows[3];
-    nsvcd__leg_at(&arc->fixed, u, fixed);
-    nsvcd__rows_of(fixed, rows);
-    nsvcd__conjugate_times(fixed, q, seen);
-    memcpy(q, seen, sizeof q);
-    at.position = nsvcd__rotate_back(rows, at.position);
+    const nsvcd__dquat fixed = nsvcd__leg_at(&arc->fixed, u);
+    const nsvcd__dmat3 matrix = nsvcd__dmat3_of(fixed);
+    q = nsvcd__dquat_inverse_mul(fixed, q);
+    at.position = nsvcd__dmat3_apply_transpose(&matrix, at.position);
   }
+  const nsvcd__dmat3 rotation = nsvcd__dmat3_of(q);
+  at.rotation = nsvcd__dmat3_scale(&rotation, arc->scale);
   at.position = nsvcd__d3_add(at.position, arc->lift);
-  nsvcd__rows_of(q, at.rows);
-  for (size_t k = 0; k < 3; k++)
-    at.rows[k] = nsvcd__d3_scale(at.rows[k], arc->scale);
   return at;
 }
 
@@ -8769,9 +8817,9 @@ static const nsvcd__placement *nsvcd__placed_at(nsvcd__proof *p, double u) {
 
 static nsvcd__transform nsvcd__transform_of(const nsvcd__placement *at) {
   nsvcd__transform out;
-  out.rotation.x = nsvcd__d3_narrow(at->rows[0]);
-  out.rotation.y = nsvcd__d3_narrow(at->rows[1]);
-  out.rotation.z = nsvcd__d3_narrow(at->rows[2]);
+  out.rotation.x = nsvcd__d3_narrow(at->rotation.x);
+  out.rotation.y = nsvcd__d3_narrow(at->rotation.y);
+  out.rotation.z = nsvcd__d3_narrow(at->rotation.z);
   out.position = nsvcd__f3_round(at->position);
   return out;
 }
@@ -8884,10 +8932,8 @@ NSVCD__INLINE nsvcd__v_span nsvcd__v_span_set(const nsvcd__span *span) {
 // Lanes l and on of a block.
 NSVCD__INLINE nsvcd__v_span nsvcd__v_span_load(const nsvcd__segments *block, size_t l) {
   nsvcd__v_span out;
-  out.axis = nsvcd__v3_of(nsvcd__v_load(block->axis[0] + l), nsvcd__v_load(block->axis[1] + l),
-                          nsvcd__v_load(block->axis[2] + l));
-  out.way = nsvcd__v3_of(nsvcd__v_load(block->way[0] + l), nsvcd__v_load(block->way[1] + l),
-                         nsvcd__v_load(block->way[2] + l));
+  out.axis = nsvcd__v3_rows(block->axis[0] + l);
+  out.way = nsvcd__v3_rows(block->way[0] + l);
   out.rounding = nsvcd__v_load(block->rounding + l);
   out.drift = nsvcd__v_load(block->drift + l);
   out.bulge = nsvcd__v_load(block->bulge + l);
@@ -8897,18 +8943,16 @@ NSVCD__INLINE nsvcd__v_span nsvcd__v_span_load(const nsvcd__segments *block, siz
   return out;
 }
 NSVCD__INLINE nsvcd__v nsvcd__v_deviation(const nsvcd__v_span *span, nsvcd__v3 n, float reach) {
-  const nsvcd__v dot = nsvcd__v3_dot(n, span->axis);
-  const nsvcd__v dot_way = nsvcd__v3_dot(n, span->way);
-  const nsvcd__v along = nsvcd__v_max(dot, nsvcd__v_negate(dot));
+  const nsvcd__v along = nsvcd__v_abs(nsvcd__v3_dot(n, span->axis));
   const nsvcd__v across = nsvcd__v3_length(nsvcd__v3_cross(n, span->axis));
-  const nsvcd__v along_way = nsvcd__v_max(dot_way, nsvcd__v_negate(dot_way));
+  const nsvcd__v along_way = nsvcd__v_abs(nsvcd__v3_dot(n, span->way));
   const nsvcd__v across_way = nsvcd__v3_length(nsvcd__v3_cross(n, span->way));
-  const nsvcd__v by_axis =
-      nsvcd__v_fma(along, span->drift_along_axis, nsvcd__v_mul(across, span->drift));
-  const nsvcd__v by_way =
-      nsvcd__v_fma(along_way, span->drift, nsvcd__v_mul(across_way, span->drift_off_way));
-  const nsvcd__v turn =
-      nsvcd__v_fma(along, span->bulge_along_axis, nsvcd__v_mul(across, span->bulge));
+  nsvcd__v by_axis = nsvcd__v_mul(across, span->drift);
+  by_axis = nsvcd__v_fma(along, span->drift_along_axis, by_axis);
+  nsvcd__v by_way = nsvcd__v_mul(across_way, span->drift_off_way);
+  by_way = nsvcd__v_fma(along_way, span->drift, by_way);
+  nsvcd__v turn = nsvcd__v_mul(across, span->bulge);
+  turn = nsvcd__v_fma(along, span->bulge_along_axis, turn);
   return nsvcd__v_fma(turn, nsvcd__v_set(reach), nsvcd__v_min(by_axis, by_way));
 }
 
@@ -8923,28 +8967,134 @@ static float nsvcd__quanta_of(const nsvcd__proof *p, size_t i, size_t j) {
 // No point of the patch's pieces is farther from the body's origin; in the body's own units, as
 // bulges have it.
 static float nsvcd__patch_reach(const nsvcd__facets *f, size_t patch) {
-  return 1.000001f *
-         (nsvcd__f3_length(nsvcd__facet_centre(f, patch)) + nsvcd__body_r(f->body)[patch]);
+  const float distance = nsvcd__f3_length(nsvcd__facet_centre(f, patch));
+  return 1.000001f * (distance + nsvcd__body_r(f->body)[patch]);
 }
 
 // ---- discs
 
-// What a slice of the 16 patches of a moving group reaches along a direction, from their centres.
-typedef struct nsvcd__reach_along {
-  nsvcd__v low, high;
-} nsvcd__reach_along;
+// A disc's numbers: its normal, what it reaches along that, and across it.
+typedef struct nsvcd__disc {
+  nsvcd__f3 normal;
+  float low, high, across;
+} nsvcd__disc;
 
-// A disc along a direction: `along` is the direction's part along the disc's normal, `across` its
-// length across that.
-NSVCD__INLINE nsvcd__reach_along nsvcd__disc_along(nsvcd__v low, nsvcd__v high,
-                                                   nsvcd__v radius_across, nsvcd__v along,
-                                                   nsvcd__v across) {
-  const nsvcd__v a = nsvcd__v_mul(low, along);
-  const nsvcd__v b = nsvcd__v_mul(high, along);
-  const nsvcd__v side = nsvcd__v_mul(radius_across, across);
-  const nsvcd__reach_along out = {nsvcd__v_sub(nsvcd__v_min(a, b), side),
-                                  nsvcd__v_add(nsvcd__v_max(a, b), side)};
+// A slice of them.
+typedef struct nsvcd__v_disc {
+  nsvcd__v3 normal;
+  nsvcd__v low, high, across;
+} nsvcd__v_disc;
+
+// Disc i of (6, stride).
+static nsvcd__disc nsvcd__disc_at(const float *discs, size_t stride, size_t i) {
+  const float *d = discs + i;
+  nsvcd__disc out;
+  out.normal = nsvcd__f3_get(d, stride);
+  out.low = d[3 * stride];
+  out.high = d[4 * stride];
+  out.across = d[5 * stride];
   return out;
+}
+
+NSVCD__INLINE nsvcd__v_disc nsvcd__v_disc_set(const nsvcd__disc *disc) {
+  nsvcd__v_disc out;
+  out.normal = nsvcd__v3_set(disc->normal);
+  out.low = nsvcd__v_set(disc->low);
+  out.high = nsvcd__v_set(disc->high);
+  out.across = nsvcd__v_set(disc->across);
+  return out;
+}
+// From (6, stride).
+NSVCD__INLINE nsvcd__v_disc nsvcd__v_disc_load(const float *discs, size_t stride) {
+  nsvcd__v_disc out;
+  out.normal = nsvcd__v3_load_rows(discs, stride);
+  out.low = nsvcd__v_load(discs + 3 * stride);
+  out.high = nsvcd__v_load(discs + 4 * stride);
+  out.across = nsvcd__v_load(discs + 5 * stride);
+  return out;
+}
+
+// What is reached along a direction.
+typedef struct nsvcd__v_range {
+  nsvcd__v low, high;
+} nsvcd__v_range;
+
+// By discs, from their centres, along directions whose parts along the discs' normals are `along`,
+// and whose lengths across these are `across`.
+NSVCD__INLINE nsvcd__v_range nsvcd__v_disc_along(const nsvcd__v_disc *disc, nsvcd__v along,
+                                                 nsvcd__v across) {
+  const nsvcd__v a = nsvcd__v_mul(disc->low, along);
+  const nsvcd__v b = nsvcd__v_mul(disc->high, along);
+  const nsvcd__v side = nsvcd__v_mul(disc->across, across);
+  nsvcd__v_range out;
+  out.low = nsvcd__v_sub(nsvcd__v_min(a, b), side);
+  out.high = nsvcd__v_add(nsvcd__v_max(a, b), side);
+  return out;
+}
+
+// By discs along directions in their own frame.
+NSVCD__INLINE nsvcd__v_range nsvcd__v_disc_range(const nsvcd__v_disc *disc, nsvcd__v3 direction) {
+  const nsvcd__v along = nsvcd__v3_dot(direction, disc->normal);
+  const nsvcd__v across = nsvcd__v3_length(nsvcd__v3_cross(direction, disc->normal));
+  return nsvcd__v_disc_along(disc, along, across);
+}
+
+// Lanes in which planes part two bodies: the moving side is below, or above.
+typedef struct nsvcd__v_parted {
+  nsvcd__v3 plane;  // its normal
+  uint32_t below, above;
+} nsvcd__v_parted;
+
+// Moving discs that approach resting ones, or either of them one disc in all lanes.
+typedef struct nsvcd__v_approach {
+  nsvcd__v3 from, chord;  // from the resting centre to the moving one, and its way
+  nsvcd__v_disc moving;   // in the moving body's frame and units
+  nsvcd__v_disc fixed;
+  nsvcd__v scale;  // of the moving body
+} nsvcd__v_approach;
+
+NSVCD__INLINE nsvcd__v_parted nsvcd__v_part(nsvcd__v3 plane, nsvcd__v_range moving,
+                                            nsvcd__v_range fixed, nsvcd__v deviation) {
+  nsvcd__v_parted out;
+  out.plane = plane;
+  out.below = nsvcd__v_lt(moving.high, nsvcd__v_sub(fixed.low, deviation));
+  out.above = nsvcd__v_lt(nsvcd__v_add(fixed.high, deviation), moving.low);
+  return out;
+}
+
+// By planes normal to the resting discs. at_start, at_end: that normal in the moving body's frame
+// at both ends of the span.
+NSVCD__INLINE nsvcd__v_parted nsvcd__v_part_by_fixed(const nsvcd__v_approach *a, nsvcd__v3 at_start,
+                                                     nsvcd__v3 at_end, nsvcd__v deviation) {
+  const nsvcd__v3 plane = a->fixed.normal;
+  const nsvcd__v_range fixed = {a->fixed.low, a->fixed.high};
+  const nsvcd__v_range start = nsvcd__v_disc_range(&a->moving, at_start);
+  const nsvcd__v_range end = nsvcd__v_disc_range(&a->moving, at_end);
+  const nsvcd__v height = nsvcd__v3_dot(plane, a->from);
+  const nsvcd__v height_end = nsvcd__v_add(height, nsvcd__v3_dot(plane, a->chord));
+  const nsvcd__v low_end = nsvcd__v_add(height_end, end.low);
+  const nsvcd__v high_end = nsvcd__v_add(height_end, end.high);
+  nsvcd__v_range moving;
+  moving.low = nsvcd__v_min(nsvcd__v_add(height, start.low), low_end);
+  moving.high = nsvcd__v_max(nsvcd__v_add(height, start.high), high_end);
+  return nsvcd__v_part(plane, moving, fixed, deviation);
+}
+
+// By planes normal to the mean w of the moving discs' normals at both ends of the span; turned:
+// half of what they differ by. |w| <= 1. Both normals make the same angle with w: along it they are
+// |w|^2, across it no more than |turned|.
+NSVCD__INLINE nsvcd__v_parted nsvcd__v_part_by_moving(const nsvcd__v_approach *a, nsvcd__v3 w,
+                                                      nsvcd__v3 turned, nsvcd__v deviation) {
+  const nsvcd__v along = nsvcd__v_mul(a->scale, nsvcd__v3_dot(w, w));
+  const nsvcd__v across = nsvcd__v_mul(a->scale, nsvcd__v3_length(turned));
+  const nsvcd__v_range own = nsvcd__v_disc_along(&a->moving, along, across);
+  const nsvcd__v_range fixed = nsvcd__v_disc_range(&a->fixed, w);
+  const nsvcd__v height = nsvcd__v3_dot(w, a->from);
+  const nsvcd__v height_end = nsvcd__v_add(height, nsvcd__v3_dot(w, a->chord));
+  nsvcd__v_range moving;
+  moving.low = nsvcd__v_add(nsvcd__v_min(height, height_end), own.low);
+  moving.high = nsvcd__v_add(nsvcd__v_max(height, height_end), own.high);
+  return nsvcd__v_part(w, moving, fixed, deviation);
 }
 
 // The lanes of a slice among 16.
@@ -8956,6 +9106,7 @@ static inline uint32_t nsvcd__lanes_of_slice(uint32_t lanes, size_t l) {
 typedef struct nsvcd__approach {
   size_t group, patch;          // the moving group, the resting patch
   nsvcd__f3 centre;             // of the resting patch
+  nsvcd__disc disc;             // the resting patch's
   const nsvcd__chords *chords;  // of the group's patches,
   const float *discs;           // and their discs, in the moving body's units (6, stride)
   size_t stride;
@@ -8965,131 +9116,88 @@ typedef struct nsvcd__approach {
   float clearance;
 } nsvcd__approach;
 
-// A slice of it, lane by lane.
-typedef struct nsvcd__v_approach {
-  nsvcd__v3 from, chord;       // from the resting centre to the moving one, and its way
-  nsvcd__v3 normal;            // of the moving disc, its body's frame
-  nsvcd__v low, high, across;  // of the moving disc, in its body's units
-} nsvcd__v_approach;
-
+// A slice of it.
 NSVCD__INLINE nsvcd__v_approach nsvcd__v_approach_load(const nsvcd__approach *a, size_t l) {
-  const nsvcd__chords *c = a->chords;
-  const float *d = a->discs + l;
-  const size_t stride = a->stride;
-  const nsvcd__v3 start = nsvcd__v3_rows(c->start[0] + l);
+  const nsvcd__v3 start = nsvcd__chords_start(a->chords, l);
   nsvcd__v_approach out;
   out.from = nsvcd__v3_sub(start, nsvcd__v3_set(a->centre));
-  out.chord = nsvcd__v3_rows(c->way[0] + l);
-  out.normal =
-      nsvcd__v3_of(nsvcd__v_load(d), nsvcd__v_load(d + stride), nsvcd__v_load(d + 2 * stride));
-  out.low = nsvcd__v_load(d + 3 * stride);
-  out.high = nsvcd__v_load(d + 4 * stride);
-  out.across = nsvcd__v_load(d + 5 * stride);
+  out.chord = nsvcd__chords_way(a->chords, l);
+  out.moving = nsvcd__v_disc_load(a->discs + l, a->stride);
+  out.fixed = nsvcd__v_disc_set(&a->disc);
+  out.scale = nsvcd__v_set(a->scale);
   return out;
 }
 
 #ifdef NSVCD__CERTIFIES
-// Lanes `apart` of a slice, their planes normal to `plane`. In lanes `below` the moving side is on
-// the other side.
+// Lanes `apart` of a slice.
 static void nsvcd__certify_discs(const nsvcd__approach *a, const nsvcd__span *span, size_t l,
-                                 uint32_t apart, uint32_t below, nsvcd__v3 plane) {
+                                 uint32_t apart, const nsvcd__v_parted *parted) {
   float lanes[3][NSVCD__LANES];
-  nsvcd__v3_store(lanes, l, plane);
+  nsvcd__v3_store(lanes, l, parted->plane);
   for (size_t k = 0; k < NSVCD__SLICE; k++) {
-    const float sign = below >> k & 1 ? -1.0f : 1.0f;
-    const float normal[3] = {sign * lanes[0][l + k], sign * lanes[1][l + k],
-                             sign * lanes[2][l + k]};
+    const float sign = parted->below >> k & 1 ? -1.0f : 1.0f;
+    float normal[3];
+    nsvcd__f3_store(nsvcd__f3_scale(nsvcd__lane_of(lanes, l + k), sign), normal);
     if (apart >> k & 1) {
       NSVCD__CERTIFY(NSVCD__BY_DISC, NSVCD__GROUP * a->group + l + k, a->patch, NSVCD_NONE,
                      NSVCD_NONE, span->t_start, span->t_end, normal);
     }
   }
 }
-#define NSVCD__CERTIFY_DISCS(a, span, l, apart, below, plane) \
-  nsvcd__certify_discs(a, span, l, apart, below, plane)
+#define NSVCD__CERTIFY_DISCS(a, span, l, apart, parted) \
+  nsvcd__certify_discs(a, span, l, apart, parted)
 #else
-#define NSVCD__CERTIFY_DISCS(a, span, l, apart, below, plane) ((void)0)
+#define NSVCD__CERTIFY_DISCS(a, span, l, apart, parted) ((void)0)
 #endif
 
-// Lanes of `met` that the plane normal to the resting disc parts: on the side of its normal, or on
-// the other (`below`).
+// Lanes of `met` that planes normal to the resting disc part.
 static uint32_t nsvcd__apart_by_fixed_disc(const nsvcd__approach *a, const nsvcd__span *span,
-                                           nsvcd__f3 normal, float low, float high, uint32_t met) {
-  const nsvcd__f3 normal_at_start = nsvcd__mat3_apply_transpose(&span->start.rotation, normal);
-  const nsvcd__f3 normal_at_end = nsvcd__mat3_apply_transpose(&span->end.rotation, normal);
-  const float deviation = a->clearance + span->rounding + nsvcd__deviation(span, normal, a->reach);
+                                           uint32_t met) {
+  const nsvcd__f3 normal = a->disc.normal;
+  const nsvcd__f3 at_start = nsvcd__mat3_apply_transpose(&span->start.rotation, normal);
+  const nsvcd__f3 at_end = nsvcd__mat3_apply_transpose(&span->end.rotation, normal);
+  const float stray = nsvcd__deviation(span, normal, a->reach);
+  const nsvcd__v deviation = nsvcd__v_set(a->clearance + span->rounding + stray);
   uint32_t apart = 0;
   NSVCD__EACH_SLICE(l) {
     const uint32_t wanted = nsvcd__lanes_of_slice(met, l);
     if (!wanted)
       continue;
     const nsvcd__v_approach seen = nsvcd__v_approach_load(a, l);
-    const nsvcd__v3 n = nsvcd__v3_set(normal);
-    const nsvcd__v3 at_start = nsvcd__v3_set(normal_at_start);
-    const nsvcd__v3 at_end = nsvcd__v3_set(normal_at_end);
-    const nsvcd__v side_start = nsvcd__v3_length(nsvcd__v3_cross(at_start, seen.normal));
-    const nsvcd__v side_end = nsvcd__v3_length(nsvcd__v3_cross(at_end, seen.normal));
-    const nsvcd__reach_along start = nsvcd__disc_along(
-        seen.low, seen.high, seen.across, nsvcd__v3_dot(at_start, seen.normal), side_start);
-    const nsvcd__reach_along end = nsvcd__disc_along(seen.low, seen.high, seen.across,
-                                                     nsvcd__v3_dot(at_end, seen.normal), side_end);
-
-    const nsvcd__v height = nsvcd__v3_dot(n, seen.from);
-    const nsvcd__v height_end = nsvcd__v_add(height, nsvcd__v3_dot(n, seen.chord));
-    const nsvcd__v lowest =
-        nsvcd__v_min(nsvcd__v_add(height, start.low), nsvcd__v_add(height_end, end.low));
-    const nsvcd__v highest =
-        nsvcd__v_max(nsvcd__v_add(height, start.high), nsvcd__v_add(height_end, end.high));
-    const uint32_t below = nsvcd__v_lt(highest, nsvcd__v_set(low - deviation));
-    const uint32_t above = nsvcd__v_lt(nsvcd__v_set(high + deviation), lowest);
-    const uint32_t parted = (above | below) & wanted;
-    NSVCD__CERTIFY_DISCS(a, span, l, parted, below, n);
-    apart |= parted << l;
+    const nsvcd__v3 start = nsvcd__v3_set(at_start);
+    const nsvcd__v3 end = nsvcd__v3_set(at_end);
+    const nsvcd__v_parted parted = nsvcd__v_part_by_fixed(&seen, start, end, deviation);
+    const uint32_t lanes = (parted.above | parted.below) & wanted;
+    NSVCD__CERTIFY_DISCS(a, span, l, lanes, &parted);
+    apart |= lanes << l;
   }
   return apart;
 }
 
-// The same with the plane normal to the mean w of the moving disc's normals m0 and m1 at both ends.
-// |w| <= 1. These normals make the same angle with w: along it they are |w|^2, across it no more
-// than half of what they differ by.
+// The same by planes normal to the mean of the moving disc's normals.
 static uint32_t nsvcd__apart_by_moving_disc(const nsvcd__approach *a, const nsvcd__span *span,
-                                            nsvcd__f3 normal, float low, float high, float across,
                                             uint32_t met) {
   const float half = 0.5f * a->per_scale;  // rotations in a span are times the scale
-  uint32_t apart = 0;
   const nsvcd__mat3 *from = &span->start.rotation;
   const nsvcd__mat3 *to = &span->end.rotation;
   const nsvcd__f3 origin = {0, 0, 0};
   const nsvcd__transform middle = {nsvcd__mat3_mix(half, to, 1, from), origin};
   const nsvcd__transform half_turn = {nsvcd__mat3_mix(half, to, -1, from), origin};
+  const nsvcd__v_span spans = nsvcd__v_span_set(span);
+  const nsvcd__v allowed = nsvcd__v_set(span->rounding + a->clearance);
+  uint32_t apart = 0;
   NSVCD__EACH_SLICE(l) {
     const uint32_t wanted = nsvcd__lanes_of_slice(met, l);
     if (!wanted)
       continue;
     const nsvcd__v_approach seen = nsvcd__v_approach_load(a, l);
-    const nsvcd__v scale = nsvcd__v_set(a->scale);
-    const nsvcd__v3 w = nsvcd__v3_transform(&middle, seen.normal);
-    const nsvcd__v3 n = nsvcd__v3_set(normal);
-    const nsvcd__v turned = nsvcd__v3_length(nsvcd__v3_transform(&half_turn, seen.normal));
-    const nsvcd__reach_along moving =
-        nsvcd__disc_along(seen.low, seen.high, seen.across,
-                          nsvcd__v_mul(scale, nsvcd__v3_dot(w, w)), nsvcd__v_mul(scale, turned));
-    const nsvcd__reach_along fixed =
-        nsvcd__disc_along(nsvcd__v_set(low), nsvcd__v_set(high), nsvcd__v_set(across),
-                          nsvcd__v3_dot(w, n), nsvcd__v3_length(nsvcd__v3_cross(w, n)));
-
-    const nsvcd__v height = nsvcd__v3_dot(w, seen.from);
-    const nsvcd__v height_end = nsvcd__v_add(height, nsvcd__v3_dot(w, seen.chord));
-    const nsvcd__v_span spans = nsvcd__v_span_set(span);
-    const nsvcd__v allowed = nsvcd__v_set(span->rounding + a->clearance);
+    const nsvcd__v3 w = nsvcd__v3_transform(&middle, seen.moving.normal);
+    const nsvcd__v3 turned = nsvcd__v3_transform(&half_turn, seen.moving.normal);
     const nsvcd__v deviation = nsvcd__v_add(allowed, nsvcd__v_deviation(&spans, w, a->reach));
-    const nsvcd__v lowest = nsvcd__v_add(nsvcd__v_min(height, height_end), moving.low);
-    const nsvcd__v highest = nsvcd__v_add(nsvcd__v_max(height, height_end), moving.high);
-    const uint32_t below = nsvcd__v_lt(highest, nsvcd__v_sub(fixed.low, deviation));
-    const uint32_t above = nsvcd__v_lt(nsvcd__v_add(fixed.high, deviation), lowest);
-    const uint32_t parted = (above | below) & wanted;
-    NSVCD__CERTIFY_DISCS(a, span, l, parted, below, w);
-    apart |= parted << l;
+    const nsvcd__v_parted parted = nsvcd__v_part_by_moving(&seen, w, turned, deviation);
+    const uint32_t lanes = (parted.above | parted.below) & wanted;
+    NSVCD__CERTIFY_DISCS(a, span, l, lanes, &parted);
+    apart |= lanes << l;
   }
   return apart;
 }
@@ -9098,16 +9206,11 @@ static uint32_t nsvcd__apart_by_moving_disc(const nsvcd__approach *a, const nsvc
 // patch j.
 static uint32_t nsvcd__discs_meet(const nsvcd__proof *p, const nsvcd__chords *c, size_t g, size_t j,
                                   const nsvcd__span *span, float reach, uint32_t met) {
-  const size_t fixed_padded = p->fixed.body->padded;
-  const float *f = p->fixed.discs + j;
-  const nsvcd__f3 normal = nsvcd__f3_of(f[0], f[fixed_padded], f[2 * fixed_padded]);
-  const float low = f[3 * fixed_padded];
-  const float high = f[4 * fixed_padded];
-  const float across = f[5 * fixed_padded];
   nsvcd__approach a;
   a.group = g;
   a.patch = j;
   a.centre = nsvcd__facet_centre(&p->fixed, j);
+  a.disc = nsvcd__disc_at(p->fixed.discs, p->fixed.body->padded, j);
   a.chords = c;
   a.discs = p->moving.discs + NSVCD__GROUP * g;
   a.stride = p->moving.body->padded;
@@ -9116,114 +9219,76 @@ static uint32_t nsvcd__discs_meet(const nsvcd__proof *p, const nsvcd__chords *c,
   a.reach = reach;
   a.clearance = nsvcd__clearance_of(p);
 
-  met &= ~nsvcd__apart_by_fixed_disc(&a, span, normal, low, high, met);
-  if (!met)
-    return 0;
-  return met & ~nsvcd__apart_by_moving_disc(&a, span, normal, low, high, across, met);
+  met &= ~nsvcd__apart_by_fixed_disc(&a, span, met);
+  return met ? met & ~nsvcd__apart_by_moving_disc(&a, span, met) : 0;
 }
 
 // ---- discs of groups, 16 segments at a time
 
-// A disc's numbers.
-typedef struct nsvcd__disc {
-  nsvcd__f3 normal;
-  float low, high, across;
-} nsvcd__disc;
+// A moving group and a resting one, over all segments.
+typedef struct nsvcd__two_groups {
+  size_t g, h;                // which
+  nsvcd__disc moving, fixed;  // their discs, each in its body's frame and units
+  nsvcd__f3 centre;           // of the resting one
+  float scale;                // of the moving body
+  float reach;                // no point of the moving group is farther from its body's origin
+  float clearance;
+} nsvcd__two_groups;
 
-// Disc i of (6, stride).
-static nsvcd__disc nsvcd__disc_at(const float *discs, size_t stride, size_t i) {
-  const float *d = discs + i;
-  nsvcd__disc out;
-  out.normal = nsvcd__f3_of(d[0], d[stride], d[2 * stride]);
-  out.low = d[3 * stride];
-  out.high = d[4 * stride];
-  out.across = d[5 * stride];
-  return out;
-}
-
-NSVCD__INLINE nsvcd__reach_along nsvcd__one_disc_along(const nsvcd__disc *disc, nsvcd__v along,
-                                                       nsvcd__v across) {
-  return nsvcd__disc_along(nsvcd__v_set(disc->low), nsvcd__v_set(disc->high),
-                           nsvcd__v_set(disc->across), along, across);
-}
-
-// Segments of a slice of a block in which discs part a moving group from a resting one. The planes
-// are those of single discs, nsvcd__apart_by_fixed_disc and nsvcd__apart_by_moving_disc, with all
-// in lanes but the discs.
-static uint32_t nsvcd__groups_apart(nsvcd__segments *block, const nsvcd__chords *c, size_t l,
-                                    const nsvcd__disc *moving, const nsvcd__disc *fixed,
-                                    nsvcd__f3 fixed_centre, float scale, float reach,
-                                    float clearance, nsvcd__v3 *planes, uint32_t *below) {
+// Segments of a slice of a block in which discs part two groups: by planes normal to the resting
+// one, and to the moving one. The planes are those of single discs, with all in lanes but the
+// discs. c: the moving group's chords.
+static uint32_t nsvcd__groups_apart(const nsvcd__two_groups *two, nsvcd__segments *block,
+                                    const nsvcd__chords *c, size_t l, nsvcd__v_parted *by_fixed,
+                                    nsvcd__v_parted *by_moving) {
   const nsvcd__v_span spans = nsvcd__v_span_load(block, l);
-  const nsvcd__v allowed = nsvcd__v_add(spans.rounding, nsvcd__v_set(clearance));
-  const nsvcd__v3 n = nsvcd__v3_set(fixed->normal);
-  const nsvcd__v3 m = nsvcd__v3_set(moving->normal);
-  const nsvcd__v3 centre = nsvcd__v3_rows(c->start[0] + l);
-  const nsvcd__v3 from = nsvcd__v3_sub(centre, nsvcd__v3_set(fixed_centre));
-  const nsvcd__v3 chord = nsvcd__v3_rows(c->way[0] + l);
-
+  const nsvcd__v allowed = nsvcd__v_add(spans.rounding, nsvcd__v_set(two->clearance));
   const nsvcd__vmat3 rotation = nsvcd__vmat3_load(block->rotation, l);
   const nsvcd__vmat3 turn = nsvcd__vmat3_load(block->turned, l);
+  nsvcd__v_approach seen;
+  seen.from = nsvcd__v3_sub(nsvcd__chords_start(c, l), nsvcd__v3_set(two->centre));
+  seen.chord = nsvcd__chords_way(c, l);
+  seen.moving = nsvcd__v_disc_set(&two->moving);
+  seen.fixed = nsvcd__v_disc_set(&two->fixed);
+  seen.scale = nsvcd__v_set(two->scale);
+
+  const nsvcd__v3 n = seen.fixed.normal;
   const nsvcd__v3 at_start = nsvcd__vmat3_apply_transpose(rotation, n);
   const nsvcd__v3 at_end = nsvcd__v3_add(at_start, nsvcd__vmat3_apply_transpose(turn, n));
-  const nsvcd__reach_along start = nsvcd__one_disc_along(
-      moving, nsvcd__v3_dot(at_start, m), nsvcd__v3_length(nsvcd__v3_cross(at_start, m)));
-  const nsvcd__reach_along end = nsvcd__one_disc_along(
-      moving, nsvcd__v3_dot(at_end, m), nsvcd__v3_length(nsvcd__v3_cross(at_end, m)));
-  const nsvcd__v height = nsvcd__v3_dot(n, from);
-  const nsvcd__v height_end = nsvcd__v_add(height, nsvcd__v3_dot(n, chord));
-  const nsvcd__v lowest =
-      nsvcd__v_min(nsvcd__v_add(height, start.low), nsvcd__v_add(height_end, end.low));
-  const nsvcd__v highest =
-      nsvcd__v_max(nsvcd__v_add(height, start.high), nsvcd__v_add(height_end, end.high));
-  const nsvcd__v deviation = nsvcd__v_add(allowed, nsvcd__v_deviation(&spans, n, reach));
-  below[0] = nsvcd__v_lt(highest, nsvcd__v_sub(nsvcd__v_set(fixed->low), deviation));
-  const uint32_t by_fixed =
-      nsvcd__v_lt(nsvcd__v_add(nsvcd__v_set(fixed->high), deviation), lowest) | below[0];
+  const nsvcd__v by_n = nsvcd__v_add(allowed, nsvcd__v_deviation(&spans, n, two->reach));
+  *by_fixed = nsvcd__v_part_by_fixed(&seen, at_start, at_end, by_n);
 
-  const nsvcd__v half = nsvcd__v_set(0.5f / scale);
-  const nsvcd__v whole = nsvcd__v_set(1 / scale);
-  const nsvcd__v size = nsvcd__v_set(scale);
+  const nsvcd__v half = nsvcd__v_set(0.5f / two->scale);
+  const nsvcd__v whole = nsvcd__v_set(1 / two->scale);
+  const nsvcd__v3 m = seen.moving.normal;
   const nsvcd__v3 turned = nsvcd__v3_scale(nsvcd__vmat3_apply(turn, m), half);
   const nsvcd__v3 w = nsvcd__v3_fma(whole, nsvcd__vmat3_apply(rotation, m), turned);
-  const nsvcd__reach_along own =
-      nsvcd__one_disc_along(moving, nsvcd__v_mul(size, nsvcd__v3_dot(w, w)),
-                            nsvcd__v_mul(size, nsvcd__v3_length(turned)));
-  const nsvcd__reach_along other =
-      nsvcd__one_disc_along(fixed, nsvcd__v3_dot(w, n), nsvcd__v3_length(nsvcd__v3_cross(w, n)));
-  const nsvcd__v along = nsvcd__v3_dot(w, from);
-  const nsvcd__v along_end = nsvcd__v_add(along, nsvcd__v3_dot(w, chord));
-  const nsvcd__v stray = nsvcd__v_add(allowed, nsvcd__v_deviation(&spans, w, reach));
-  const nsvcd__v low = nsvcd__v_add(nsvcd__v_min(along, along_end), own.low);
-  const nsvcd__v high = nsvcd__v_add(nsvcd__v_max(along, along_end), own.high);
-  below[1] = nsvcd__v_lt(high, nsvcd__v_sub(other.low, stray));
-  planes[0] = n;
-  planes[1] = w;
-  const uint32_t by_moving = nsvcd__v_lt(nsvcd__v_add(other.high, stray), low) | below[1];
-  below[2] = by_fixed;
-  return by_fixed | by_moving;
+  const nsvcd__v by_w = nsvcd__v_add(allowed, nsvcd__v_deviation(&spans, w, two->reach));
+  *by_moving = nsvcd__v_part_by_moving(&seen, w, turned, by_w);
+  return by_fixed->below | by_fixed->above | by_moving->below | by_moving->above;
 }
 
 #ifdef NSVCD__CERTIFIES
 // All pairs of members of two groups, in the segments `apart` of a slice that begins with segment
 // `first`.
 static void nsvcd__certify_groups(const nsvcd__proof *p, const nsvcd__search *search, size_t first,
-                                  size_t g, size_t h, uint32_t apart, const nsvcd__v3 *planes,
-                                  const uint32_t *below) {
-  float lanes[2][3][NSVCD__LANES];
-  for (size_t k = 0; k < 2; k++)
-    nsvcd__v3_store(lanes[k], 0, planes[k]);
+                                  const nsvcd__two_groups *two, uint32_t apart,
+                                  const nsvcd__v_parted *by_fixed,
+                                  const nsvcd__v_parted *by_moving) {
   for (size_t l = 0; l < NSVCD__SLICE; l++) {
     if (!(apart >> l & 1))
       continue;
-    const size_t which = below[2] >> l & 1 ? 0 : 1;
-    const float sign = below[which] >> l & 1 ? -1.0f : 1.0f;
-    const float normal[3] = {sign * lanes[which][0][l], sign * lanes[which][1][l],
-                             sign * lanes[which][2][l]};
+    const int is_fixed = (by_fixed->below | by_fixed->above) >> l & 1;
+    const nsvcd__v_parted *parted = is_fixed ? by_fixed : by_moving;
+    const float sign = parted->below >> l & 1 ? -1.0f : 1.0f;
+    float lanes[3][NSVCD__LANES];
+    float normal[3];
+    nsvcd__v3_store(lanes, 0, parted->plane);
+    nsvcd__f3_store(nsvcd__f3_scale(nsvcd__lane_of(lanes, l), sign), normal);
     const nsvcd__span span = nsvcd__span_of_segment(p->motion, search, first + l);
     for (size_t k = 0; k < NSVCD__GROUP * NSVCD__GROUP; k++) {
-      const size_t i = NSVCD__GROUP * g + k / NSVCD__GROUP;
-      const size_t j = NSVCD__GROUP * h + k % NSVCD__GROUP;
+      const size_t i = NSVCD__GROUP * two->g + k / NSVCD__GROUP;
+      const size_t j = NSVCD__GROUP * two->h + k % NSVCD__GROUP;
       if (i >= p->moving.body->points || j >= p->fixed.body->points)
         continue;
       NSVCD__CERTIFY(NSVCD__BY_DISC, i, j, NSVCD_NONE, NSVCD_NONE, span.t_start, span.t_end,
@@ -9231,49 +9296,60 @@ static void nsvcd__certify_groups(const nsvcd__proof *p, const nsvcd__search *se
     }
   }
 }
-#define NSVCD__CERTIFY_GROUPS(p, work, first, g, h, apart, planes, below) \
-  nsvcd__certify_groups(p, work, first, g, h, apart, planes, below)
+#define NSVCD__CERTIFY_GROUPS(p, search, first, two, apart, by_fixed, by_moving) \
+  nsvcd__certify_groups(p, search, first, two, apart, by_fixed, by_moving)
 #else
-#define NSVCD__CERTIFY_GROUPS(p, work, first, g, h, apart, planes, below) ((void)0)
+#define NSVCD__CERTIFY_GROUPS(p, search, first, two, apart, by_fixed, by_moving) ((void)0)
 #endif
 
-// Clears the segments in which discs part moving group g from the resting ones that it meets, its
-// chords being those in the workspace.
+// The segments, of those `met`, in which discs part two groups. The moving one's chords are in
+// search->group.
+static uint64_t nsvcd__segments_apart(const nsvcd__proof *p, const nsvcd__search *search,
+                                      const nsvcd__two_groups *two, uint64_t met) {
+  uint64_t apart = 0;
+  (void)p;
+  for (size_t b = 0; b < NSVCD__BLOCKS && met >> (NSVCD__LANES * b); b++) {
+    const uint32_t there = (uint32_t)(met >> (NSVCD__LANES * b)) & 0xffff;
+    if (!there)
+      continue;
+    NSVCD__TALLY(tests, 1);
+    NSVCD__EACH_SLICE(l) {
+      const uint32_t wanted = nsvcd__lanes_of_slice(there, l);
+      const size_t first = NSVCD__LANES * b + l;
+      nsvcd__v_parted by_fixed;
+      nsvcd__v_parted by_moving;
+      if (!wanted)
+        continue;
+      const uint32_t parted =
+          nsvcd__groups_apart(two, &search->blocks[b], &search->group[b], l, &by_fixed, &by_moving);
+      NSVCD__CERTIFY_GROUPS(p, search, first, two, wanted & parted, &by_fixed, &by_moving);
+      apart |= (uint64_t)(wanted & parted) << first;
+    }
+  }
+  return apart;
+}
+
+// Clears the segments in which discs part the moving group that is searched from the resting ones
+// that it meets.
 static void nsvcd__part_groups(const nsvcd__proof *p, nsvcd__search *search) {
   const nsvcd_body *moving = p->moving.body;
   const nsvcd_body *fixed = p->fixed.body;
+  const size_t moving_slots = nsvcd__group_slots(moving->padded);
+  const size_t fixed_slots = nsvcd__group_slots(fixed->padded);
   const size_t next = search->order[search->step];
-  const size_t g = search->moving_tile.groups[next];
-  const nsvcd__disc own =
-      nsvcd__disc_at(p->moving.group_discs, nsvcd__group_slots(moving->padded), g);
-  const nsvcd__sphere group = nsvcd__sphere_of(nsvcd__group_spheres(moving), g);
-  const float reach = 1.000002f * (nsvcd__f3_length(group.centre) + group.radius);
+  nsvcd__two_groups two;
+  two.g = search->moving_tile.groups[next];
+  two.moving = nsvcd__disc_at(p->moving.group_discs, moving_slots, two.g);
+  two.scale = search->scale;
+  two.reach = nsvcd__group_reach(moving, two.g);
+  two.clearance = nsvcd__clearance_of(p);
   for (uint32_t waiting = search->waiting; waiting; waiting &= waiting - 1) {
     const size_t at = nsvcd__lowest_bit(waiting);
-    const size_t h = search->fixed_tile.groups[at];
-    const nsvcd__disc disc =
-        nsvcd__disc_at(p->fixed.group_discs, nsvcd__group_slots(fixed->padded), h);
-    const nsvcd__f3 fixed_centre = nsvcd__centre_of(nsvcd__group_spheres(fixed), h);
+    two.h = search->fixed_tile.groups[at];
+    two.fixed = nsvcd__disc_at(p->fixed.group_discs, fixed_slots, two.h);
+    two.centre = nsvcd__centre_of(nsvcd__group_spheres(fixed), two.h);
     uint64_t *met = &nsvcd__nearby(search, next)[at];
-    for (size_t b = 0; b < NSVCD__BLOCKS && *met >> (NSVCD__LANES * b); b++) {
-      const uint32_t there = (uint32_t)(*met >> (NSVCD__LANES * b)) & 0xffff;
-      if (!there)
-        continue;
-      NSVCD__TALLY(tests, 1);
-      NSVCD__EACH_SLICE(l) {
-        const uint32_t wanted = nsvcd__lanes_of_slice(there, l);
-        nsvcd__v3 planes[2];
-        uint32_t below[3];
-        if (!wanted)
-          continue;
-        const uint32_t parted =
-            nsvcd__groups_apart(&search->blocks[b], &search->group[b], l, &own, &disc, fixed_centre,
-                                search->scale, reach, nsvcd__clearance_of(p), planes, below);
-        const uint32_t apart = wanted & parted;
-        NSVCD__CERTIFY_GROUPS(p, search, NSVCD__LANES * b + l, g, h, apart, planes, below);
-        *met &= ~((uint64_t)apart << (NSVCD__LANES * b + l));
-      }
-    }
+    *met &= ~nsvcd__segments_apart(p, search, &two, *met);
     if (!*met)
       search->waiting &= ~((uint32_t)1 << at);
   }
@@ -10968,10 +11044,9 @@ static uint32_t nsvcd__seeds_near(const nsvcd__facets *inner, size_t first,
 static nsvcd__placement nsvcd__inverse_placement(const nsvcd__placement *at, double scale) {
   const double inverse = 1 / (scale * scale);
   nsvcd__placement out;
-  out.rows[0] = nsvcd__d3_scale(nsvcd__d3_of(at->rows[0].x, at->rows[1].x, at->rows[2].x), inverse);
-  out.rows[1] = nsvcd__d3_scale(nsvcd__d3_of(at->rows[0].y, at->rows[1].y, at->rows[2].y), inverse);
-  out.rows[2] = nsvcd__d3_scale(nsvcd__d3_of(at->rows[0].z, at->rows[1].z, at->rows[2].z), inverse);
-  out.position = nsvcd__d3_scale(nsvcd__rotate(out.rows, at->position), -1);
+  const nsvcd__dmat3 transpose = nsvcd__dmat3_transpose(&at->rotation);
+  out.rotation = nsvcd__dmat3_scale(&transpose, inverse);
+  out.position = nsvcd__d3_scale(nsvcd__dmat3_apply(&out.rotation, at->position), -1);
   return out;
 }
 
@@ -11126,13 +11201,11 @@ static void nsvcd__collect_items(nsvcd__proof *p, const nsvcd__search *search, s
 // Goes on with the search of a tile until there are fresh items enough for a look. 0 when it has
 // come to its end.
 static NSVCD__APART int nsvcd__collect(nsvcd__proof *p, nsvcd__search *search) {
-  const nsvcd_body *moving = p->moving.body;
-  const nsvcd_body *fixed = p->fixed.body;
   for (; search->step < search->steps; search->step++) {
     const size_t next = search->order[search->step];
     const size_t g = search->moving_tile.groups[next];
     if (!p->in_group) {
-      nsvcd__search_group(search, moving);
+      nsvcd__search_group(search);
       nsvcd__part_groups(p, search);
       p->in_group = 1;
     }
@@ -11142,7 +11215,7 @@ static NSVCD__APART int nsvcd__collect(nsvcd__proof *p, nsvcd__search *search) {
       if (!p->in_pair) {
         const uint64_t wanted =
             nsvcd__nearby(search, next)[at] & nsvcd__segments_that_matter(p, search);
-        p->met = nsvcd__group_against_members(search, fixed, h, wanted, p->met_in);
+        p->met = nsvcd__group_against_members(search, h, wanted, p->met_in);
         p->in_pair = 1;
       }
       for (; p->met; p->met &= p->met - 1) {
@@ -11150,7 +11223,7 @@ static NSVCD__APART int nsvcd__collect(nsvcd__proof *p, nsvcd__search *search) {
         const size_t j = NSVCD__GROUP * h + l;
         if (p->fixed.hull_counts[j] == 0)
           continue;
-        nsvcd__pose_members(search, moving, g, p->met_in[l]);
+        nsvcd__pose_members(search, g, p->met_in[l]);
         nsvcd__collect_items(p, search, g, j, &p->met_in[l]);
         if (p->met_in[l])
           return 1;
@@ -11298,8 +11371,7 @@ static nsvcd__verdict nsvcd__prove_tiles(nsvcd__proof *p, nsvcd__search *search)
   nsvcd__verdict verdict;
   do {
     verdict = nsvcd__prove_segments(p, search);
-  } while (verdict == NSVCD__FREE &&
-           nsvcd__search_next_tile(search, p->moving.body, p->fixed.body));
+  } while (verdict == NSVCD__FREE && nsvcd__search_next_tile(search));
   return verdict;
 }
 
@@ -11331,7 +11403,7 @@ static nsvcd__verdict nsvcd__prove_in_order(nsvcd__proof *p, nsvcd__search *sear
   nsvcd__verdict verdict;
   do {
     verdict = nsvcd__prove_tile_in_order(p, search);
-  } while (verdict == NSVCD__FREE && nsvcd__search_next_tile(search, moving, fixed));
+  } while (verdict == NSVCD__FREE && nsvcd__search_next_tile(search));
   if (nsvcd__is_large(moving) || nsvcd__is_large(fixed))
     p->settled = 0;
   return verdict;
@@ -11404,8 +11476,7 @@ static void nsvcd__gather_contacts(nsvcd__proof *p, nsvcd__search *search) {
   nsvcd__cut_segments(p->motion, p->lengths, nsvcd__clearance_of(p), search);
   nsvcd__search_begin(p->moving.body, p->fixed.body, search);
   for (int more = 1; more && p->touch_count < NSVCD__TOUCHES && p->work <= p->limit;) {
-    more =
-        nsvcd__collect(p, search) || nsvcd__search_next_tile(search, p->moving.body, p->fixed.body);
+    more = nsvcd__collect(p, search) || nsvcd__search_next_tile(search);
     for (size_t n = 0; n < p->fresh_count && p->touch_count < NSVCD__TOUCHES; n++) {
       const nsvcd__item *item = &p->fresh[n];
       if (p->plane && nsvcd__held_again(p, search, item))
@@ -12757,7 +12828,7 @@ static NSVCD__APART void nsvcd__search_and_judge(nsvcd__task *ask, nsvcd__query 
   int more = nsvcd__search_begin(ask->moving, ask->fixed, search);
   nsvcd__candidates_start(&kept, query->kept, ask->settings.shortlist);
   while (more && !clear) {
-    more = nsvcd__search_step(search, ask->moving, ask->fixed, &kept);
+    more = nsvcd__search_step(search, &kept);
     // A deep collision shows early. What is scored now need not be scored later, so that looking
     // costs little.
     if (!more || left < worth || !nsvcd__score(ask, &kept, worth, worth))
@@ -12812,19 +12883,19 @@ static void nsvcd__answer_by_network(nsvcd__task *ask, nsvcd__query *query, nsvc
 #ifndef NSVCD_NO_PROOF
 // From the fixed body's frame and units to the world, at time t.
 typedef struct nsvcd__to_world {
-  nsvcd__d3 rows[3], position;
+  nsvcd__dmat3 rotation;
+  nsvcd__d3 position;
   double unit;
 } nsvcd__to_world;
 
 static nsvcd__to_world nsvcd__to_world_at(const nsvcd__motion *motion, double t) {
   nsvcd__to_world out;
   nsvcd__d3 ends[2];
-  double u, q[4];
+  double u;
   const uint32_t first = nsvcd__arc_and_share(motion, t * (double)motion->ticks, &u);
   nsvcd__leg leg;
   nsvcd__leg_init(&motion->fixed, first, nsvcd__next_knot(motion, first) - first, &leg, ends);
-  nsvcd__leg_at(&leg, u, q);
-  nsvcd__rows_of(q, out.rows);
+  out.rotation = nsvcd__dmat3_of(nsvcd__leg_at(&leg, u));
   out.position = nsvcd__d3_mix(ends[0], ends[1], u);
   out.unit = (double)motion->unit;
   return out;
@@ -12835,9 +12906,10 @@ static void nsvcd__answer_with_contact(const nsvcd__proof *p, nsvcd_answer *answ
   const int rests = p->motion->moving.count == 1 && !p->motion->fixed_moves;
   const double time = rests ? 0 : found->tick / (double)p->motion->ticks;
   const nsvcd__to_world world = nsvcd__to_world_at(p->motion, time);
-  const nsvcd__d3 turned = nsvcd__rotate(world.rows, nsvcd__d3_scale(found->point, world.unit));
+  const nsvcd__d3 seen = nsvcd__d3_scale(found->point, world.unit);
+  const nsvcd__d3 turned = nsvcd__dmat3_apply(&world.rotation, seen);
   const nsvcd__f3 point = nsvcd__f3_round(nsvcd__d3_add(turned, world.position));
-  const nsvcd__f3 normal = nsvcd__f3_round(nsvcd__rotate(world.rows, found->normal));
+  const nsvcd__f3 normal = nsvcd__f3_round(nsvcd__dmat3_apply(&world.rotation, found->normal));
   answer->contact_time = (float)time;
   answer->patch_a = found->moving_patch;
   answer->patch_b = found->fixed_patch;
@@ -12938,7 +13010,7 @@ static void nsvcd__answer_by_proof(nsvcd__task *ask, nsvcd__query *query, nsvcd_
                    : verdict == NSVCD__FREE   ? NSVCD_STATUS_CERTIFIED_FREE
                                               : NSVCD_STATUS_UNDECIDED;
   const nsvcd__to_world start = nsvcd__to_world_at(p->motion, 0);
-  const nsvcd__d3 lift = nsvcd__rotate(start.rows, nsvcd__d3_widen(p->motion->lift));
+  const nsvcd__d3 lift = nsvcd__dmat3_apply(&start.rotation, nsvcd__d3_widen(p->motion->lift));
   const nsvcd__f3 lifted = nsvcd__f3_round(nsvcd__d3_scale(lift, p->skin > 0 ? start.unit : 0));
   memcpy(answer->lift, &lifted, sizeof answer->lift);
   answer->collides = verdict != NSVCD__FREE;

@@ -26,7 +26,7 @@ deviation along the axis|reach * (along * span->bulge_along_axis + across * span
 chords off the axis|nsvcd__v_add(axis_bulge, axis_turn)|axis_turn
 lanes without bulge|return nsvcd__v_fma(turn, nsvcd__v_set(reach), nsvcd__v_min(by_axis, by_way));|return nsvcd__v_fma(turn, nsvcd__v_set(0 * reach), nsvcd__v_min(by_axis, by_way));
 lanes without drift|return nsvcd__v_fma(turn, nsvcd__v_set(reach), nsvcd__v_min(by_axis, by_way));|return nsvcd__v_mul(turn, nsvcd__v_set(reach));
-disc without across|nsvcd__v_mul(radius_across, across);|nsvcd__v_mul(nsvcd__v_set(0), nsvcd__v_mul(radius_across, across));
+disc without across|nsvcd__v_mul(disc->across, across);|nsvcd__v_mul(nsvcd__v_set(0), across);
 group of eight|for (size_t i = first; i < first + NSVCD__GROUP \&\& i < f->body->points; i++) {\n    const size_t all|for (size_t i = first; i < first + 8 \&\& i < f->body->points; i++) {\n    const size_t all
 group's disc at the start only|nsvcd__v3_add(at_start, nsvcd__vmat3_apply_transpose(turn, n));|at_start;
 held plane without deviation|lowest - slack - nsvcd__deviation(span, p->held, nsvcd__patch_reach(\&p->moving, i));|lowest - slack;
@@ -54,7 +54,7 @@ block's boxes at the start only|nsvcd__block_box(p, 2);|nsvcd__block_box(p, 1);
 last triangle skipped|size_t patience) {\n  const size_t moving_end = p->moving.first_triangle[i + 1];|size_t patience) {\n  const size_t moving_end = p->moving.first_triangle[i + 1] - 1;
 containment one way|if (outer->open)\n    return 0;\n  if (e->inner->components|if (outer->open + !e->inner_moves)\n    return 0;\n  if (e->inner->components
 first arc only|at < end \&\& (double)at < p->end;) {|at < end \&\& at == work->begin[item->segment];) {
-a segment dropped|        p->met = nsvcd__group_against_members(search, fixed, h, wanted, p->met_in);\n|        p->met = nsvcd__group_against_members(search, fixed, h, wanted, p->met_in);\n        for (size_t l = 0; l < NSVCD__GROUP; l++) {\n          if (p->met_in[l] \& (p->met_in[l] - 1)) p->met_in[l] \&= p->met_in[l] - 1;\n        }\n
+a segment dropped|        p->met = nsvcd__group_against_members(search, h, wanted, p->met_in);\n|        p->met = nsvcd__group_against_members(search, h, wanted, p->met_in);\n        for (size_t l = 0; l < NSVCD__GROUP; l++) {\n          if (p->met_in[l] \& (p->met_in[l] - 1)) p->met_in[l] \&= p->met_in[l] - 1;\n        }\n
 a full buffer forgotten|        if (p->met_in[l])\n          return 1;\n|
 passing not seen|      if (settled == NSVCD__MEETS)\n        return settled;\n|
 passing without a change of sides|  const int falls = before > least_before \&\& after < -least_after;|  const int falls = before != 0;
@@ -67,10 +67,10 @@ arcs of both, half of the way|(2 * across + angle * swing);|(across + angle * sw
 knots of one body only|return after_a < after_b ? after_a : after_b;|return after_a;
 group without scale|  sphere.radius *= search->scale;\n|
 members without scale|nsvcd__v_fma(nsvcd__v_set(scale), radius, deviation);|nsvcd__v_add(radius, deviation);
-discs without scale|nsvcd__v_mul(scale, nsvcd__v3_dot(w, w)), nsvcd__v_mul(scale, turned));|nsvcd__v3_dot(w, w), turned);
-disc without clearance|const float deviation = a->clearance + span->rounding + nsvcd__deviation|const float deviation = span->rounding + nsvcd__deviation
+discs without scale|nsvcd__v_mul(a->scale, nsvcd__v3_dot(w, w));\n  const nsvcd__v across = nsvcd__v_mul(a->scale, nsvcd__v3_length(turned));|nsvcd__v3_dot(w, w);\n  const nsvcd__v across = nsvcd__v3_length(turned);
+disc without clearance|nsvcd__v_set(a->clearance + span->rounding + stray);|nsvcd__v_set(span->rounding + stray);
 moving disc without clearance|nsvcd__v_set(span->rounding + a->clearance);|nsvcd__v_set(span->rounding);
-groups without clearance|nsvcd__v_add(spans.rounding, nsvcd__v_set(clearance));|spans.rounding;
+groups without clearance|nsvcd__v_add(spans.rounding, nsvcd__v_set(two->clearance));|spans.rounding;
 held plane without clearance|nsvcd__greatest_height(p, item->fixed) + clearance))\n    return 0;|nsvcd__greatest_height(p, item->fixed) + 0 * clearance))\n    return 0;
 search without clearance|block->spread[l] += clearance;|block->spread[l] += 0 * clearance;
 clipped without twice the bulge|    block->bulge[l] *= 2;\n    block->drift[l] *= 2;\n|    block->bulge[l] *= 0.1f;\n
@@ -84,10 +84,10 @@ exact poses not lifted|at.position = nsvcd__d3_add(at.position, arc->lift);|at.p
 lift the wrong way|if (lacks > 0)\n        lift = nsvcd__d3_add(|if (lacks > 0)\n        lift = nsvcd__d3_sub(
 a window of another patch|p->window > 0 \&\& p->fixed_blocks[0].first == first|p->window > 0
 tile: every other group|nsvcd__walk_next(walk, \&g)) {\n    const nsvcd__sphere group|nsvcd__walk_next(walk, \&g) \&\& nsvcd__walk_next(walk, \&g)) {\n    const nsvcd__sphere group
-tile: the first only|nsvcd__search_next_tile(search, p->moving.body, p->fixed.body));\n  return verdict;|0);\n  return verdict;
-tile: the first only, in order|nsvcd__search_next_tile(search, moving, fixed));\n  if (nsvcd__is_large|0);\n  if (nsvcd__is_large
-tile: skins of the first only|nsvcd__search_next_tile(search, p->moving.body, p->fixed.body);\n    for (size_t n|0;\n    for (size_t n
-tile: way without reach|fminf(start, end) - c->reach[l]|fminf(start, end)
+tile: the first only|nsvcd__search_next_tile(search));\n  return verdict;|0);\n  return verdict;
+tile: the first only, in order|nsvcd__search_next_tile(search));\n  if (nsvcd__is_large|0);\n  if (nsvcd__is_large
+tile: skins of the first only|nsvcd__search_next_tile(search);\n    for (size_t n|0;\n    for (size_t n
+tile: way without reach|nsvcd__f3_sub(nsvcd__f3_min(start, end), around);\n    const nsvcd__f3 high|nsvcd__f3_min(start, end);\n    const nsvcd__f3 high
 tile: approached in the first segment|wanted \&\& nearby \& ~met; wanted \&= wanted - 1) {|wanted \&\& nearby \& ~met; wanted = 0) {
 level: near groups as dipoles|#define NSVCD__DIPOLE 3.0f|#define NSVCD__DIPOLE 0.8f
 level: sums that do not scale|i < nsvcd__area_numbers(b); i++) {|i < 3 * (size_t)b->padded; i++) {
