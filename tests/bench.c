@@ -16,15 +16,15 @@
 #define NEURALSVCD_IMPLEMENTATION
 #include "../neuralsvcd.h"
 #define PROGRAM "bench"
-#include "../examples/problem_file.h"
+#include "../examples/scenery/problem_file.h"
 #include "bench_chart.h"
 #include "bench_convex.h"
 #include "bench_grid.h"
 #include "bench_mesh.h"
 #include "bench_spheres.h"
 #include "method.h"
-#include "oracle.h"
-#include "poses.h"
+#include "../examples/scenery/oracle.h"
+#include "../examples/scenery/poses.h"
 
 // -------------------------------------------------------------------------------------------- rows
 

@@ -8,7 +8,7 @@
 #define NEURALSVCD_IMPLEMENTATION
 #include "../neuralsvcd.h"
 #define PROGRAM "bench_asks"
-#include "../examples/problem_file.h"
+#include "../examples/scenery/problem_file.h"
 
 #define RUNS 5
 

@@ -10,9 +10,9 @@
 #define NEURALSVCD_IMPLEMENTATION
 #include "../neuralsvcd.h"
 #define PROGRAM "check_motions"
-#include "../examples/problem_file.h"
-#include "oracle.h"
-#include "poses.h"
+#include "../examples/scenery/problem_file.h"
+#include "../examples/scenery/oracle.h"
+#include "../examples/scenery/poses.h"
 
 #define HAIR 1e-6    // metres: nearer than this to the clearance, advancement stops
 #define MARGIN 1e-4  // metres

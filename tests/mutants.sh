@@ -6,10 +6,10 @@ set -u
 CC=${CC:-cc}
 cd "$(dirname "$0")/.." || exit 1
 work=${WORK:-build/mutants}
-mkdir -p $work/tests $work/examples
+mkdir -p $work/tests $work/examples/scenery
 cp weights.h $work/
 cp tests/test_proof.c tests/test_level.c tests/*.h $work/tests/
-cp examples/shapes.h examples/level.h $work/examples/
+cp examples/scenery/*.h $work/examples/scenery/
 
 # name | text (occurs once) | what it becomes. Not here: axis_turn left out of bulge_along_axis. The theorem needs it, but no
 # motion was found that uses it: what strays most does so at samples, and there axis_bulge is exact.

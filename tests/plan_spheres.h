@@ -1,7 +1,7 @@
 // plan_spheres.h - the collision cost of a sphere planner (as cuRobo's) for nsvcd_plan: the peer of
 // the benchmark.
 //
-// In:  a scene of examples/tasks.h, numbers of spheres, the activation distance. Out:
+// In:  a scene of scenery/tasks.h, numbers of spheres, the activation distance. Out:
 // plan_spheres_cost, to be called
 //      from nsvcd_plan_problem.collision: the cost of poses (samples, bodies), the verdict, the
 //      derivative.
@@ -39,7 +39,7 @@
 
 #include <time.h>
 
-#include "../examples/tasks.h"
+#include "../examples/scenery/tasks.h"
 #include "bench_spheres.h"
 
 #define PLAN_SPHERES_DEF static __attribute__((unused))

@@ -1,4 +1,4 @@
-// problems.c - writes labelled problem files (FORMATS.md), exact by tests/oracle.h. See `problems`
+// problems.c - writes labelled problem files (FORMATS.md), exact by scenery/oracle.h. See `problems`
 // without arguments.
 //
 // What sets there are: the table `sets` below. How a problem comes about (the paper's appendix B,
@@ -47,8 +47,8 @@
 #include <sys/types.h>
 #include <time.h>
 
-#include "../examples/shapes.h"
-#include "oracle.h"
+#include "../examples/scenery/shapes.h"
+#include "../examples/scenery/oracle.h"
 #include "set_shapes.h"
 
 // of the oracle, metres; this and the next three are multiplied by the set's unit

@@ -15,8 +15,8 @@ static struct { size_t tests, ranked, judged, planes, pairs, tries, numbers, col
 #include "../neuralsvcd.h"
 #include "any_query.h"
 #define PROGRAM "profile"
-#include "../examples/problem_file.h"
-#include "../examples/shapes.h"
+#include "../examples/scenery/problem_file.h"
+#include "../examples/scenery/shapes.h"
 #include "ask.h"
 
 enum { INIT, CUT, BEGIN, STEPS, PAIRS, INVARIANTS, TINY, BASE, BASE_INT8, INSIDE, ALL, STAGES };

@@ -5,9 +5,9 @@
 #ifndef PROOF_SCENE_H
 #define PROOF_SCENE_H
 
-#include "../examples/shapes.h"
-#include "oracle.h"
-#include "poses.h"
+#include "../examples/scenery/shapes.h"
+#include "../examples/scenery/oracle.h"
+#include "../examples/scenery/poses.h"
 
 #define PROOF_POOL 96  // points of the surface by which a patch is judged
 #define PROOF_POSES 80

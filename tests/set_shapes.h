@@ -1,12 +1,12 @@
 // set_shapes.h - meshes that only the sets of problems.c ask for: floors to put things down on,
 // bodies of several parts, needles, triangle soup, single triangles. Made of the parts of
-// examples/shapes.h.
+// scenery/shapes.h.
 //
 // A draw has a statement of its own: C leaves the order of a call's arguments open.
 #ifndef NSVCD_TESTS_SET_SHAPES_H
 #define NSVCD_TESTS_SET_SHAPES_H
 
-#include "../examples/shapes.h"
+#include "../examples/scenery/shapes.h"
 
 #define SET_EXTENT 0.3  // metres, as of the other procedural meshes
 

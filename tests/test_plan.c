@@ -5,7 +5,7 @@
 #define NEURALSVCD_IMPLEMENTATION
 #include "../neuralsvcd.h"
 
-#include "oracle.h"
+#include "../examples/scenery/oracle.h"
 #include "query_scene.h"
 
 void test_plan(void);

@@ -5,7 +5,7 @@
 #define NEURALSVCD_IMPLEMENTATION
 #include "../neuralsvcd.h"
 
-#include "../examples/shapes.h"
+#include "../examples/scenery/shapes.h"
 #include "check.h"
 #include "failing_heap.h"
 

@@ -1,7 +1,7 @@
 // poses.h - poses between the library's float and the oracle's double. After neuralsvcd.h and
 // oracle.h.
-#ifndef POSES_H
-#define POSES_H
+#ifndef NSVCD_SCENERY_POSES_H
+#define NSVCD_SCENERY_POSES_H
 
 // volatile: where gcc 12.2 vectorizes (double)(float)x it drops both conversions.
 static inline float pose_to_float(double x) {

@@ -1,5 +1,5 @@
 // oracle.h - exact answers to the questions that the library answers by a network. Slow, double
-// precision, tests only.
+// precision: for tests, and for examples that let themselves be judged.
 //
 // In:  triangle meshes, a fixed pose, a motion as FORMATS.md defines it (COUNT poses at t =
 // i/(COUNT-1), position
@@ -14,8 +14,8 @@
 //
 // Units are metres, quaternions x y z w, matrices row-major. All functions are static; failures to
 // allocate return 0.
-#ifndef NSVCD_TESTS_ORACLE_H
-#define NSVCD_TESTS_ORACLE_H
+#ifndef NSVCD_SCENERY_ORACLE_H
+#define NSVCD_SCENERY_ORACLE_H
 
 #include <float.h>
 #include <math.h>

@@ -7,8 +7,8 @@
 // plus boxes and extruded polygons. Deterministic: the same seed gives the same mesh. Units are
 // metres; sizes are full extents unless called radius. Without memory a mesh sets `failed` and
 // ignores what follows.
-#ifndef NSVCD_EXAMPLES_SHAPES_H
-#define NSVCD_EXAMPLES_SHAPES_H
+#ifndef NSVCD_SCENERY_SHAPES_H
+#define NSVCD_SCENERY_SHAPES_H
 
 #include <math.h>
 #include <stdint.h>

@@ -13,8 +13,8 @@
 //
 // LABEL: 1 collides, 0 free, -1 unknown. MARGIN in metres: least distance if free, minus the depth
 // if not, or nan.
-#ifndef NSVCD_EXAMPLES_PROBLEM_FILE_H
-#define NSVCD_EXAMPLES_PROBLEM_FILE_H
+#ifndef NSVCD_SCENERY_PROBLEM_FILE_H
+#define NSVCD_SCENERY_PROBLEM_FILE_H
 
 #include <ctype.h>
 #include <errno.h>
@@ -366,4 +366,4 @@ static void wilson(size_t hits, size_t count, double *low, double *high) {
   double half = z * sqrt(p * (1 - p) / n + zz / (4 * n * n)) / (1 + zz / n);
   *low = fmax(0, middle - half), *high = fmin(1, middle + half);
 }
-#endif  // NSVCD_EXAMPLES_PROBLEM_FILE_H
+#endif  // NSVCD_SCENERY_PROBLEM_FILE_H

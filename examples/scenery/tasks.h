@@ -18,11 +18,11 @@
 //     if (task_check(&scene, joints, samples, NULL)) ...
 //   }
 //   task_free(&scene);
-#ifndef NSVCD_EXAMPLES_TASKS_H
-#define NSVCD_EXAMPLES_TASKS_H
+#ifndef NSVCD_SCENERY_TASKS_H
+#define NSVCD_SCENERY_TASKS_H
 
-#include "../neuralsvcd.h"
-#include "../tests/oracle.h"
+#include "../../neuralsvcd.h"
+#include "oracle.h"
 #include "shapes.h"
 
 #define TASK_DEF SHAPES_DEF

@@ -13,8 +13,8 @@
 //   draw_flush(svg, &list);
 //   draw_panel_end(svg, &view, "caption");
 //   draw_close(svg);
-#ifndef NSVCD_EXAMPLES_DRAW_H
-#define NSVCD_EXAMPLES_DRAW_H
+#ifndef NSVCD_SCENERY_DRAW_H
+#define NSVCD_SCENERY_DRAW_H
 
 #include "tasks.h"
 

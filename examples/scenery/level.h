@@ -1,8 +1,8 @@
 // level.h - a level of a game made by a few lines of code: hilly ground, and on it walls with
 // doors, pillars, boulders, crates, arches and basins, each a closed part. For the demo, the tests
 // and the benchmark of large bodies. Deterministic: the same arguments give the same mesh.
-#ifndef LEVEL_H
-#define LEVEL_H
+#ifndef NSVCD_SCENERY_LEVEL_H
+#define NSVCD_SCENERY_LEVEL_H
 
 #include "shapes.h"
 
