@@ -6,9 +6,10 @@ set -u
 CC=${CC:-cc}
 cd "$(dirname "$0")/.." || exit 1
 work=${WORK:-build/mutants}
-mkdir -p $work/tests $work/examples/scenery
+mkdir -p $work/tests/bench $work/examples/scenery
 cp weights.h $work/
 cp tests/test_proof.c tests/test_level.c tests/*.h $work/tests/
+cp tests/bench/*.h $work/tests/bench/
 cp examples/scenery/*.h $work/examples/scenery/
 
 # name | text (occurs once) | what it becomes. Not here: axis_turn left out of bulge_along_axis. The theorem needs it, but no

@@ -10,7 +10,7 @@
 
 #include "check.h"
 #include "failing_heap.h"
-#include "level_bench.h"
+#include "bench/meter.h"
 #include "level_scene.h"
 
 void test_level(void);

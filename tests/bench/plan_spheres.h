@@ -21,7 +21,7 @@
 // with more spheres per area is the one made of spheres.
 //
 // Spheres. A robot's are shared out by area over those of its bodies that a pair measures with
-// spheres. Interior ones by voxels (bench_spheres.h: all of such a sphere is inside, and those that
+// spheres. Interior ones by voxels (spheres.h: all of such a sphere is inside, and those that
 // others contain are dropped); the rest, at least a quarter, as cuRobo's default, are points of 2
 // mm radius on the surface, each put where the surface is farthest from all spheres so far. Of all
 // voxel edges the one whose spheres leave the least of such a distance is taken.
@@ -34,13 +34,13 @@
 // Culling. The box of a body's whole way against the other's, if that stands still; then per sample
 // the body's sphere against the other's box; then eight spheres of eight spheres each at a time
 // against the grid; then eight spheres.
-#ifndef NSVCD_TESTS_PLAN_SPHERES_H
-#define NSVCD_TESTS_PLAN_SPHERES_H
+#ifndef NSVCD_BENCH_PLAN_SPHERES_H
+#define NSVCD_BENCH_PLAN_SPHERES_H
 
 #include <time.h>
 
-#include "../examples/scenery/tasks.h"
-#include "bench_spheres.h"
+#include "../../examples/scenery/tasks.h"
+#include "spheres.h"
 
 #define PLAN_SPHERES_DEF static __attribute__((unused))
 // metres: a cell is interpolated in if its centre is this near the truth
@@ -815,4 +815,4 @@ PLAN_SPHERES_DEF float plan_spheres_cost(plan_spheres *s, const nsvcd_pose *pose
   return s->weight * (float)cost;
 }
 
-#endif  // NSVCD_TESTS_PLAN_SPHERES_H
+#endif  // NSVCD_BENCH_PLAN_SPHERES_H

@@ -2,7 +2,7 @@
 # Instructions of a query, counted by callgrind: a number that does not depend on the machine's mood. For AVX2 and FMA,
 # because valgrind knows no AVX-512, and for plain C. On the first 100 problems of a file; the difference between asking
 # each once more and not.
-#   tests/instructions.sh FILE [N...]
+#   tests/bench/instructions.sh FILE [N...]
 set -eu
 problems=$1
 shift

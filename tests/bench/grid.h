@@ -1,4 +1,4 @@
-// bench_grid.h - a method of the benchmark: points on the moving body, looked up in a distance grid
+// grid.h - a method of the benchmark: points on the moving body, looked up in a distance grid
 // of the fixed one.
 //
 // In:  a mesh in metres. Out: grid_method (method.h). Reads preparation.points: points on the
@@ -7,9 +7,9 @@
 //      McNeely et al. 1999 ("Six degree-of-freedom haptic rendering using voxel sampling"), with
 //      signed distances in place of voxels.
 //
-// Points. Spread evenly over the area (bench_spheres.h), then grouped by eights, and these by
+// Points. Spread evenly over the area (spheres.h), then grouped by eights, and these by
 // eights again: a node keeps the bounding spheres of its children side by side, and a test is one
-// loop over eight lanes, as in bench_mesh.h.
+// loop over eight lanes, as in mesh.h.
 //
 // Grid. Signed distances at the nodes of a regular grid, in cells. Those near the surface are
 // exact; those far away are bounds from a coarser grid: if s is the distance at the middle of some
@@ -25,10 +25,10 @@
 //
 // What it cannot see: an edge of the fixed body between two points, and a wall thinner than a cell,
 // whose inside falls between the nodes. Both roles are prepared at once; `bytes` counts both.
-#ifndef NSVCD_TESTS_BENCH_GRID_H
-#define NSVCD_TESTS_BENCH_GRID_H
+#ifndef NSVCD_BENCH_GRID_H
+#define NSVCD_BENCH_GRID_H
 
-#include "bench_spheres.h"  // spheres_nearest, spheres_sample, spheres_bound
+#include "spheres.h"  // spheres_nearest, spheres_sample, spheres_bound
 
 // Distances are stored in 256ths of a cell: fine enough for any use, and up to 128 cells fit 16
 // bits.
@@ -483,4 +483,4 @@ static const method grid_method = {"point shell in a distance grid",
                                    grid_bytes,
                                    grid_hits};
 
-#endif  // NSVCD_TESTS_BENCH_GRID_H
+#endif  // NSVCD_BENCH_GRID_H

@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """Makes both bodies of every problem of a file move: all is carried along by one common motion.
 
-    tests/carry.py IN.txt OUT.txt [ANGLE]
+    tests/bench/carry.py IN.txt OUT.txt [ANGLE]
 
 Without a turn (ANGLE 0, radians) the one is to the other what it was, at all times, and labels stay exact. With one that
 holds at the poses only.

@@ -25,7 +25,7 @@
 static double collision_seconds;  // spent in the cost of collision
 static double seconds(void);
 #define NEURALSVCD_IMPLEMENTATION
-#include "../examples/scenery/tasks.h"
+#include "../../examples/scenery/tasks.h"
 #include "plan_spheres.h"
 
 #include <stdio.h>

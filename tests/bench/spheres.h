@@ -1,4 +1,4 @@
-// bench_spheres.h - a method of the benchmark: the moving body as spheres, the fixed one as a mesh
+// spheres.h - a method of the benchmark: the moving body as spheres, the fixed one as a mesh
 // to measure from.
 //
 // In:  a mesh in metres. Out: spheres_method (method.h). Reads preparation.detail: the voxel's edge
@@ -19,7 +19,7 @@
 // + activation (also if that is negative). Three means, all exact, so that only the time depends on
 // them: a tree of bounding spheres; a coarse grid of signed distances at cell centres, which bounds
 // the distance elsewhere by the triangle inequality and settles most spheres; and, for those that
-// are left, the mesh's tree (bench_mesh.h), once for a triangle within reach, and, where none is
+// are left, the mesh's tree (mesh.h), once for a triangle within reach, and, where none is
 // and the grid cannot say, once for the sign. The sign is that of the winding number along a ray
 // (bodies may be unions of overlapping closed parts, so parity or pseudo-normals would lie; an open
 // mesh has no inside, and gets an arbitrary one). A query ends at its first hit: there is no sphere
@@ -27,10 +27,10 @@
 //
 // Both roles are prepared at once, and `bytes` counts both: spheres and their tree; mesh tree and
 // grid.
-#ifndef NSVCD_TESTS_BENCH_SPHERES_H
-#define NSVCD_TESTS_BENCH_SPHERES_H
+#ifndef NSVCD_BENCH_SPHERES_H
+#define NSVCD_BENCH_SPHERES_H
 
-#include "bench_mesh.h"
+#include "mesh.h"
 
 enum {
   SPHERES_CELLS = 24,
@@ -540,4 +540,4 @@ static const method spheres_method = {"spheres, sphere-mesh distance",
                                       spheres_bytes,
                                       spheres_hits};
 
-#endif  // NSVCD_TESTS_BENCH_SPHERES_H
+#endif  // NSVCD_BENCH_SPHERES_H

@@ -14,17 +14,17 @@
 // sets.
 #define _POSIX_C_SOURCE 200112L
 #define NEURALSVCD_IMPLEMENTATION
-#include "../neuralsvcd.h"
+#include "../../neuralsvcd.h"
 #define PROGRAM "bench"
-#include "../examples/scenery/problem_file.h"
-#include "bench_chart.h"
-#include "bench_convex.h"
-#include "bench_grid.h"
-#include "bench_mesh.h"
-#include "bench_spheres.h"
+#include "../../examples/scenery/problem_file.h"
+#include "chart.h"
+#include "convex.h"
+#include "grid.h"
+#include "mesh.h"
+#include "spheres.h"
 #include "method.h"
-#include "../examples/scenery/oracle.h"
-#include "../examples/scenery/poses.h"
+#include "../../examples/scenery/oracle.h"
+#include "../../examples/scenery/poses.h"
 
 // -------------------------------------------------------------------------------------------- rows
 

@@ -6,9 +6,9 @@
 //   build/bench_asks FILE [CLEARANCE]    CLEARANCE, metres: of all questions of a file
 #define _POSIX_C_SOURCE 200112L
 #define NEURALSVCD_IMPLEMENTATION
-#include "../neuralsvcd.h"
+#include "../../neuralsvcd.h"
 #define PROGRAM "bench_asks"
-#include "../examples/scenery/problem_file.h"
+#include "../../examples/scenery/problem_file.h"
 
 #define RUNS 5
 

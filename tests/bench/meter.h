@@ -1,7 +1,7 @@
-// level_bench.h - a clock, and an allocator that counts, for the benchmarks of large bodies and
+// meter.h - a clock, and an allocator that counts, for the benchmarks of large bodies and
 // their test.
-#ifndef LEVEL_BENCH_H
-#define LEVEL_BENCH_H
+#ifndef NSVCD_BENCH_METER_H
+#define NSVCD_BENCH_METER_H
 
 #include <stdlib.h>
 #include <time.h>

@@ -1,10 +1,10 @@
-// bench_chart.h - accuracy against time as SVG: a panel per set, all settings as faint dots, each
+// chart.h - accuracy against time as SVG: a panel per set, all settings as faint dots, each
 // method's front as a line.
 //
 // Time (median, microseconds) on a logarithmic axis; accuracy on an axis in which errors are
 // logarithmic, so that 99 and 99.9 % are as far apart as 90 and 99 %. Up and to the left is better.
-#ifndef NSVCD_TESTS_BENCH_CHART_H
-#define NSVCD_TESTS_BENCH_CHART_H
+#ifndef NSVCD_BENCH_CHART_H
+#define NSVCD_BENCH_CHART_H
 
 #include <math.h>
 #include <stdio.h>
@@ -177,4 +177,4 @@ static int chart_write(chart *c, const char *path) {
   return fclose(file) == 0 && good;
 }
 
-#endif  // NSVCD_TESTS_BENCH_CHART_H
+#endif  // NSVCD_BENCH_CHART_H

@@ -1,4 +1,4 @@
-// bench_convex.h - a rival for the benchmark: a few convex parts per mesh, and GJK between the
+// convex.h - a rival for the benchmark: a few convex parts per mesh, and GJK between the
 // parts of two bodies.
 //
 // In:  a mesh, closed or nearly so (what a gap wider than 1/60 of it lets drain is taken for a thin
@@ -18,8 +18,8 @@
 // to its part: hulls of at most CONVEX_VERTICES corners, those that matter most. Query: boxes of
 // bodies and of parts, the last axis that separated a pair, then GJK (Gilbert, Johnson, Keerthi
 // 1988), or for overlaps Minkowski portal refinement (Snethen 2008), both libccd's.
-#ifndef NSVCD_TESTS_BENCH_CONVEX_H
-#define NSVCD_TESTS_BENCH_CONVEX_H
+#ifndef NSVCD_BENCH_CONVEX_H
+#define NSVCD_BENCH_CONVEX_H
 
 #include <float.h>
 #include <stdint.h>
@@ -1177,4 +1177,4 @@ static const method convex_method = {"convex parts + GJK", convex_prepare, conve
                                      convex_release,       convex_bytes,   convex_hits};
 #endif  // HAVE_LIBCCD
 
-#endif  // NSVCD_TESTS_BENCH_CONVEX_H
+#endif  // NSVCD_BENCH_CONVEX_H

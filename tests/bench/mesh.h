@@ -1,4 +1,4 @@
-// bench_mesh.h - two methods of the benchmark: discrete checks of triangle meshes, the whole mesh
+// mesh.h - two methods of the benchmark: discrete checks of triangle meshes, the whole mesh
 // and a simplified one.
 //
 // In:  a mesh in metres. Out: full_mesh_method, simplified_method (method.h).
@@ -19,8 +19,8 @@
 // treated as 0: surfaces have no depth. A body wholly inside another is not seen, as in FCL. No
 // start from the previous placement: a query ends at its first hit, and successive placements lie
 // far apart; nothing there was worth remembering.
-#ifndef NSVCD_TESTS_BENCH_MESH_H
-#define NSVCD_TESTS_BENCH_MESH_H
+#ifndef NSVCD_BENCH_MESH_H
+#define NSVCD_BENCH_MESH_H
 
 #include <float.h>
 #include <math.h>
@@ -960,4 +960,4 @@ static const method simplified_method = {"simplified mesh, BVH", mesh_bvh_prepar
                                          mesh_bvh_scaled,        mesh_bvh_release,
                                          mesh_bvh_bytes,         mesh_bvh_hits};
 
-#endif  // NSVCD_TESTS_BENCH_MESH_H
+#endif  // NSVCD_BENCH_MESH_H

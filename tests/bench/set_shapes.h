@@ -3,10 +3,10 @@
 // scenery/shapes.h.
 //
 // A draw has a statement of its own: C leaves the order of a call's arguments open.
-#ifndef NSVCD_TESTS_SET_SHAPES_H
-#define NSVCD_TESTS_SET_SHAPES_H
+#ifndef NSVCD_BENCH_SET_SHAPES_H
+#define NSVCD_BENCH_SET_SHAPES_H
 
-#include "../examples/scenery/shapes.h"
+#include "../../examples/scenery/shapes.h"
 
 #define SET_EXTENT 0.3  // metres, as of the other procedural meshes
 

@@ -47,8 +47,8 @@
 #include <sys/types.h>
 #include <time.h>
 
-#include "../examples/scenery/shapes.h"
-#include "../examples/scenery/oracle.h"
+#include "../../examples/scenery/shapes.h"
+#include "../../examples/scenery/oracle.h"
 #include "set_shapes.h"
 
 // of the oracle, metres; this and the next three are multiplied by the set's unit

@@ -4,10 +4,10 @@
 //   build/bench_scale [TRIANGLES]    at most so many; 1,000,000
 #define _POSIX_C_SOURCE 200112L
 #define NEURALSVCD_IMPLEMENTATION
-#include "../neuralsvcd.h"
+#include "../../neuralsvcd.h"
 
-#include "level_bench.h"
-#include "level_scene.h"
+#include "meter.h"
+#include "../level_scene.h"
 
 #define MOTIONS 200
 #define ROWS 40

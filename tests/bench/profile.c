@@ -12,12 +12,12 @@
 static struct { size_t tests, ranked, judged, planes, pairs, tries, numbers, collision; } tally;
 #define NSVCD__TALLY(what, amount) (tally.what += (amount))
 #define NEURALSVCD_IMPLEMENTATION
-#include "../neuralsvcd.h"
-#include "any_query.h"
+#include "../../neuralsvcd.h"
+#include "../any_query.h"
 #define PROGRAM "profile"
-#include "../examples/scenery/problem_file.h"
-#include "../examples/scenery/shapes.h"
-#include "ask.h"
+#include "../../examples/scenery/problem_file.h"
+#include "../../examples/scenery/shapes.h"
+#include "../ask.h"
 
 enum { INIT, CUT, BEGIN, STEPS, PAIRS, INVARIANTS, TINY, BASE, BASE_INT8, INSIDE, ALL, STAGES };
 static const char *const names[STAGES] = {

@@ -12,13 +12,13 @@
 // status 1 if a proof is wrong.
 #define _POSIX_C_SOURCE 200112L
 #define NEURALSVCD_IMPLEMENTATION
-#include "../neuralsvcd.h"
+#include "../../neuralsvcd.h"
 
 #include <stdio.h>
 #include <stdlib.h>
 
-#include "level_bench.h"
-#include "level_scene.h"
+#include "meter.h"
+#include "../level_scene.h"
 
 #define SIDE 20.0  // metres
 // metres, of patches, where there are fewer triangles than the library takes for a level's

@@ -8,11 +8,11 @@
 // being false beyond doubt.
 #define _POSIX_C_SOURCE 200112L
 #define NEURALSVCD_IMPLEMENTATION
-#include "../neuralsvcd.h"
+#include "../../neuralsvcd.h"
 #define PROGRAM "check_motions"
-#include "../examples/scenery/problem_file.h"
-#include "../examples/scenery/oracle.h"
-#include "../examples/scenery/poses.h"
+#include "../../examples/scenery/problem_file.h"
+#include "../../examples/scenery/oracle.h"
+#include "../../examples/scenery/poses.h"
 
 #define HAIR 1e-6    // metres: nearer than this to the clearance, advancement stops
 #define MARGIN 1e-4  // metres

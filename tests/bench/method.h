@@ -4,13 +4,13 @@
 // reported) and answers for the motion at discrete times. Float32, single thread, no allocation in
 // a query: as a user of the method would write it for speed. All methods stop at the first
 // placement that collides, and visit placements in the same order.
-#ifndef NSVCD_TESTS_METHOD_H
-#define NSVCD_TESTS_METHOD_H
+#ifndef NSVCD_BENCH_METHOD_H
+#define NSVCD_BENCH_METHOD_H
 
 #include <math.h>
 #include <stddef.h>
 
-#include "../neuralsvcd.h"  // nsvcd_mesh, nsvcd_pose
+#include "../../neuralsvcd.h"  // nsvcd_mesh, nsvcd_pose
 
 // The moving body in the frame of the fixed one: fixed = rotation * moving + position.
 typedef struct placement {
@@ -37,4 +37,4 @@ typedef struct method {
               float activation);
 } method;
 
-#endif  // NSVCD_TESTS_METHOD_H
+#endif  // NSVCD_BENCH_METHOD_H
