@@ -108,7 +108,7 @@ build/test_%_32: tests/test_%.c $(HELPERS) $(PEERS) $(SCENERY) $(LIBRARY) | buil
 	$(CC) $(CFLAGS_32) -pthread -std=c99 $(TEST_WARNINGS) -DTEST_ALONE -o $@ $< -lm
 check-32:
 	@if echo 'int main(void) { return 0; }' | $(CC) $(CFLAGS_32) -x c -o build/can_32 - 2>/dev/null; then \
-	  $(MAKE) build/test_level_32 build/test_plan_32 && build/test_level_32 && build/test_plan_32 plan_sizes; \
+	  $(MAKE) build/test_level_32 build/test_optimizer_32 && build/test_level_32 && build/test_optimizer_32 plan_sizes; \
 	else echo "check-32: $(CC) has no libraries for -m32: not tested"; fi
 # On Cortex-M4F and M7 under QEMU, where its tools are there (Debian: gcc-arm-none-eabi, libnewlib-arm-none-eabi, qemu-system-arm).
 check-firmware: | build

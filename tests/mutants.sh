@@ -1,7 +1,8 @@
 #!/bin/sh
 # Are the tests of the proof worth anything? Each mutant is the header with one mistake in it; tests/test_proof.c has to
-# fail on it, or, where its name begins with `level:`, tests/test_level.c. Prints a line for each, and exits with 1 if one survives. An argument runs only the mutants whose name
-# contains it. Some 20 seconds each; PART=0 OF=16 WORK=folder: every 16th of them, in a folder of its own.
+# fail on it, or, where its name begins with `level:`, tests/test_level.c. Prints a line for each, and exits with 1 if one
+# survives. An argument runs only the mutants whose name contains it. Some 20 seconds each; PART=0 OF=16 WORK=folder: every
+# 16th of them, in a folder of its own.
 set -u
 CC=${CC:-cc}
 cd "$(dirname "$0")/.." || exit 1

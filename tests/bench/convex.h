@@ -148,9 +148,9 @@ static int convex_extreme(convex_hull *h, size_t first, size_t last, size_t *tet
       convex_cross(a, b, c, n);
       far = convex_dot(n, d);
       far *= far;
-    }
-    if (known < 3)
+    } else {
       far = convex_dot(d, d);
+    }
     if (far > most) {
       most = far;
       tetra[known] = i;

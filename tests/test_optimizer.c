@@ -1,500 +1,13 @@
-// The trajectory optimizer: spline, cost and its gradient against references in double, culling
-// against queries, then nsvcd_plan through the public API: what it finds, what it refuses, and a
-// thousand scenes in which nothing can be done.
+// The trajectory optimizer: cost and its gradient against references in double, culling against
+// queries, then nsvcd_plan through the public API: what it finds, what it refuses, and a thousand
+// scenes in which nothing can be done.
 #define NSVCD_STATIC
 #define NEURALSVCD_IMPLEMENTATION
 #include "../neuralsvcd.h"
 
-#include "../examples/scenery/oracle.h"
-#include "query_scene.h"
+#include "plan_scene.h"
 
-void test_plan(void);
-
-#define PLAN_JOINTS 5
-#define PLAN_BODIES 32
-#define PLAN_VIA (NSVCD_MAX_VIA_POINTS + 2)
-
-// ------------------------------------------------------------------------------------------ spline
-
-static void plan_random_numbers(shapes_rng *rng, size_t count, double reach, float *out) {
-  for (size_t k = 0; k < count; k++)
-    out[k] = (float)shapes_uniform(rng, -reach, reach);
-}
-// The spline in double, of one joint.
-static double plan_spline(const float *control, size_t via, double t, size_t derivative) {
-  double weights[PLAN_VIA];
-  double sum = 0;
-  nsvcd__spline_weights(via, t, derivative, weights);
-  for (size_t k = 0; k < via + 2; k++)
-    sum += weights[k] * (double)control[k];
-  return sum;
-}
-
-static void plan_spline_passes_through_its_points_and_rests_at_both_ends(void) {
-  shapes_rng rng = {1};
-  for (size_t via = 0; via <= NSVCD_MAX_VIA_POINTS; via++) {
-    float control[3 * PLAN_VIA], x[3];
-    const double last = (double)(via + 1);
-    plan_random_numbers(&rng, 3 * (via + 2), 2, control);
-    for (size_t k = 0; k < via + 2; k++) {
-      nsvcd_spline(control, via, 3, (float)((double)k / last), 0, x);
-      for (size_t j = 0; j < 3; j++)
-        CHECK_NEAR(x[j], control[3 * k + j], 1e-4);
-    }
-    for (size_t derivative = 1; derivative <= 2; derivative++) {
-      for (int end = 0; end < 2; end++) {
-        nsvcd_spline(control, via, 3, (float)end, derivative, x);
-        for (size_t j = 0; j < 3; j++)
-          CHECK_NEAR(x[j], 0, 1e-9 * pow(last, (double)derivative));
-      }
-    }
-    for (int end = 0; end < 2; end++) {  // t is taken into [0,1]
-      nsvcd_spline(control, via, 3, end ? 7.0f : -3.0f, 0, x);
-      for (size_t j = 0; j < 3; j++)
-        CHECK_EQ(x[j], control[3 * (end ? via + 1 : 0) + j]);
-    }
-  }
-}
-
-// Each order is the derivative of the one below, within every piece; position, velocity and
-// acceleration agree on both sides of a via point.
-static void plan_spline_derivatives(void) {
-  shapes_rng rng = {2};
-  double worst = 0;
-  for (size_t via = 0; via <= NSVCD_MAX_VIA_POINTS; via++) {
-    float control[PLAN_VIA];
-    const double last = (double)(via + 1);
-    const double h = 1e-4 / last;
-    plan_random_numbers(&rng, via + 2, 2, control);
-    for (int n = 0; n < 40; n++) {
-      const double t =
-          ((double)shapes_pick(&rng, (int)via + 1) + shapes_uniform(&rng, 0.01, 0.99)) / last;
-      for (size_t derivative = 1; derivative <= 3; derivative++) {
-        const double scale = pow(last, (double)derivative);
-        const double by_differences = (plan_spline(control, via, t + h, derivative - 1) -
-                                       plan_spline(control, via, t - h, derivative - 1)) /
-                                      (2 * h);
-        const double error =
-            fabs(plan_spline(control, via, t, derivative) - by_differences) / scale;
-        CHECK_LE(error, 1e-4);
-        worst = fmax(worst, error);
-      }
-    }
-    for (size_t k = 1; k <= via; k++) {
-      const double at = (double)k / last;
-      const double side = 1e-7 / last;
-      for (size_t derivative = 0; derivative <= 2; derivative++) {
-        const double jump = plan_spline(control, via, at + side, derivative) -
-                            plan_spline(control, via, at - side, derivative);
-        CHECK_NEAR(jump / pow(last, (double)derivative), 0, 1e-4);
-      }
-      // At via points the velocity is that of central differences, and the acceleration too.
-      const double before = (double)control[k - 1];
-      const double here = (double)control[k];
-      const double after = (double)control[k + 1];
-      CHECK_NEAR(plan_spline(control, via, at, 1) / last, (after - before) / 2, 1e-6);
-      CHECK_NEAR(plan_spline(control, via, at, 2) / (last * last), after - 2 * here + before, 1e-6);
-    }
-  }
-  printf("  derivatives against differences: %.1e of the scale at most\n", worst);
-}
-
-static void plan_spline_weights_are_a_partition_of_unity(void) {
-  shapes_rng rng = {3};
-  for (size_t via = 0; via <= NSVCD_MAX_VIA_POINTS; via++) {
-    float control[2 * PLAN_VIA], x[2];
-    for (size_t k = 0; k < via + 2; k++) {
-      control[2 * k] = 1.25f;
-      control[2 * k + 1] = -3;
-    }
-    for (int n = 0; n < 20; n++) {
-      const float t = (float)shapes_uniform(&rng, 0, 1);
-      nsvcd_spline(control, via, 2, t, 0, x);
-      CHECK_NEAR(x[0], 1.25, 1e-6);
-      CHECK_NEAR(x[1], -3, 1e-6);
-      for (size_t derivative = 1; derivative <= 3; derivative++) {
-        nsvcd_spline(control, via, 2, t, derivative, x);
-        CHECK_NEAR(x[0], 0, 1e-11 * pow((double)(via + 1), (double)derivative));
-      }
-    }
-  }
-}
-
-static void plan_mean_squares_are_integrals(void) {
-  shapes_rng rng = {4};
-  double worst = 0;
-  for (size_t via = 1; via <= NSVCD_MAX_VIA_POINTS; via++) {
-    for (size_t derivative = 1; derivative <= 3; derivative++) {
-      double form[PLAN_VIA * PLAN_VIA];
-      double sum = 0;
-      double integral = 0;
-      float control[PLAN_VIA];
-      const int steps = 100 * (int)(via + 1);
-      memset(form, 0, sizeof form);
-      nsvcd__add_mean_square(via, derivative, 0.75, form);
-      nsvcd__add_mean_square(via, derivative, 0.25, form);  // it adds
-      plan_random_numbers(&rng, via + 2, 1, control);
-      for (size_t i = 0; i < via + 2; i++) {
-        for (size_t j = 0; j < via + 2; j++) {
-          sum += form[i * (via + 2) + j] * (double)control[i] * (double)control[j];
-          CHECK_NEAR(form[i * (via + 2) + j], form[j * (via + 2) + i],
-                     1e-9 * fabs(form[i * (via + 2) + j]) + 1e-9);
-        }
-      }
-      for (int n = 0; n < steps; n++) {
-        const double x = plan_spline(control, via, ((double)n + 0.5) / steps, derivative);
-        integral += x * x / steps;
-      }
-      CHECK_NEAR(sum, integral, 2e-3 * integral);
-      worst = fmax(worst, fabs(sum / integral - 1));
-    }
-  }
-  printf("  mean squares against the midpoint rule: %.1e of it at most\n", worst);
-}
-
-static void plan_cholesky_solves(void) {
-  shapes_rng rng = {5};
-  for (size_t n = 1; n <= NSVCD_MAX_VIA_POINTS; n++) {
-    static double a[PLAN_VIA * PLAN_VIA], root[PLAN_VIA * PLAN_VIA], l[PLAN_VIA * PLAN_VIA];
-    double x[PLAN_VIA], wanted[PLAN_VIA];
-    for (size_t k = 0; k < n * n; k++)
-      root[k] = shapes_uniform(&rng, -1, 1);
-    for (size_t i = 0; i < n; i++) {
-      wanted[i] = shapes_uniform(&rng, -1, 1);
-      for (size_t j = 0; j < n; j++) {
-        a[i * n + j] = i == j ? 0.5 : 0;
-        for (size_t k = 0; k < n; k++)
-          a[i * n + j] += root[i * n + k] * root[j * n + k];
-      }
-    }
-    for (size_t i = 0; i < n; i++) {
-      x[i] = 0;
-      for (size_t j = 0; j < n; j++)
-        x[i] += a[i * n + j] * wanted[j];
-    }
-    nsvcd__cholesky(a, n, l);
-    nsvcd__solve_lower(l, n, x);
-    nsvcd__solve_upper(l, n, x);
-    for (size_t i = 0; i < n; i++)
-      CHECK_NEAR(x[i], wanted[i], 1e-9);
-    nsvcd__cholesky(a, n, a);  // in place
-    for (size_t k = 0; k < n * n; k++)
-      CHECK_EQ(a[k], l[k]);
-  }
-}
-
-// ------------------------------------------------------------------------------------------ scenes
-
-typedef enum plan_kind { PLAN_XYZ, PLAN_ARMS } plan_kind;
-
-// What place() can do wrong.
-typedef enum plan_fault {
-  PLAN_NO_FAULT,
-  PLAN_NAN,
-  PLAN_LONG_QUATERNION,
-  PLAN_NAN_LATER
-} plan_fault;
-
-// PLAN_XYZ: body 0 moves by three joints. PLAN_ARMS: bodies 0 and 1 are two links, 2 another arm;
-// five joints. The rest rests.
-typedef struct plan_scene {
-  nsvcd_plan_problem problem;
-  nsvcd_plan_options options;
-  plan_kind kind;
-  plan_fault fault;
-  float low[PLAN_JOINTS], high[PLAN_JOINTS], start[PLAN_JOINTS], goal[PLAN_JOINTS];
-  const nsvcd_body *bodies[PLAN_BODIES];
-  nsvcd_body_pair pairs[PLAN_BODIES * PLAN_BODIES];
-  nsvcd_pose rest[PLAN_BODIES];
-  double length;  // of the quaternions that place() gives; 0: 1
-  size_t placed, attached;
-  // What the progress callback saw.
-  size_t again;  // refinements after the first of a seed
-  size_t reports, cancel_at, disorders, last_seed, last_iteration, out_of_place;
-  int last_refining;
-  float last_cost;
-} plan_scene;
-
-static void plan_turn(double x, double y, double z, double angle, double *q) {
-  const double axis[3] = {x, y, z};
-  oracle_axis_angle(axis, angle, q);
-}
-static void plan_at(const double *base, const double *q, double x, double y, double z,
-                    oracle_pose *pose) {
-  const oracle_pose frame = {{base[0], base[1], base[2]}, {q[0], q[1], q[2], q[3]}};
-  const double v[3] = {x, y, z};
-  oracle_transform(&frame, v, pose->position);
-  memcpy(pose->rotation, q, 4 * sizeof *q);
-}
-static const double plan_base[3] = {0.55, 0, 0};  // of the second arm
-
-static void plan_place_exactly(const plan_scene *s, const double *joints, oracle_pose *poses) {
-  for (size_t b = 0; b < s->problem.body_count; b++) {
-    for (int k = 0; k < 3; k++)
-      poses[b].position[k] = (double)s->rest[b].position[k];
-    for (int k = 0; k < 4; k++)
-      poses[b].rotation[k] = (double)s->rest[b].rotation[k];
-  }
-  if (s->kind == PLAN_XYZ && s->problem.body_count) {
-    for (int k = 0; k < 3; k++)
-      poses[0].position[k] = joints[k];
-    for (size_t b = 1; b <= s->attached; b++) {  // grasped: above the first
-      for (int k = 0; k < 3; k++)
-        poses[b].position[k] = joints[k] + (k == 2 ? 0.12 : 0);
-    }
-    return;
-  }
-  if (s->kind != PLAN_ARMS)
-    return;
-  const double origin[3] = {0, 0, 0};
-  const double lifted[3] = {plan_base[0], plan_base[1], plan_base[2] + joints[4]};
-  double first[4], by[4], second[4], other[4];
-  oracle_pose elbow;
-  plan_turn(0, 0, 1, joints[0], first);
-  plan_turn(0, 1, 0, joints[1], by);
-  oracle_quat_mul(first, by, second);
-  plan_at(origin, first, 0.1, 0, 0, &poses[0]);
-  plan_at(origin, first, 0.2, 0, 0, &elbow);
-  plan_at(elbow.position, second, 0.1, 0, 0, &poses[1]);
-  plan_turn(0, 0, 1, joints[2], by);
-  plan_turn(1, 0, 0, joints[3], second);
-  oracle_quat_mul(by, second, other);
-  plan_at(lifted, other, -0.15, 0.03, 0, &poses[2]);
-}
-static void plan_place(void *user, const float *joints, nsvcd_pose *poses) {
-  plan_scene *s = (plan_scene *)user;
-  oracle_pose exact[PLAN_BODIES];
-  double q[PLAN_JOINTS];
-  for (size_t j = 0; j < s->problem.joints; j++)
-    q[j] = (double)joints[j];
-  plan_place_exactly(s, q, exact);
-  for (size_t b = 0; b < s->problem.body_count; b++) {
-    for (int k = 0; k < 3; k++)
-      poses[b].position[k] = (float)exact[b].position[k];
-    for (int k = 0; k < 4; k++)
-      poses[b].rotation[k] = (float)(exact[b].rotation[k] * (s->length > 0 ? s->length : 1));
-  }
-  s->placed++;
-  if (s->fault == PLAN_NAN || (s->fault == PLAN_NAN_LATER && s->placed > 50))
-    poses[0].position[1] = NAN;
-  if (s->fault == PLAN_LONG_QUATERNION)
-    poses[0].rotation[3] = 1.1f;
-}
-static void plan_jacobian(void *user, const float *joints, float *jacobian) {
-  const plan_scene *s = (const plan_scene *)user;
-  const size_t f = s->problem.joints;
-  memset(jacobian, 0, s->problem.body_count * 6 * f * sizeof *jacobian);
-  if (s->kind == PLAN_XYZ) {
-    for (size_t b = 0; b <= s->attached; b++) {
-      for (size_t k = 0; k < 3; k++)
-        jacobian[(6 * b + k) * f + k] = 1;
-    }
-    return;
-  }
-  oracle_pose poses[PLAN_BODIES];
-  double q[PLAN_JOINTS];
-  for (size_t j = 0; j < f; j++)
-    q[j] = (double)joints[j];
-  plan_place_exactly(s, q, poses);
-  // Axes: joint, a point on it, its direction; and the body that it turns.
-  const double c0 = cos(q[0]);
-  const double s0 = sin(q[0]);
-  const double c2 = cos(q[2]);
-  const double s2 = sin(q[2]);
-  const double axes[5][3] = {{0, 0, 1}, {0, 0, 1}, {-s0, c0, 0}, {0, 0, 1}, {c2, s2, 0}};
-  const double points[5][3] = {{0, 0, 0},
-                               {0, 0, 0},
-                               {0.2 * c0, 0.2 * s0, 0},
-                               {plan_base[0], plan_base[1], 0},
-                               {plan_base[0], plan_base[1], q[4]}};
-  const size_t body[5] = {0, 1, 1, 2, 2};
-  const size_t joint[5] = {0, 0, 1, 2, 3};
-  for (size_t n = 0; n < 5; n++) {
-    double arm[3], moved[3];
-    oracle_sub(poses[body[n]].position, points[n], arm);
-    oracle_cross(axes[n], arm, moved);
-    for (size_t k = 0; k < 3; k++) {
-      jacobian[(6 * body[n] + k) * f + joint[n]] = (float)moved[k];
-      jacobian[(6 * body[n] + 3 + k) * f + joint[n]] = (float)axes[n][k];
-    }
-  }
-  jacobian[(6 * 2 + 2) * f + 4] = 1;
-}
-
-// A smooth cost of collision: a bump per pair and sample, of the distance of two points that are
-// off the bodies' origins.
-static void plan_bump_point(const oracle_pose *pose, size_t body, double *arm, double *point) {
-  const double offset[3] = {0.05, 0.02 * (double)(body + 1), -0.04};
-  double m[9];
-  oracle_matrix(pose->rotation, m);
-  oracle_rotate(m, offset, arm);
-  for (int k = 0; k < 3; k++)
-    point[k] = pose->position[k] + arm[k];
-}
-// of one sample
-static double plan_bumps(const plan_scene *s, const oracle_pose *poses, double *gradient) {
-  double sum = 0;
-  for (size_t n = 0; n < s->problem.pair_count; n++) {
-    const nsvcd_body_pair pair = s->problem.pairs[n];
-    const size_t body[2] = {pair.a, pair.b};
-    double arm[2][3], point[2][3], d[3];
-    for (int side = 0; side < 2; side++)
-      plan_bump_point(&poses[body[side]], body[side], arm[side], point[side]);
-    oracle_sub(point[0], point[1], d);
-    const double bump = exp(-oracle_dot(d, d) / 0.04);
-    sum += bump;
-    for (int side = 0; gradient && side < 2; side++) {
-      double force[3], torque[3];
-      for (int k = 0; k < 3; k++)
-        force[k] = (side ? 1 : -1) * bump * 2 / 0.04 * d[k];
-      oracle_cross(arm[side], force, torque);
-      for (int k = 0; k < 3; k++)
-        gradient[6 * body[side] + (size_t)k] += force[k];
-      for (int k = 0; k < 3; k++)
-        gradient[6 * body[side] + 3 + (size_t)k] += torque[k];
-    }
-  }
-  return sum;
-}
-static oracle_pose plan_exact_pose(const nsvcd_pose *pose) {
-  oracle_pose out;
-  for (int k = 0; k < 3; k++)
-    out.position[k] = (double)pose->position[k];
-  for (int k = 0; k < 4; k++)
-    out.rotation[k] = (double)pose->rotation[k];
-  return out;
-}
-static float plan_bump_collision(void *user, const nsvcd_pose *poses, size_t samples, float limit,
-                                 int *collides, float *gradient) {
-  (void)limit;
-  const plan_scene *s = (const plan_scene *)user;
-  const size_t bodies = s->problem.body_count;
-  double sum = 0;
-  *collides = 0;
-  for (size_t i = 0; i < samples; i++) {
-    oracle_pose exact[PLAN_BODIES];
-    double by_poses[6 * PLAN_BODIES] = {0};
-    for (size_t b = 0; b < bodies; b++)
-      exact[b] = plan_exact_pose(&poses[i * bodies + b]);
-    const double bump = plan_bumps(s, exact, by_poses);
-    for (size_t k = 0; gradient && k < 6 * bodies; k++)
-      gradient[i * bodies * 6 + k] += (float)by_poses[k];
-    *collides |= bump > 0.5;
-    sum += bump;
-  }
-  return (float)sum;
-}
-
-static int plan_progress(void *user, const nsvcd_plan_progress *progress) {
-  plan_scene *s = (plan_scene *)user;
-  const size_t f = s->problem.joints;
-  // in order: seeds, then stages, then iterations, each rising by one; the best never gets worse
-  if (s->reports) {
-    const int same_seed = progress->seed == s->last_seed;
-    const int same_stage = progress->refining == s->last_refining;
-    // Where a proof finds a hit, L-BFGS begins once more, with another margin.
-    const int once_more = same_seed && same_stage && progress->refining && progress->iteration == 0;
-    if (same_seed && same_stage && !once_more) {
-      s->disorders += progress->iteration != s->last_iteration + 1 || progress->cost > s->last_cost;
-    } else {
-      s->disorders += progress->iteration != 0 ||
-                      (same_seed ? !progress->refining : progress->seed != s->last_seed + 1);
-      s->again += once_more;
-    }
-  } else {
-    s->disorders += progress->iteration != 0 || progress->seed != 0;
-  }
-  s->disorders += progress->iteration >= progress->iterations;
-  for (size_t j = 0; j < f; j++) {
-    s->out_of_place += progress->control[j] != s->start[j];
-    s->out_of_place += progress->control[(progress->via_points + 1) * f + j] != s->goal[j];
-  }
-  for (size_t k = 0; k < (progress->via_points + 2) * f; k++)
-    s->out_of_place += !isfinite(progress->control[k]);
-  s->last_seed = progress->seed;
-  s->last_iteration = progress->iteration;
-  s->last_refining = progress->refining;
-  s->last_cost = progress->cost;
-  return ++s->reports == s->cancel_at;
-}
-
-static void plan_begin(plan_scene *s, plan_kind kind, size_t bodies) {
-  memset(s, 0, sizeof *s);
-  s->kind = kind;
-  for (size_t b = 0; b < PLAN_BODIES; b++)
-    s->rest[b] = query_pose(0, 0, 0);
-  for (size_t j = 0; j < PLAN_JOINTS; j++) {
-    s->low[j] = -2;
-    s->high[j] = 2;
-  }
-  s->problem.joints = kind == PLAN_XYZ ? 3 : 5;
-  s->problem.low = s->low;
-  s->problem.high = s->high;
-  s->problem.start = s->start;
-  s->problem.goal = s->goal;
-  s->problem.bodies = s->bodies;
-  s->problem.body_count = bodies;
-  s->problem.pairs = s->pairs;
-  s->problem.place = plan_place;
-  s->problem.progress = plan_progress;
-  s->problem.user = s;
-}
-static void plan_pair(plan_scene *s, uint32_t a, uint32_t b) {
-  const nsvcd_body_pair pair = {a, b};
-  s->pairs[s->problem.pair_count++] = pair;
-}
-
-// Bodies that the tests share; they live until the process ends.
-enum { PLAN_BALL, PLAN_BOX, PLAN_WALL, PLAN_LINK, PLAN_SHELL, PLAN_OFF_CENTRE, PLAN_SHAPES };
-static shapes_mesh plan_shapes[PLAN_SHAPES];
-static const nsvcd_body *plan_body(int shape) {
-  static const nsvcd_body *bodies[PLAN_SHAPES];
-  static query_memory memory[PLAN_SHAPES];
-  if (bodies[shape])
-    return bodies[shape];
-  shapes_mesh *mesh = &plan_shapes[shape];
-  if (shape == PLAN_BALL)
-    shapes_capsule(mesh, 0.05, 0, 16);
-  if (shape == PLAN_BOX)
-    shapes_box(mesh, 0.2, 0.16, 0.12, 4);
-  if (shape == PLAN_WALL)
-    shapes_box(mesh, 0.05, 0.4, 0.4, 6);
-  if (shape == PLAN_LINK)
-    shapes_box(mesh, 0.2, 0.06, 0.05, 4);
-  if (shape == PLAN_SHELL)
-    shapes_shell(mesh, 0.4, 0.4, 0.4, 0.03, 0, 16);
-  if (shape == PLAN_OFF_CENTRE) {
-    shapes_box(mesh, 0.2, 0.06, 0.05, 4);
-    shapes_place(mesh, 0, NULL, 0.5, 0.1, 0);
-  }
-  nsvcd_mesh flat = query_mesh(mesh, 1);
-  bodies[shape] = query_encode(&flat, shape == PLAN_BALL ? 32 : 96, &memory[shape]);
-  nsvcd_mesh_free(&flat, NULL);
-  return bodies[shape];
-}
-
-// A planner as nsvcd_plan sets it up, for the tests of its parts.
-typedef struct plan_inside {
-  nsvcd__planner planner;
-  query_memory memory;
-} plan_inside;
-static int plan_open(plan_scene *s, plan_inside *in) {
-  nsvcd__planner *p = &in->planner;
-  const size_t size = nsvcd_plan_workspace_size(&s->problem, &s->options);
-  CHECK(size > 0);
-  in->memory = query_reserve(size);
-  if (!nsvcd__planner_settings(&s->problem, &s->options, p))
-    return 0;
-  CHECK_EQ(nsvcd__planner_memory(p, (char *)in->memory.at), size);
-  nsvcd__stage_init(&p->options, &p->explore);
-  nsvcd__stage_init(&p->options, &p->refine);
-  nsvcd__stage_init(&p->options, &p->check);
-  nsvcd__find_boxes(p);
-  for (size_t k = 0; k < s->problem.pair_count; k++)
-    p->order[k] = (uint32_t)k;
-  return 1;
-}
-static void plan_close(plan_inside *in) { query_release(&in->memory); }
+void test_optimizer(void);
 
 // ------------------------------------------------------------------------------- cost and gradient
 
@@ -604,6 +117,7 @@ static void plan_gradient_case(plan_kind kind, int jacobian, int limits, double 
     plan_close(&in);
   }
 }
+
 static void plan_gradient_of_the_cost(void) {
   for (int jacobian = 0; jacobian < 2; jacobian++) {
     double worst[2] = {0, 0};
@@ -632,6 +146,7 @@ static uint64_t plan_decisive(nsvcd__planner *p, const nsvcd__stage *stage, cons
   }
   return hash;
 }
+
 // Along random directions in which the same pairs decide, and the slopes over one and over two
 // steps agree: there are kinks (ReLU, which segment of a pair's contact).
 static void plan_network_gradient_case(plan_kind kind, int *tried, int *smooth, int *right,
@@ -705,6 +220,7 @@ static void plan_network_gradient_case(plan_kind kind, int *tried, int *smooth, 
   CHECK_EQ(p->error, NSVCD_OK);
   plan_close(&in);
 }
+
 static void plan_gradient_of_the_network(void) {
   static const char *const names[2] = {"a ball past a box", "two arms and a box"};
   for (int kind = 0; kind < 2; kind++) {
@@ -903,6 +419,7 @@ static void plan_random_poses(shapes_rng *rng, nsvcd__planner *p, size_t samples
     }
   }
 }
+
 static void plan_culling_misses_nothing(void) {
   static plan_scene s;
   shapes_rng rng = {30};
@@ -1173,6 +690,7 @@ static void plan_wall_scene(plan_scene *s) {
   s->start[1] = 0.02f;
   s->start[2] = -0.03f;
 }
+
 // The least distance of the two surfaces along the trajectory, exactly, on fine samples.
 static double plan_exact_distance(const plan_scene *s, const plan_outcome *out, int shape_a,
                                   int shape_b) {
@@ -1229,6 +747,7 @@ static int plan_same(const plan_outcome *a, const plan_outcome *b, size_t joints
          a->answer.trajectories == b->answer.trajectories &&
          memcmp(a->control, b->control, (a->via + 2) * joints * sizeof(float)) == 0;
 }
+
 static void plan_is_deterministic(void) {
   static plan_scene s;
   plan_wall_scene(&s);
@@ -1493,6 +1012,7 @@ static void plan_refuses(plan_scene *s, nsvcd_result expected, int measured) {
   const plan_outcome out = plan_run(s);  // checks that nothing is written
   CHECK_EQ(out.result, expected);
 }
+
 static void plan_refuses_options_out_of_range(void) {
   static plan_scene s;
   plan_wall_scene(&s);
@@ -1540,6 +1060,7 @@ static void plan_refuses_options_out_of_range(void) {
   *o = none, o->sweep.precision = (nsvcd_precision)5;
   plan_refuses(&s, NSVCD_ERROR_ARGUMENT, 0);
 }
+
 static void plan_works_at_the_ends_of_its_options(void) {
   static plan_scene s;
   plan_wall_scene(&s);
@@ -1712,6 +1233,7 @@ typedef enum plan_trouble {
   PLAN_EXTREME,
   PLAN_TROUBLES
 } plan_trouble;
+
 static const char *const plan_troubles[PLAN_TROUBLES] = {"start hits",
                                                          "start out of limits",
                                                          "goal hits",
@@ -1889,6 +1411,7 @@ static int plan_trouble_case(plan_trouble trouble, uint64_t seed) {
     CHECK_NEAR(out.control[3 * k + 1], s.low[1], 1e-6 * (double)s.low[1]);
   return (int)a->status;
 }
+
 static void plan_troubles_end_well(void) {
   enum { EACH = 60 };
   int total = 0;
@@ -1948,19 +1471,13 @@ static void plan_differences_work_far_from_zero(void) {
   }
 }
 
-void test_plan(void) {
-  RUN(plan_spline_passes_through_its_points_and_rests_at_both_ends);
-  RUN(plan_spline_derivatives);
-  RUN(plan_spline_weights_are_a_partition_of_unity);
-  RUN(plan_mean_squares_are_integrals);
-  RUN(plan_cholesky_solves);
+void test_optimizer(void) {
   RUN(plan_gradient_of_the_cost);
   RUN(plan_gradient_of_the_network);
   RUN(plan_wrenches_are_derivatives);
   RUN(plan_bundled_gradient_is_a_mean);
   RUN(plan_refining_converges);
   RUN(plan_culling_misses_nothing);
-
   RUN(plan_cost_is_the_sum_over_segments);
   RUN(plan_cost_stops_at_its_limit);
   RUN(plan_goes_round_a_wall);
@@ -1982,4 +1499,4 @@ void test_plan(void) {
   RUN(plan_differences_work_far_from_zero);
 }
 
-CHECK_ALONE(test_plan)
+CHECK_ALONE(test_optimizer)

@@ -1,37 +1,78 @@
-// The network: parity with the trainer, equivariance of the encoder, group laws of D(R), invariance
-// of the logit.
+// The decoder: poses of pairs, what it is told of them, parity with the trainer, int8 against float.
 #define NSVCD_STATIC
 #define NEURALSVCD_IMPLEMENTATION
 #include "../neuralsvcd.h"
 
 #include "check.h"
-#include "data/golden.h"
+#include "network_scene.h"
+#include "random_motions.h"
 
-static uint32_t seed = 1;
-static float uniform(void) {  // [-1, 1)
-  seed = seed * 1664525u + 1013904223u;
-  return (float)(seed >> 8) / 8388608.0f - 1;
+void test_decoder(void);
+
+// ------------------------------------------------------------------------------------------- poses
+
+// Sixteen poses at once are the pose one by one.
+static void poses_at_are_poses(void) {
+  double worst = 0;
+  for (int trial = 0; trial < 300; trial++) {
+    double middle[3] = {uniform(-3, 3), uniform(-3, 3), uniform(-3, 3)};
+    size_t count = pick(1, 40);
+    nsvcd_pose fixed = {{1, -2, 0.5f}, {0, 0, 0, 1}};
+    float times[NSVCD__LANES], lanes[12][NSVCD__LANES];
+    nsvcd__motion motion;
+    random_quat(fixed.rotation);
+    random_motion(count, trial % 3, uniform(0, 12), 1, middle);
+    CHECK_EQ(motion_init(poses, count, &fixed, &motion), NSVCD_OK);
+    for (size_t l = 0; l < NSVCD__LANES; l++)
+      times[l] = l == 0 ? 0 : l == 1 ? 1 : (float)uniform(0, 1);
+    NSVCD__EACH_SLICE(l) {
+      nsvcd__v q[4], p[3], m[9];
+      nsvcd__v_poses_at(&motion, times + l, NSVCD__SLICE, q, p);
+      nsvcd__v_matrix(q, m);
+      for (size_t k = 0; k < 9; k++)
+        nsvcd__v_store(lanes[k] + l, m[k]);
+      for (size_t k = 0; k < 3; k++)
+        nsvcd__v_store(lanes[9 + k] + l, p[k]);
+    }
+    for (size_t l = 0; l < NSVCD__LANES; l++) {
+      float rotation[9], position[3];
+      nsvcd__motion_pose(&motion, times[l], rotation, position);
+      for (size_t k = 0; k < 9; k++)
+        worst = fmax(worst, fabs((double)(lanes[k][l] - rotation[k])));
+      for (size_t k = 0; k < 3; k++)
+        worst = fmax(worst, fabs((double)(lanes[9 + k][l] - position[k])));
+    }
+  }
+  CHECK_LE(worst, 1e-5);
 }
 
-static void random_rotation(float *m) {
-  float q[4];
-  float length = 0;
-  do {
-    for (size_t k = 0; k < 4; k++)
-      q[k] = uniform();
-    length = sqrtf(q[0] * q[0] + q[1] * q[1] + q[2] * q[2] + q[3] * q[3]);
-  } while (length > 1 || length < 0.1f);
-  for (size_t k = 0; k < 4; k++)
-    q[k] /= length;
-  nsvcd__quat_to_matrix(q, m);
+// Half the rotation vector of a quaternion, at every angle including 0 and pi.
+static void half_rotation_vector(void) {
+  const double angles[12] = {0, 1e-8, 1e-6, 1e-4, 1e-2, 0.5, 1.04, 1.05, 1.5, 3, 3.14, 3.1415};
+  for (int trial = 0; trial < 1200; trial++) {
+    float random[4], lane[NSVCD__SLICE];
+    double axis[3];
+    double length;
+    double angle = angles[trial % 12];
+    double s = sin(angle / 2);
+    double sign = trial % 5 ? 1 : -1;
+    random_quat(random);
+    length = sqrt((double)(random[0] * random[0] + random[1] * random[1] + random[2] * random[2]));
+    for (int k = 0; k < 3; k++)
+      axis[k] = (double)random[k] / length;
+    nsvcd__v q[4], w[3];
+    for (int k = 0; k < 3; k++)
+      q[k] = nsvcd__v_set((float)(sign * s * axis[k]));
+    q[3] = nsvcd__v_set((float)(sign * cos(angle / 2)));
+    nsvcd__v_half_rotation(q, w);
+    for (int k = 0; k < 3; k++) {
+      nsvcd__v_store(lane, w[k]);
+      CHECK_NEAR(lane[trial % NSVCD__SLICE], 0.5 * angle * axis[k], 3e-6);
+    }
+  }
 }
 
-static float largest_difference(const float *a, const float *b, size_t count) {
-  float most = 0;
-  for (size_t k = 0; k < count; k++)
-    most = fmaxf(most, fabsf(a[k] - b[k]));
-  return most;
-}
+// ------------------------------------------------------------------------------- inputs and logits
 
 // One pair, as nsvcd__pairs holds a slice of them.
 typedef struct pair_data {
@@ -62,6 +103,7 @@ static void inputs_in_lane(const pair_data *pair, size_t lane, float *x) {  // (
   nsvcd__invariants(&pairs, NSVCD__SLICE, batch);
   memcpy(x, batch + NSVCD__DECODER_IN * lane, NSVCD__DECODER_IN * sizeof *x);
 }
+
 static void inputs_of(const pair_data *pair, float *x) {
   inputs_in_lane(pair, 5 % NSVCD__SLICE, x);
 }
@@ -76,33 +118,6 @@ static float head_logit(const nsvcd__decoder *head, const float *x, int int8) {
   return logits[rows - 1];
 }
 
-// D(R) as floats: (9 + 25).
-static void wigner(const float *r, float *d) {
-  nsvcd__v m[9];
-  float lanes[NSVCD__WIGNER][NSVCD__SLICE];
-  for (size_t k = 0; k < 9; k++)
-    m[k] = nsvcd__v_set(r[k]);
-  nsvcd__wigner(m, nsvcd__v_set(1), lanes);
-  for (size_t k = 0; k < NSVCD__WIGNER; k++)
-    d[k] = lanes[k][3 % NSVCD__SLICE];
-}
-
-// D(R) z of a latent's vectors: (3, CHANNELS), then (5, CHANNELS).
-static void rotate_latent(const float *r, const float *z, float *turned) {
-  float d[NSVCD__WIGNER];
-  wigner(r, d);
-  for (size_t i = 0; i < 8; i++) {
-    for (size_t c = 0; c < NSVCD_W_CHANNELS; c++) {
-      float sum = 0;
-      for (size_t k = 0; k < (i < 3 ? 3u : 5u); k++) {
-        sum += d[i < 3 ? 3 * i + k : 9 + 5 * (i - 3) + k] *
-               z[NSVCD_W_CHANNELS * ((i < 3 ? 0 : 3) + k) + c];
-      }
-      turned[NSVCD_W_CHANNELS * i + c] = sum;
-    }
-  }
-}
-
 static void heads_fit_their_buffers(void) {
   const size_t widest[3] = {NSVCD__WIDEST_TINY, NSVCD__WIDEST_SMALL, NSVCD__WIDEST};
   for (size_t h = 0; h < 3; h++) {
@@ -112,18 +127,9 @@ static void heads_fit_their_buffers(void) {
   }
 }
 
-static void encoder_matches_the_trainer(void) {
-  for (size_t i = 0; i < GOLDEN_PATCHES; i++) {
-    float latent[NSVCD__LATENT];
-    nsvcd__encode_patch(golden_points + 3 * GOLDEN_POINTS * i,
-                        golden_normals + 3 * GOLDEN_POINTS * i, GOLDEN_POINTS,
-                        golden_centre + 3 * i, golden_radius[i], latent);
-    CHECK_LE(largest_difference(latent, golden_latent + NSVCD__LATENT * i, NSVCD__LATENT), 1e-4);
-  }
-}
-
 // golden_pair rows: p1 p2 r1 r2 q v w, logits of tiny small base.
 #define GOLDEN_ROW 21
+
 static void golden_pair_at(size_t n, int8_t *z1, int8_t *z2, pair_data *pair) {
   const float *row = golden_pair + GOLDEN_ROW * n;
   for (size_t k = 0; k < NSVCD__LATENT; k++) {
@@ -180,80 +186,6 @@ static void int8_heads_follow_fp32(void) {
   CHECK_GE(worst, 1e-6);  // it is another arithmetic
   CHECK_LE(sum, 0.05);
   CHECK_LE(worst, 0.5);
-}
-
-// Random oriented points in the unit ball about a random centre.
-static void random_patch(float *points, float *normals, size_t count) {
-  float lean[3] = {uniform(), uniform(), uniform()};
-  for (size_t i = 0; i < count; i++) {
-    float n[3], length;
-    for (size_t k = 0; k < 3; k++) {
-      points[3 * i + k] = 0.57f * uniform();
-      n[k] = uniform() + lean[k];
-    }
-    length = nsvcd__length3(n);
-    for (size_t k = 0; k < 3; k++)
-      normals[3 * i + k] = n[k] / length;
-  }
-}
-
-static void encoder_is_equivariant(void) {
-  for (int trial = 0; trial < 100; trial++) {
-    float points[3 * 40], normals[3 * 40], turned_points[3 * 40], turned_normals[3 * 40], m[9];
-    float latent[NSVCD__LATENT];
-    float expected[NSVCD__LATENT];
-    float turned[NSVCD__LATENT];
-    float zero[3] = {0, 0, 0};
-    float centre[3];
-    random_patch(points, normals, 40);
-    random_rotation(m);
-    if (trial % 2) {  // mirrored as well: the degree-2 block is even, degree 1 odd
-      for (size_t k = 0; k < 9; k++)
-        m[k] = -m[k];
-    }
-    const float scale = powf(10, 3 * uniform());
-    for (size_t k = 0; k < 3; k++)
-      centre[k] = scale * uniform();
-    for (size_t i = 0; i < 40; i++) {
-      nsvcd__mul33_vec(m, points + 3 * i, turned_points + 3 * i);
-      nsvcd__mul33_vec(m, normals + 3 * i, turned_normals + 3 * i);
-      for (size_t k = 0; k < 3; k++)
-        turned_points[3 * i + k] = scale * turned_points[3 * i + k] + centre[k];
-    }
-    nsvcd__encode_patch(points, normals, 40, zero, 1, latent);
-    nsvcd__encode_patch(turned_points, turned_normals, 40, centre, scale, turned);
-    rotate_latent(m, latent, expected);
-    memcpy(expected + NSVCD__VECTORS, latent + NSVCD__VECTORS, NSVCD_W_SCALARS * sizeof(float));
-    // float32, and gates that amplify
-    CHECK_LE(largest_difference(turned, expected, NSVCD__LATENT), 2e-4);
-    CHECK_GE(largest_difference(latent, turned, NSVCD__LATENT), 1e-3);  // it does depend on R
-  }
-}
-
-static void rotation_operator_is_a_group(void) {
-  const float half_turn[9] = {-1, 0, 0, 0, -1, 0, 0, 0, 1};
-  for (int trial = 0; trial < 200; trial++) {
-    float a[9], b[9], ab[9], z[NSVCD__VECTORS], x[NSVCD__VECTORS], y[NSVCD__VECTORS],
-        w[NSVCD__VECTORS];
-    random_rotation(a);
-    random_rotation(b);
-    nsvcd__mul33(a, b, ab);
-    for (size_t k = 0; k < NSVCD__VECTORS; k++)
-      z[k] = uniform();
-    rotate_latent(b, z, x);
-    rotate_latent(a, x, y);
-    rotate_latent(ab, z, w);
-    CHECK_LE(largest_difference(y, w, NSVCD__VECTORS), 3e-6);  // D(A) D(B) = D(AB)
-    rotate_latent(half_turn, z, x);
-    CHECK_GE(largest_difference(x, z, NSVCD__VECTORS), 0.1);
-    rotate_latent(half_turn, x, y);
-    CHECK_LE(largest_difference(y, z, NSVCD__VECTORS), 1e-6);  // twice 180 degrees is the identity
-    float back[9];
-    nsvcd__transpose33(a, back);
-    rotate_latent(a, z, x);
-    rotate_latent(back, x, y);
-    CHECK_LE(largest_difference(y, z, NSVCD__VECTORS), 2e-6);  // D(R)^T is the inverse
-  }
 }
 
 static void inputs_are_invariant(void) {
@@ -325,7 +257,7 @@ static void degenerate_pairs_are_finite(void) {
     pair.r1 = trial & 4 ? 0 : 0.1f;
     pair.r2 = 0;
     for (size_t k = 0; k < 3; k++) {
-      pair.p1[k] = trial & 8 ? 0.01f * uniform() : 0;
+      pair.p1[k] = trial & 8 ? 0.01f * network_uniform() : 0;
       pair.v[k] = trial & 16 ? 2 * pair.p1[k] : 0;  // along the line
     }
     float x[NSVCD__DECODER_IN];
@@ -337,14 +269,15 @@ static void degenerate_pairs_are_finite(void) {
   }
 }
 
-void test_network(void) {
+void test_decoder(void) {
+  RUN(poses_at_are_poses);
+  RUN(half_rotation_vector);
   RUN(heads_fit_their_buffers);
-  RUN(encoder_matches_the_trainer);
   RUN(heads_match_the_trainer);
   RUN(int8_heads_follow_fp32);
-  RUN(encoder_is_equivariant);
-  RUN(rotation_operator_is_a_group);
   RUN(inputs_are_invariant);
   RUN(inputs_do_not_depend_on_who_moves);
   RUN(degenerate_pairs_are_finite);
 }
+
+CHECK_ALONE(test_decoder)
