@@ -13,6 +13,8 @@ endif
 WARNINGS = -Wall -Wextra
 ALL_CFLAGS = $(CFLAGS) -std=c99 $(WARNINGS)
 LIBRARY = neuralsvcd.h weights.h
+# What the examples and the tests share.
+SCENERY = $(wildcard examples/scenery/*.h)
 
 # libccd checks the oracle on convex pairs. Found by pkg-config, or by its header where that is not installed.
 HASH := \#
@@ -41,20 +43,10 @@ build:
 
 # ---------------------------------------------------------------------------------------------------------- examples
 
-build/svcd: examples/svcd.c examples/problem_file.h $(LIBRARY) | build
-	$(CC) $(ALL_CFLAGS) -o $@ examples/svcd.c -lm
-build/quickstart: examples/quickstart.c examples/picture.h $(LIBRARY) | build
-	$(CC) $(ALL_CFLAGS) -o $@ examples/quickstart.c -lm
-build/game: examples/game.c examples/problem_file.h examples/draw.h examples/tasks.h examples/shapes.h tests/oracle.h $(LIBRARY) | build
-	$(CC) $(ALL_CFLAGS) -Wno-unused-function -o $@ examples/game.c -lm
-build/fly_through: examples/fly_through.c examples/problem_file.h examples/level.h examples/draw.h examples/tasks.h examples/shapes.h tests/oracle.h $(LIBRARY) | build
-	$(CC) $(ALL_CFLAGS) -Wno-unused-function -o $@ examples/fly_through.c -lm
-$(PLANNERS): build/%: examples/%.c examples/task_planner.h examples/draw.h examples/tasks.h examples/shapes.h tests/oracle.h $(LIBRARY) | build
+EXAMPLES = $(patsubst examples/%.c,build/%,$(wildcard examples/*.c))
+$(EXAMPLES): build/%: examples/%.c $(wildcard examples/*.h) $(SCENERY) $(LIBRARY) | build
 	$(CC) $(ALL_CFLAGS) -o $@ $< -lm
-build/tasks_preview: examples/tasks_preview.c examples/draw.h examples/tasks.h examples/shapes.h tests/oracle.h $(LIBRARY) | build
-	$(CC) $(ALL_CFLAGS) -o $@ examples/tasks_preview.c -lm
-build/make_assets: examples/make_assets.c examples/shapes.h | build
-	$(CC) $(ALL_CFLAGS) -o $@ examples/make_assets.c -lm
+build/game build/fly_through: WARNINGS += -Wno-unused-function  # of problem_file.h
 
 demo: build/quickstart build/game build/fly_through $(PLANNERS)  ## the examples, seconds each: what they find, and a picture each in build/
 	build/quickstart
@@ -72,45 +64,51 @@ assets: build/make_assets  ## writes examples/assets/*.obj, which are in the rep
 
 # ------------------------------------------------------------------------------------------------------------- tests
 
-TESTS = main test_mesh test_surface test_proof test_network test_broad_phase test_oracle test_query test_level test_gradient test_cost test_tasks test_plan_spheres test_plan
-TEST_OBJECTS = $(TESTS:%=build/%.o)
+HELPERS = $(wildcard tests/*.h tests/data/*.h)
+PEERS = $(wildcard tests/bench/*.h)
+TEST_OBJECTS = build/main.o $(patsubst tests/%.c,build/%.o,$(wildcard tests/test_*.c))
 # Each test file holds its own copy of the header, and uses only a part of its private functions.
 TEST_WARNINGS = -Wall -Wextra -Werror -Wno-unused-function
 
-build/%.o: tests/%.c tests/check.h tests/ask.h tests/oracle.h tests/poses.h tests/query_scene.h tests/proof_scene.h tests/gradient_reference.h examples/shapes.h examples/tasks.h tests/plan_spheres.h tests/bench_spheres.h tests/bench_mesh.h tests/method.h tests/any_query.h tests/failing_heap.h tests/level_bench.h tests/level_scene.h examples/level.h $(wildcard tests/data/*.h) $(LIBRARY) | build
+$(TEST_OBJECTS): build/%.o: tests/%.c $(HELPERS) $(PEERS) $(SCENERY) $(LIBRARY) | build
 	$(CC) $(CFLAGS) -pthread -std=c99 $(TEST_WARNINGS) $(CCD_CFLAGS) -c -o $@ $<
 build/tests: $(TEST_OBJECTS)
 	$(CC) $(CFLAGS) -pthread -o $@ $(TEST_OBJECTS) $(CCD_LIBS) -lm
+
+# Peers, generators and benchmarks.
+BENCHES = $(patsubst tests/bench/%.c,build/%,$(wildcard tests/bench/*.c))
+$(BENCHES): build/%: tests/bench/%.c $(HELPERS) $(PEERS) $(SCENERY) $(LIBRARY) | build
+	$(CC) $(ALL_CFLAGS) -Wno-unused-function $(CCD_CFLAGS) -o $@ $< $(CCD_LIBS) -lm
 
 check-header: | build  # as C99 to C++17, strictly, and what it leaves in the namespace
 	CC="$(CC)" CXX="$(CXX)" tests/header.sh
 check-examples: all build/make_assets  # they run, and they say no as FORMATS.md demands
 	tests/examples.sh
 check-problems: build/problems build/svcd  # every set that the generator can make
-	tests/problems.sh
+	tests/bench/problems.sh
 
 # The gradient, with each of these switches.
 GRADIENT_SWITCHES = SIMD FLOAT INT8 BASE SMALL,BASE
-build/gradient_%: tests/test_gradient.c tests/gradient_reference.h tests/query_scene.h $(LIBRARY) | build
+build/gradient_%: tests/test_gradient.c $(HELPERS) $(SCENERY) $(LIBRARY) | build
 	$(CC) $(CFLAGS) -std=c99 $(TEST_WARNINGS) -DTEST_ALONE $(patsubst %,-DNSVCD_NO_%,$(subst $(comma), ,$*)) -o $@ $< -lm
 check-gradient: $(GRADIENT_SWITCHES:%=build/gradient_%)
 	@for test in $^; do echo $$test; $$test >$$test.txt || { cat $$test.txt; exit 1; }; tail -1 $$test.txt; done
 
 # The tests of the proof, alone; PROOF_MANY=10 in the environment: 10^6 crossings.
-build/test_proof: tests/test_proof.c tests/proof_scene.h tests/check.h tests/oracle.h tests/poses.h examples/shapes.h $(LIBRARY) | build
+build/test_proof: tests/test_proof.c $(HELPERS) $(SCENERY) $(LIBRARY) | build
 	$(CC) $(CFLAGS) -std=c99 $(TEST_WARNINGS) -DTEST_ALONE -o $@ $< -lm
 # The same, with tiles of two groups: bodies of more than 32 patches are searched tile by tile.
-build/test_tiles: tests/test_proof.c tests/proof_scene.h tests/check.h tests/oracle.h tests/poses.h examples/shapes.h $(LIBRARY) | build
+build/test_tiles: tests/test_proof.c $(HELPERS) $(SCENERY) $(LIBRARY) | build
 	$(CC) $(CFLAGS) -std=c99 $(TEST_WARNINGS) -DNSVCD__TILE=2 -DTEST_ALONE -o $@ $< -lm
 check-tiles: build/test_tiles
 	@build/test_tiles >build/test_tiles.txt || { cat build/test_tiles.txt; exit 1; }; echo build/test_tiles; tail -1 build/test_tiles.txt
 # On 32 bits, where sizes end at 4 GB, under sanitizers; where the compiler can (Debian: gcc-multilib).
 CFLAGS_32 = -m32 -msse2 -mfpmath=sse -O1 -fsanitize=address,undefined -fno-sanitize-recover=all
-build/test_%_32: tests/test_%.c tests/check.h tests/failing_heap.h tests/level_bench.h tests/level_scene.h examples/level.h examples/shapes.h tests/oracle.h tests/poses.h $(LIBRARY) | build
+build/test_%_32: tests/test_%.c $(HELPERS) $(PEERS) $(SCENERY) $(LIBRARY) | build
 	$(CC) $(CFLAGS_32) -pthread -std=c99 $(TEST_WARNINGS) -DTEST_ALONE -o $@ $< -lm
 check-32:
 	@if echo 'int main(void) { return 0; }' | $(CC) $(CFLAGS_32) -x c -o build/can_32 - 2>/dev/null; then \
-	  $(MAKE) build/test_level_32 build/test_plan_32 && build/test_level_32 && build/test_plan_32 plan_sizes; \
+	  $(MAKE) build/test_level_32 build/test_optimizer_32 && build/test_level_32 && build/test_optimizer_32 plan_sizes; \
 	else echo "check-32: $(CC) has no libraries for -m32: not tested"; fi
 # On Cortex-M4F and M7 under QEMU, where its tools are there (Debian: gcc-arm-none-eabi, libnewlib-arm-none-eabi, qemu-system-arm).
 check-firmware: | build
@@ -124,13 +122,11 @@ mutants:  ## the header with one mistake at a time: the tests of the proof must 
 # files; FIRST: tolerance of first contacts, a share of the motion. FRAMES=1000 for more.
 FRAMES = 60
 FIRST = 0.01
-build/check_motions: tests/check_motions.c examples/problem_file.h tests/oracle.h tests/poses.h $(LIBRARY) | build
-	$(CC) $(ALL_CFLAGS) -Wno-unused-function -o $@ tests/check_motions.c -lm
 check-motions: build/check_motions build/game build/problems build/svcd  ## first contacts, clearances and two movers against an oracle
 	@mkdir -p build/motions
 	build/problems --set standard --meshes procedural --count 100 --seed 407 --out build/motions/standard.txt
 	build/check_motions build/motions/standard.txt 0 $(FIRST)
-	@! command -v python3 >/dev/null || { python3 tests/carry.py build/motions/standard.txt build/motions/carried.txt && \
+	@! command -v python3 >/dev/null || { python3 tests/bench/carry.py build/motions/standard.txt build/motions/carried.txt && \
 	  build/check_motions build/motions/carried.txt 0 $(FIRST) && \
 	  build/svcd check --repeat 1 build/motions/carried.txt 2>&1 >/dev/null | grep '^accuracy *100.00'; }
 	build/game --frames $(FRAMES) --problems build/motions
@@ -138,15 +134,13 @@ check-motions: build/check_motions build/game build/problems build/svcd  ## firs
 	@for file in $(MOTIONS); do echo $$file; build/check_motions $$file 0 $(FIRST) || exit 1; done
 
 check-extremes: build/problems build/svcd  # tiny, huge, far, thin, spinning ...
-	tests/extremes.sh
+	tests/bench/extremes.sh
 
 test: build/tests check-text check-header check-gradient check-examples check-tiles check-32 check-firmware check-motions check-problems check-extremes  ## everything; the last line is `N passed, N failed`
 	build/tests
 
 # ---------------------------------------------------------------------------------------------------------- accuracy
 
-build/problems: tests/problems.c tests/set_shapes.h tests/oracle.h examples/shapes.h | build
-	$(CC) $(ALL_CFLAGS) -o $@ tests/problems.c -lm
 problems: build/problems  ## the generator of exactly labelled problems
 
 # The seeds and counts of the measured accuracy; COUNT=200 for a quick look. Labelling takes minutes.
@@ -211,10 +205,6 @@ accuracy: build/svcd $(SETS:%=$(DATA)/%.txt)  ## labels the problem sets (minute
 
 # --------------------------------------------------------------------------------------------------------- benchmark
 
-BENCH_HEADERS = tests/method.h tests/bench_chart.h tests/bench_convex.h tests/bench_grid.h tests/bench_mesh.h tests/bench_spheres.h
-build/bench: tests/bench.c $(BENCH_HEADERS) tests/oracle.h tests/poses.h examples/problem_file.h $(LIBRARY) | build
-	$(CC) $(ALL_CFLAGS) $(CCD_CFLAGS) -o $@ tests/bench.c $(CCD_LIBS) -lm
-
 # Sets at the extremes: 300 problems each, answered by NeuralSVCD alone.
 EXTREMES = thin spin still tiny huge inside cavity far mixed offset
 build/extremes/%.txt: | build/problems
@@ -235,14 +225,6 @@ endif
 comma := ,
 space := $(subst x,,x x)
 
-build/bench_asks: tests/bench_asks.c examples/problem_file.h $(LIBRARY) | build
-	$(CC) $(ALL_CFLAGS) -Wno-unused-function -o $@ tests/bench_asks.c -lm
-# A level as one body, against its local pieces; MOTIONS of each set.
-build/bench_level: tests/bench_level.c tests/level_bench.h tests/level_scene.h examples/level.h examples/shapes.h tests/oracle.h tests/poses.h $(LIBRARY) | build
-	$(CC) $(ALL_CFLAGS) -Wno-unused-function -o $@ tests/bench_level.c -lm
-# What a scene costs: bytes, encoding, queries, against triangles and N.
-build/bench_scale: tests/bench_scale.c tests/level_bench.h tests/level_scene.h examples/level.h examples/shapes.h tests/oracle.h tests/poses.h $(LIBRARY) | build
-	$(CC) $(ALL_CFLAGS) -Wno-unused-function -o $@ tests/bench_scale.c -lm
 bench-scale: build/bench_scale  ## bytes and microseconds against triangles, 12 to a million, and against N: table, build/scale.svg
 	build/bench_scale
 bench-level: build/bench_level  ## a level of 20 m as one body: encoding, memory, and motions of a frame
@@ -255,18 +237,16 @@ bench-asks: build/bench_asks build/game $(DATA)/standard.txt $(DATA)/hollow.txt 
 	build/bench_asks $(DATA)/hollow.txt
 	build/bench_asks $(DATA)/rest.txt
 
-build/profile: tests/profile.c examples/problem_file.h examples/shapes.h $(LIBRARY) | build
-	$(CC) $(ALL_CFLAGS) -Wno-unused-function -o $@ tests/profile.c -lm
 profile: build/profile $(DATA)/random_urdfs.txt $(DATA)/hollow.txt $(DATA)/rest.txt  ## where a query's time goes, stage by stage
 	build/profile $(DATA)/random_urdfs.txt 64 128 512
 	build/profile $(DATA)/hollow.txt 512
 	build/profile $(DATA)/rest.txt 256
 
 instructions: $(DATA)/random_urdfs.txt  ## what a query executes, counted by callgrind
-	CC="$(CC)" tests/instructions.sh $(DATA)/random_urdfs.txt 64 512
+	CC="$(CC)" tests/bench/instructions.sh $(DATA)/random_urdfs.txt 64 512
 
 sizes:  ## code and data that each compile-time switch leaves out, host and Cortex-M
-	CC="$(CC)" tests/sizes.sh
+	CC="$(CC)" tests/bench/sizes.sh
 
 bench: build/bench $(BENCH_FILES)  ## every method on the same problems: table, build/tradeoff.tsv, build/tradeoff.svg
 	build/bench $(if $(BENCH),--quick --limit 150,--limit 600) $(BENCH_SETS)
@@ -275,9 +255,6 @@ bench: build/bench $(BENCH_FILES)  ## every method on the same problems: table, 
 race: build/bench $(BENCH_FILES) $(DATA)/standard.txt $(HARD:%=$(DATA)/%.txt) $(if $(REAL),$(DATA)/large.txt)  ## the proof against the hierarchy and the network, minutes
 	build/bench --race --out build/race $(if $(LIMIT),--limit $(LIMIT)) $(BENCH_SETS) standard=$(DATA)/standard.txt $(foreach set,$(filter-out rest,$(HARD)) $(if $(REAL),large),$(set)=$(DATA)/$(set).txt)
 
-build/plan_bench: tests/plan_bench.c tests/plan_spheres.h tests/bench_spheres.h tests/bench_mesh.h tests/method.h tests/oracle.h \
-  examples/tasks.h examples/shapes.h $(LIBRARY) | build
-	$(CC) $(ALL_CFLAGS) -o $@ tests/plan_bench.c -lm
 # EPISODES=10 for a quick look; 100, the default, take half an hour.
 bench-plan: build/plan_bench  ## four planners on three tasks: table, build/plan.tsv, build/plan.svg
 	build/plan_bench --episodes $(or $(EPISODES),100) --tsv build/plan.tsv
@@ -307,7 +284,7 @@ weights: $(CHECKPOINT) $(CALIBRATION)/standard.txt $(CALIBRATION)/hollow.txt  ##
 	cd train && $(PYTHON) calibrate.py ../$(CHECKPOINT) ../build/svcd $(CALIBRATION:%=../%/standard.txt) $(CALIBRATION:%=../%/hollow.txt)
 	cd train && $(PYTHON) export.py ../$(CHECKPOINT) ../weights.h ../tests/data/golden.h
 
-FORMATTED = neuralsvcd.h $(wildcard examples/*.[ch] examples/firmware/*.[ch] tests/*.[ch])
+FORMATTED = neuralsvcd.h $(wildcard examples/*.[ch] examples/scenery/*.h examples/firmware/*.[ch] tests/*.[ch] tests/bench/*.[ch])
 format:  ## clang-format on what is written by hand
 	clang-format -i $(FORMATTED)
 # Version 14 decides, as in Debian 12: others break lines elsewhere.

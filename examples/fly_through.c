@@ -8,10 +8,10 @@
 #define NEURALSVCD_IMPLEMENTATION
 #include "../neuralsvcd.h"
 #define PROGRAM "fly_through"
-#include "problem_file.h"
+#include "scenery/problem_file.h"
 
-#include "draw.h"
-#include "level.h"
+#include "scenery/draw.h"
+#include "scenery/level.h"
 
 #define SIDE 20.0         // metres
 #define SEED 1            // of the level

@@ -9,8 +9,8 @@
 #define NEURALSVCD_IMPLEMENTATION
 #include "../neuralsvcd.h"
 #define PROGRAM "game"
-#include "problem_file.h"
-#include "draw.h"
+#include "scenery/problem_file.h"
+#include "scenery/draw.h"
 
 #define MESHES 8
 #define MOVERS 50

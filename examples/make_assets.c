@@ -1,6 +1,6 @@
 // make_assets.c - writes the two meshes of the quickstart, closed and in metres: a mug and a dish
 // rack (`make assets`).
-#include "shapes.h"
+#include "scenery/shapes.h"
 
 static int write_asset(shapes_mesh *mesh, const char *folder, const char *name) {
   char path[1024];

@@ -8,7 +8,7 @@
 #define NEURALSVCD_IMPLEMENTATION
 #include "../neuralsvcd.h"
 #define PROGRAM "svcd"
-#include "problem_file.h"
+#include "scenery/problem_file.h"
 
 // ---------------------------------------------------------------------------------------- encoding
 

@@ -6,7 +6,7 @@
 #ifndef NSVCD_EXAMPLES_TASK_PLANNER_H
 #define NSVCD_EXAMPLES_TASK_PLANNER_H
 
-#include "draw.h"
+#include "scenery/draw.h"
 
 #include <errno.h>
 #include <time.h>

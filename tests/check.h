@@ -1,5 +1,5 @@
 // Tiny test macros. A test is a `static void name(void)`; RUN(name) runs it unless the filter
-// argument excludes it. With CHECK_ENDS_EARLY defined, the first test that fails is the last.
+// argument excludes it; main.c names the files. With CHECK_ENDS_EARLY defined, the first test that fails is the last.
 #ifndef NSVCD_TESTS_CHECK_H
 #define NSVCD_TESTS_CHECK_H
 
@@ -58,15 +58,20 @@ extern check_state check;
 #define CHECK_GE(a, b) CHECK_OP(a, >=, b)
 #define CHECK_NEAR(a, b, tolerance) CHECK_LE(fabs((double)(a) - (double)(b)), (tolerance))
 
+// The closing line. Returns the exit status: 0, 1 if a test failed, 2 if none was run.
+static inline int check_end(void) {
+  printf("%d passed, %d failed\n", check.passed, check.failed);
+  return check.failed > 0 ? 1 : check.passed == 0 ? 2 : 0;
+}
+
 // At the end of a test file: with TEST_ALONE defined, a main of its own.
 #ifdef TEST_ALONE
-#define CHECK_ALONE(tests)                                        \
-  check_state check;                                              \
-  int main(int argc, char **argv) {                               \
-    check.filter = argc > 1 ? argv[1] : NULL;                     \
-    tests();                                                      \
-    printf("%d passed, %d failed\n", check.passed, check.failed); \
-    return check.failed > 0;                                      \
+#define CHECK_ALONE(tests)                    \
+  check_state check;                          \
+  int main(int argc, char **argv) {           \
+    check.filter = argc > 1 ? argv[1] : NULL; \
+    tests();                                  \
+    return check_end();                       \
   }
 #else
 #define CHECK_ALONE(tests)

@@ -6,9 +6,9 @@
 #include <stdio.h>
 #include <stdlib.h>
 
-#include "../examples/level.h"
-#include "oracle.h"
-#include "poses.h"
+#include "../examples/scenery/level.h"
+#include "../examples/scenery/oracle.h"
+#include "../examples/scenery/poses.h"
 
 // metres by which the local piece is larger than what the motion can reach
 #define LEVEL_REACH 0.05

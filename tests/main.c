@@ -1,37 +1,88 @@
-// The test binary. An argument runs only the tests whose name contains it.
+// The test binary. `build/tests`: all tests; `build/tests decoder`: those of test_decoder.c;
+// `build/tests PART`: those whose name, or whose file's name, contains it.
 #include "check.h"
 
 check_state check;
 
+void test_results(void);
 void test_mesh(void);
+void test_patches(void);
 void test_surface(void);
-void test_proof(void);
-void test_network(void);
+void test_encoder(void);
+void test_latent_rotation(void);
+void test_body(void);
+void test_facets(void);
+void test_encoding(void);
+void test_motion(void);
 void test_broad_phase(void);
-void test_oracle(void);
+void test_proof(void);
+void test_winding_number(void);
+void test_decoder(void);
 void test_query(void);
-void test_level(void);
 void test_gradient(void);
+void test_spline(void);
+void test_optimizer(void);
+void test_level(void);
 void test_cost(void);
+void test_oracle(void);
 void test_tasks(void);
 void test_plan_spheres(void);
-void test_plan(void);
+
+typedef struct test_file {
+  const char *name;
+  void (*run)(void);
+} test_file;
+
+#define OF(name) \
+  { #name, test_##name }
+static const test_file files[] = {
+    // the sections of the header, in its order
+    OF(results),
+    OF(mesh),
+    OF(patches),
+    OF(surface),
+    OF(encoder),
+    OF(latent_rotation),
+    OF(body),
+    OF(facets),
+    OF(encoding),
+    OF(motion),
+    OF(broad_phase),
+    OF(proof),
+    OF(winding_number),
+    OF(decoder),
+    OF(query),
+    OF(gradient),
+    OF(spline),
+    OF(optimizer),
+    // what crosses them
+    OF(level),
+    OF(cost),
+    // what judges the library, and what is measured against it
+    OF(oracle),
+    OF(tasks),
+    OF(plan_spheres),
+};
+enum { FILES = sizeof files / sizeof *files };
 
 int main(int argc, char **argv) {
-  check.filter = argc > 1 ? argv[1] : NULL;
-  test_mesh();
-  test_surface();
-  test_proof();
-  test_network();
-  test_broad_phase();
-  test_oracle();
-  test_cost();
-  test_query();
-  test_level();
-  test_gradient();
-  test_tasks();
-  test_plan_spheres();
-  test_plan();
-  printf("%d passed, %d failed\n", check.passed, check.failed);
-  return check.failed > 0;
+  const char *filter = argc > 1 ? argv[1] : NULL;
+  const test_file *only = NULL;
+  for (int f = 0; f < FILES && filter; f++) {
+    if (!strcmp(filter, files[f].name))
+      only = &files[f];
+  }
+  for (int f = 0; f < FILES; f++) {
+    if (only && only != &files[f])
+      continue;
+    check.filter = filter && !strstr(files[f].name, filter) ? filter : NULL;
+    files[f].run();
+  }
+  if (check.passed + check.failed == 0) {
+    fprintf(stderr, "'%s' is in no test's name, nor in that of a file:", filter);
+    for (int f = 0; f < FILES; f++)
+      fprintf(stderr, " %s", files[f].name);
+    fprintf(stderr, "\n");
+  }
+  return check_end();
 }

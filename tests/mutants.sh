@@ -1,15 +1,17 @@
 #!/bin/sh
 # Are the tests of the proof worth anything? Each mutant is the header with one mistake in it; tests/test_proof.c has to
-# fail on it, or, where its name begins with `level:`, tests/test_level.c. Prints a line for each, and exits with 1 if one survives. An argument runs only the mutants whose name
-# contains it. Some 20 seconds each; PART=0 OF=16 WORK=folder: every 16th of them, in a folder of its own.
+# fail on it, or, where its name begins with `level:`, tests/test_level.c. Prints a line for each, and exits with 1 if one
+# survives. An argument runs only the mutants whose name contains it. Some 20 seconds each; PART=0 OF=16 WORK=folder: every
+# 16th of them, in a folder of its own.
 set -u
 CC=${CC:-cc}
 cd "$(dirname "$0")/.." || exit 1
 work=${WORK:-build/mutants}
-mkdir -p $work/tests $work/examples
+mkdir -p $work/tests/bench $work/examples/scenery
 cp weights.h $work/
 cp tests/test_proof.c tests/test_level.c tests/*.h $work/tests/
-cp examples/shapes.h examples/level.h $work/examples/
+cp tests/bench/*.h $work/tests/bench/
+cp examples/scenery/*.h $work/examples/scenery/
 
 # name | text (occurs once) | what it becomes. Not here: axis_turn left out of bulge_along_axis. The theorem needs it, but no
 # motion was found that uses it: what strays most does so at samples, and there axis_bulge is exact.

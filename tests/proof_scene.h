@@ -5,9 +5,9 @@
 #ifndef PROOF_SCENE_H
 #define PROOF_SCENE_H
 
-#include "../examples/shapes.h"
-#include "oracle.h"
-#include "poses.h"
+#include "../examples/scenery/shapes.h"
+#include "../examples/scenery/oracle.h"
+#include "../examples/scenery/poses.h"
 
 #define PROOF_POOL 96  // points of the surface by which a patch is judged
 #define PROOF_POSES 80
@@ -539,6 +539,108 @@ static int proof_compare(const void *pa, const void *pb) {
 static proof_record *proof_sorted(proof_record *items, size_t count) {
   qsort(items, count, sizeof *items, proof_compare);
   return items;
+}
+
+// -------------------------------------------------------------------------------------------------
+// bodies
+
+enum { SOLID, HOLLOW, BOX, BLOCK, PLATE, SHEET, SHELL, NEEDLE, TRIANGLE, BALL, KINDS };
+
+// A wavy sheet, open.
+static void proof_sheet(shapes_mesh *mesh, double size, int cuts) {
+  for (int i = 0; i <= cuts; i++) {
+    for (int j = 0; j <= cuts; j++) {
+      const double x = size * ((double)i / cuts - 0.5);
+      const double y = size * ((double)j / cuts - 0.5);
+      shapes_vertex(mesh, x, y, 0.05 * size * sin(9 * x / size) * cos(7 * y / size));
+    }
+  }
+  for (int i = 0; i < cuts; i++) {
+    for (int j = 0; j < cuts; j++) {
+      const uint32_t at = (uint32_t)(i * (cuts + 1) + j);
+      shapes_quad(mesh, at, at + (uint32_t)cuts + 1, at + (uint32_t)cuts + 2, at + 1);
+    }
+  }
+}
+
+static void proof_shape(int kind, uint64_t seed, shapes_mesh *mesh) {
+  shapes_rng rng = {seed};
+  memset(mesh, 0, sizeof *mesh);
+  if (kind == SOLID)
+    shapes_random_solid(mesh, &rng, shapes_uniform(&rng, 0.1, 0.4));
+  if (kind == HOLLOW)
+    shapes_random_hollow(mesh, &rng, (int)(seed % SHAPES_HOLLOWS), 0.4);
+  if (kind == BOX)
+    shapes_box(mesh, 0.2, 0.15, 0.1, 4);
+  if (kind == BLOCK)
+    shapes_box(mesh, 0.3, 0.3, 0.1, 1);  // two triangles a side: listed in parts
+  if (kind == PLATE)
+    shapes_box(mesh, 0.3, 0.2, 0.001, 3);
+  if (kind == SHEET)
+    proof_sheet(mesh, 0.3, 8);
+  if (kind == SHELL)
+    shapes_shell(mesh, 0.4, 0.35, 0.3, 0.02, (int)(seed % 2), 20);
+  if (kind == NEEDLE)
+    shapes_box(mesh, 0.5, 5e-5, 5e-5, 2);
+  if (kind == BALL)
+    shapes_ellipsoid(mesh, 0.11, 0.09, 0.07, 24);
+  if (kind != TRIANGLE)
+    return;
+  const uint32_t a = shapes_vertex(mesh, 0.1, 0, 0);
+  const uint32_t b = shapes_vertex(mesh, -0.05, 0.1, 0.01);
+  shapes_triangle(mesh, a, b, shapes_vertex(mesh, -0.04, -0.1, -0.02));
+}
+
+static proof_body proof_make(int kind, uint64_t seed, size_t points, double scale) {
+  shapes_mesh shape;
+  nsvcd_result result;
+  const nsvcd_encode_options options = {.points = points,
+                                        .open = kind == SHEET || kind == TRIANGLE};
+  proof_shape(kind, seed, &shape);
+  const proof_body out = proof_encode(&shape, scale, &options, &result);
+  shapes_free(&shape);
+  CHECK_EQ(result, NSVCD_OK);
+  if (result)
+    exit(1);
+  return out;
+}
+
+// Bodies of one scale, shared by the tests; made once.
+#define SCALES 6
+#define MAKES 18
+static const double proof_scales[SCALES] = {1, 1e-10, 1e-6, 1e3, 3e5, 3e-11};
+
+static const proof_body *proof_shared(size_t scale, size_t n) {
+  static const struct {
+    int kind;
+    uint64_t seed;
+    size_t points;
+  } makes[MAKES] = {{SOLID, 1, 64},    {SOLID, 2, 16},   {SOLID, 3, 128},  {HOLLOW, 4, 64},
+                    {HOLLOW, 12, 128}, {BOX, 6, 32},     {BLOCK, 7, 48},   {PLATE, 8, 40},
+                    {SHEET, 9, 32},    {SHELL, 10, 64},  {NEEDLE, 11, 24}, {TRIANGLE, 12, 1},
+                    {BALL, 13, 100},   {SOLID, 14, 256}, {BLOCK, 15, 3},   {HOLLOW, 21, 96},
+                    {SOLID, 17, 1},    {BALL, 18, 4}};
+  static proof_body bodies[SCALES][MAKES];
+  proof_body *b = &bodies[scale][n];
+  if (!b->body)
+    *b = proof_make(makes[n].kind, makes[n].seed, makes[n].points, proof_scales[scale]);
+  return b;
+}
+
+static void *proof_workspace(void) {
+  static void *memory;
+  if (!memory)
+    memory = malloc(nsvcd_sweep_workspace_size(NULL));
+  if (!memory)
+    exit(1);
+  return memory;
+}
+
+static nsvcd_sweep_options proof_options(void) {
+  nsvcd_sweep_options options;
+  memset(&options, 0, sizeof options);
+  options.method = NSVCD_METHOD_PROOF;
+  return options;
 }
 
 #endif

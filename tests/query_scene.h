@@ -3,7 +3,7 @@
 #ifndef QUERY_SCENE_H
 #define QUERY_SCENE_H
 
-#include "../examples/shapes.h"
+#include "../examples/scenery/shapes.h"
 #include "ask.h"
 #include "check.h"
 

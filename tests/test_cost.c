@@ -1,4 +1,5 @@
 // What a query costs: the bound that nsvcd_sweep states, batches, threads, numbers read, and stack.
+// Sections: broad phase, proof, query.
 #define _POSIX_C_SOURCE 200809L
 #define NSVCD_STATIC
 #define NEURALSVCD_IMPLEMENTATION

@@ -1,6 +1,7 @@
 // Bodies of more patches than a tile: the levels of spheres above the groups and the walk through
 // them, meshes encoded region by region, and what is answered about a level, against the oracle and
-// against its local pieces.
+// against its local pieces. Sections: regions, body, facets, encoding, proof, winding number, query,
+// optimizer.
 #define _POSIX_C_SOURCE 200809L
 #define NSVCD_STATIC
 #define NEURALSVCD_IMPLEMENTATION
@@ -10,7 +11,7 @@
 
 #include "check.h"
 #include "failing_heap.h"
-#include "level_bench.h"
+#include "bench/meter.h"
 #include "level_scene.h"
 
 void test_level(void);

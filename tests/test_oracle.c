@@ -1,8 +1,8 @@
 // The oracle judges the library; these tests judge the oracle: closed forms, brute force, dense
 // sampling, libccd.
-#include "oracle.h"
+#include "../examples/scenery/oracle.h"
 
-#include "../examples/shapes.h"
+#include "../examples/scenery/shapes.h"
 #include "check.h"
 
 #ifdef HAVE_LIBCCD

@@ -1,7 +1,7 @@
 // The sphere planner's collision cost (plan_spheres.h): do the spheres cover the bodies, is the
 // cost what its formula says with the oracle's distances, is the gradient that of the cost.
 #define _POSIX_C_SOURCE 200112L
-#include "plan_spheres.h"
+#include "bench/plan_spheres.h"
 
 #include "check.h"
 

@@ -1,5 +1,5 @@
 // The proof, attacked: every certificate replayed in double at other times and points than it was
-// made from, poses at which triangles cross, witnesses, containment, limits, forged bodies, and
+// made from, poses at which triangles cross, witnesses, containment, limits, and
 // scenes that are hard to get right. TEST_ALONE: with a main of its own. PROOF_MANY=10 in the
 // environment: as many times more crossings.
 #define NSVCD_STATIC
@@ -57,22 +57,6 @@ static void proof_certified(int kind, size_t i, size_t j, size_t a, size_t b, do
     r->normal[k] = (double)normal[k];
 }
 
-static void *proof_workspace(void) {
-  static void *memory;
-  if (!memory)
-    memory = malloc(nsvcd_sweep_workspace_size(NULL));
-  if (!memory)
-    exit(1);
-  return memory;
-}
-
-static nsvcd_sweep_options proof_options(void) {
-  nsvcd_sweep_options options;
-  memset(&options, 0, sizeof options);
-  options.method = NSVCD_METHOD_PROOF;
-  return options;
-}
-
 static nsvcd_mover proof_mover(const proof_body *b, const proof_track *track) {
   nsvcd_mover mover;
   mover.body = b->body;
@@ -113,92 +97,6 @@ static nsvcd_result proof_ask_with(attack *a, const nsvcd_sweep_options *options
 static void proof_ask(attack *a) {
   const nsvcd_sweep_options options = proof_options();
   CHECK_EQ(proof_ask_with(a, &options), NSVCD_OK);
-}
-
-// -------------------------------------------------------------------------------------------------
-// bodies
-
-enum { SOLID, HOLLOW, BOX, BLOCK, PLATE, SHEET, SHELL, NEEDLE, TRIANGLE, BALL, KINDS };
-
-// A wavy sheet, open.
-static void proof_sheet(shapes_mesh *mesh, double size, int cuts) {
-  for (int i = 0; i <= cuts; i++) {
-    for (int j = 0; j <= cuts; j++) {
-      const double x = size * ((double)i / cuts - 0.5);
-      const double y = size * ((double)j / cuts - 0.5);
-      shapes_vertex(mesh, x, y, 0.05 * size * sin(9 * x / size) * cos(7 * y / size));
-    }
-  }
-  for (int i = 0; i < cuts; i++) {
-    for (int j = 0; j < cuts; j++) {
-      const uint32_t at = (uint32_t)(i * (cuts + 1) + j);
-      shapes_quad(mesh, at, at + (uint32_t)cuts + 1, at + (uint32_t)cuts + 2, at + 1);
-    }
-  }
-}
-
-static void proof_shape(int kind, uint64_t seed, shapes_mesh *mesh) {
-  shapes_rng rng = {seed};
-  memset(mesh, 0, sizeof *mesh);
-  if (kind == SOLID)
-    shapes_random_solid(mesh, &rng, shapes_uniform(&rng, 0.1, 0.4));
-  if (kind == HOLLOW)
-    shapes_random_hollow(mesh, &rng, (int)(seed % SHAPES_HOLLOWS), 0.4);
-  if (kind == BOX)
-    shapes_box(mesh, 0.2, 0.15, 0.1, 4);
-  if (kind == BLOCK)
-    shapes_box(mesh, 0.3, 0.3, 0.1, 1);  // two triangles a side: listed in parts
-  if (kind == PLATE)
-    shapes_box(mesh, 0.3, 0.2, 0.001, 3);
-  if (kind == SHEET)
-    proof_sheet(mesh, 0.3, 8);
-  if (kind == SHELL)
-    shapes_shell(mesh, 0.4, 0.35, 0.3, 0.02, (int)(seed % 2), 20);
-  if (kind == NEEDLE)
-    shapes_box(mesh, 0.5, 5e-5, 5e-5, 2);
-  if (kind == BALL)
-    shapes_ellipsoid(mesh, 0.11, 0.09, 0.07, 24);
-  if (kind != TRIANGLE)
-    return;
-  const uint32_t a = shapes_vertex(mesh, 0.1, 0, 0);
-  const uint32_t b = shapes_vertex(mesh, -0.05, 0.1, 0.01);
-  shapes_triangle(mesh, a, b, shapes_vertex(mesh, -0.04, -0.1, -0.02));
-}
-
-static proof_body proof_make(int kind, uint64_t seed, size_t points, double scale) {
-  shapes_mesh shape;
-  nsvcd_result result;
-  const nsvcd_encode_options options = {.points = points,
-                                        .open = kind == SHEET || kind == TRIANGLE};
-  proof_shape(kind, seed, &shape);
-  const proof_body out = proof_encode(&shape, scale, &options, &result);
-  shapes_free(&shape);
-  CHECK_EQ(result, NSVCD_OK);
-  if (result)
-    exit(1);
-  return out;
-}
-
-// Bodies of one scale, shared by the tests; made once.
-#define SCALES 6
-#define MAKES 18
-static const double proof_scales[SCALES] = {1, 1e-10, 1e-6, 1e3, 3e5, 3e-11};
-
-static const proof_body *proof_shared(size_t scale, size_t n) {
-  static const struct {
-    int kind;
-    uint64_t seed;
-    size_t points;
-  } makes[MAKES] = {{SOLID, 1, 64},    {SOLID, 2, 16},   {SOLID, 3, 128},  {HOLLOW, 4, 64},
-                    {HOLLOW, 12, 128}, {BOX, 6, 32},     {BLOCK, 7, 48},   {PLATE, 8, 40},
-                    {SHEET, 9, 32},    {SHELL, 10, 64},  {NEEDLE, 11, 24}, {TRIANGLE, 12, 1},
-                    {BALL, 13, 100},   {SOLID, 14, 256}, {BLOCK, 15, 3},   {HOLLOW, 21, 96},
-                    {SOLID, 17, 1},    {BALL, 18, 4}};
-  static proof_body bodies[SCALES][MAKES];
-  proof_body *b = &bodies[scale][n];
-  if (!b->body)
-    *b = proof_make(makes[n].kind, makes[n].seed, makes[n].points, proof_scales[scale]);
-  return b;
 }
 
 // -------------------------------------------------------------------------------------------------
@@ -2299,186 +2197,6 @@ static void proof_half_turns(void) {
 }
 
 // -------------------------------------------------------------------------------------------------
-// forged blobs
-
-typedef struct forgery {
-  size_t size;
-  void *memory;
-  struct nsvcd_body *body, *inner;  // of triangles
-} forgery;
-
-static forgery proof_forge(const nsvcd_body *body) {
-  forgery f;
-  f.size = body->size;
-  f.memory = malloc(f.size);
-  if (!f.memory)
-    exit(1);
-  memcpy(f.memory, body, f.size);
-  f.body = (struct nsvcd_body *)f.memory;
-  f.inner =
-      f.body->weights_id ? (struct nsvcd_body *)(void *)((char *)f.memory + f.body->inner) : f.body;
-  return f;
-}
-
-// Loads what has been forged, its checksums put right.
-static nsvcd_result proof_load(forgery *f) {
-  const nsvcd_body *body = NULL;
-  if ((size_t)((char *)f->inner - (char *)f->memory) + f->inner->size <= f->size) {
-    f->inner->checksum = nsvcd__body_checksum(f->inner);
-  }
-  if (f->body->size <= f->size)
-    f->body->checksum = nsvcd__body_checksum(f->body);
-  return nsvcd_body_load(f->memory, f->size, &body);
-}
-
-static void proof_expect_refusal(const nsvcd_body *body, size_t offset, const void *value,
-                                 size_t bytes) {
-  forgery f = proof_forge(body);
-  memcpy((char *)f.inner + offset, value, bytes);
-  CHECK_EQ(proof_load(&f), NSVCD_ERROR_BODY);
-  free(f.memory);
-}
-
-static size_t proof_offset(const nsvcd__facets *f, const void *at) {
-  return (size_t)((const char *)at - (const char *)f->body);
-}
-
-static void proof_forge_floats(const nsvcd_body *body, const nsvcd__facets *f) {
-  const float bad[3] = {NAN, INFINITY, -1e30f};
-  const size_t padded = f->body->padded;
-  const float *arrays[5] = {f->discs, f->steps, f->slacks, f->quanta, f->seeds};
-  const size_t counts[5] = {6 * padded, padded, padded, padded, 3 * f->components};
-  for (int k = 0; k < 5; k++) {
-    for (size_t n = 0; n < counts[k]; n += 1 + counts[k] / 40) {
-      for (int b = 0; b < 3; b++)
-        proof_expect_refusal(body, proof_offset(f, arrays[k] + n), &bad[b], 4);
-    }
-  }
-  const float negative = -1e-6f;
-  for (int k = 1; k < 4; k++)
-    proof_expect_refusal(body, proof_offset(f, arrays[k]), &negative, 4);
-  proof_expect_refusal(body, proof_offset(f, f->discs + 5 * padded), &negative, 4);
-}
-
-static void proof_forge_counts(const nsvcd_body *body, const nsvcd__facets *f) {
-  const size_t counts = nsvcd__spheres_size(f->body->padded);
-  for (size_t k = 0; k < NSVCD__FACET_COUNTS; k++) {
-    uint32_t value;
-    memcpy(&value, (const char *)f->body + counts + 4 * k, 4);
-    const uint32_t bad[6] = {value + 1,   value - 1,   0xffffffffu,
-                             0x80000000u, 0x55555556u, value ^ 0x10000u};
-    for (int n = 0; n < 6; n++)
-      proof_expect_refusal(body, counts + 4 * k, &bad[n], 4);
-  }
-  for (size_t i = 0; i <= f->body->points; i++) {
-    const uint32_t *firsts[3] = {f->first_vertex + i, f->first_triangle + i, f->first_byte + i};
-    const uint32_t bad[3] = {0xffffffffu, 0x7fffffffu, i == 0 ? 1u : *firsts[0] - 70000u};
-    for (int k = 0; k < 3; k++) {
-      for (int n = 0; n < 3; n++)
-        proof_expect_refusal(body, proof_offset(f, firsts[k]), &bad[n], 4);
-    }
-  }
-  for (size_t i = 0; i < f->body->points; i++) {
-    const uint8_t bad[2] = {NSVCD__HULL + 1, f->hull_counts[i] ? 0 : 1};
-    for (int n = 0; n < 2; n++)
-      proof_expect_refusal(body, proof_offset(f, f->hull_counts + i), &bad[n], 1);
-  }
-  const unsigned char far[5] = {0xff, 0xff, 0xff, 0xff, 0x0f};
-  const unsigned char endless[5] = {0x80, 0x80, 0x80, 0x80, 0x80};
-  for (size_t i = 0; i < f->body->points; i++) {
-    const unsigned char *at = proof_numbers(f, i);
-    const unsigned char *end = f->listings + f->first_byte[i + 1];
-    if (end - at >= 5)
-      proof_expect_refusal(body, proof_offset(f, at), far, 5);
-    if (end - at >= 5)
-      proof_expect_refusal(body, proof_offset(f, at), endless, 5);
-    if (end > at)
-      proof_expect_refusal(body, proof_offset(f, end - 1), endless, 1);
-  }
-}
-
-static void proof_forge_header(const nsvcd_body *body, const nsvcd__facets *f) {
-  const uint32_t bad[4] = {0, 1, 0x7fffffffu, 0xfffffff8u};
-  const size_t fields[6] = {
-      offsetof(struct nsvcd_body, size),   offsetof(struct nsvcd_body, weights_id),
-      offsetof(struct nsvcd_body, points), offsetof(struct nsvcd_body, padded),
-      offsetof(struct nsvcd_body, inner),  offsetof(struct nsvcd_body, triangles)};
-  for (int k = 0; k < 6; k++) {
-    for (int n = 0; n < 4; n++) {
-      uint32_t value;
-      memcpy(&value, (const char *)f->body + fields[k], 4);
-      if (value == bad[n])
-        continue;
-      if (k == 5 && f->body == body && bad[n] > value)
-        continue;  // a count of triangles too large is harmless
-      proof_expect_refusal(body, fields[k], &bad[n], 4);
-    }
-  }
-}
-
-// A blob whose last words are any: either it is refused, or questions about it end, and read
-// nothing that is not there.
-static void proof_forge_anything(const nsvcd_body *body, shapes_rng *rng, size_t *accepted) {
-  forgery f = proof_forge(body);
-  nsvcd_sweep_options options = proof_options();
-  const size_t from = (size_t)((char *)f.inner - (char *)f.memory) + sizeof(struct nsvcd_body);
-  const int changes = 1 + shapes_pick(rng, 4);
-  for (int k = 0; k < changes; k++) {
-    const size_t at = from + shapes_next(rng) % (f.size - from);
-    ((unsigned char *)f.memory)[at] = (unsigned char)(shapes_next(rng) >> 40);
-  }
-  options.work = 3000;
-  if (!proof_load(&f)) {
-    const proof_body *other = proof_shared(0, (size_t)shapes_pick(rng, MAKES));
-    nsvcd_pose poses[3];
-    nsvcd_pose fixed = {{0, 0, 0}, {0, 0, 0, 1}};
-    nsvcd_answer answer;
-    for (int n = 0; n < 3; n++) {
-      double q[4];
-      shapes_quaternion(rng, q);
-      for (int k = 0; k < 4; k++)
-        poses[n].rotation[k] = (float)q[k];
-      for (int k = 0; k < 3; k++)
-        poses[n].position[k] = (float)shapes_uniform(rng, -0.2, 0.2);
-    }
-    (*accepted)++;
-    CHECK_EQ(ask(f.body, poses, 3, other->body, &fixed, &options, proof_workspace(),
-                 nsvcd_sweep_workspace_size(NULL), &answer),
-             NSVCD_OK);
-    CHECK_EQ(ask(other->body, poses, 3, f.body, &fixed, &options, proof_workspace(),
-                 nsvcd_sweep_workspace_size(NULL), &answer),
-             NSVCD_OK);
-  }
-  free(f.memory);
-}
-
-static void proof_forged_blobs(void) {
-  static const size_t makes[4] = {1, 5, 6, 11};
-  shapes_rng rng = {64};
-  size_t accepted = 0;
-  for (int k = 0; k < 4; k++) {
-    const nsvcd_body *body = proof_shared(0, makes[k])->body;
-    forgery f = proof_forge(body);
-    CHECK_EQ(proof_load(&f), NSVCD_OK);
-    const nsvcd__facets facets = nsvcd__facets_of(nsvcd__triangles_of(body));
-    proof_forge_floats(body, &facets);
-    proof_forge_counts(body, &facets);
-    proof_forge_header(body, &facets);
-    heard.deaf = 1;
-    for (int n = 0; n < 400; n++)
-      proof_forge_anything(body, &rng, &accepted);
-    // The body of triangles by itself is a body as well.
-    proof_forge_floats(facets.body, &facets);
-    proof_forge_counts(facets.body, &facets);
-    for (int n = 0; n < 400; n++)
-      proof_forge_anything(facets.body, &rng, &accepted);
-    heard.deaf = 0;
-    free(f.memory);
-  }
-  printf("  of 3200 blobs with random bytes %zu were accepted, and asked\n", accepted);
-}
-
-// -------------------------------------------------------------------------------------------------
 // tests
 
 // 500 scenes of shared bodies, at gaps of 10^low to 10^high; gap and offset as at proof_scene, but
@@ -2686,7 +2404,6 @@ void test_proof(void) {
   RUN(proof_faces_pass);
   RUN(proof_triangles_listed_twice);
   RUN(proof_half_turns);
-  RUN(proof_forged_blobs);
   printf(
       "  %zu witnesses, gap at most %.3g of what is allowed, normal %.3g; off by 0.001, 0.01, 0.1: "
       "%zu, %zu, %zu; "

@@ -1,5 +1,4 @@
-// End to end through the public API: mesh -> body -> answer. Accuracy last, on a small labelled
-// file.
+// nsvcd_sweep through the public API: mesh -> body -> answer. Accuracy last, on a small labelled file.
 #define NSVCD_STATIC
 #define NEURALSVCD_IMPLEMENTATION
 #include "../neuralsvcd.h"
@@ -10,21 +9,6 @@
 void test_query(void);
 
 // ------------------------------------------------------------------------------------- determinism
-
-static void query_bodies_are_the_same_to_the_bit(void) {
-  for (uint64_t seed = 1; seed <= 5; seed++) {
-    nsvcd_mesh mesh = query_solid(seed, 0.3);
-    query_memory memory[2];
-    const nsvcd_body *a = query_encode(&mesh, 200, &memory[0]);
-    memset(query_workspace(), (int)seed, nsvcd_sweep_workspace_size(NULL));
-    const nsvcd_body *b = query_encode(&mesh, 200, &memory[1]);
-    CHECK_EQ(nsvcd_body_describe(a).size, nsvcd_body_describe(b).size);
-    CHECK(memcmp(a, b, nsvcd_body_describe(a).size) == 0);
-    query_release(&memory[0]);
-    query_release(&memory[1]);
-    nsvcd_mesh_free(&mesh, NULL);
-  }
-}
 
 static void query_answers_are_the_same_to_the_bit(void) {
   for (uint64_t seed = 1; seed <= 10; seed++) {
@@ -61,104 +45,6 @@ static void query_answers_make_sense(void) {
   }
   CHECK_GE(certified, 1);  // else this test saw only one kind
   CHECK_GE(answered, 10);
-}
-
-// ------------------------------------------------------------------------------------------ bodies
-
-static void query_a_blob_survives_a_file(void) {
-  for (uint64_t seed = 1; seed <= 5; seed++) {
-    query_scene s;
-    query_scene_open(&s, seed);
-    nsvcd_answer before = query_scene_ask(&s);
-    size_t size = nsvcd_body_describe(s.moving).size;
-    FILE *file = tmpfile();
-    CHECK(file != NULL);
-    if (!file)
-      break;
-    CHECK_EQ(fwrite(s.moving, 1, size, file), size);
-    rewind(file);
-    query_memory copy = query_reserve(size);
-    CHECK_EQ(fread(copy.at, 1, size, file), size);
-    fclose(file);
-    const nsvcd_body *loaded = NULL;
-    CHECK_EQ(nsvcd_body_load(copy.at, size, &loaded), NSVCD_OK);
-    if (loaded) {
-      s.moving = loaded;
-      nsvcd_answer after = query_scene_ask(&s);
-      CHECK(query_same_answer(&before, &after));
-    }
-    query_release(&copy);
-    query_scene_close(&s);
-  }
-}
-
-static void query_bodies_are_small(void) {
-  nsvcd_mesh mesh = query_solid(3, 0.3);
-  query_memory memory;
-  const nsvcd_body *body = query_encode(&mesh, NSVCD_SMALL_POINTS, &memory);
-  nsvcd_body_facts facts = nsvcd_body_describe(body);
-  CHECK_EQ(facts.points, NSVCD_SMALL_POINTS);
-  CHECK_LE(facts.size, 65535);
-  CHECK_LE(nsvcd_body_size(NSVCD_SMALL_POINTS), 65535);
-  CHECK_EQ(nsvcd_body_size(0), 0);
-  CHECK_EQ(nsvcd_body_size(NSVCD_MAX_POINTS + 1), 0);
-  query_release(&memory);
-  nsvcd_mesh_free(&mesh, NULL);
-}
-
-static void query_facts_contain_the_mesh(void) {
-  for (uint64_t seed = 1; seed <= 10; seed++) {
-    nsvcd_mesh mesh = query_solid(seed, 0.3);
-    query_memory memory;
-    const nsvcd_body *body = query_encode(&mesh, 64, &memory);
-    nsvcd_body_facts facts = nsvcd_body_describe(body);
-    double farthest = 0;
-    for (size_t i = 0; i < mesh.vertex_count; i++) {
-      double d = 0;
-      double nearest = HUGE_VAL;
-      for (int k = 0; k < 3; k++)
-        d += pow((double)(mesh.positions[3 * i + (size_t)k] - facts.centre[k]), 2);
-      farthest = fmax(farthest, sqrt(d));
-      for (uint32_t p = 0; p < facts.points; p++) {  // every vertex lies in a patch's sphere
-        float centre[3] = {0, 0, 0};
-        float radius = 0;
-        float away = 0;
-        CHECK(nsvcd_body_patch(body, p, centre, &radius));
-        for (int k = 0; k < 3; k++)
-          away += powf(mesh.positions[3 * i + (size_t)k] - centre[k], 2);
-        nearest = fmin(nearest, (double)(sqrtf(away) - radius));
-      }
-      CHECK_LE(nearest, 1e-6);
-    }
-    CHECK_LE(farthest, (double)facts.radius + 1e-6);
-    float centre[3], radius;
-    CHECK_EQ(nsvcd_body_patch(body, (uint32_t)facts.points, centre, &radius), 0);
-    CHECK_EQ(nsvcd_body_patch(NULL, 0, centre, &radius), 0);
-    query_release(&memory);
-    nsvcd_mesh_free(&mesh, NULL);
-  }
-}
-
-static void query_patch_radius_is_honoured(void) {
-  nsvcd_mesh mesh = query_solid(7, 0.3);
-  size_t fewer = NSVCD_SMALL_POINTS + 1;
-  const float wanted[3] = {0.025f, 0.04f, 0.07f};
-  for (int i = 0; i < 3; i++) {
-    nsvcd_encode_options options = {.patch_radius = wanted[i], .no_triangles = 1};
-    size_t size = nsvcd_body_size(NSVCD_SMALL_POINTS);
-    query_memory memory = query_reserve(size);
-    const nsvcd_body *body = NULL;
-    CHECK_EQ(nsvcd_encode(&mesh, &options, NULL, memory.at, size, &body), NSVCD_OK);
-    if (body) {
-      nsvcd_body_facts facts = nsvcd_body_describe(body);
-      CHECK_LE(facts.points, fewer - 1);  // larger patches, fewer of them
-      CHECK(facts.mean_patch_radius > 0.6f * wanted[i] &&
-            facts.mean_patch_radius < 1.6f * wanted[i]);
-      fewer = facts.points;
-    }
-    query_release(&memory);
-  }
-  nsvcd_mesh_free(&mesh, NULL);
 }
 
 // -------------------------------------------------------------------------------------- invariance
@@ -226,45 +112,6 @@ static void query_logit_is_invariant_under_scale(void) {
     query_scene_close(&s);
   }
   CHECK_GE(compared, 8);
-}
-
-// A scaled body against the body of a scaled mesh. By a power of two the patches agree to the bit,
-// and so do bodies; by other factors sampling may round differently, and a latent is quantised to
-// 1/127.
-static void query_scaled_bodies_are_bodies_of_scaled_meshes(void) {
-  int close = 0;
-  int compared = 0;
-  for (uint64_t seed = 1; seed <= 12; seed++) {
-    float scale = seed % 2 ? 0.5f : 1.3f;
-    query_scene s;
-    query_scene_open(&s, seed);
-    nsvcd_mesh mesh = query_solid(2 * seed, 0.2);
-    for (size_t i = 0; i < 3 * mesh.vertex_count; i++)
-      mesh.positions[i] *= scale;
-    query_memory encoded_memory;
-    query_memory scaled_memory = query_reserve(nsvcd_body_describe(s.moving).size);
-    const nsvcd_body *encoded = query_encode(&mesh, QUERY_POINTS, &encoded_memory);
-    const nsvcd_body *scaled = NULL;
-    CHECK_EQ(nsvcd_body_scale(s.moving, scale, scaled_memory.at, nsvcd_body_describe(s.moving).size,
-                              &scaled),
-             NSVCD_OK);
-    if (encoded && scaled) {
-      nsvcd_answer a = query_ask(encoded, s.motion, QUERY_POSES, s.fixed, &s.fixed_pose, NULL);
-      nsvcd_answer b = query_ask(scaled, s.motion, QUERY_POSES, s.fixed, &s.fixed_pose, NULL);
-      int near = fabs((double)(a.logit - b.logit)) <= 0.05 * (1 + fabs((double)a.logit));
-      CHECK_EQ(a.status, b.status);
-      if (seed % 2)
-        CHECK(near);
-      close += near;
-      compared++;
-      CHECK_NEAR(nsvcd_body_describe(encoded).radius / nsvcd_body_describe(scaled).radius, 1, 1e-3);
-    }
-    query_release(&encoded_memory);
-    query_release(&scaled_memory);
-    nsvcd_mesh_free(&mesh, NULL);
-    query_scene_close(&s);
-  }
-  CHECK_GE(close, compared - 1);  // one may tip over in the choice of patches
 }
 
 // ------------------------------------------------------------------------------ what must be right
@@ -623,6 +470,7 @@ static nsvcd_answer query_untouched(void) {
   memset(&a, 0x3c, sizeof a);
   return a;
 }
+
 // Asks with one thing wrong; the answer must stay as it was.
 static void query_refuses(const query_scene *s, const nsvcd_pose *poses, size_t count,
                           const nsvcd_pose *fixed_pose, const nsvcd_sweep_options *options,
@@ -766,127 +614,6 @@ static void query_refuses_a_bad_workspace(void) {
   query_scene_close(&s);
 }
 
-// nsvcd_encode with one thing wrong leaves *body alone.
-static void query_encode_refuses(const nsvcd_mesh *mesh, const nsvcd_encode_options *options,
-                                 void *memory, size_t capacity, nsvcd_result expected) {
-  const nsvcd_body *const mark = (const nsvcd_body *)(const void *)&expected;
-  const nsvcd_body *body = mark;
-  CHECK_EQ(nsvcd_encode(mesh, options, NULL, memory, capacity, &body), expected);
-  CHECK(body == mark);
-}
-
-// Without memory the body comes from the allocator, and is the same.
-static void query_encode_allocates(void) {
-  nsvcd_mesh mesh = query_box(0.1, 0.2, 0.3);
-  for (int without = 0; without < 2; without++) {
-    const nsvcd_encode_options options = {.points = 64, .no_triangles = without};
-    const nsvcd_body *body = NULL;
-    const nsvcd_body *same = NULL;
-    CHECK_EQ(nsvcd_encode(&mesh, &options, NULL, NULL, 0, &body), NSVCD_OK);
-    const nsvcd_body_facts facts = nsvcd_body_describe(body);
-    query_memory memory = query_reserve(facts.size);
-    CHECK_EQ(nsvcd_encode(&mesh, &options, NULL, memory.at, facts.size, &same), NSVCD_OK);
-    CHECK(memcmp(body, same, facts.size) == 0);
-    CHECK_EQ(facts.triangles, without ? 0 : mesh.triangle_count);
-    query_encode_refuses(&mesh, &options, memory.at, facts.size - 1, NSVCD_ERROR_WORKSPACE);
-    nsvcd_body_free(body, NULL);
-    query_release(&memory);
-  }
-  nsvcd_mesh_free(&mesh, NULL);
-}
-
-static void query_encode_refuses_bad_input(void) {
-  nsvcd_mesh mesh = query_box(0.1, 0.1, 0.1);
-  nsvcd_mesh bad = mesh;
-  size_t size = nsvcd_body_size(64);
-  query_memory memory = query_reserve(nsvcd_body_size(NSVCD_SMALL_POINTS) + QUERY_ALIGN);
-  nsvcd_encode_options options = {.points = 64, .no_triangles = 1};
-  nsvcd_encode_options too_many = {.points = NSVCD_MAX_POINTS + 1, .no_triangles = 1};
-  nsvcd_encode_options both = {.latents = 1, .no_latents = 1};
-  nsvcd_encode_options negative = {.patch_radius = -1, .no_triangles = 1};
-  nsvcd_encode_options nan = {.patch_radius = NAN, .no_triangles = 1};
-  query_encode_refuses(NULL, &options, memory.at, size, NSVCD_ERROR_ARGUMENT);
-  query_encode_refuses(&mesh, &too_many, memory.at, size, NSVCD_ERROR_ARGUMENT);
-  query_encode_refuses(&mesh, &both, memory.at, size, NSVCD_ERROR_ARGUMENT);
-  query_encode_refuses(&mesh, &negative, memory.at, size, NSVCD_ERROR_ARGUMENT);
-  query_encode_refuses(&mesh, &nan, memory.at, size, NSVCD_ERROR_ARGUMENT);
-  query_encode_refuses(&mesh, &options, memory.at, size - 1, NSVCD_ERROR_WORKSPACE);
-  query_encode_refuses(&mesh, &options, (char *)memory.at + 4, size, NSVCD_ERROR_WORKSPACE);
-  CHECK_EQ(nsvcd_encode(&mesh, &options, NULL, memory.at, size, NULL), NSVCD_ERROR_ARGUMENT);
-  bad.triangle_count = 0;
-  query_encode_refuses(&bad, &options, memory.at, size, NSVCD_ERROR_EMPTY);
-  bad = mesh;
-  bad.positions = NULL;
-  query_encode_refuses(&bad, &options, memory.at, size, NSVCD_ERROR_ARGUMENT);
-  bad = mesh;
-  bad.vertex_count = 5;  // indices beyond
-  query_encode_refuses(&bad, &options, memory.at, size, NSVCD_ERROR_INDEX);
-  float kept = mesh.positions[4];
-  mesh.positions[4] = NAN;
-  query_encode_refuses(&mesh, &options, memory.at, size, NSVCD_ERROR_NUMBER);
-  mesh.positions[4] = 2 * NSVCD_MAX_COORDINATE;
-  query_encode_refuses(&mesh, &options, memory.at, size, NSVCD_ERROR_NUMBER);
-  mesh.positions[4] = kept;
-  for (size_t i = 0; i < 3 * mesh.vertex_count; i++)
-    mesh.positions[i] = 0.1f;  // no area
-  query_encode_refuses(&mesh, &options, memory.at, size, NSVCD_ERROR_EMPTY);
-  query_release(&memory);
-  nsvcd_mesh_free(&mesh, NULL);
-}
-
-static void query_scale_refuses_bad_input(void) {
-  nsvcd_mesh mesh = query_box(0.1, 0.1, 0.1);
-  query_memory memory;
-  query_memory out = query_reserve(nsvcd_body_size(NSVCD_DEFAULT_NETWORK_POINTS));
-  const nsvcd_body *body = query_encode(&mesh, 0, &memory);
-  const nsvcd_body *scaled = body;
-  size_t size = nsvcd_body_describe(body).size;
-  const float bad[5] = {0, -1, NAN, INFINITY, 1e30f};
-  for (int i = 0; i < 5; i++)
-    CHECK(nsvcd_body_scale(body, bad[i], out.at, size, &scaled) != NSVCD_OK);
-  CHECK_EQ(nsvcd_body_scale(NULL, 1, out.at, size, &scaled), NSVCD_ERROR_ARGUMENT);
-  CHECK_EQ(nsvcd_body_scale(body, 1, NULL, size, &scaled), NSVCD_ERROR_ARGUMENT);
-  CHECK_EQ(nsvcd_body_scale(body, 1, out.at, size - 1, &scaled), NSVCD_ERROR_WORKSPACE);
-  CHECK(scaled == body);
-  query_release(&memory);
-  query_release(&out);
-  nsvcd_mesh_free(&mesh, NULL);
-}
-
-// -------------------------------------------------------------------------------------- allocation
-
-static void query_encode_survives_every_failed_allocation(void) {
-  nsvcd_mesh mesh = query_solid(5, 0.3);
-  nsvcd_encode_options options = {.points = 32, .no_triangles = 1};
-  size_t size = nsvcd_body_size(32);
-  query_memory memory = query_reserve(size);
-  query_memory undisturbed = query_reserve(size);
-  const nsvcd_body *expected = NULL;
-  CHECK_EQ(nsvcd_encode(&mesh, &options, NULL, undisturbed.at, size, &expected), NSVCD_OK);
-  int failures = 0;
-  for (;; failures++) {
-    failing_heap heap = {0, 0, failures};
-    nsvcd_allocator allocator = {failing_heap_alloc, failing_heap_free, NULL};
-    const nsvcd_body *body = NULL;
-    allocator.user = &heap;
-    nsvcd_result result = nsvcd_encode(&mesh, &options, &allocator, memory.at, size, &body);
-    CHECK_EQ(heap.live, 0);
-    if (result == NSVCD_OK) {
-      CHECK_LE(heap.calls, failures);
-      CHECK(body && memcmp(body, expected, nsvcd_body_describe(expected).size) == 0);
-      break;
-    }
-    CHECK_EQ(result, NSVCD_ERROR_MEMORY);
-    CHECK(body == NULL);
-    if (failures > 1000)
-      break;
-  }
-  CHECK(failures >= 1 && failures < 1000);
-  query_release(&memory);
-  query_release(&undisturbed);
-  nsvcd_mesh_free(&mesh, NULL);
-}
-
 // ---------------------------------------------------------------------------------------- accuracy
 
 // A regression guard, not the measurement (`make accuracy`): 460 small problems of
@@ -895,10 +622,10 @@ static void query_encode_survives_every_failed_allocation(void) {
 // guard, not the measurement: the shipped weights get 99.0, 99.0 and 100 % here, one error being
 // 0.33, 1 and 1.7 points.
 #define QUERY_LEAST_STANDARD 0.985  // share of right answers
+
 #define QUERY_LEAST_HOLLOW 0.95
 #define QUERY_LEAST_INSIDE 0.98
 #define QUERY_MOST_MISSES_PER_ALARM 2  // and the other way round: balanced errors, over all sets
-
 #define QUERY_DATA "tests/data/"
 #define QUERY_MAX_MESHES 128
 
@@ -925,6 +652,7 @@ static void query_add_mesh(query_library *library, const char *name, const char 
   library->count++;
   nsvcd_mesh_free(&mesh, NULL);
 }
+
 static const nsvcd_body *query_scaled(const query_library *library, const char *name, float scale,
                                       void *memory) {
   const nsvcd_body *scaled = NULL;
@@ -934,6 +662,7 @@ static const nsvcd_body *query_scaled(const query_library *library, const char *
                        nsvcd_body_size(NSVCD_DEFAULT_NETWORK_POINTS), &scaled);
   return scaled;
 }
+
 static int query_read_pose(FILE *file, nsvcd_pose *pose) {
   float *p = pose->position;
   float *q = pose->rotation;
@@ -1139,16 +868,10 @@ static void query_few_segments_are_as_right(void) {
 void test_query(void) {
   RUN(query_sizes_are_what_is_asked);
   RUN(query_few_segments_are_as_right);
-  RUN(query_bodies_are_the_same_to_the_bit);
   RUN(query_answers_are_the_same_to_the_bit);
   RUN(query_answers_make_sense);
-  RUN(query_a_blob_survives_a_file);
-  RUN(query_bodies_are_small);
-  RUN(query_facts_contain_the_mesh);
-  RUN(query_patch_radius_is_honoured);
   RUN(query_logit_is_invariant_under_rigid_motion);
   RUN(query_logit_is_invariant_under_scale);
-  RUN(query_scaled_bodies_are_bodies_of_scaled_meshes);
   RUN(query_far_apart_is_certified);
   RUN(query_inside_is_inside);
   RUN(query_inside_an_open_body);
@@ -1166,10 +889,6 @@ void test_query(void) {
   RUN(query_refuses_bad_questions);
   RUN(query_refuses_bad_poses);
   RUN(query_refuses_a_bad_workspace);
-  RUN(query_encode_allocates);
-  RUN(query_encode_refuses_bad_input);
-  RUN(query_scale_refuses_bad_input);
-  RUN(query_encode_survives_every_failed_allocation);
   RUN(accuracy_on_a_labelled_file);
 }
 

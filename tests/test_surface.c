@@ -1,11 +1,11 @@
 // What the proof needs of each patch: balls, discs, hulls, triangles. The reference is double
 // precision, written apart, and knows nothing of pieces: it takes points of the mesh and looks
-// where the result says they are.
+// where the result says they are. Regions too: welded vertices and components are seen here.
 #define NSVCD_STATIC
 #define NEURALSVCD_IMPLEMENTATION
 #include "../neuralsvcd.h"
 
-#include "../examples/shapes.h"
+#include "../examples/scenery/shapes.h"
 #include "check.h"
 #include "failing_heap.h"
 

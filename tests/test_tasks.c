@@ -1,6 +1,6 @@
-// The planning tasks of examples/tasks.h: robots against closed formulas, episodes against what
+// The planning tasks of scenery/tasks.h: robots against closed formulas, episodes against what
 // they promise, the judge against trajectories that are wrong in one way each.
-#include "../examples/tasks.h"
+#include "../examples/scenery/tasks.h"
 
 #include "check.h"
 

@@ -1,0 +1,283 @@
+// The decoder: poses of pairs, what it is told of them, parity with the trainer, int8 against float.
+#define NSVCD_STATIC
+#define NEURALSVCD_IMPLEMENTATION
+#include "../neuralsvcd.h"
+
+#include "check.h"
+#include "network_scene.h"
+#include "random_motions.h"
+
+void test_decoder(void);
+
+// ------------------------------------------------------------------------------------------- poses
+
+// Sixteen poses at once are the pose one by one.
+static void poses_at_are_poses(void) {
+  double worst = 0;
+  for (int trial = 0; trial < 300; trial++) {
+    double middle[3] = {uniform(-3, 3), uniform(-3, 3), uniform(-3, 3)};
+    size_t count = pick(1, 40);
+    nsvcd_pose fixed = {{1, -2, 0.5f}, {0, 0, 0, 1}};
+    float times[NSVCD__LANES], lanes[12][NSVCD__LANES];
+    nsvcd__motion motion;
+    random_quat(fixed.rotation);
+    random_motion(count, trial % 3, uniform(0, 12), 1, middle);
+    CHECK_EQ(motion_init(poses, count, &fixed, &motion), NSVCD_OK);
+    for (size_t l = 0; l < NSVCD__LANES; l++)
+      times[l] = l == 0 ? 0 : l == 1 ? 1 : (float)uniform(0, 1);
+    NSVCD__EACH_SLICE(l) {
+      nsvcd__v q[4], p[3], m[9];
+      nsvcd__v_poses_at(&motion, times + l, NSVCD__SLICE, q, p);
+      nsvcd__v_matrix(q, m);
+      for (size_t k = 0; k < 9; k++)
+        nsvcd__v_store(lanes[k] + l, m[k]);
+      for (size_t k = 0; k < 3; k++)
+        nsvcd__v_store(lanes[9 + k] + l, p[k]);
+    }
+    for (size_t l = 0; l < NSVCD__LANES; l++) {
+      float rotation[9], position[3];
+      nsvcd__motion_pose(&motion, times[l], rotation, position);
+      for (size_t k = 0; k < 9; k++)
+        worst = fmax(worst, fabs((double)(lanes[k][l] - rotation[k])));
+      for (size_t k = 0; k < 3; k++)
+        worst = fmax(worst, fabs((double)(lanes[9 + k][l] - position[k])));
+    }
+  }
+  CHECK_LE(worst, 1e-5);
+}
+
+// Half the rotation vector of a quaternion, at every angle including 0 and pi.
+static void half_rotation_vector(void) {
+  const double angles[12] = {0, 1e-8, 1e-6, 1e-4, 1e-2, 0.5, 1.04, 1.05, 1.5, 3, 3.14, 3.1415};
+  for (int trial = 0; trial < 1200; trial++) {
+    float random[4], lane[NSVCD__SLICE];
+    double axis[3];
+    double length;
+    double angle = angles[trial % 12];
+    double s = sin(angle / 2);
+    double sign = trial % 5 ? 1 : -1;
+    random_quat(random);
+    length = sqrt((double)(random[0] * random[0] + random[1] * random[1] + random[2] * random[2]));
+    for (int k = 0; k < 3; k++)
+      axis[k] = (double)random[k] / length;
+    nsvcd__v q[4], w[3];
+    for (int k = 0; k < 3; k++)
+      q[k] = nsvcd__v_set((float)(sign * s * axis[k]));
+    q[3] = nsvcd__v_set((float)(sign * cos(angle / 2)));
+    nsvcd__v_half_rotation(q, w);
+    for (int k = 0; k < 3; k++) {
+      nsvcd__v_store(lane, w[k]);
+      CHECK_NEAR(lane[trial % NSVCD__SLICE], 0.5 * angle * axis[k], 3e-6);
+    }
+  }
+}
+
+// ------------------------------------------------------------------------------- inputs and logits
+
+// One pair, as nsvcd__pairs holds a slice of them.
+typedef struct pair_data {
+  float p1[3], p2[3], r1, r2, rotation[9], v[3], w[3];
+  const int8_t *z1, *z2;
+} pair_data;
+
+// In lane `lane`, of a slice; the others hold the same pair, pushed apart.
+static void inputs_in_lane(const pair_data *pair, size_t lane, float *x) {  // (DECODER_IN)
+  static float batch[NSVCD__SLICE * NSVCD__DECODER_IN];
+  const float *from[5] = {pair->p1, pair->p2, pair->rotation, pair->v, pair->w};
+  nsvcd__pairs pairs;
+  nsvcd__v *to[5] = {pairs.p1, pairs.p2, pairs.rotation, pairs.v, pairs.w};
+  for (size_t n = 0; n < 5; n++) {
+    for (size_t k = 0; k < (n == 2 ? 9u : 3u); k++) {
+      float lanes[NSVCD__SLICE];
+      for (size_t l = 0; l < NSVCD__SLICE; l++)
+        lanes[l] = from[n][k] + (n == 0 && l != lane ? 0.1f * (float)l : 0);
+      to[n][k] = nsvcd__v_load(lanes);
+    }
+  }
+  pairs.r1 = nsvcd__v_set(pair->r1);
+  pairs.r2 = nsvcd__v_set(pair->r2);
+  for (size_t l = 0; l < NSVCD__SLICE; l++) {
+    pairs.z1[l] = pair->z1;
+    pairs.z2[l] = pair->z2;
+  }
+  nsvcd__invariants(&pairs, NSVCD__SLICE, batch);
+  memcpy(x, batch + NSVCD__DECODER_IN * lane, NSVCD__DECODER_IN * sizeof *x);
+}
+
+static void inputs_of(const pair_data *pair, float *x) {
+  inputs_in_lane(pair, 5 % NSVCD__SLICE, x);
+}
+
+static float head_logit(const nsvcd__decoder *head, const float *x, int int8) {
+  static float batch[NSVCD__ROWS * NSVCD__DECODER_IN];
+  const size_t rows = NSVCD__ROWS < 7 ? NSVCD__ROWS : 7;
+  float logits[NSVCD__ROWS];
+  for (size_t p = 0; p < rows; p++)
+    memcpy(batch + NSVCD__DECODER_IN * p, x, NSVCD__DECODER_IN * sizeof *x);
+  nsvcd__decoder_logits(head, batch, rows, int8, logits);
+  return logits[rows - 1];
+}
+
+static void heads_fit_their_buffers(void) {
+  const size_t widest[3] = {NSVCD__WIDEST_TINY, NSVCD__WIDEST_SMALL, NSVCD__WIDEST};
+  for (size_t h = 0; h < 3; h++) {
+    const nsvcd__decoder *head = &nsvcd_w_decoders[h];
+    for (size_t l = 1; l <= head->layers; l++)
+      CHECK(head->sizes[l] <= widest[h]);
+  }
+}
+
+// golden_pair rows: p1 p2 r1 r2 q v w, logits of tiny small base.
+#define GOLDEN_ROW 21
+
+static void golden_pair_at(size_t n, int8_t *z1, int8_t *z2, pair_data *pair) {
+  const float *row = golden_pair + GOLDEN_ROW * n;
+  for (size_t k = 0; k < NSVCD__LATENT; k++) {
+    z1[k] = (int8_t)lrintf(127 * golden_latent[NSVCD__LATENT * (size_t)golden_index[2 * n] + k]);
+    z2[k] =
+        (int8_t)lrintf(127 * golden_latent[NSVCD__LATENT * (size_t)golden_index[2 * n + 1] + k]);
+  }
+  memcpy(pair->p1, row, sizeof pair->p1);
+  memcpy(pair->p2, row + 3, sizeof pair->p2);
+  pair->r1 = row[6];
+  pair->r2 = row[7];
+  nsvcd__quat_to_matrix(row + 8, pair->rotation);
+  memcpy(pair->v, row + 12, sizeof pair->v);
+  memcpy(pair->w, row + 15, sizeof pair->w);
+  pair->z1 = z1;
+  pair->z2 = z2;
+}
+
+static void golden_inputs(size_t n, float *x) {  // (DECODER_IN)
+  int8_t z1[NSVCD__LATENT], z2[NSVCD__LATENT];
+  pair_data pair;
+  golden_pair_at(n, z1, z2, &pair);
+  inputs_of(&pair, x);
+}
+
+static void heads_match_the_trainer(void) {
+  for (size_t n = 0; n < GOLDEN_PAIRS; n++) {
+    float x[NSVCD__DECODER_IN];
+    golden_inputs(n, x);
+    for (size_t h = 0; h < 3; h++) {
+      float expected = golden_pair[GOLDEN_ROW * n + 18 + h];
+      CHECK_NEAR(head_logit(&nsvcd_w_decoders[h], x, 0), expected,
+                 1e-4 * fmax(1, fabs((double)expected)));
+    }
+  }
+}
+
+// int8 arithmetic moves a logit, but not by much: the worst seen is printed.
+static void int8_heads_follow_fp32(void) {
+  double worst = 0;
+  double sum = 0;
+  for (size_t n = 0; n < GOLDEN_PAIRS; n++) {
+    float x[NSVCD__DECODER_IN];
+    golden_inputs(n, x);
+    for (size_t h = 0; h < 3; h++) {
+      double exact = (double)head_logit(&nsvcd_w_decoders[h], x, 0);
+      double error =
+          fabs((double)head_logit(&nsvcd_w_decoders[h], x, 1) - exact) / fmax(1, fabs(exact));
+      worst = fmax(worst, error);
+      sum += error / (3 * GOLDEN_PAIRS);
+    }
+  }
+  printf("  int8 logits: mean difference %.4f, worst %.4f, of max(1, |logit|)\n", sum, worst);
+  CHECK_GE(worst, 1e-6);  // it is another arithmetic
+  CHECK_LE(sum, 0.05);
+  CHECK_LE(worst, 0.5);
+}
+
+static void inputs_are_invariant(void) {
+  for (size_t n = 0; n < GOLDEN_PAIRS; n++) {
+    int8_t z1[NSVCD__LATENT], z2[NSVCD__LATENT];
+    pair_data pair, moved;
+    float x[NSVCD__DECODER_IN], y[NSVCD__DECODER_IN];
+    golden_pair_at(n, z1, z2, &pair);
+    inputs_of(&pair, x);
+    moved = pair;  // time runs backwards
+    for (size_t k = 0; k < 3; k++) {
+      moved.v[k] = -pair.v[k];
+      moved.w[k] = -pair.w[k];
+    }
+    inputs_of(&moved, y);
+    CHECK_LE(largest_difference(x, y, NSVCD__DECODER_IN), 1e-5);
+    moved = pair;  // another unit of length
+    for (size_t k = 0; k < 3; k++) {
+      moved.p1[k] *= 8;
+      moved.p2[k] *= 8;
+      moved.v[k] *= 8;
+    }
+    moved.r1 *= 8;
+    moved.r2 *= 8;
+    inputs_of(&moved, y);
+    CHECK_LE(largest_difference(x, y, NSVCD__DECODER_IN), 1e-6);
+  }
+}
+
+// Seen from body 1 at mid-interval, body 2 moves with the opposite twist: the inputs must be the
+// same.
+static void inputs_do_not_depend_on_who_moves(void) {
+  for (size_t n = 0; n < GOLDEN_PAIRS; n++) {
+    int8_t z1[NSVCD__LATENT], z2[NSVCD__LATENT];
+    pair_data pair, other;
+    float x[NSVCD__DECODER_IN], y[NSVCD__DECODER_IN];
+    golden_pair_at(n, z1, z2, &pair);
+    inputs_of(&pair, x);
+    nsvcd__transpose33(pair.rotation, other.rotation);  // body 2 in the axes of body 1
+    nsvcd__mul33_vec(other.rotation, pair.p2, other.p1);
+    nsvcd__mul33_vec(other.rotation, pair.p1, other.p2);
+    nsvcd__mul33_vec(other.rotation, pair.v, other.v);
+    nsvcd__mul33_vec(other.rotation, pair.w, other.w);
+    for (size_t k = 0; k < 3; k++) {
+      other.v[k] = -other.v[k];
+      other.w[k] = -other.w[k];
+    }
+    other.r1 = pair.r2;
+    other.r2 = pair.r1;
+    other.z1 = z2;
+    other.z2 = z1;
+    inputs_of(&other, y);
+    // where the lean is short, its direction is rough
+    CHECK_LE(largest_difference(x, y, NSVCD__DECODER_IN), 2e-4);
+  }
+}
+
+static void degenerate_pairs_are_finite(void) {
+  int8_t z[NSVCD__LATENT] = {0};
+  int8_t other[NSVCD__LATENT];
+  for (size_t k = 0; k < NSVCD__LATENT; k++)
+    other[k] = (int8_t)(k % 100);
+  for (int trial = 0; trial < 32; trial++) {
+    pair_data pair;
+    memset(&pair, 0, sizeof pair);
+    random_rotation(pair.rotation);
+    pair.z1 = trial & 1 ? z : other;
+    pair.z2 = trial & 2 ? z : other;
+    pair.r1 = trial & 4 ? 0 : 0.1f;
+    pair.r2 = 0;
+    for (size_t k = 0; k < 3; k++) {
+      pair.p1[k] = trial & 8 ? 0.01f * network_uniform() : 0;
+      pair.v[k] = trial & 16 ? 2 * pair.p1[k] : 0;  // along the line
+    }
+    float x[NSVCD__DECODER_IN];
+    inputs_of(&pair, x);
+    for (size_t k = 0; k < NSVCD__DECODER_IN; k++)
+      CHECK(nsvcd__is_finite(x[k]));
+    for (size_t h = 0; h < 3; h++)
+      CHECK(nsvcd__is_finite(head_logit(&nsvcd_w_decoders[h], x, 0)));
+  }
+}
+
+void test_decoder(void) {
+  RUN(poses_at_are_poses);
+  RUN(half_rotation_vector);
+  RUN(heads_fit_their_buffers);
+  RUN(heads_match_the_trainer);
+  RUN(int8_heads_follow_fp32);
+  RUN(inputs_are_invariant);
+  RUN(inputs_do_not_depend_on_who_moves);
+  RUN(degenerate_pairs_are_finite);
+}
+
+CHECK_ALONE(test_decoder)

@@ -1,0 +1,172 @@
+// nsvcd_encode through the public API: the same bytes again, sizes, patches of a radius, bad input, no
+// memory.
+#define NSVCD_STATIC
+#define NEURALSVCD_IMPLEMENTATION
+#include "../neuralsvcd.h"
+
+#include "failing_heap.h"
+#include "query_scene.h"
+
+void test_encoding(void);
+
+static void query_bodies_are_the_same_to_the_bit(void) {
+  for (uint64_t seed = 1; seed <= 5; seed++) {
+    nsvcd_mesh mesh = query_solid(seed, 0.3);
+    query_memory memory[2];
+    const nsvcd_body *a = query_encode(&mesh, 200, &memory[0]);
+    memset(query_workspace(), (int)seed, nsvcd_sweep_workspace_size(NULL));
+    const nsvcd_body *b = query_encode(&mesh, 200, &memory[1]);
+    CHECK_EQ(nsvcd_body_describe(a).size, nsvcd_body_describe(b).size);
+    CHECK(memcmp(a, b, nsvcd_body_describe(a).size) == 0);
+    query_release(&memory[0]);
+    query_release(&memory[1]);
+    nsvcd_mesh_free(&mesh, NULL);
+  }
+}
+
+static void query_bodies_are_small(void) {
+  nsvcd_mesh mesh = query_solid(3, 0.3);
+  query_memory memory;
+  const nsvcd_body *body = query_encode(&mesh, NSVCD_SMALL_POINTS, &memory);
+  nsvcd_body_facts facts = nsvcd_body_describe(body);
+  CHECK_EQ(facts.points, NSVCD_SMALL_POINTS);
+  CHECK_LE(facts.size, 65535);
+  CHECK_LE(nsvcd_body_size(NSVCD_SMALL_POINTS), 65535);
+  CHECK_EQ(nsvcd_body_size(0), 0);
+  CHECK_EQ(nsvcd_body_size(NSVCD_MAX_POINTS + 1), 0);
+  query_release(&memory);
+  nsvcd_mesh_free(&mesh, NULL);
+}
+
+static void query_patch_radius_is_honoured(void) {
+  nsvcd_mesh mesh = query_solid(7, 0.3);
+  size_t fewer = NSVCD_SMALL_POINTS + 1;
+  const float wanted[3] = {0.025f, 0.04f, 0.07f};
+  for (int i = 0; i < 3; i++) {
+    nsvcd_encode_options options = {.patch_radius = wanted[i], .no_triangles = 1};
+    size_t size = nsvcd_body_size(NSVCD_SMALL_POINTS);
+    query_memory memory = query_reserve(size);
+    const nsvcd_body *body = NULL;
+    CHECK_EQ(nsvcd_encode(&mesh, &options, NULL, memory.at, size, &body), NSVCD_OK);
+    if (body) {
+      nsvcd_body_facts facts = nsvcd_body_describe(body);
+      CHECK_LE(facts.points, fewer - 1);  // larger patches, fewer of them
+      CHECK(facts.mean_patch_radius > 0.6f * wanted[i] &&
+            facts.mean_patch_radius < 1.6f * wanted[i]);
+      fewer = facts.points;
+    }
+    query_release(&memory);
+  }
+  nsvcd_mesh_free(&mesh, NULL);
+}
+
+// nsvcd_encode with one thing wrong leaves *body alone.
+static void query_encode_refuses(const nsvcd_mesh *mesh, const nsvcd_encode_options *options,
+                                 void *memory, size_t capacity, nsvcd_result expected) {
+  const nsvcd_body *const mark = (const nsvcd_body *)(const void *)&expected;
+  const nsvcd_body *body = mark;
+  CHECK_EQ(nsvcd_encode(mesh, options, NULL, memory, capacity, &body), expected);
+  CHECK(body == mark);
+}
+
+// Without memory the body comes from the allocator, and is the same.
+static void query_encode_allocates(void) {
+  nsvcd_mesh mesh = query_box(0.1, 0.2, 0.3);
+  for (int without = 0; without < 2; without++) {
+    const nsvcd_encode_options options = {.points = 64, .no_triangles = without};
+    const nsvcd_body *body = NULL;
+    const nsvcd_body *same = NULL;
+    CHECK_EQ(nsvcd_encode(&mesh, &options, NULL, NULL, 0, &body), NSVCD_OK);
+    const nsvcd_body_facts facts = nsvcd_body_describe(body);
+    query_memory memory = query_reserve(facts.size);
+    CHECK_EQ(nsvcd_encode(&mesh, &options, NULL, memory.at, facts.size, &same), NSVCD_OK);
+    CHECK(memcmp(body, same, facts.size) == 0);
+    CHECK_EQ(facts.triangles, without ? 0 : mesh.triangle_count);
+    query_encode_refuses(&mesh, &options, memory.at, facts.size - 1, NSVCD_ERROR_WORKSPACE);
+    nsvcd_body_free(body, NULL);
+    query_release(&memory);
+  }
+  nsvcd_mesh_free(&mesh, NULL);
+}
+
+static void query_encode_refuses_bad_input(void) {
+  nsvcd_mesh mesh = query_box(0.1, 0.1, 0.1);
+  nsvcd_mesh bad = mesh;
+  size_t size = nsvcd_body_size(64);
+  query_memory memory = query_reserve(nsvcd_body_size(NSVCD_SMALL_POINTS) + QUERY_ALIGN);
+  nsvcd_encode_options options = {.points = 64, .no_triangles = 1};
+  nsvcd_encode_options too_many = {.points = NSVCD_MAX_POINTS + 1, .no_triangles = 1};
+  nsvcd_encode_options both = {.latents = 1, .no_latents = 1};
+  nsvcd_encode_options negative = {.patch_radius = -1, .no_triangles = 1};
+  nsvcd_encode_options nan = {.patch_radius = NAN, .no_triangles = 1};
+  query_encode_refuses(NULL, &options, memory.at, size, NSVCD_ERROR_ARGUMENT);
+  query_encode_refuses(&mesh, &too_many, memory.at, size, NSVCD_ERROR_ARGUMENT);
+  query_encode_refuses(&mesh, &both, memory.at, size, NSVCD_ERROR_ARGUMENT);
+  query_encode_refuses(&mesh, &negative, memory.at, size, NSVCD_ERROR_ARGUMENT);
+  query_encode_refuses(&mesh, &nan, memory.at, size, NSVCD_ERROR_ARGUMENT);
+  query_encode_refuses(&mesh, &options, memory.at, size - 1, NSVCD_ERROR_WORKSPACE);
+  query_encode_refuses(&mesh, &options, (char *)memory.at + 4, size, NSVCD_ERROR_WORKSPACE);
+  CHECK_EQ(nsvcd_encode(&mesh, &options, NULL, memory.at, size, NULL), NSVCD_ERROR_ARGUMENT);
+  bad.triangle_count = 0;
+  query_encode_refuses(&bad, &options, memory.at, size, NSVCD_ERROR_EMPTY);
+  bad = mesh;
+  bad.positions = NULL;
+  query_encode_refuses(&bad, &options, memory.at, size, NSVCD_ERROR_ARGUMENT);
+  bad = mesh;
+  bad.vertex_count = 5;  // indices beyond
+  query_encode_refuses(&bad, &options, memory.at, size, NSVCD_ERROR_INDEX);
+  float kept = mesh.positions[4];
+  mesh.positions[4] = NAN;
+  query_encode_refuses(&mesh, &options, memory.at, size, NSVCD_ERROR_NUMBER);
+  mesh.positions[4] = 2 * NSVCD_MAX_COORDINATE;
+  query_encode_refuses(&mesh, &options, memory.at, size, NSVCD_ERROR_NUMBER);
+  mesh.positions[4] = kept;
+  for (size_t i = 0; i < 3 * mesh.vertex_count; i++)
+    mesh.positions[i] = 0.1f;  // no area
+  query_encode_refuses(&mesh, &options, memory.at, size, NSVCD_ERROR_EMPTY);
+  query_release(&memory);
+  nsvcd_mesh_free(&mesh, NULL);
+}
+
+static void query_encode_survives_every_failed_allocation(void) {
+  nsvcd_mesh mesh = query_solid(5, 0.3);
+  nsvcd_encode_options options = {.points = 32, .no_triangles = 1};
+  size_t size = nsvcd_body_size(32);
+  query_memory memory = query_reserve(size);
+  query_memory undisturbed = query_reserve(size);
+  const nsvcd_body *expected = NULL;
+  CHECK_EQ(nsvcd_encode(&mesh, &options, NULL, undisturbed.at, size, &expected), NSVCD_OK);
+  int failures = 0;
+  for (;; failures++) {
+    failing_heap heap = {0, 0, failures};
+    nsvcd_allocator allocator = {failing_heap_alloc, failing_heap_free, NULL};
+    const nsvcd_body *body = NULL;
+    allocator.user = &heap;
+    nsvcd_result result = nsvcd_encode(&mesh, &options, &allocator, memory.at, size, &body);
+    CHECK_EQ(heap.live, 0);
+    if (result == NSVCD_OK) {
+      CHECK_LE(heap.calls, failures);
+      CHECK(body && memcmp(body, expected, nsvcd_body_describe(expected).size) == 0);
+      break;
+    }
+    CHECK_EQ(result, NSVCD_ERROR_MEMORY);
+    CHECK(body == NULL);
+    if (failures > 1000)
+      break;
+  }
+  CHECK(failures >= 1 && failures < 1000);
+  query_release(&memory);
+  query_release(&undisturbed);
+  nsvcd_mesh_free(&mesh, NULL);
+}
+
+void test_encoding(void) {
+  RUN(query_bodies_are_the_same_to_the_bit);
+  RUN(query_bodies_are_small);
+  RUN(query_patch_radius_is_honoured);
+  RUN(query_encode_allocates);
+  RUN(query_encode_refuses_bad_input);
+  RUN(query_encode_survives_every_failed_allocation);
+}
+
+CHECK_ALONE(test_encoding)

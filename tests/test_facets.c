@@ -1,0 +1,315 @@
+// Bodies as their users handle them: saved, loaded, described, scaled; and forged blobs of the proof,
+// which are refused, or harmless.
+#define NSVCD_STATIC
+#define NEURALSVCD_IMPLEMENTATION
+#include "../neuralsvcd.h"
+
+#include "query_scene.h"
+#include "proof_scene.h"
+
+void test_facets(void);
+
+static void query_a_blob_survives_a_file(void) {
+  for (uint64_t seed = 1; seed <= 5; seed++) {
+    query_scene s;
+    query_scene_open(&s, seed);
+    nsvcd_answer before = query_scene_ask(&s);
+    size_t size = nsvcd_body_describe(s.moving).size;
+    FILE *file = tmpfile();
+    CHECK(file != NULL);
+    if (!file)
+      break;
+    CHECK_EQ(fwrite(s.moving, 1, size, file), size);
+    rewind(file);
+    query_memory copy = query_reserve(size);
+    CHECK_EQ(fread(copy.at, 1, size, file), size);
+    fclose(file);
+    const nsvcd_body *loaded = NULL;
+    CHECK_EQ(nsvcd_body_load(copy.at, size, &loaded), NSVCD_OK);
+    if (loaded) {
+      s.moving = loaded;
+      nsvcd_answer after = query_scene_ask(&s);
+      CHECK(query_same_answer(&before, &after));
+    }
+    query_release(&copy);
+    query_scene_close(&s);
+  }
+}
+
+static void query_facts_contain_the_mesh(void) {
+  for (uint64_t seed = 1; seed <= 10; seed++) {
+    nsvcd_mesh mesh = query_solid(seed, 0.3);
+    query_memory memory;
+    const nsvcd_body *body = query_encode(&mesh, 64, &memory);
+    nsvcd_body_facts facts = nsvcd_body_describe(body);
+    double farthest = 0;
+    for (size_t i = 0; i < mesh.vertex_count; i++) {
+      double d = 0;
+      double nearest = HUGE_VAL;
+      for (int k = 0; k < 3; k++)
+        d += pow((double)(mesh.positions[3 * i + (size_t)k] - facts.centre[k]), 2);
+      farthest = fmax(farthest, sqrt(d));
+      for (uint32_t p = 0; p < facts.points; p++) {  // every vertex lies in a patch's sphere
+        float centre[3] = {0, 0, 0};
+        float radius = 0;
+        float away = 0;
+        CHECK(nsvcd_body_patch(body, p, centre, &radius));
+        for (int k = 0; k < 3; k++)
+          away += powf(mesh.positions[3 * i + (size_t)k] - centre[k], 2);
+        nearest = fmin(nearest, (double)(sqrtf(away) - radius));
+      }
+      CHECK_LE(nearest, 1e-6);
+    }
+    CHECK_LE(farthest, (double)facts.radius + 1e-6);
+    float centre[3], radius;
+    CHECK_EQ(nsvcd_body_patch(body, (uint32_t)facts.points, centre, &radius), 0);
+    CHECK_EQ(nsvcd_body_patch(NULL, 0, centre, &radius), 0);
+    query_release(&memory);
+    nsvcd_mesh_free(&mesh, NULL);
+  }
+}
+
+// A scaled body against the body of a scaled mesh. By a power of two the patches agree to the bit,
+// and so do bodies; by other factors sampling may round differently, and a latent is quantised to
+// 1/127.
+static void query_scaled_bodies_are_bodies_of_scaled_meshes(void) {
+  int close = 0;
+  int compared = 0;
+  for (uint64_t seed = 1; seed <= 12; seed++) {
+    float scale = seed % 2 ? 0.5f : 1.3f;
+    query_scene s;
+    query_scene_open(&s, seed);
+    nsvcd_mesh mesh = query_solid(2 * seed, 0.2);
+    for (size_t i = 0; i < 3 * mesh.vertex_count; i++)
+      mesh.positions[i] *= scale;
+    query_memory encoded_memory;
+    query_memory scaled_memory = query_reserve(nsvcd_body_describe(s.moving).size);
+    const nsvcd_body *encoded = query_encode(&mesh, QUERY_POINTS, &encoded_memory);
+    const nsvcd_body *scaled = NULL;
+    CHECK_EQ(nsvcd_body_scale(s.moving, scale, scaled_memory.at, nsvcd_body_describe(s.moving).size,
+                              &scaled),
+             NSVCD_OK);
+    if (encoded && scaled) {
+      nsvcd_answer a = query_ask(encoded, s.motion, QUERY_POSES, s.fixed, &s.fixed_pose, NULL);
+      nsvcd_answer b = query_ask(scaled, s.motion, QUERY_POSES, s.fixed, &s.fixed_pose, NULL);
+      int near = fabs((double)(a.logit - b.logit)) <= 0.05 * (1 + fabs((double)a.logit));
+      CHECK_EQ(a.status, b.status);
+      if (seed % 2)
+        CHECK(near);
+      close += near;
+      compared++;
+      CHECK_NEAR(nsvcd_body_describe(encoded).radius / nsvcd_body_describe(scaled).radius, 1, 1e-3);
+    }
+    query_release(&encoded_memory);
+    query_release(&scaled_memory);
+    nsvcd_mesh_free(&mesh, NULL);
+    query_scene_close(&s);
+  }
+  CHECK_GE(close, compared - 1);  // one may tip over in the choice of patches
+}
+
+static void query_scale_refuses_bad_input(void) {
+  nsvcd_mesh mesh = query_box(0.1, 0.1, 0.1);
+  query_memory memory;
+  query_memory out = query_reserve(nsvcd_body_size(NSVCD_DEFAULT_NETWORK_POINTS));
+  const nsvcd_body *body = query_encode(&mesh, 0, &memory);
+  const nsvcd_body *scaled = body;
+  size_t size = nsvcd_body_describe(body).size;
+  const float bad[5] = {0, -1, NAN, INFINITY, 1e30f};
+  for (int i = 0; i < 5; i++)
+    CHECK(nsvcd_body_scale(body, bad[i], out.at, size, &scaled) != NSVCD_OK);
+  CHECK_EQ(nsvcd_body_scale(NULL, 1, out.at, size, &scaled), NSVCD_ERROR_ARGUMENT);
+  CHECK_EQ(nsvcd_body_scale(body, 1, NULL, size, &scaled), NSVCD_ERROR_ARGUMENT);
+  CHECK_EQ(nsvcd_body_scale(body, 1, out.at, size - 1, &scaled), NSVCD_ERROR_WORKSPACE);
+  CHECK(scaled == body);
+  query_release(&memory);
+  query_release(&out);
+  nsvcd_mesh_free(&mesh, NULL);
+}
+
+// ------------------------------------------------------------------------------------ forged blobs
+
+typedef struct forgery {
+  size_t size;
+  void *memory;
+  struct nsvcd_body *body, *inner;  // of triangles
+} forgery;
+
+static forgery proof_forge(const nsvcd_body *body) {
+  forgery f;
+  f.size = body->size;
+  f.memory = malloc(f.size);
+  if (!f.memory)
+    exit(1);
+  memcpy(f.memory, body, f.size);
+  f.body = (struct nsvcd_body *)f.memory;
+  f.inner =
+      f.body->weights_id ? (struct nsvcd_body *)(void *)((char *)f.memory + f.body->inner) : f.body;
+  return f;
+}
+
+// Loads what has been forged, its checksums put right.
+static nsvcd_result proof_load(forgery *f) {
+  const nsvcd_body *body = NULL;
+  if ((size_t)((char *)f->inner - (char *)f->memory) + f->inner->size <= f->size) {
+    f->inner->checksum = nsvcd__body_checksum(f->inner);
+  }
+  if (f->body->size <= f->size)
+    f->body->checksum = nsvcd__body_checksum(f->body);
+  return nsvcd_body_load(f->memory, f->size, &body);
+}
+
+static void proof_expect_refusal(const nsvcd_body *body, size_t offset, const void *value,
+                                 size_t bytes) {
+  forgery f = proof_forge(body);
+  memcpy((char *)f.inner + offset, value, bytes);
+  CHECK_EQ(proof_load(&f), NSVCD_ERROR_BODY);
+  free(f.memory);
+}
+
+static size_t proof_offset(const nsvcd__facets *f, const void *at) {
+  return (size_t)((const char *)at - (const char *)f->body);
+}
+
+static void proof_forge_floats(const nsvcd_body *body, const nsvcd__facets *f) {
+  const float bad[3] = {NAN, INFINITY, -1e30f};
+  const size_t padded = f->body->padded;
+  const float *arrays[5] = {f->discs, f->steps, f->slacks, f->quanta, f->seeds};
+  const size_t counts[5] = {6 * padded, padded, padded, padded, 3 * f->components};
+  for (int k = 0; k < 5; k++) {
+    for (size_t n = 0; n < counts[k]; n += 1 + counts[k] / 40) {
+      for (int b = 0; b < 3; b++)
+        proof_expect_refusal(body, proof_offset(f, arrays[k] + n), &bad[b], 4);
+    }
+  }
+  const float negative = -1e-6f;
+  for (int k = 1; k < 4; k++)
+    proof_expect_refusal(body, proof_offset(f, arrays[k]), &negative, 4);
+  proof_expect_refusal(body, proof_offset(f, f->discs + 5 * padded), &negative, 4);
+}
+
+static void proof_forge_counts(const nsvcd_body *body, const nsvcd__facets *f) {
+  const size_t counts = nsvcd__spheres_size(f->body->padded);
+  for (size_t k = 0; k < NSVCD__FACET_COUNTS; k++) {
+    uint32_t value;
+    memcpy(&value, (const char *)f->body + counts + 4 * k, 4);
+    const uint32_t bad[6] = {value + 1,   value - 1,   0xffffffffu,
+                             0x80000000u, 0x55555556u, value ^ 0x10000u};
+    for (int n = 0; n < 6; n++)
+      proof_expect_refusal(body, counts + 4 * k, &bad[n], 4);
+  }
+  for (size_t i = 0; i <= f->body->points; i++) {
+    const uint32_t *firsts[3] = {f->first_vertex + i, f->first_triangle + i, f->first_byte + i};
+    const uint32_t bad[3] = {0xffffffffu, 0x7fffffffu, i == 0 ? 1u : *firsts[0] - 70000u};
+    for (int k = 0; k < 3; k++) {
+      for (int n = 0; n < 3; n++)
+        proof_expect_refusal(body, proof_offset(f, firsts[k]), &bad[n], 4);
+    }
+  }
+  for (size_t i = 0; i < f->body->points; i++) {
+    const uint8_t bad[2] = {NSVCD__HULL + 1, f->hull_counts[i] ? 0 : 1};
+    for (int n = 0; n < 2; n++)
+      proof_expect_refusal(body, proof_offset(f, f->hull_counts + i), &bad[n], 1);
+  }
+  const unsigned char far[5] = {0xff, 0xff, 0xff, 0xff, 0x0f};
+  const unsigned char endless[5] = {0x80, 0x80, 0x80, 0x80, 0x80};
+  for (size_t i = 0; i < f->body->points; i++) {
+    const unsigned char *at = proof_numbers(f, i);
+    const unsigned char *end = f->listings + f->first_byte[i + 1];
+    if (end - at >= 5)
+      proof_expect_refusal(body, proof_offset(f, at), far, 5);
+    if (end - at >= 5)
+      proof_expect_refusal(body, proof_offset(f, at), endless, 5);
+    if (end > at)
+      proof_expect_refusal(body, proof_offset(f, end - 1), endless, 1);
+  }
+}
+
+static void proof_forge_header(const nsvcd_body *body, const nsvcd__facets *f) {
+  const uint32_t bad[4] = {0, 1, 0x7fffffffu, 0xfffffff8u};
+  const size_t fields[6] = {
+      offsetof(struct nsvcd_body, size),   offsetof(struct nsvcd_body, weights_id),
+      offsetof(struct nsvcd_body, points), offsetof(struct nsvcd_body, padded),
+      offsetof(struct nsvcd_body, inner),  offsetof(struct nsvcd_body, triangles)};
+  for (int k = 0; k < 6; k++) {
+    for (int n = 0; n < 4; n++) {
+      uint32_t value;
+      memcpy(&value, (const char *)f->body + fields[k], 4);
+      if (value == bad[n])
+        continue;
+      if (k == 5 && f->body == body && bad[n] > value)
+        continue;  // a count of triangles too large is harmless
+      proof_expect_refusal(body, fields[k], &bad[n], 4);
+    }
+  }
+}
+
+// A blob whose last words are any: either it is refused, or questions about it end, and read
+// nothing that is not there.
+static void proof_forge_anything(const nsvcd_body *body, shapes_rng *rng, size_t *accepted) {
+  forgery f = proof_forge(body);
+  nsvcd_sweep_options options = proof_options();
+  const size_t from = (size_t)((char *)f.inner - (char *)f.memory) + sizeof(struct nsvcd_body);
+  const int changes = 1 + shapes_pick(rng, 4);
+  for (int k = 0; k < changes; k++) {
+    const size_t at = from + shapes_next(rng) % (f.size - from);
+    ((unsigned char *)f.memory)[at] = (unsigned char)(shapes_next(rng) >> 40);
+  }
+  options.work = 3000;
+  if (!proof_load(&f)) {
+    const proof_body *other = proof_shared(0, (size_t)shapes_pick(rng, MAKES));
+    nsvcd_pose poses[3];
+    nsvcd_pose fixed = {{0, 0, 0}, {0, 0, 0, 1}};
+    nsvcd_answer answer;
+    for (int n = 0; n < 3; n++) {
+      double q[4];
+      shapes_quaternion(rng, q);
+      for (int k = 0; k < 4; k++)
+        poses[n].rotation[k] = (float)q[k];
+      for (int k = 0; k < 3; k++)
+        poses[n].position[k] = (float)shapes_uniform(rng, -0.2, 0.2);
+    }
+    (*accepted)++;
+    CHECK_EQ(ask(f.body, poses, 3, other->body, &fixed, &options, proof_workspace(),
+                 nsvcd_sweep_workspace_size(NULL), &answer),
+             NSVCD_OK);
+    CHECK_EQ(ask(other->body, poses, 3, f.body, &fixed, &options, proof_workspace(),
+                 nsvcd_sweep_workspace_size(NULL), &answer),
+             NSVCD_OK);
+  }
+  free(f.memory);
+}
+
+static void proof_forged_blobs(void) {
+  static const size_t makes[4] = {1, 5, 6, 11};
+  shapes_rng rng = {64};
+  size_t accepted = 0;
+  for (int k = 0; k < 4; k++) {
+    const nsvcd_body *body = proof_shared(0, makes[k])->body;
+    forgery f = proof_forge(body);
+    CHECK_EQ(proof_load(&f), NSVCD_OK);
+    const nsvcd__facets facets = nsvcd__facets_of(nsvcd__triangles_of(body));
+    proof_forge_floats(body, &facets);
+    proof_forge_counts(body, &facets);
+    proof_forge_header(body, &facets);
+    for (int n = 0; n < 400; n++)
+      proof_forge_anything(body, &rng, &accepted);
+    // The body of triangles by itself is a body as well.
+    proof_forge_floats(facets.body, &facets);
+    proof_forge_counts(facets.body, &facets);
+    for (int n = 0; n < 400; n++)
+      proof_forge_anything(facets.body, &rng, &accepted);
+    free(f.memory);
+  }
+  printf("  of 3200 blobs with random bytes %zu were accepted, and asked\n", accepted);
+}
+
+void test_facets(void) {
+  RUN(query_a_blob_survives_a_file);
+  RUN(query_facts_contain_the_mesh);
+  RUN(query_scaled_bodies_are_bodies_of_scaled_meshes);
+  RUN(query_scale_refuses_bad_input);
+  RUN(proof_forged_blobs);
+}
+
+CHECK_ALONE(test_facets)

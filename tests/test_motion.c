@@ -1,0 +1,77 @@
+// The motion of one body as the other sees it. The reference is double precision and written apart.
+#define NSVCD_STATIC
+#define NEURALSVCD_IMPLEMENTATION
+#include "../neuralsvcd.h"
+
+#include "check.h"
+#include "random_motions.h"
+
+void test_motion(void);
+
+static void motion_pose_is_slerp(void) {
+  double worst = 0;
+  for (int trial = 0; trial < 300; trial++) {
+    double middle[3] = {uniform(-3, 3), uniform(-3, 3), uniform(-3, 3)};
+    size_t count = pick(1, 40);
+    nsvcd_pose fixed = {{1, -2, 0.5f}, {0, 0, 0, 1}};
+    random_quat(fixed.rotation);
+    random_motion(count, trial % 3, uniform(0, 12), 1, middle);
+    nsvcd__motion motion;
+    CHECK_EQ(motion_init(poses, count, &fixed, &motion), NSVCD_OK);
+    for (int n = 0; n <= 10; n++) {
+      float t = n == 10 ? 1 : (float)uniform(0, 1);
+      float rotation[9];
+      float position[3];
+      float out[3];
+      const float point[3] = {0.3f, -0.2f, 0.9f};
+      const double point64[3] = {(double)point[0], (double)point[1], (double)point[2]};
+      double want[3];
+      pose64 at = pose_at(poses, count, (double)t);
+      pose64 f = to_double(&fixed);
+      place64(&at, &f, point64, want);
+      nsvcd__motion_pose(&motion, t, rotation, position);
+      nsvcd__mul33_vec(rotation, point, out);
+      for (int k = 0; k < 3; k++)
+        worst = fmax(worst, fabs((double)(out[k] + position[k]) - want[k]));
+    }
+  }
+  CHECK_LE(worst, 3e-5);  // t itself is rounded: 40 samples of speed 6 between them, times 6e-8
+}
+
+static void bad_poses(void) {
+  nsvcd_pose good = {{0, 0, 0}, {0, 0, 0, 1}};
+  nsvcd__motion motion;
+  memset(&motion, 7, sizeof motion);
+  nsvcd__motion before = motion;
+  for (int n = 0; n < 5; n++)
+    poses[n] = good;
+  CHECK_EQ(motion_init(poses, 0, &good, &motion), NSVCD_ERROR_ARGUMENT);
+  CHECK_EQ(motion_init(poses, (size_t)NSVCD_MAX_POSES + 1, &good, &motion), NSVCD_ERROR_ARGUMENT);
+  CHECK_EQ(motion_init(NULL, 5, &good, &motion), NSVCD_ERROR_ARGUMENT);
+  const float bad[6] = {(float)NAN, (float)INFINITY, -(float)INFINITY, 3e38f, 2e6f, 1e30f};
+  for (int at = 0; at < 7; at++) {
+    for (int n = 0; n < 6; n++) {
+      nsvcd_pose evil = good;
+      *(at < 3 ? &evil.position[at] : &evil.rotation[at - 3]) = bad[n];
+      CHECK_EQ(motion_init(poses, 5, &evil, &motion), NSVCD_ERROR_POSE);
+      poses[4] = evil;
+      CHECK_EQ(motion_init(poses, 5, &good, &motion), NSVCD_ERROR_POSE);
+      poses[4] = good;
+    }
+  }
+  const float lengths[6] = {0, 0.9998f, 1.0002f, 0.99995f, 1.00005f, 1};
+  for (int n = 0; n < 6; n++) {
+    nsvcd_pose q = good;
+    q.rotation[3] = lengths[n];
+    nsvcd__motion m;
+    CHECK_EQ(motion_init(&q, 1, &good, &m), n < 3 ? NSVCD_ERROR_POSE : NSVCD_OK);
+  }
+  CHECK(memcmp(&motion, &before, sizeof motion) == 0);  // outputs untouched
+}
+
+void test_motion(void) {
+  RUN(motion_pose_is_slerp);
+  RUN(bad_poses);
+}
+
+CHECK_ALONE(test_motion)

@@ -1,0 +1,422 @@
+// Surface points, farthest point sampling, and patches with the balls that cover them.
+#define NSVCD_STATIC
+#define NEURALSVCD_IMPLEMENTATION
+#include "../neuralsvcd.h"
+
+#include "check.h"
+#include "failing_heap.h"
+#include "mesh_kinds.h"
+
+void test_patches(void);
+
+// ---------------------------------------------------------------------------------- surface points
+
+static void mesh_samples_are_uniform(void) {
+  enum { S = 8192 };
+  static float points[3 * S], normals[3 * S];
+  nsvcd_mesh mesh = mesh_box(0.1, 0.2, 0.3);
+  // One triangle more, without area, first of all: never chosen.
+  mesh.indices = (uint32_t *)realloc(mesh.indices, 39 * sizeof(uint32_t));
+  memmove(mesh.indices + 3, mesh.indices, 36 * sizeof(uint32_t));
+  mesh.indices[0] = mesh.indices[1] = 0;
+  mesh.indices[2] = 7;
+  mesh.triangle_count = 13;
+  nsvcd__sample_surface(&mesh, S, points, normals);
+  double face[6] = {0, 0, 0, 0, 0, 0};
+  double mean[6][2] = {{0, 0}, {0, 0}, {0, 0}, {0, 0}, {0, 0}, {0, 0}};
+  static const double half[3] = {0.1, 0.2, 0.3};
+  for (size_t s = 0; s < S; ++s) {
+    const float *p = points + 3 * s;
+    const float *n = normals + 3 * s;
+    CHECK_NEAR(nsvcd__length3(n), 1, 1e-6);
+    size_t axis = fabsf(n[0]) > 0.9f ? 0 : fabsf(n[1]) > 0.9f ? 1 : 2;
+    size_t side = n[axis] > 0;
+    CHECK_NEAR(p[axis], side ? half[axis] : -half[axis], 1e-7);
+    face[2 * axis + side]++;
+    for (size_t k = 0; k < 2; ++k)
+      mean[2 * axis + side][k] += (double)p[(axis + 1 + k) % 3] / half[(axis + 1 + k) % 3];
+  }
+  double total = 0.02 + 0.06 + 0.03;  // of the three products of half extents
+  for (size_t f = 0; f < 6; ++f) {
+    double share = (f < 2 ? 0.06 : f < 4 ? 0.03 : 0.02) / (2 * total);
+    CHECK_NEAR(face[f], (double)S * share, 1.01);  // stratified: to one sample at each end
+    for (size_t k = 0; k < 2; ++k)
+      CHECK_NEAR(mean[f][k] / face[f], 0, 0.02);
+  }
+  nsvcd_mesh_free(&mesh, NULL);
+
+  mesh = mesh_round(30, 40, 0.1, 0.04);  // every triangle gets its share, to one sample
+  nsvcd__sample_surface(&mesh, S, points, normals);
+  double z2 = 0;
+  double exact = 0;
+  for (size_t s = 0; s < S; ++s)
+    z2 += (double)points[3 * s + 2] * (double)points[3 * s + 2] / (double)S;
+  // integral of z^2 over a triangle: mean over the edges' middles
+  for (size_t t = 0; t < mesh.triangle_count; ++t) {
+    double c[3][3], v[3];
+    nsvcd__triangle(&mesh, t, c);
+    double area = nsvcd__area_vector(c, v) / nsvcd__mesh_area(&mesh);
+    for (int i = 0; i < 3; ++i)
+      exact += area / 3 * pow(0.5 * (c[i][2] + c[(i + 1) % 3][2]), 2);
+  }
+  CHECK_NEAR(z2 / exact, 1, 2e-3);
+  nsvcd_mesh_free(&mesh, NULL);
+}
+
+static void mesh_samples_scale(void) {
+  enum { S = 1000 };
+  static float a[3 * S], b[3 * S], normals[3 * S], scaled_normals[3 * S];
+  static const float scales[] = {0.0009765625f, 1048576.0f, 1e-3f, 1e3f, 1e-9f, 3e-15f};
+  for (size_t i = 0; i < sizeof scales / sizeof scales[0]; ++i) {
+    nsvcd_mesh mesh = mesh_round(25, 31, 0.1, 0.04);
+    nsvcd__sample_surface(&mesh, S, a, normals);
+    mesh_scale(&mesh, scales[i]);
+    nsvcd__sample_surface(&mesh, S, b, scaled_normals);
+    double worst = 0;
+    double turned = 0;
+    for (size_t k = 0; k < 3 * S; ++k) {
+      worst = fmax(worst, fabs((double)b[k] / (double)scales[i] - (double)a[k]));
+      turned = fmax(turned, fabs((double)normals[k] - (double)scaled_normals[k]));
+    }
+    CHECK_LE(worst, i < 2 ? 0 : 1e-7);  // a power of two changes nothing at all
+    CHECK_LE(turned, i < 2 ? 0 : 1e-5);
+    nsvcd_mesh_free(&mesh, NULL);
+  }
+}
+
+static void mesh_samples_lie_mid_stratum(void) {
+  float points[12], normals[12];
+  nsvcd_mesh mesh = mesh_fan(2, 1, 1);  // triangles of equal area,
+  mesh.positions[4] = 0.2f;             // now a fifth and four fifths of the whole
+  nsvcd__sample_surface(&mesh, 4, points, normals);
+  // at 1/8, 3/8, 5/8, 7/8
+  for (int i = 0; i < 4; ++i)
+    CHECK_EQ(points[3 * i + 1] < 0.2f * points[3 * i], i == 0);
+  nsvcd_mesh_free(&mesh, NULL);
+}
+
+// ----------------------------------------------------------------------------------------- patches
+
+// Samples without a mesh: (n, 3) random points, some of them equal.
+static nsvcd__patches patches_of_points(size_t centres, size_t samples) {
+  nsvcd__patches p;
+  CHECK_EQ(nsvcd__patches_alloc(&p, centres, samples, NULL), NSVCD_OK);
+  for (size_t s = 0; s < samples; ++s) {
+    p.x[s] = (float)mesh_below(40);
+    p.y[s] = (float)mesh_below(40);
+    p.z[s] = (float)mesh_below(4);
+  }
+  return p;
+}
+
+// Each centre is, at its turn, a sample farthest from those before it; each sample goes to a
+// nearest centre.
+static void mesh_farthest_points_are_farthest(void) {
+  mesh_rng = 51;
+  for (int round = 0; round < 20; ++round) {
+    nsvcd__patches p = patches_of_points(60, 1500);
+    nsvcd__farthest_points(&p);
+    CHECK_EQ(p.count, 60);
+    for (uint32_t i = 1; i <= p.count; ++i) {
+      float farthest = 0;
+      float centre = HUGE_VALF;
+      for (uint32_t j = 0; i < p.count && j < i; ++j) {
+        centre = fminf(centre,
+                       nsvcd__centre_distance(&p, j, p.centre_x[i], p.centre_y[i], p.centre_z[i]));
+      }
+      for (size_t s = 0; s < p.sample_count; ++s) {
+        float nearest = HUGE_VALF;
+        for (uint32_t j = 0; j < i; ++j)
+          nearest = fminf(nearest, nsvcd__centre_distance(&p, j, p.x[s], p.y[s], p.z[s]));
+        farthest = fmaxf(farthest, nearest);
+        if (i == p.count)
+          CHECK_EQ(nearest, nsvcd__centre_distance(&p, p.owners[s], p.x[s], p.y[s], p.z[s]));
+      }
+      if (i < p.count)
+        CHECK_EQ(centre, farthest);
+    }
+    nsvcd__patches_free(&p, NULL);
+  }
+  nsvcd__patches p = patches_of_points(10, 64);
+  for (size_t s = 0; s < 64; ++s) {  // three places for ten centres
+    p.x[s] = (float)(s % 3);
+    p.y[s] = p.z[s] = 5;
+  }
+  nsvcd__farthest_points(&p);
+  CHECK_EQ(p.count, 3);
+  nsvcd__patches_free(&p, NULL);
+}
+
+static void mesh_centres_without_samples_are_dropped(void) {
+  nsvcd__patches p = patches_of_points(4, 64);
+  for (size_t s = 0; s < 64; ++s) {
+    p.x[s] = (float)s;
+    p.owners[s] = s < 32 ? 3 : 1;
+  }
+  nsvcd__move_centres(&p);
+  CHECK_EQ(p.count, 2);
+  CHECK_EQ(p.centre_x[0], 47.5);
+  CHECK_EQ(p.centre_x[1], 15.5);
+  for (size_t s = 0; s < 64; ++s)
+    CHECK_EQ(p.owners[s], s < 32);
+  // Of two centres at the same distance the first one is nearest, whatever the guess.
+  nsvcd__set_centre(&p, 0, 1, 0, 0);
+  nsvcd__set_centre(&p, 1, -1, 0, 0);
+  nsvcd__link_centres(&p);
+  CHECK_EQ(nsvcd__nearest_centre(&p, 0, 0, 0, 0), 0);
+  CHECK_EQ(nsvcd__nearest_centre(&p, 1, 0, 0, 0), 0);
+  nsvcd__patches_free(&p, NULL);
+}
+
+// r^2 N / area: 1/pi for discs that do not overlap, 0.385 for hexagons; all that exceeds it is
+// wasted broad phase.
+static void mesh_patches_are_round(void) {
+  static const size_t counts[] = {64, 128, 256, 512};
+  for (int n = 0; n < 4; ++n) {
+    nsvcd_mesh mesh = mesh_kind(2);
+    nsvcd__patches p;
+    double samples = 0;
+    double balls = 0;
+    CHECK_EQ(nsvcd__patches_build(&mesh, counts[n], NULL, &p), NSVCD_OK);
+    for (size_t i = 0; i < p.count; ++i) {
+      samples += (double)p.sample_radii[i] / (double)p.count;
+      balls += (double)p.radii[i] / (double)p.count;
+    }
+    double area = nsvcd__mesh_area(&mesh) / (double)p.count;
+    printf("N %d: r^2 N / area: samples %.3f, balls %.3f\n", (int)p.count, samples * samples / area,
+           balls * balls / area);
+    CHECK_LE(samples * samples / area, 0.38);
+    CHECK_LE(balls * balls / area, 0.53);
+    nsvcd__patches_free(&p, NULL);
+    nsvcd_mesh_free(&mesh, NULL);
+  }
+}
+
+static int patches_cover(const nsvcd__patches *p, const double *x) {
+  for (size_t i = 0; i < p->count; ++i) {
+    double d = nsvcd__squared_distance(p, i, x[0], x[1], x[2]);
+    if (d <= (double)p->radii[i] * (double)p->radii[i])
+      return 1;
+  }
+  return 0;
+}
+
+static void mesh_patches_cover_the_surface(void) {
+  static const size_t counts[] = {1, 2, 17, 128, 512};
+  long tried = 0;
+  long lost = 0;
+  mesh_rng = 21;
+  for (int kind = 0; kind < MESH_KINDS; ++kind) {
+    for (int n = 0; n < 5; ++n) {
+      nsvcd_mesh mesh = mesh_kind(kind);
+      nsvcd__patches p;
+      CHECK_EQ(nsvcd__patches_build(&mesh, counts[n], NULL, &p), NSVCD_OK);
+      CHECK(p.count >= 1 && p.count <= counts[n]);
+      for (size_t s = 0; s < 6000; ++s) {  // corners, edges and insides of triangles
+        double c[3][3];
+        double x[3];
+        double u = mesh_uniform(0, 1);
+        double v = mesh_uniform(0, 1 - u);
+        nsvcd__triangle(&mesh, s < mesh.triangle_count ? s : mesh_below(mesh.triangle_count), c);
+        if (s % 4 == 1)
+          u = 0;
+        if (s % 4 == 2) {
+          u = 0;
+          v = 0;
+        }
+        for (int k = 0; k < 3; ++k)
+          x[k] = c[0][k] + u * (c[1][k] - c[0][k]) + v * (c[2][k] - c[0][k]);
+        lost += !patches_cover(&p, x);
+        tried++;
+      }
+      nsvcd__patches_free(&p, NULL);
+      nsvcd_mesh_free(&mesh, NULL);
+    }
+  }
+  printf("%ld surface points, %ld outside all balls\n", tried, lost);
+  CHECK_EQ(lost, 0);
+}
+
+static void mesh_patches_are_consistent(void) {
+  for (int kind = 0; kind < MESH_KINDS; ++kind) {
+    nsvcd_mesh mesh = mesh_kind(kind);
+    nsvcd__patches p;
+    CHECK_EQ(nsvcd__patches_build(&mesh, 100, NULL, &p), NSVCD_OK);
+    CHECK_EQ(p.sample_count, 3200);
+    CHECK_EQ(p.offsets[0], 0);
+    CHECK_EQ(p.offsets[p.count], p.sample_count);
+    double area = 0;
+    double vector[3] = {0, 0, 0};
+    double whole[3];
+    for (size_t i = 0; i < p.count; ++i) {
+      CHECK(p.offsets[i] < p.offsets[i + 1]);
+      double mean[3] = {0, 0, 0};
+      double samples = p.offsets[i + 1] - p.offsets[i];
+      double reach = 0;
+      for (size_t s = p.offsets[i]; s < p.offsets[i + 1]; ++s) {
+        const float *x = p.points + 3 * s;
+        for (int k = 0; k < 3; ++k)
+          mean[k] += (double)x[k] / samples;
+        reach =
+            fmax(reach, nsvcd__squared_distance(&p, i, (double)x[0], (double)x[1], (double)x[2]));
+        CHECK_NEAR(nsvcd__length3(p.normals + 3 * s), 1, 1e-6);
+      }
+      for (size_t k = 0; k < 3; ++k)
+        CHECK_NEAR((double)p.centres[3 * i + k], mean[k], 1e-6 * fabs(mean[k]) + 1e-12);
+      CHECK_NEAR((double)p.sample_radii[i] / sqrt(reach), 1, 1e-6);
+      CHECK(p.radii[i] > 0 && nsvcd__is_finite(p.radii[i]));
+      area += (double)p.areas[i];
+      for (size_t k = 0; k < 3; ++k)
+        vector[k] += (double)p.area_vectors[3 * i + k];
+    }
+    double total = nsvcd__mesh_area(&mesh);
+    CHECK_NEAR(area / total, 1, 1e-6);
+    mesh_area_vector(&mesh, whole);
+    if (mesh_kind_closed[kind])
+      CHECK_LE(vector_length(whole), 1e-9 * total);
+    for (int k = 0; k < 3; ++k)
+      whole[k] -= vector[k];
+    CHECK_LE(vector_length(whole), 1e-6 * total);
+    CHECK_LE(p.piece_count, mesh.triangle_count + NSVCD__PIECES_PER_SAMPLE * p.sample_count);
+    nsvcd__patches_free(&p, NULL);
+    nsvcd_mesh_free(&mesh, NULL);
+  }
+}
+
+// The search from a guess finds what looking at every centre finds.
+static void mesh_nearest_centre_is_nearest(void) {
+  int tried = 0;
+  int wrong = 0;
+  mesh_rng = 31;
+  for (int kind = 0; kind < MESH_KINDS; ++kind) {
+    nsvcd_mesh mesh = mesh_kind(kind);
+    nsvcd__patches p;
+    CHECK_EQ(nsvcd__patches_build(&mesh, kind % 2 ? 300 : 12, NULL, &p), NSVCD_OK);
+    for (int i = 0; i < 3000; ++i) {
+      const float *at = p.points + 3 * mesh_below(p.sample_count);
+      double spread = i % 3 * 3 * (double)p.radii[0];
+      float x[3];
+      for (int k = 0; k < 3; ++k)
+        x[k] = at[k] + (float)(spread * mesh_uniform(-1, 1));
+      uint32_t found = nsvcd__nearest_centre(&p, (uint32_t)mesh_below(p.count), x[0], x[1], x[2]);
+      uint32_t best = 0;
+      for (uint32_t c = 1; c < p.count; ++c) {
+        float d = nsvcd__centre_distance(&p, c, x[0], x[1], x[2]);
+        if (d < nsvcd__centre_distance(&p, best, x[0], x[1], x[2]))
+          best = c;
+      }
+      tried++;
+      wrong += found != best;
+    }
+    nsvcd__patches_free(&p, NULL);
+    nsvcd_mesh_free(&mesh, NULL);
+  }
+  printf("%d searches, %d wrong\n", tried, wrong);
+  CHECK_EQ(wrong, 0);
+}
+
+static void mesh_patches_are_deterministic(void) {
+  nsvcd_mesh mesh = mesh_kind(4);
+  nsvcd__patches a, b, c;
+  CHECK_EQ(nsvcd__patches_build(&mesh, 64, NULL, &a), NSVCD_OK);
+  CHECK_EQ(nsvcd__patches_build(&mesh, 64, NULL, &b), NSVCD_OK);
+  mesh_scale(&mesh, 8);
+  CHECK_EQ(nsvcd__patches_build(&mesh, 64, NULL, &c), NSVCD_OK);
+  CHECK_EQ(a.count, b.count);
+  CHECK(memcmp(a.centres, b.centres, 12 * a.count) == 0 &&
+        memcmp(a.radii, b.radii, 4 * a.count) == 0);
+  CHECK(memcmp(a.area_vectors, b.area_vectors, 12 * a.count) == 0 &&
+        memcmp(a.areas, b.areas, 4 * a.count) == 0);
+  CHECK(memcmp(a.points, b.points, 12 * a.sample_count) == 0 &&
+        memcmp(a.normals, b.normals, 12 * a.sample_count) == 0);
+  CHECK(memcmp(a.offsets, b.offsets, 4 * (a.count + 1)) == 0);
+  CHECK_EQ(a.count, c.count);  // and a power of two in scale changes nothing else
+  for (size_t i = 0; i < a.count && i < c.count; ++i) {
+    CHECK_EQ(8 * a.radii[i], c.radii[i]);
+    CHECK_EQ(8 * a.centres[3 * i], c.centres[3 * i]);
+    CHECK_EQ(64 * a.area_vectors[3 * i], c.area_vectors[3 * i]);
+  }
+  nsvcd__patches_free(&a, NULL);
+  nsvcd__patches_free(&b, NULL);
+  nsvcd__patches_free(&c, NULL);
+  nsvcd_mesh_free(&mesh, NULL);
+}
+
+static void mesh_patches_edge_cases(void) {
+  nsvcd_mesh mesh = mesh_box(1, 1, 1);
+  nsvcd__patches p, before;
+  memset(&p, 0x5a, sizeof p);
+  before = p;
+  failing_heap heap = {0, 0, 0};
+  nsvcd_allocator allocator = {failing_heap_alloc, failing_heap_free, NULL};
+  allocator.user = &heap;
+  // the only allocation fails
+  CHECK_EQ(nsvcd__patches_build(&mesh, 8, &allocator, &p), NSVCD_ERROR_MEMORY);
+  CHECK_EQ(heap.live, 0);
+  CHECK_EQ(heap.calls, 1);
+  CHECK(memcmp(&p, &before, sizeof p) == 0);
+
+  // No triangle has an area: then each is sampled alike, and all of them are covered.
+  for (int i = 0; i < 36; i += 3)
+    mesh.indices[i] = mesh.indices[i + 1];
+  CHECK_EQ(nsvcd__patches_build(&mesh, 8, NULL, &p), NSVCD_OK);
+  for (size_t i = 0; i < 36; ++i) {
+    double x[3];
+    for (size_t k = 0; k < 3; ++k)
+      x[k] = (double)mesh.positions[3 * mesh.indices[i] + k];
+    CHECK(patches_cover(&p, x));
+  }
+  for (size_t i = 0; i < 3 * p.sample_count; ++i)
+    CHECK_EQ(p.normals[i], 0);
+  nsvcd__patches_free(&p, NULL);
+  nsvcd_mesh_free(&mesh, NULL);
+
+  // So small and so far out that all samples fall on a few floats: fewer patches, still covering.
+  mesh = mesh_box(0.1, 0.1, 0.1);
+  mesh_move(&mesh, 9e5f);
+  CHECK_EQ(nsvcd__patches_build(&mesh, 512, NULL, &p), NSVCD_OK);
+  CHECK(p.count >= 1 && p.count < 512);
+  for (size_t i = 0; i < 8; ++i) {
+    double x[3];
+    for (size_t k = 0; k < 3; ++k)
+      x[k] = (double)mesh.positions[3 * i + k];
+    CHECK(patches_cover(&p, x));
+  }
+  nsvcd__patches_free(&p, NULL);
+  nsvcd_mesh_free(&mesh, NULL);
+}
+
+// Hundreds of thousands of needles, each far longer than a patch is wide: the number of pieces
+// stays bounded.
+static void mesh_patches_of_slivers(void) {
+  nsvcd_mesh mesh = mesh_fan(200000, 100, 0.1);
+  nsvcd__patches p;
+  CHECK_EQ(nsvcd__patches_build(&mesh, 256, NULL, &p), NSVCD_OK);
+  printf("%d slivers, %d pieces\n", (int)mesh.triangle_count, (int)p.piece_count);
+  CHECK_LE(p.piece_count, mesh.triangle_count + NSVCD__PIECES_PER_SAMPLE * p.sample_count);
+  mesh_rng = 41;
+  for (int i = 0; i < 5000; ++i) {
+    double x[3] = {mesh_uniform(0, 100), 0, 0};
+    x[1] = x[0] * mesh_uniform(0, 0.001) * 0.999;
+    CHECK(patches_cover(&p, x));
+  }
+  nsvcd__patches_free(&p, NULL);
+  nsvcd_mesh_free(&mesh, NULL);
+}
+
+void test_patches(void) {
+  RUN(mesh_samples_are_uniform);
+  RUN(mesh_samples_scale);
+  RUN(mesh_samples_lie_mid_stratum);
+  RUN(mesh_farthest_points_are_farthest);
+  RUN(mesh_centres_without_samples_are_dropped);
+  RUN(mesh_patches_are_round);
+  RUN(mesh_patches_cover_the_surface);
+  RUN(mesh_patches_are_consistent);
+  RUN(mesh_nearest_centre_is_nearest);
+  RUN(mesh_patches_are_deterministic);
+  RUN(mesh_patches_edge_cases);
+  RUN(mesh_patches_of_slivers);
+}
+
+CHECK_ALONE(test_patches)

@@ -1,0 +1,105 @@
+// What is inside of what, for the network.
+#define NSVCD_STATIC
+#define NEURALSVCD_IMPLEMENTATION
+#include "../neuralsvcd.h"
+
+#include "check.h"
+#include "random_bodies.h"
+
+void test_winding_number(void);
+
+static void containment(void) {
+  const float eye[9] = {1, 0, 0, 0, 1, 0, 0, 0, 1};
+  // of the winding number, by clearance: 0.75-1, 1-1.5, 1.5-2, over 2 radii
+  double error[4] = {0, 0, 0, 0};
+  size_t clear = 0;
+  size_t rough = 0;  // places from NSVCD__CLEARANCE on, and those whose error exceeds 0.3
+  for (size_t points = 32; points <= 512; points *= 2) {
+    const nsvcd_body *outer = shell_body(points, 1, &blob_a_memory);
+    const nsvcd_body *inner = shell_body(64, 0.1, &blob_b_memory);
+    double r = (double)nsvcd__body_r(outer)[0];
+    for (int n = 0; n < 2000; n++) {
+      float q[4];
+      float rotation[9];
+      float at[3] = {0, 0, 0};
+      float way[3];
+      random_quat(q);
+      nsvcd__quat_normalize(q, q);
+      nsvcd__quat_to_matrix(q, rotation);
+      double distance = uniform(0, 2);
+      for (int k = 0; k < 3; k++) {
+        way[k] = rotation[3 * k];
+        at[k] = (float)distance * way[k];
+      }
+      float places[3][NSVCD__PLACES], lanes[NSVCD__PLACES];
+      for (int k = 0; k < 3 * NSVCD__PLACES; k++)
+        places[k / NSVCD__PLACES][k % NSVCD__PLACES] = at[k / NSVCD__PLACES];
+      nsvcd__clearances(outer, places, lanes);
+      double clearance = sqrt((double)lanes[7]);
+      int bin = clearance < 1 ? 0 : clearance < 1.5 ? 1 : clearance < 2 ? 2 : 3;
+      double want = distance < 1 ? 1 : 0;
+      double off = fabs((double)nsvcd__winding_number(outer, at) - want);
+      if (clearance >= 0.75)
+        error[bin] = fmax(error[bin], off);
+      clear += clearance >= (double)NSVCD__CLEARANCE;
+      rough += clearance >= (double)NSVCD__CLEARANCE && off > 0.3;
+      // In the clear: exactly when it is inside. On the surface: anything. Outside: never.
+      if (distance < 1 - 0.1 - r)
+        CHECK(nsvcd__is_contained(inner, outer, 1, rotation, at));
+      if (distance < 1 - 0.1 - r) {
+        float back[9], from[3];
+        nsvcd__transpose33(rotation, back);
+        nsvcd__mul33_vec(back, at, from);
+        for (int k = 0; k < 3; k++)
+          from[k] = -from[k];
+        CHECK(nsvcd__is_contained(outer, inner, 1, back, from));
+      }
+      if (distance > 1.1)
+        CHECK(!nsvcd__is_contained(inner, outer, 1, rotation, at));
+    }
+    const float far[3] = {30, 0, 0};
+    const float none[3] = {0, 0, 0};
+    CHECK(!nsvcd__is_contained(inner, outer, 1, eye, far));
+    CHECK(nsvcd__is_contained(inner, outer, 1, eye, none));
+  }
+  printf(
+      "  winding number, worst error from 0.75 / 1 / 1.5 / 2 patch radii on: %.3f %.3f %.3f %.4f; "
+      "over 0.3: %zu of "
+      "%zu\n",
+      error[0], error[1], error[2], error[3], rough, clear);
+  CHECK_GE(clear, 5000);
+  CHECK_LE(rough, clear / 1000);  // from NSVCD__CLEARANCE on; a verdict turns at 0.5
+  CHECK_LE(error[3], 0.02);
+}
+
+// A hollow ball (two shells, the inner one turned inside out): its cavity is outside.
+static void containment_in_a_cavity(void) {
+  const float eye[9] = {1, 0, 0, 0, 1, 0, 0, 0, 1};
+  shell_body(256, 0.6, &blob_a_memory);
+  float inner_centres[3 * 256], inner_areas[3 * 256], inner_radii[256];
+  memcpy(inner_centres, centres, sizeof inner_centres);
+  memcpy(inner_areas, areas, sizeof inner_areas);
+  memcpy(inner_radii, radii, sizeof inner_radii);
+  shell_body(256, 1, &blob_a_memory);
+  for (size_t n = 0; n < 3 * 256; n++) {
+    centres[3 * 256 + n] = inner_centres[n];
+    areas[3 * 256 + n] = -inner_areas[n];
+  }
+  for (size_t n = 0; n < 256; n++)
+    radii[256 + n] = inner_radii[n];
+  const nsvcd_body *hollow = build(512, &blob_a_memory);
+  const nsvcd_body *ball = shell_body(32, 0.02, &blob_b_memory);
+  const float middle[3] = {0, 0, 0};
+  const float wall[3] = {0, 0.8f, 0};
+  const float outside[3] = {1.4f, 0, 0};
+  CHECK(!nsvcd__is_contained(ball, hollow, 1, eye, middle));
+  CHECK(nsvcd__is_contained(ball, hollow, 1, eye, wall));
+  CHECK(!nsvcd__is_contained(ball, hollow, 1, eye, outside));
+}
+
+void test_winding_number(void) {
+  RUN(containment);
+  RUN(containment_in_a_cavity);
+}
+
+CHECK_ALONE(test_winding_number)
