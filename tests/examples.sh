@@ -62,17 +62,15 @@ tail -1 build/fly_through.svg | grep -q '^</svg>$' || fail "build/fly_through.sv
 expect 2 'usage: ' build/fly_through 10
 expect 2 'usage: ' build/fly_through 1000 1000
 
-# The programs in README, as they stand there.
-program() {  # NUMBER TEXT: the n-th one, and what its output begins with
-  awk -v n="$1" '/^```c$/ { k++; on = k == n; next } /^```/ { on = 0 } on' README.md >"$dir/readme.c"
-  test -s "$dir/readme.c" || fail "README has no program $1"
-  "${CC:-cc}" -O2 -std=c99 -Wall -Wextra -I. "$dir/readme.c" -o "$dir/readme" -lm && "$dir/readme" >"$dir/out" ||
-    fail "program $1 in README"
-  head -1 "$dir/out" | grep -q "^$2" || fail "program $1 in README says: $(cat "$dir/out")"
+# The program in README, as it stands there, as C99 and C++11.
+awk '/^```c$/ { on = 1; next } /^```/ { on = 0 } on' README.md >"$dir/readme.c"
+cp "$dir/readme.c" "$dir/readme.cc"
+readme() {  # COMPILER AND FLAGS
+  "$@" -O2 -Wall -Wextra -Werror -I. -o "$dir/readme" -lm && "$dir/readme" >"$dir/out" || fail "the program in README: $*"
+  head -1 "$dir/out" | grep -q '^hit, witness, ' || fail "the program in README says: $(cat "$dir/out")"
 }
-program 1 'hit, '
-program 2 'witness at 0'
-program 3 'converged, '
+readme "${CC:-cc}" -std=c99 "$dir/readme.c"
+if command -v "${CXX:-c++}" >/dev/null; then readme "${CXX:-c++}" -std=c++11 "$dir/readme.cc"; fi
 
 # svcd encode, info.
 expect 0 '' build/svcd encode examples/assets/mug.obj "$dir/mug.body"

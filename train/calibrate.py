@@ -24,7 +24,8 @@ def answers(svcd: str, head: str, points: int, path: Path) -> tuple[list[float],
         w = line.split()
         if w[:1] == ["problem"]:
             labels[w[1]] = int(w[13])
-    out = subprocess.run([svcd, "check", "--repeat", "1", "--points", str(points), "--model", head, str(path)], check=True, capture_output=True, text=True).stdout
+    command = [svcd, "check", "--method", "network", "--repeat", "1", "--points", str(points), "--model", head, str(path)]
+    out = subprocess.run(command, check=True, capture_output=True, text=True).stdout
     rows = [line.split("\t") for line in out.splitlines() if line and not line.startswith(("#", "id", "ID"))]
     return [float(r[1]) for r in rows], [labels[r[0]] for r in rows]
 
