@@ -3,6 +3,7 @@
 #ifndef NSVCD_TESTS_NETWORK_SCENE_H
 #define NSVCD_TESTS_NETWORK_SCENE_H
 
+#include "arrays.h"
 #include "data/golden.h"
 
 static uint32_t network_seed = 1;
@@ -22,7 +23,7 @@ static void random_rotation(float *m) {
   } while (length > 1 || length < 0.1f);
   for (size_t k = 0; k < 4; k++)
     q[k] /= length;
-  nsvcd__quat_to_matrix(q, m);
+  matrix_of_quat(q, m);
 }
 
 static float largest_difference(const float *a, const float *b, size_t count) {
@@ -34,11 +35,10 @@ static float largest_difference(const float *a, const float *b, size_t count) {
 
 // D(R) as floats: (9 + 25).
 static void wigner(const float *r, float *d) {
-  nsvcd__v m[9];
   float lanes[NSVCD__WIGNER][NSVCD__SLICE];
-  for (size_t k = 0; k < 9; k++)
-    m[k] = nsvcd__v_set(r[k]);
-  nsvcd__wigner(m, nsvcd__v_set(1), lanes);
+  const nsvcd__mat3 rotation = {nsvcd__f3_load(r), nsvcd__f3_load(r + 3), nsvcd__f3_load(r + 6)};
+  const nsvcd__vmat3 m = nsvcd__vmat3_set(&rotation);
+  nsvcd__wigner(&m, nsvcd__v_set(1), lanes);
   for (size_t k = 0; k < NSVCD__WIGNER; k++)
     d[k] = lanes[k][3 % NSVCD__SLICE];
 }

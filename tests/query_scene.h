@@ -3,6 +3,7 @@
 #ifndef QUERY_SCENE_H
 #define QUERY_SCENE_H
 
+#include "arrays.h"
 #include "../examples/scenery/shapes.h"
 #include "ask.h"
 #include "check.h"
@@ -121,8 +122,8 @@ static void query_multiply(const float *r, const float *a, float *out) {
 static nsvcd_pose query_moved(const nsvcd_pose *common, const nsvcd_pose *pose) {
   nsvcd_pose out;
   float m[9];
-  nsvcd__quat_to_matrix(common->rotation, m);
-  nsvcd__mul33_vec(m, pose->position, out.position);
+  matrix_of_quat(common->rotation, m);
+  mul33_vec(m, pose->position, out.position);
   for (int k = 0; k < 3; k++)
     out.position[k] += common->position[k];
   query_multiply(common->rotation, pose->rotation, out.rotation);

@@ -28,7 +28,7 @@ static void search(const nsvcd_body *moving, const nsvcd_body *fixed, nsvcd__mot
   int more = nsvcd__search_begin(moving, fixed, space);
   nsvcd__candidates_start(kept, found, limit);
   while (more)
-    more = nsvcd__search_step(space, moving, fixed, kept);
+    more = nsvcd__search_step(space, kept);
   qsort(found, kept->count, sizeof *found, deepest_first);
 }
 
@@ -228,7 +228,7 @@ static void deviation_is_bounded(void) {
       size_t s = pick(0, work->segments - 1);
       size_t l = s % NSVCD__LANES;
       double tau = uniform(0.4, 0.6);
-      const nsvcd__segments *b = &work->blocks[s / NSVCD__LANES];
+      nsvcd__segments *b = &work->blocks[s / NSVCD__LANES];
       double start = (double)work->time[s];
       pose64 at = pose_at(poses, count, start + tau * ((double)work->time[s + 1] - start));
       place64(&at, &f, c64, p);

@@ -55,7 +55,7 @@ static size_t cost_search(const query_scene *s) {
   nsvcd__cut_motion(&motion, s->moving->extent + s->fixed->extent, &query->broad_phase);
   int more = nsvcd__search_begin(s->moving, s->fixed, &query->broad_phase);
   while (more)
-    more = nsvcd__search_step(&query->broad_phase, s->moving, s->fixed, &kept);
+    more = nsvcd__search_step(&query->broad_phase, &kept);
   return query->broad_phase.segments;
 }
 

@@ -3,6 +3,7 @@
 #define NEURALSVCD_IMPLEMENTATION
 #include "../neuralsvcd.h"
 
+#include "arrays.h"
 #include "check.h"
 #include "network_scene.h"
 #include "random_motions.h"
@@ -26,21 +27,19 @@ static void poses_at_are_poses(void) {
     for (size_t l = 0; l < NSVCD__LANES; l++)
       times[l] = l == 0 ? 0 : l == 1 ? 1 : (float)uniform(0, 1);
     NSVCD__EACH_SLICE(l) {
-      nsvcd__v q[4], p[3], m[9];
-      nsvcd__v_poses_at(&motion, times + l, NSVCD__SLICE, q, p);
-      nsvcd__v_matrix(q, m);
-      for (size_t k = 0; k < 9; k++)
-        nsvcd__v_store(lanes[k] + l, m[k]);
-      for (size_t k = 0; k < 3; k++)
-        nsvcd__v_store(lanes[9 + k] + l, p[k]);
+      const nsvcd__v_pose at = nsvcd__v_poses_at(&motion, times + l, NSVCD__SLICE);
+      nsvcd__vmat3_store(lanes, l, nsvcd__vmat3_of(at.rotation));
+      nsvcd__v3_store(lanes + 9, l, at.position);
     }
     for (size_t l = 0; l < NSVCD__LANES; l++) {
-      float rotation[9], position[3];
-      nsvcd__motion_pose(&motion, times[l], rotation, position);
-      for (size_t k = 0; k < 9; k++)
-        worst = fmax(worst, fabs((double)(lanes[k][l] - rotation[k])));
-      for (size_t k = 0; k < 3; k++)
-        worst = fmax(worst, fabs((double)(lanes[9 + k][l] - position[k])));
+      const nsvcd__transform at = nsvcd__motion_pose(&motion, times[l]);
+      float want[12];
+      nsvcd__f3_store(at.rotation.x, want);
+      nsvcd__f3_store(at.rotation.y, want + 3);
+      nsvcd__f3_store(at.rotation.z, want + 6);
+      nsvcd__f3_store(at.position, want + 9);
+      for (size_t k = 0; k < 12; k++)
+        worst = fmax(worst, fabs((double)(lanes[k][l] - want[k])));
     }
   }
   CHECK_LE(worst, 1e-5);
@@ -50,7 +49,7 @@ static void poses_at_are_poses(void) {
 static void half_rotation_vector(void) {
   const double angles[12] = {0, 1e-8, 1e-6, 1e-4, 1e-2, 0.5, 1.04, 1.05, 1.5, 3, 3.14, 3.1415};
   for (int trial = 0; trial < 1200; trial++) {
-    float random[4], lane[NSVCD__SLICE];
+    float random[4], lanes[3 * NSVCD__SLICE];
     double axis[3];
     double length;
     double angle = angles[trial % 12];
@@ -60,15 +59,15 @@ static void half_rotation_vector(void) {
     length = sqrt((double)(random[0] * random[0] + random[1] * random[1] + random[2] * random[2]));
     for (int k = 0; k < 3; k++)
       axis[k] = (double)random[k] / length;
-    nsvcd__v q[4], w[3];
+    nsvcd__quat q;
+    q.x = (float)(sign * s * axis[0]);
+    q.y = (float)(sign * s * axis[1]);
+    q.z = (float)(sign * s * axis[2]);
+    q.w = (float)(sign * cos(angle / 2));
+    const nsvcd__v3 w = nsvcd__v_half_rotation(nsvcd__vquat_set(q));
+    nsvcd__v3_store_rows(w, lanes, NSVCD__SLICE);
     for (int k = 0; k < 3; k++)
-      q[k] = nsvcd__v_set((float)(sign * s * axis[k]));
-    q[3] = nsvcd__v_set((float)(sign * cos(angle / 2)));
-    nsvcd__v_half_rotation(q, w);
-    for (int k = 0; k < 3; k++) {
-      nsvcd__v_store(lane, w[k]);
-      CHECK_NEAR(lane[trial % NSVCD__SLICE], 0.5 * angle * axis[k], 3e-6);
-    }
+      CHECK_NEAR(lanes[k * NSVCD__SLICE + trial % NSVCD__SLICE], 0.5 * angle * axis[k], 3e-6);
   }
 }
 
@@ -85,7 +84,7 @@ static void inputs_in_lane(const pair_data *pair, size_t lane, float *x) {  // (
   static float batch[NSVCD__SLICE * NSVCD__DECODER_IN];
   const float *from[5] = {pair->p1, pair->p2, pair->rotation, pair->v, pair->w};
   nsvcd__pairs pairs;
-  nsvcd__v *to[5] = {pairs.p1, pairs.p2, pairs.rotation, pairs.v, pairs.w};
+  nsvcd__v *to[5] = {&pairs.p1.x, &pairs.p2.x, &pairs.rotation.x.x, &pairs.v.x, &pairs.w.x};
   for (size_t n = 0; n < 5; n++) {
     for (size_t k = 0; k < (n == 2 ? 9u : 3u); k++) {
       float lanes[NSVCD__SLICE];
@@ -141,7 +140,7 @@ static void golden_pair_at(size_t n, int8_t *z1, int8_t *z2, pair_data *pair) {
   memcpy(pair->p2, row + 3, sizeof pair->p2);
   pair->r1 = row[6];
   pair->r2 = row[7];
-  nsvcd__quat_to_matrix(row + 8, pair->rotation);
+  matrix_of_quat(row + 8, pair->rotation);
   memcpy(pair->v, row + 12, sizeof pair->v);
   memcpy(pair->w, row + 15, sizeof pair->w);
   pair->z1 = z1;
@@ -224,11 +223,11 @@ static void inputs_do_not_depend_on_who_moves(void) {
     float x[NSVCD__DECODER_IN], y[NSVCD__DECODER_IN];
     golden_pair_at(n, z1, z2, &pair);
     inputs_of(&pair, x);
-    nsvcd__transpose33(pair.rotation, other.rotation);  // body 2 in the axes of body 1
-    nsvcd__mul33_vec(other.rotation, pair.p2, other.p1);
-    nsvcd__mul33_vec(other.rotation, pair.p1, other.p2);
-    nsvcd__mul33_vec(other.rotation, pair.v, other.v);
-    nsvcd__mul33_vec(other.rotation, pair.w, other.w);
+    transpose33(pair.rotation, other.rotation);  // body 2 in the axes of body 1
+    mul33_vec(other.rotation, pair.p2, other.p1);
+    mul33_vec(other.rotation, pair.p1, other.p2);
+    mul33_vec(other.rotation, pair.v, other.v);
+    mul33_vec(other.rotation, pair.w, other.w);
     for (size_t k = 0; k < 3; k++) {
       other.v[k] = -other.v[k];
       other.w[k] = -other.w[k];

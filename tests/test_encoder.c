@@ -3,6 +3,7 @@
 #define NEURALSVCD_IMPLEMENTATION
 #include "../neuralsvcd.h"
 
+#include "arrays.h"
 #include "check.h"
 #include "network_scene.h"
 
@@ -27,7 +28,7 @@ static void random_patch(float *points, float *normals, size_t count) {
       points[3 * i + k] = 0.57f * network_uniform();
       n[k] = network_uniform() + lean[k];
     }
-    length = nsvcd__length3(n);
+    length = length3(n);
     for (size_t k = 0; k < 3; k++)
       normals[3 * i + k] = n[k] / length;
   }
@@ -51,8 +52,8 @@ static void encoder_is_equivariant(void) {
     for (size_t k = 0; k < 3; k++)
       centre[k] = scale * network_uniform();
     for (size_t i = 0; i < 40; i++) {
-      nsvcd__mul33_vec(m, points + 3 * i, turned_points + 3 * i);
-      nsvcd__mul33_vec(m, normals + 3 * i, turned_normals + 3 * i);
+      mul33_vec(m, points + 3 * i, turned_points + 3 * i);
+      mul33_vec(m, normals + 3 * i, turned_normals + 3 * i);
       for (size_t k = 0; k < 3; k++)
         turned_points[3 * i + k] = scale * turned_points[3 * i + k] + centre[k];
     }

@@ -3,6 +3,7 @@
 #define NEURALSVCD_IMPLEMENTATION
 #include "../neuralsvcd.h"
 
+#include "arrays.h"
 #include "check.h"
 #include "network_scene.h"
 
@@ -15,7 +16,7 @@ static void rotation_operator_is_a_group(void) {
         w[NSVCD__VECTORS];
     random_rotation(a);
     random_rotation(b);
-    nsvcd__mul33(a, b, ab);
+    mul33(a, b, ab);
     for (size_t k = 0; k < NSVCD__VECTORS; k++)
       z[k] = network_uniform();
     rotate_latent(b, z, x);
@@ -27,7 +28,7 @@ static void rotation_operator_is_a_group(void) {
     rotate_latent(half_turn, x, y);
     CHECK_LE(largest_difference(y, z, NSVCD__VECTORS), 1e-6);  // twice 180 degrees is the identity
     float back[9];
-    nsvcd__transpose33(a, back);
+    transpose33(a, back);
     rotate_latent(a, z, x);
     rotate_latent(back, x, y);
     CHECK_LE(largest_difference(y, z, NSVCD__VECTORS), 2e-6);  // D(R)^T is the inverse

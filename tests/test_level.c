@@ -490,7 +490,7 @@ static void level_winding_numbers_are_those_of_the_patches(void) {
       CHECK_NEAR(clearances[n], least, 1e-4);
       if (n > 0 || least < 1)
         continue;
-      const double found = (double)nsvcd__winding_number(body, place);
+      const double found = (double)nsvcd__winding_number(body, nsvcd__f3_load(place));
       worst = fmax(worst, fabs(found - w));
       inside += fabs(w) > 0.5;
       clear++;

@@ -3,6 +3,7 @@
 #define NEURALSVCD_IMPLEMENTATION
 #include "../neuralsvcd.h"
 
+#include "arrays.h"
 #include "check.h"
 #include "failing_heap.h"
 #include "mesh_kinds.h"
@@ -471,7 +472,7 @@ static double polygon_cover(const double (*xy)[2], uint32_t count) {
   }
   for (int k = 0; k < 4; ++k)
     q[k] /= sqrtf(norm);
-  nsvcd__quat_to_matrix(q, m);
+  matrix_of_quat(q, m);
   double area = 0;
   double covered = 0;
   double vector[3];
@@ -481,7 +482,7 @@ static double polygon_cover(const double (*xy)[2], uint32_t count) {
     const double *b = xy[(i + 1) % count];
     float flat[3] = {(float)a[0], (float)a[1], 0.3f};
     area += 0.5 * (a[0] * b[1] - a[1] * b[0]);
-    nsvcd__mul33_vec(m, flat, positions + 3 * i);
+    mul33_vec(m, flat, positions + 3 * i);
     corners[i].vertex = i;
   }
   CHECK_EQ(nsvcd__polygon_triangulate(corners, count, positions, triangles), NSVCD_OK);

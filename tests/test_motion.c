@@ -20,19 +20,17 @@ static void motion_pose_is_slerp(void) {
     CHECK_EQ(motion_init(poses, count, &fixed, &motion), NSVCD_OK);
     for (int n = 0; n <= 10; n++) {
       float t = n == 10 ? 1 : (float)uniform(0, 1);
-      float rotation[9];
-      float position[3];
-      float out[3];
       const float point[3] = {0.3f, -0.2f, 0.9f};
       const double point64[3] = {(double)point[0], (double)point[1], (double)point[2]};
       double want[3];
       pose64 at = pose_at(poses, count, (double)t);
       pose64 f = to_double(&fixed);
       place64(&at, &f, point64, want);
-      nsvcd__motion_pose(&motion, t, rotation, position);
-      nsvcd__mul33_vec(rotation, point, out);
+      const nsvcd__transform found = nsvcd__motion_pose(&motion, t);
+      float out[3];
+      nsvcd__f3_store(nsvcd__f3_transform(&found, nsvcd__f3_load(point)), out);
       for (int k = 0; k < 3; k++)
-        worst = fmax(worst, fabs((double)(out[k] + position[k]) - want[k]));
+        worst = fmax(worst, fabs((double)out[k] - want[k]));
     }
   }
   CHECK_LE(worst, 3e-5);  // t itself is rounded: 40 samples of speed 6 between them, times 6e-8

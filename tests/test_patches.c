@@ -3,6 +3,7 @@
 #define NEURALSVCD_IMPLEMENTATION
 #include "../neuralsvcd.h"
 
+#include "arrays.h"
 #include "check.h"
 #include "failing_heap.h"
 #include "mesh_kinds.h"
@@ -28,7 +29,7 @@ static void mesh_samples_are_uniform(void) {
   for (size_t s = 0; s < S; ++s) {
     const float *p = points + 3 * s;
     const float *n = normals + 3 * s;
-    CHECK_NEAR(nsvcd__length3(n), 1, 1e-6);
+    CHECK_NEAR(length3(n), 1, 1e-6);
     size_t axis = fabsf(n[0]) > 0.9f ? 0 : fabsf(n[1]) > 0.9f ? 1 : 2;
     size_t side = n[axis] > 0;
     CHECK_NEAR(p[axis], side ? half[axis] : -half[axis], 1e-7);
@@ -259,7 +260,7 @@ static void mesh_patches_are_consistent(void) {
           mean[k] += (double)x[k] / samples;
         reach =
             fmax(reach, nsvcd__squared_distance(&p, i, (double)x[0], (double)x[1], (double)x[2]));
-        CHECK_NEAR(nsvcd__length3(p.normals + 3 * s), 1, 1e-6);
+        CHECK_NEAR(length3(p.normals + 3 * s), 1, 1e-6);
       }
       for (size_t k = 0; k < 3; ++k)
         CHECK_NEAR((double)p.centres[3 * i + k], mean[k], 1e-6 * fabs(mean[k]) + 1e-12);

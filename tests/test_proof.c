@@ -904,13 +904,15 @@ static double proof_span_use(const proof_motion *m, const nsvcd__span *span, dou
     proof_apply(&at, x, place);
     const float *p0 = &span->start.position.x;
     const float *p1 = &span->end.position.x;
+    const float *m0 = &span->start.rotation.x.x;
+    const float *m1 = &span->end.rotation.x.x;
     for (int i = 0; i < 3; i++) {
       double start = (double)p0[i];
       double end = (double)p1[i];
       for (int j = 0; j < 3; j++)
-        start += (double)span->start.rotation[3 * i + j] * x[j];
+        start += (double)m0[3 * i + j] * x[j];
       for (int j = 0; j < 3; j++)
-        end += (double)span->end.rotation[3 * i + j] * x[j];
+        end += (double)m1[3 * i + j] * x[j];
       off[i] = place[i] - start - share * (end - start);
     }
     // At the ends there is no bulge: what is off there is rounding.
@@ -1065,13 +1067,15 @@ static double proof_direction_use(const proof_motion *m, const nsvcd__span *span
     proof_apply(&at, x, place);
     const float *p0 = &span->start.position.x;
     const float *p1 = &span->end.position.x;
+    const float *m0 = &span->start.rotation.x.x;
+    const float *m1 = &span->end.rotation.x.x;
     for (int i = 0; i < 3; i++) {
       double start = (double)p0[i];
       double end = (double)p1[i];
       for (int j = 0; j < 3; j++)
-        start += (double)span->start.rotation[3 * i + j] * x[j];
+        start += (double)m0[3 * i + j] * x[j];
       for (int j = 0; j < 3; j++)
-        end += (double)span->end.rotation[3 * i + j] * x[j];
+        end += (double)m1[3 * i + j] * x[j];
       off += n[i] / length * (place[i] - start - share * (end - start));
     }
     const nsvcd__f3 unit =
@@ -1107,8 +1111,8 @@ static double proof_turn_use(const proof_motion *m, const nsvcd__span *span, sha
       proof_apply(&at, unit, column);
       off[j] = 0;
       for (int i = 0; i < 3; i++) {
-        const double start = (double)span->start.rotation[3 * i + j];
-        const double end = (double)span->end.rotation[3 * i + j];
+        const double start = (double)(&span->start.rotation.x.x)[3 * i + j];
+        const double end = (double)(&span->end.rotation.x.x)[3 * i + j];
         off[j] += n[i] * (column[i] - origin[i] - start - share * (end - start));
       }
     }

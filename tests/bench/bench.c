@@ -16,6 +16,7 @@
 #define NEURALSVCD_IMPLEMENTATION
 #include "../../neuralsvcd.h"
 #define PROGRAM "bench"
+#include "../arrays.h"
 #include "../../examples/scenery/problem_file.h"
 #include "chart.h"
 #include "convex.h"
@@ -243,8 +244,8 @@ static void start_sampler(sampler *s, const nsvcd_pose *poses, size_t pose_count
   s->pose_count = pose_count;
   s->count = count;
   s->order = order;
-  nsvcd__quat_to_matrix(fixed->rotation, m);
-  nsvcd__transpose33(m, s->to_fixed);
+  matrix_of_quat(fixed->rotation, m);
+  transpose33(m, s->to_fixed);
   memcpy(s->origin, fixed->position, sizeof s->origin);
 }
 
@@ -273,16 +274,18 @@ static void sample(const sampler *s, size_t first, size_t last, placement *out) 
     // Between samples less than 5 degrees apart the straight line strays from the slerp by less
     // than 1e-5 radians.
     if (fabsf(dot) < 0.999f) {
-      nsvcd__slerp(a->rotation, b->rotation, u, q);
+      const nsvcd__quat from = nsvcd__quat_load(a->rotation);
+      const nsvcd__quat to = nsvcd__quat_load(b->rotation);
+      nsvcd__quat_store(nsvcd__quat_slerp(from, to, u), q);
       length = 1;
     }
     for (int j = 0; j < 4; j++)
       q[j] /= sqrtf(length);
     for (int j = 0; j < 3; j++)
       p[j] = (1 - u) * a->position[j] + u * b->position[j] - s->origin[j];
-    nsvcd__quat_to_matrix(q, m);
-    nsvcd__mul33(s->to_fixed, m, out[i].rotation);
-    nsvcd__mul33_vec(s->to_fixed, p, out[i].position);
+    matrix_of_quat(q, m);
+    mul33(s->to_fixed, m, out[i].rotation);
+    mul33_vec(s->to_fixed, p, out[i].position);
   }
 }
 
@@ -680,18 +683,18 @@ static void swept_box(const problem_set *set, size_t f, const problem *p, float 
   float to_fixed[9];
   float m[9];
   for (size_t i = 0; i < mesh->vertex_count; i++) {
-    reach = fmaxf(reach, p->moving_scale * nsvcd__length3(mesh->positions + 3 * i));
+    reach = fmaxf(reach, p->moving_scale * length3(mesh->positions + 3 * i));
   }
-  nsvcd__quat_to_matrix(p->fixed_pose.rotation, m);
-  nsvcd__transpose33(m, to_fixed);
+  matrix_of_quat(p->fixed_pose.rotation, m);
+  transpose33(m, to_fixed);
   for (size_t k = 0; k < 3; k++) {
     low[k] = HUGE_VALF;
     high[k] = -HUGE_VALF;
   }
   for (size_t i = 0; i < p->count; i++) {
     float away[3], at[3];
-    nsvcd__sub3(set->files[f].poses[p->first_pose + i].position, p->fixed_pose.position, away);
-    nsvcd__mul33_vec(to_fixed, away, at);
+    sub3(set->files[f].poses[p->first_pose + i].position, p->fixed_pose.position, away);
+    mul33_vec(to_fixed, away, at);
     for (size_t k = 0; k < 3; k++) {
       low[k] = fminf(low[k], (at[k] - 1.5f * reach) / p->fixed_scale);
       high[k] = fmaxf(high[k], (at[k] + 1.5f * reach) / p->fixed_scale);

@@ -54,7 +54,6 @@ static void run_stages(const question *q, nsvcd__query *work, double *times) {
   nsvcd__candidate *batch[NSVCD__BATCH];
   nsvcd__pairs pairs[NSVCD__BATCH / NSVCD__SLICE];
   static float x[NSVCD__BATCH * NSVCD__DECODER_IN], logits[NSVCD__BATCH];
-  float rotation[9], position[3];
   double start = seconds();
   const nsvcd_question asked =
       question_of(q->moving, q->poses, q->count, q->fixed, q->fixed_pose, NULL);
@@ -70,11 +69,11 @@ static void run_stages(const question *q, nsvcd__query *work, double *times) {
   nsvcd__candidates_start(&kept, work->kept, NSVCD__SHORTLIST * NSVCD_DEFAULT_PAIRS);
   start = seconds();
   while (more)
-    more = nsvcd__search_step(&work->broad_phase, q->moving, q->fixed, &kept);
+    more = nsvcd__search_step(&work->broad_phase, &kept);
   keep_least(times, STEPS, start);
   start = seconds();
-  nsvcd__motion_pose(&motion, 0, rotation, position);
-  (void)nsvcd__is_contained(q->moving, q->fixed, 1, rotation, position);
+  const nsvcd__transform pose = nsvcd__motion_pose(&motion, 0);
+  (void)nsvcd__is_contained(q->moving, q->fixed, 1, &pose);
   keep_least(times, INSIDE, start);
   if (!kept.count)
     return;
