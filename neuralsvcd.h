@@ -8620,7 +8620,7 @@ typedef struct nsvcd__proof {
   nsvcd__box bounds[NSVCD__WINDOW];  // of the fixed blocks
   size_t window;                     // how many they are
   // later ends of the parts of a span to come, for a pair, the last one first
-  double pair_ends[NSVCD__HALVINGS + 2];
+  double couple_ends[NSVCD__HALVINGS + 2];
   double arc_ends[NSVCD__ARC_PARTS];  // the same for all pairs of an item
   nsvcd__span span;                   // of an arc
   nsvcd__d3 parting;                  // unit normal of the plane that parted a pair last
@@ -8955,6 +8955,9 @@ NSVCD__INLINE nsvcd__v nsvcd__v_deviation(const nsvcd__v_span *span, nsvcd__v3 n
   turn = nsvcd__v_fma(along, span->bulge_along_axis, turn);
   return nsvcd__v_fma(turn, nsvcd__v_set(reach), nsvcd__v_min(by_axis, by_way));
 }
+
+// Is all work done that is allowed?
+static int nsvcd__is_spent(const nsvcd__proof *p) { return p->work > p->limit; }
 
 // The clearance, in float: not less.
 static float nsvcd__clearance_of(const nsvcd__proof *p) { return 1.000001f * (float)p->clearance; }
@@ -9357,14 +9360,18 @@ static void nsvcd__part_groups(const nsvcd__proof *p, nsvcd__search *search) {
 
 // ---- hulls
 
+// A slice of a patch's hull, the last vertex repeated; its body's frame and units.
+NSVCD__INLINE nsvcd__v3 nsvcd__hull_of(const nsvcd__facets *f, size_t patch, size_t l) {
+  return nsvcd__facet_vertices(f, patch, 0, f->hull_counts[patch], l);
+}
+
 // The hulls of an item's patches, posed, into the workspace.
 static void nsvcd__pose_hulls(nsvcd__proof *p, size_t i, size_t j, const nsvcd__span *span) {
   NSVCD__EACH_SLICE(l) {
-    const nsvcd__v3 moving = nsvcd__facet_vertices(&p->moving, i, 0, p->moving.hull_counts[i], l);
+    const nsvcd__v3 moving = nsvcd__hull_of(&p->moving, i, l);
     nsvcd__v3_store(p->hull_start, l, nsvcd__v3_transform(&span->start, moving));
     nsvcd__v3_store(p->hull_end, l, nsvcd__v3_transform(&span->end, moving));
-    nsvcd__v3_store(p->hull_rest, l,
-                    nsvcd__facet_vertices(&p->fixed, j, 0, p->fixed.hull_counts[j], l));
+    nsvcd__v3_store(p->hull_rest, l, nsvcd__hull_of(&p->fixed, j, l));
   }
 }
 
@@ -9418,28 +9425,46 @@ NSVCD__INLINE nsvcd__support nsvcd__support_along(nsvcd__proof *p, nsvcd__f3 nor
   return out;
 }
 
+// a or -a, on the side of b.
+static nsvcd__f3 nsvcd__f3_towards(nsvcd__f3 a, nsvcd__f3 b) {
+  return nsvcd__f3_scale(a, nsvcd__f3_dot(a, b) < 0 ? -1.0f : 1.0f);
+}
+
 // Directions that are worth a try before any search: that of the last plane that held, the discs'
 // normals, and the line of centres. The last one is the first of the search.
 #define NSVCD__GUESSES 4
 static void nsvcd__guess_normals(const nsvcd__proof *p, size_t i, size_t j, const nsvcd__span *span,
                                  nsvcd__f3 *guesses) {
-  const size_t moving_padded = p->moving.body->padded;
-  const size_t fixed_padded = p->fixed.body->padded;
-  const float *m = p->moving.discs + i;
-  const float *f = p->fixed.discs + j;
+  const nsvcd__disc moving = nsvcd__disc_at(p->moving.discs, p->moving.body->padded, i);
+  const nsvcd__disc fixed = nsvcd__disc_at(p->fixed.discs, p->fixed.body->padded, j);
   const nsvcd__f3 centre = nsvcd__facet_centre(&p->moving, i);
   const nsvcd__f3 start = nsvcd__f3_transform(&span->start, centre);
   const nsvcd__f3 end = nsvcd__f3_transform(&span->end, centre);
-  const nsvcd__f3 line = nsvcd__f3_sub(nsvcd__f3_scale(nsvcd__f3_add(start, end), 0.5f),
-                                       nsvcd__facet_centre(&p->fixed, j));
-  const nsvcd__f3 own = nsvcd__f3_of(m[0], m[moving_padded], m[2 * moving_padded]);
-  const nsvcd__f3 moved =
-      nsvcd__f3_sub(nsvcd__f3_transform(&span->start, own), span->start.position);
-  const nsvcd__f3 fixed = nsvcd__f3_of(f[0], f[fixed_padded], f[2 * fixed_padded]);
+  const nsvcd__f3 middle = nsvcd__f3_scale(nsvcd__f3_add(start, end), 0.5f);
+  const nsvcd__f3 line = nsvcd__f3_sub(middle, nsvcd__facet_centre(&p->fixed, j));
+  const nsvcd__f3 tip = nsvcd__f3_transform(&span->start, moving.normal);
+  const nsvcd__f3 turned = nsvcd__f3_sub(tip, span->start.position);
   guesses[0] = p->held;
-  guesses[1] = nsvcd__f3_scale(fixed, nsvcd__f3_dot(fixed, line) < 0 ? -1.0f : 1.0f);
-  guesses[2] = nsvcd__f3_scale(moved, nsvcd__f3_dot(moved, line) < 0 ? -1.0f : 1.0f);
+  guesses[1] = nsvcd__f3_towards(fixed.normal, line);
+  guesses[2] = nsvcd__f3_towards(turned, line);
   guesses[3] = line;
+}
+
+// Is a gap along a direction more than its slack and what the span deviates?
+static int nsvcd__is_held(const nsvcd__span *span, nsvcd__f3 normal, float gap, float slack,
+                          float reach) {
+  if (!(gap > 0))
+    return 0;
+  return gap > slack * nsvcd__f3_length(normal) + nsvcd__deviation(span, normal, reach);
+}
+
+static void nsvcd__remember_plane(nsvcd__proof *p, nsvcd__f3 normal) {
+  if (p->plane == 0) {  // what is remembered is of another query
+    memset(p->heights, 0, sizeof p->heights);
+    memset(p->rest_heights, 0, sizeof p->rest_heights);
+  }
+  p->held = normal;
+  p->plane++;
 }
 
 // Is there a plane between two patches over the whole span? After the guesses Gilbert's iteration
@@ -9459,16 +9484,9 @@ static NSVCD__APART int nsvcd__hulls_are_apart(nsvcd__proof *p, size_t i, size_t
   for (size_t step = 0; step < NSVCD__GUESSES + NSVCD__PLANE_STEPS; step++) {
     const nsvcd__f3 normal = step < NSVCD__GUESSES ? guesses[step] : nearest;
     const nsvcd__support found = nsvcd__support_along(p, normal);
-    if (found.gap > 0) {
-      if (found.gap > slack * nsvcd__f3_length(normal) + nsvcd__deviation(span, normal, reach)) {
-        if (p->plane == 0) {  // what is remembered is of another query
-          memset(p->heights, 0, sizeof p->heights);
-          memset(p->rest_heights, 0, sizeof p->rest_heights);
-        }
-        p->held = normal;
-        p->plane++;
-        return 1;
-      }
+    if (nsvcd__is_held(span, normal, found.gap, slack, reach)) {
+      nsvcd__remember_plane(p, normal);
+      return 1;
     }
     if (step + 1 < NSVCD__GUESSES)
       continue;
@@ -9484,6 +9502,11 @@ static NSVCD__APART int nsvcd__hulls_are_apart(nsvcd__proof *p, size_t i, size_t
 }
 
 // ---- pairs of triangles, in double
+
+// The normal of a triangle (3 corners), twice as long as its area is large.
+static nsvcd__d3 nsvcd__face_normal(const nsvcd__d3 *t) {
+  return nsvcd__d3_cross(nsvcd__d3_sub(t[1], t[0]), nsvcd__d3_sub(t[2], t[0]));
+}
 
 typedef struct nsvcd__nearest {
   double square;  // of the distance
@@ -9514,8 +9537,9 @@ static void nsvcd__edges_nearest(nsvcd__d3 a0, nsvcd__d3 a1, nsvcd__d3 b0, nsvcd
   const double uw = nsvcd__d3_dot(u, w);
   const double vw = nsvcd__d3_dot(v, w);
   const double determinant = uu * vv - uv * uv;
-  double s =
-      determinant > 1e-14 * uu * vv ? nsvcd__clamp_share((uv * vw - uw * vv) / determinant) : 0;
+  double s = 0;
+  if (determinant > 1e-14 * uu * vv)
+    s = nsvcd__clamp_share((uv * vw - uw * vv) / determinant);
   const double t = vv > 0 ? nsvcd__clamp_share((uv * s + vw) / vv) : 0;
   s = uu > 0 ? nsvcd__clamp_share((uv * t - uw) / uu) : 0;
   nsvcd__keep_nearer(best, nsvcd__d3_mix(a0, a1, s), nsvcd__d3_mix(b0, b1, t));
@@ -9523,7 +9547,7 @@ static void nsvcd__edges_nearest(nsvcd__d3 a0, nsvcd__d3 a1, nsvcd__d3 b0, nsvcd
 
 // The foot of x on the plane of a triangle, if it is within the triangle.
 static int nsvcd__foot_within(nsvcd__d3 x, const nsvcd__d3 *t, nsvcd__d3 *foot) {
-  const nsvcd__d3 n = nsvcd__d3_cross(nsvcd__d3_sub(t[1], t[0]), nsvcd__d3_sub(t[2], t[0]));
+  const nsvcd__d3 n = nsvcd__face_normal(t);
   const double square = nsvcd__d3_dot(n, n);
   if (!(square > 0))
     return 0;
@@ -9546,7 +9570,7 @@ typedef struct nsvcd__heights {
 
 static nsvcd__heights nsvcd__heights_over(const nsvcd__d3 *a, const nsvcd__d3 *b) {
   nsvcd__heights out;
-  out.normal = nsvcd__d3_cross(nsvcd__d3_sub(b[1], b[0]), nsvcd__d3_sub(b[2], b[0]));
+  out.normal = nsvcd__face_normal(b);
   for (size_t k = 0; k < 3; k++)
     out.of[k] = nsvcd__d3_dot(out.normal, nsvcd__d3_sub(a[k], b[0]));
   return out;
@@ -9608,48 +9632,49 @@ static void nsvcd__place_triangle(const nsvcd__placement *at, const nsvcd__d3 *c
 }
 
 // A pair of listed triangles, body frames.
-typedef struct nsvcd__pair {
+typedef struct nsvcd__couple {
   size_t moving_patch, fixed_patch, moving_listing, fixed_listing;
   nsvcd__d3 moving[3], fixed[3];
   double reach;  // of the moving one, from its body's origin, in its body's units
   double slack;  // quanta, and rounding in double
   double rounding;
-} nsvcd__pair;
+} nsvcd__couple;
 
-static nsvcd__pair nsvcd__pair_of(const nsvcd__proof *p, size_t i, size_t j, size_t a, size_t b) {
-  nsvcd__pair pair = {i, j, a, b, {{0, 0, 0}}, {{0, 0, 0}}, 0, 0, 0};
-  nsvcd__facet_triangle(&p->moving, i, a, pair.moving);
-  nsvcd__facet_triangle(&p->fixed, j, b, pair.fixed);
+static nsvcd__couple nsvcd__couple_of(const nsvcd__proof *p, size_t i, size_t j, size_t a,
+                                      size_t b) {
+  nsvcd__couple couple = {i, j, a, b, {{0, 0, 0}}, {{0, 0, 0}}, 0, 0, 0};
+  nsvcd__facet_triangle(&p->moving, i, a, couple.moving);
+  nsvcd__facet_triangle(&p->fixed, j, b, couple.fixed);
   for (size_t k = 0; k < 3; k++) {
-    const double reach = nsvcd__d3_length(pair.moving[k]);
-    pair.reach = reach > pair.reach ? reach : pair.reach;
+    const double reach = nsvcd__d3_length(couple.moving[k]);
+    couple.reach = reach > couple.reach ? reach : couple.reach;
   }
-  pair.rounding = NSVCD__SAME_PLACE * ((double)p->lengths + nsvcd__d3_length(p->arc.from));
-  pair.slack =
-      p->arc.scale * (double)p->moving.quanta[i] + (double)p->fixed.quanta[j] + pair.rounding;
-  pair.slack += NSVCD__SAME_PLACE * nsvcd__d3_length(p->arc.moved);
-  return pair;
+  couple.rounding = NSVCD__SAME_PLACE * ((double)p->lengths + nsvcd__d3_length(p->arc.from));
+  const double moving_quantum = p->arc.scale * (double)p->moving.quanta[i];
+  couple.slack = moving_quantum + (double)p->fixed.quanta[j] + couple.rounding;
+  couple.slack += NSVCD__SAME_PLACE * nsvcd__d3_length(p->arc.moved);
+  return couple;
 }
 
 // Two triangles come within the clearance a share u of the arc later than its start. MEETS if that
 // is an answer, TAKEN if there may be a better one.
-static nsvcd__verdict nsvcd__take_contact(nsvcd__proof *p, const nsvcd__pair *pair, double u,
+static nsvcd__verdict nsvcd__take_contact(nsvcd__proof *p, const nsvcd__couple *couple, double u,
                                           const nsvcd__nearest *nearest) {
-  const nsvcd__d3 *t = pair->fixed;
-  const nsvcd__d3 face = nsvcd__d3_cross(nsvcd__d3_sub(t[1], t[0]), nsvcd__d3_sub(t[2], t[0]));
+  const nsvcd__d3 face = nsvcd__face_normal(couple->fixed);
+  const nsvcd__d3 apart = nsvcd__d3_sub(nearest->on_a, nearest->on_b);
   const double distance = sqrt(nearest->square);
-  const int touches = distance <= pair->rounding;
+  const int touches = distance <= couple->rounding;
   p->has_contact = 1;
   p->found.tick = (double)p->arc.first + u * (double)p->arc.ticks;
   p->found.distance = touches ? 0 : distance;
   p->found.point = nearest->on_b;
-  p->found.normal = nsvcd__d3_unit(touches ? face : nsvcd__d3_sub(nearest->on_a, nearest->on_b),
-                                   nsvcd__d3_of(0, 0, 0));
+  p->found.normal = nsvcd__d3_unit(touches ? face : apart, nsvcd__d3_of(0, 0, 0));
   p->found.moving_triangle =
-      nsvcd__facet_number(&p->moving, pair->moving_patch, pair->moving_listing);
-  p->found.fixed_triangle = nsvcd__facet_number(&p->fixed, pair->fixed_patch, pair->fixed_listing);
-  p->found.moving_patch = (uint16_t)pair->moving_patch;
-  p->found.fixed_patch = (uint16_t)pair->fixed_patch;
+      nsvcd__facet_number(&p->moving, couple->moving_patch, couple->moving_listing);
+  p->found.fixed_triangle =
+      nsvcd__facet_number(&p->fixed, couple->fixed_patch, couple->fixed_listing);
+  p->found.moving_patch = (uint16_t)couple->moving_patch;
+  p->found.fixed_patch = (uint16_t)couple->fixed_patch;
   if (p->measure > 0) {
     p->clearance = touches ? 0 : fmax(0, distance - p->measure);
     return touches ? NSVCD__MEETS : NSVCD__TAKEN;
@@ -9663,7 +9688,7 @@ static nsvcd__verdict nsvcd__take_contact(nsvcd__proof *p, const nsvcd__pair *pa
 
 // Two triangles come so near from u0 to u1 of the arc that it cannot be told whether they touch.
 // Where a contact follows, it begins here.
-static NSVCD__APART void nsvcd__take_doubt(nsvcd__proof *p, const nsvcd__pair *pair, double u0,
+static NSVCD__APART void nsvcd__take_doubt(nsvcd__proof *p, const nsvcd__couple *couple, double u0,
                                            double u1) {
   const double tick = (double)p->arc.first + u0 * (double)p->arc.ticks;
   if (!(tick < p->unsure))
@@ -9672,9 +9697,9 @@ static NSVCD__APART void nsvcd__take_doubt(nsvcd__proof *p, const nsvcd__pair *p
   const double end = p->end;
   const int has_contact = p->has_contact;
   nsvcd__d3 posed[3];
-  nsvcd__place_triangle(nsvcd__placed_at(p, 0.5 * (u0 + u1)), pair->moving, posed);
-  const nsvcd__nearest nearest = nsvcd__triangles_nearest(posed, pair->fixed);
-  (void)nsvcd__take_contact(p, pair, 0.5 * (u0 + u1), &nearest);
+  nsvcd__place_triangle(nsvcd__placed_at(p, 0.5 * (u0 + u1)), couple->moving, posed);
+  const nsvcd__nearest nearest = nsvcd__triangles_nearest(posed, couple->fixed);
+  (void)nsvcd__take_contact(p, couple, 0.5 * (u0 + u1), &nearest);
   p->doubt = p->found;
   p->found = found;
   p->has_contact = has_contact;
@@ -9688,7 +9713,7 @@ static double nsvcd__arc_limit(const nsvcd__proof *p) {
 }
 
 // Does the plane with this unit normal part the pair from u0 to u1 of the arc?
-static int nsvcd__plane_parts(nsvcd__proof *p, const nsvcd__pair *pair, double u0, double u1,
+static int nsvcd__plane_parts(nsvcd__proof *p, const nsvcd__couple *couple, double u0, double u1,
                               nsvcd__d3 normal) {
   const nsvcd__arc *arc = &p->arc;
   const nsvcd__placement *start = nsvcd__placed_at(p, u0);
@@ -9696,15 +9721,18 @@ static int nsvcd__plane_parts(nsvcd__proof *p, const nsvcd__pair *pair, double u
   double lowest = HUGE_VAL;
   double highest = -HUGE_VAL;
   for (size_t k = 0; k < 3; k++) {
-    lowest = fmin(lowest, nsvcd__d3_dot(normal, nsvcd__place_point(start, pair->moving[k])));
-    lowest = fmin(lowest, nsvcd__d3_dot(normal, nsvcd__place_point(end, pair->moving[k])));
-    highest = fmax(highest, nsvcd__d3_dot(normal, pair->fixed[k]));
+    const nsvcd__d3 at_start = nsvcd__place_point(start, couple->moving[k]);
+    const nsvcd__d3 at_end = nsvcd__place_point(end, couple->moving[k]);
+    lowest = fmin(lowest, nsvcd__d3_dot(normal, at_start));
+    lowest = fmin(lowest, nsvcd__d3_dot(normal, at_end));
+    highest = fmax(highest, nsvcd__d3_dot(normal, couple->fixed[k]));
   }
-  const double off_axis =
-      arc->has_axis ? nsvcd__d3_length(nsvcd__d3_cross(normal, arc->axis)) + 1e-6 : 1;
-  const double deviation =
-      (u1 - u0) * (u1 - u0) * (arc->bulge * pair->reach * off_axis + arc->drift);
-  return lowest - highest > p->clearance + pair->slack + deviation;
+  double off_axis = 1;
+  if (arc->has_axis)
+    off_axis = nsvcd__d3_length(nsvcd__d3_cross(normal, arc->axis)) + 1e-6;
+  const double bulge = arc->bulge * couple->reach * off_axis;
+  const double deviation = (u1 - u0) * (u1 - u0) * (bulge + arc->drift);
+  return lowest - highest > p->clearance + couple->slack + deviation;
 }
 
 // A pair at three times: the moving triangle's corners.
@@ -9715,7 +9743,7 @@ typedef struct nsvcd__passage {
 
 // Is the foot of x on the plane of a triangle within it, farther than `margin` from its edges?
 static int nsvcd__foot_well_within(nsvcd__d3 x, const nsvcd__d3 *t, double margin) {
-  const nsvcd__d3 n = nsvcd__d3_cross(nsvcd__d3_sub(t[1], t[0]), nsvcd__d3_sub(t[2], t[0]));
+  const nsvcd__d3 n = nsvcd__face_normal(t);
   const double size = nsvcd__d3_length(n);
   for (size_t k = 0; k < 3; k++) {
     const nsvcd__d3 edge = nsvcd__d3_sub(t[(k + 1) % 3], t[k]);
@@ -9737,8 +9765,8 @@ static int nsvcd__are_opposed(double before, double least_before, double after,
 // Is x on different sides of a triangle's plane, farther than `margin` from it, at two times?
 static int nsvcd__changes_sides(nsvcd__d3 x0, const nsvcd__d3 *t0, nsvcd__d3 x1,
                                 const nsvcd__d3 *t1, double margin) {
-  const nsvcd__d3 n0 = nsvcd__d3_cross(nsvcd__d3_sub(t0[1], t0[0]), nsvcd__d3_sub(t0[2], t0[0]));
-  const nsvcd__d3 n1 = nsvcd__d3_cross(nsvcd__d3_sub(t1[1], t1[0]), nsvcd__d3_sub(t1[2], t1[0]));
+  const nsvcd__d3 n0 = nsvcd__face_normal(t0);
+  const nsvcd__d3 n1 = nsvcd__face_normal(t1);
   const double before = nsvcd__d3_dot(n0, nsvcd__d3_sub(x0, t0[0]));
   const double after = nsvcd__d3_dot(n1, nsvcd__d3_sub(x1, t1[0]));
   return nsvcd__are_opposed(before, margin * nsvcd__d3_length(n0), after,
@@ -9781,15 +9809,14 @@ static int nsvcd__edges_cross(const nsvcd__passage *p, size_t k, nsvcd__d3 b0, n
 // an edge through an edge? That is how faces meet which are parallel then: at no single time can it
 // be seen in rounded numbers.
 static int nsvcd__triangles_pass(const nsvcd__passage *p, const nsvcd__d3 *fixed, double margin) {
+  const double room = 2 * p->way;
   for (size_t k = 0; k < 3; k++) {
-    if (nsvcd__foot_well_within(p->middle[k], fixed, 2 * p->way) &&
-        nsvcd__changes_sides(p->start[k], fixed, p->end[k], fixed, margin)) {
+    const int is_over = nsvcd__foot_well_within(p->middle[k], fixed, room);
+    if (is_over && nsvcd__changes_sides(p->start[k], fixed, p->end[k], fixed, margin))
       return 1;
-    }
-    if (nsvcd__foot_well_within(fixed[k], p->middle, 2 * p->way) &&
-        nsvcd__changes_sides(fixed[k], p->start, fixed[k], p->end, margin)) {
+    const int is_under = nsvcd__foot_well_within(fixed[k], p->middle, room);
+    if (is_under && nsvcd__changes_sides(fixed[k], p->start, fixed[k], p->end, margin))
       return 1;
-    }
     for (size_t n = 0; n < 3; n++) {
       if (nsvcd__edges_cross(p, k, fixed[n], fixed[(n + 1) % 3], margin))
         return 1;
@@ -9799,77 +9826,78 @@ static int nsvcd__triangles_pass(const nsvcd__passage *p, const nsvcd__d3 *fixed
 }
 
 // The same for a pair from u0 to u1 of the arc, at that speed.
-static int nsvcd__pair_passes(nsvcd__proof *p, const nsvcd__pair *pair, double u0, double u1,
-                              double speed) {
+static int nsvcd__couple_passes(nsvcd__proof *p, const nsvcd__couple *couple, double u0, double u1,
+                                double speed) {
   nsvcd__passage passage;
-  nsvcd__place_triangle(nsvcd__placed_at(p, u0), pair->moving, passage.start);
-  nsvcd__place_triangle(nsvcd__placed_at(p, 0.5 * (u0 + u1)), pair->moving, passage.middle);
-  nsvcd__place_triangle(nsvcd__placed_at(p, u1), pair->moving, passage.end);
+  nsvcd__place_triangle(nsvcd__placed_at(p, u0), couple->moving, passage.start);
+  nsvcd__place_triangle(nsvcd__placed_at(p, 0.5 * (u0 + u1)), couple->moving, passage.middle);
+  nsvcd__place_triangle(nsvcd__placed_at(p, u1), couple->moving, passage.end);
   passage.way = speed * (u1 - u0);
-  return nsvcd__triangles_pass(&passage, pair->fixed, pair->rounding);
+  return nsvcd__triangles_pass(&passage, couple->fixed, couple->rounding);
 }
 
 // Where a pair has met by passing, the time is narrowed down to rounding, and is the contact's.
 // FREE where it has not.
-static NSVCD__APART nsvcd__verdict nsvcd__find_passage(nsvcd__proof *p, const nsvcd__pair *pair,
+static NSVCD__APART nsvcd__verdict nsvcd__find_passage(nsvcd__proof *p, const nsvcd__couple *couple,
                                                        double u0, double u1, double speed) {
-  if (!nsvcd__pair_passes(p, pair, u0, u1, speed))
+  if (!nsvcd__couple_passes(p, couple, u0, u1, speed))
     return NSVCD__FREE;
   for (size_t n = 0; n < NSVCD__HALVINGS; n++) {
     const double middle = 0.5 * (u0 + u1);
     p->work++;
-    const int in_first = nsvcd__pair_passes(p, pair, u0, middle, speed);
-    if (!in_first && !nsvcd__pair_passes(p, pair, middle, u1, speed))
+    const int in_first = nsvcd__couple_passes(p, couple, u0, middle, speed);
+    if (!in_first && !nsvcd__couple_passes(p, couple, middle, u1, speed))
       break;
     u0 = in_first ? u0 : middle;
     u1 = in_first ? middle : u1;
   }
   const double when = 0.5 * (u0 + u1);
   nsvcd__d3 posed[3];
-  nsvcd__place_triangle(nsvcd__placed_at(p, when), pair->moving, posed);
-  nsvcd__nearest nearest = nsvcd__triangles_nearest(posed, pair->fixed);
+  nsvcd__place_triangle(nsvcd__placed_at(p, when), couple->moving, posed);
+  nsvcd__nearest nearest = nsvcd__triangles_nearest(posed, couple->fixed);
   nearest.square = 0;
-  return nsvcd__take_contact(p, pair, when, &nearest);
+  return nsvcd__take_contact(p, couple, when, &nearest);
 }
 
-static void nsvcd__certify_pair(const nsvcd__proof *p, const nsvcd__pair *pair, double u0,
-                                double u1) {
+static void nsvcd__certify_couple(const nsvcd__proof *p, const nsvcd__couple *couple, double u0,
+                                  double u1) {
   const float normal[3] = {(float)p->parting.x, (float)p->parting.y, (float)p->parting.z};
   const double start = nsvcd__time_in_arc(p, u0);
   const double end = nsvcd__time_in_arc(p, u1);
-  NSVCD__CERTIFY(NSVCD__BY_TRIANGLES, pair->moving_patch, pair->fixed_patch, pair->moving_listing,
-                 pair->fixed_listing, start, end, normal);
+  NSVCD__CERTIFY(NSVCD__BY_TRIANGLES, couple->moving_patch, couple->fixed_patch,
+                 couple->moving_listing, couple->fixed_listing, start, end, normal);
   (void)normal;
   (void)start;
   (void)end;
-  (void)pair;
+  (void)couple;
 }
 
 // What becomes of a part of the arc that is too short to be halved: a passage, an answer that says
 // less, or doubt. NSVCD__TAKEN and NSVCD__FREE: look at it again.
-static nsvcd__verdict nsvcd__settle_short_part(nsvcd__proof *p, const nsvcd__pair *pair, double u,
-                                               double end, double speed) {
-  const nsvcd__verdict passage = nsvcd__find_passage(p, pair, u, end, speed);
+static nsvcd__verdict nsvcd__settle_short_part(nsvcd__proof *p, const nsvcd__couple *couple,
+                                               double u, double end, double speed) {
+  const nsvcd__verdict passage = nsvcd__find_passage(p, couple, u, end, speed);
   if (passage == NSVCD__MEETS || passage == NSVCD__TAKEN)
     return passage;
   if (p->measure > 0 && p->clearance > 0) {  // say less, but for certain
-    const double close = pair->slack + p->tolerance;
+    const double close = couple->slack + p->tolerance;
     p->clearance = fmax(0, p->clearance - 2 * close);
     return NSVCD__FREE;
   }
-  nsvcd__take_doubt(p, pair, u, end);
+  nsvcd__take_doubt(p, couple, u, end);
   return NSVCD__UNDECIDED;
 }
 
 // Settles a pair of triangles from u0 to u1 of the arc: halves the time until a plane parts them in
 // each part, the one that parted a pair last or one at the middle's nearest points, or there is a
 // contact, or they come too close to tell.
-static NSVCD__APART nsvcd__verdict nsvcd__settle_pair(nsvcd__proof *p, const nsvcd__pair *pair,
-                                                      double u0, double u1) {
+static NSVCD__APART nsvcd__verdict nsvcd__settle_couple(nsvcd__proof *p,
+                                                        const nsvcd__couple *couple, double u0,
+                                                        double u1) {
   const nsvcd__arc *arc = &p->arc;
-  const double speed = arc->speed + arc->turn * arc->scale * pair->reach;
-  const double close = pair->slack + p->tolerance;
-  double *ends = p->pair_ends;
+  const double speed = arc->speed + arc->turn * arc->scale * couple->reach;
+  const double close = couple->slack + p->tolerance;
+  double *ends = p->couple_ends;
   size_t left = 1;
   int undecided = 0;
   int taken = 0;
@@ -9881,25 +9909,25 @@ static NSVCD__APART nsvcd__verdict nsvcd__settle_pair(nsvcd__proof *p, const nsv
     const double middle = 0.5 * (u + end);
     p->work++;
     NSVCD__TALLY(pairs, 1);
-    if (p->work > p->limit)
+    if (nsvcd__is_spent(p))
       return NSVCD__UNDECIDED;
-    int apart = nsvcd__plane_parts(p, pair, u, end, p->parting);
+    int apart = nsvcd__plane_parts(p, couple, u, end, p->parting);
     if (!apart) {
       nsvcd__d3 posed[3];
-      nsvcd__place_triangle(nsvcd__placed_at(p, middle), pair->moving, posed);
-      const nsvcd__nearest nearest = nsvcd__triangles_nearest(posed, pair->fixed);
+      nsvcd__place_triangle(nsvcd__placed_at(p, middle), couple->moving, posed);
+      const nsvcd__nearest nearest = nsvcd__triangles_nearest(posed, couple->fixed);
       const double distance = sqrt(nearest.square);
-      if (distance <= p->clearance + pair->rounding) {
-        if (nsvcd__take_contact(p, pair, middle, &nearest) == NSVCD__MEETS)
+      if (distance <= p->clearance + couple->rounding) {
+        if (nsvcd__take_contact(p, couple, middle, &nearest) == NSVCD__MEETS)
           return NSVCD__MEETS;
         taken = 1;
         continue;
       }
       p->parting = nsvcd__d3_scale(nsvcd__d3_sub(nearest.on_a, nearest.on_b), 1 / distance);
-      apart = nsvcd__plane_parts(p, pair, u, end, p->parting);
+      apart = nsvcd__plane_parts(p, couple, u, end, p->parting);
     }
     if (apart)
-      nsvcd__certify_pair(p, pair, u, end);
+      nsvcd__certify_couple(p, couple, u, end);
     const int tiny = speed * (end - u) <= 0.25 * close || left > NSVCD__HALVINGS;
     if (!apart && !tiny) {
       ends[left++] = middle;
@@ -9907,7 +9935,7 @@ static NSVCD__APART nsvcd__verdict nsvcd__settle_pair(nsvcd__proof *p, const nsv
       continue;
     }
     if (!apart) {
-      const nsvcd__verdict settled = nsvcd__settle_short_part(p, pair, u, end, speed);
+      const nsvcd__verdict settled = nsvcd__settle_short_part(p, couple, u, end, speed);
       if (settled == NSVCD__MEETS)
         return settled;
       taken |= settled == NSVCD__TAKEN;
@@ -9960,9 +9988,10 @@ static void nsvcd__block_load(const nsvcd__facets *f, size_t patch, size_t first
       places[2][l] = z[vertices[l]];
     }
     NSVCD__EACH_SLICE(l) {
-      const nsvcd__v3 integers =
-          nsvcd__v3_of(nsvcd__v_load_int16(places[0] + l), nsvcd__v_load_int16(places[1] + l),
-                       nsvcd__v_load_int16(places[2] + l));
+      nsvcd__v3 integers;
+      integers.x = nsvcd__v_load_int16(places[0] + l);
+      integers.y = nsvcd__v_load_int16(places[1] + l);
+      integers.z = nsvcd__v_load_int16(places[2] + l);
       const nsvcd__v step = nsvcd__v_set(f->steps[patch]);
       nsvcd__v3_store(out->corners[k], l, nsvcd__v3_fma(step, integers, nsvcd__v3_set(centre)));
     }
@@ -9981,8 +10010,8 @@ static NSVCD__APART void nsvcd__block_pose(nsvcd__proof *p, const nsvcd__transfo
                                            size_t which) {
   for (size_t k = 0; k < 3; k++) {
     NSVCD__EACH_SLICE(l) {
-      nsvcd__v3_store(p->posed[which][k], l,
-                      nsvcd__v3_transform(at, nsvcd__v3_load(p->moving_block.corners[k], l)));
+      const nsvcd__v3 corner = nsvcd__v3_load(p->moving_block.corners[k], l);
+      nsvcd__v3_store(p->posed[which][k], l, nsvcd__v3_transform(at, corner));
     }
   }
 }
@@ -10010,9 +10039,23 @@ static float nsvcd__least_lane(const float *lanes) {
 }
 static float nsvcd__greatest_lane(const float *lanes) {
   float least = HUGE_VALF;
-  NSVCD__EACH_SLICE(l)
-  least = nsvcd__least_of(least, nsvcd__v_least(nsvcd__v_negate(nsvcd__v_load(lanes + l))));
+  NSVCD__EACH_SLICE(l) {
+    const nsvcd__v negated = nsvcd__v_negate(nsvcd__v_load(lanes + l));
+    least = nsvcd__least_of(least, nsvcd__v_least(negated));
+  }
   return -least;
+}
+
+// The box about a block's boxes.
+static nsvcd__box nsvcd__block_bounds(const nsvcd__block *block) {
+  nsvcd__box out;
+  out.low.x = nsvcd__least_lane(block->low[0]);
+  out.low.y = nsvcd__least_lane(block->low[1]);
+  out.low.z = nsvcd__least_lane(block->low[2]);
+  out.high.x = nsvcd__greatest_lane(block->high[0]);
+  out.high.y = nsvcd__greatest_lane(block->high[1]);
+  out.high.z = nsvcd__greatest_lane(block->high[2]);
+  return out;
 }
 
 // Loads up to NSVCD__WINDOW blocks of resting patch j, from listing `first` on, and what they
@@ -10025,20 +10068,22 @@ static void nsvcd__window_load(nsvcd__proof *p, size_t j, size_t first) {
   for (size_t n = first; n < end && p->window < NSVCD__WINDOW; n += NSVCD__LANES) {
     nsvcd__block *block = &p->fixed_blocks[p->window];
     nsvcd__block_load(&p->fixed, j, n, end - n < NSVCD__LANES ? end - n : NSVCD__LANES, block);
-    p->bounds[p->window].low =
-        nsvcd__f3_of(nsvcd__least_lane(block->low[0]), nsvcd__least_lane(block->low[1]),
-                     nsvcd__least_lane(block->low[2]));
-    p->bounds[p->window].high =
-        nsvcd__f3_of(nsvcd__greatest_lane(block->high[0]), nsvcd__greatest_lane(block->high[1]),
-                     nsvcd__greatest_lane(block->high[2]));
+    p->bounds[p->window] = nsvcd__block_bounds(block);
     p->window++;
   }
 }
 
+// The lanes of a block that are listings of their own.
+static inline uint32_t nsvcd__block_lanes(const nsvcd__block *block) {
+  return ((uint32_t)1 << (block->count - 1) << 1) - 1;
+}
+
 // Lanes of a block whose boxes come within `margin` of a box along every axis.
 NSVCD__INLINE uint32_t nsvcd__lanes_near(const nsvcd__block *block, nsvcd__box box, float margin) {
-  const float low[3] = {box.low.x - margin, box.low.y - margin, box.low.z - margin};
-  const float high[3] = {box.high.x + margin, box.high.y + margin, box.high.z + margin};
+  const nsvcd__f3 around = nsvcd__f3_of(margin, margin, margin);
+  float low[3], high[3];
+  nsvcd__f3_store(nsvcd__f3_sub(box.low, around), low);
+  nsvcd__f3_store(nsvcd__f3_add(box.high, around), high);
   uint32_t lanes = 0;
   NSVCD__EACH_SLICE(l) {
     uint32_t slice = NSVCD__SLICE_MASK;
@@ -10048,7 +10093,7 @@ NSVCD__INLINE uint32_t nsvcd__lanes_near(const nsvcd__block *block, nsvcd__box b
     }
     lanes |= slice << l;
   }
-  return lanes & (((uint32_t)1 << (block->count - 1) << 1) - 1);
+  return lanes & nsvcd__block_lanes(block);
 }
 
 static nsvcd__box nsvcd__box_of_lane(nsvcd__block *block, size_t l) {
@@ -10071,10 +10116,10 @@ NSVCD__INLINE uint32_t nsvcd__normals_part(nsvcd__proof *p, size_t l, nsvcd__blo
                                            size_t ends, float margin, nsvcd__v3 n,
                                            uint32_t *below) {
   const nsvcd__v3 b0 = nsvcd__v3_load(fixed->corners[0], s);
-  const nsvcd__v height1 =
-      nsvcd__v3_dot(n, nsvcd__v3_sub(nsvcd__v3_load(fixed->corners[1], s), b0));
-  const nsvcd__v height2 =
-      nsvcd__v3_dot(n, nsvcd__v3_sub(nsvcd__v3_load(fixed->corners[2], s), b0));
+  const nsvcd__v3 edge1 = nsvcd__v3_sub(nsvcd__v3_load(fixed->corners[1], s), b0);
+  const nsvcd__v3 edge2 = nsvcd__v3_sub(nsvcd__v3_load(fixed->corners[2], s), b0);
+  const nsvcd__v height1 = nsvcd__v3_dot(n, edge1);
+  const nsvcd__v height2 = nsvcd__v3_dot(n, edge2);
   const nsvcd__v zero = nsvcd__v_set(0);
   const nsvcd__v low = nsvcd__v_min(zero, nsvcd__v_min(height1, height2));
   const nsvcd__v high = nsvcd__v_max(zero, nsvcd__v_max(height1, height2));
@@ -10181,15 +10226,15 @@ static NSVCD__APART uint32_t nsvcd__row_left(nsvcd__proof *p, size_t i, size_t j
 // The nearest points of a posed triangle and another, if they come within the clearance; NULL
 // square: HUGE_VAL if not.
 static nsvcd__nearest nsvcd__contact_of(const nsvcd__proof *p, const nsvcd__d3 *posed,
-                                        const nsvcd__pair *pair) {
+                                        const nsvcd__couple *couple) {
   nsvcd__nearest out = {HUGE_VAL, {0, 0, 0}, {0, 0, 0}};
   nsvcd__d3 point;
-  if (nsvcd__triangles_meet(posed, pair->fixed, &point)) {
+  if (nsvcd__triangles_meet(posed, couple->fixed, &point)) {
     out.square = 0;
     out.on_a = point;
     out.on_b = point;
   } else if (p->clearance > 0) {
-    const nsvcd__nearest nearest = nsvcd__triangles_nearest(posed, pair->fixed);
+    const nsvcd__nearest nearest = nsvcd__triangles_nearest(posed, couple->fixed);
     if (nearest.square <= p->clearance * p->clearance)
       out = nearest;
   }
@@ -10214,10 +10259,8 @@ static void nsvcd__touch_normals(const nsvcd__touch *t, nsvcd__d3 *out) {
   const nsvcd__d3 none = nsvcd__d3_of(0, 0, 0);
   const nsvcd__d3 *a = t->moving;
   const nsvcd__d3 *b = t->fixed;
-  out[0] =
-      nsvcd__d3_unit(nsvcd__d3_cross(nsvcd__d3_sub(a[2], a[0]), nsvcd__d3_sub(a[1], a[0])), none);
-  out[1] =
-      nsvcd__d3_unit(nsvcd__d3_cross(nsvcd__d3_sub(b[1], b[0]), nsvcd__d3_sub(b[2], b[0])), none);
+  out[0] = nsvcd__d3_unit(nsvcd__d3_scale(nsvcd__face_normal(a), -1), none);
+  out[1] = nsvcd__d3_unit(nsvcd__face_normal(b), none);
   out[2] = t->apart;
 }
 
@@ -10235,13 +10278,13 @@ static int nsvcd__undoes(const nsvcd__proof *p, nsvcd__d3 n, const nsvcd__touch 
 
 // Keeps two triangles that are within the clearance at the start, unless a direction that is known
 // undoes that.
-static void nsvcd__gather_contact(nsvcd__proof *p, const nsvcd__pair *pair,
+static void nsvcd__gather_contact(nsvcd__proof *p, const nsvcd__couple *couple,
                                   const nsvcd__d3 *posed) {
   nsvcd__touch touch;
   memcpy(touch.moving, posed, sizeof touch.moving);
-  memcpy(touch.fixed, pair->fixed, sizeof touch.fixed);
-  const nsvcd__nearest nearest = nsvcd__triangles_nearest(posed, pair->fixed);
-  const int are_apart = nearest.square > 1e6 * pair->rounding * pair->rounding;
+  memcpy(touch.fixed, couple->fixed, sizeof touch.fixed);
+  const nsvcd__nearest nearest = nsvcd__triangles_nearest(posed, couple->fixed);
+  const int are_apart = nearest.square > 1e6 * couple->rounding * couple->rounding;
   const nsvcd__d3 way = nsvcd__d3_sub(nearest.on_a, nearest.on_b);
   touch.apart = nsvcd__d3_scale(way, are_apart ? 1 / sqrt(nearest.square) : 0);
   for (size_t k = 0; k < p->normal_count; k++) {
@@ -10264,23 +10307,23 @@ static nsvcd__verdict nsvcd__find_witness_in(nsvcd__proof *p, size_t i, size_t j
     uint32_t met = nsvcd__row_left(p, i, j, l, fixed, 1, NULL, margin);
     for (; met; met &= met - 1) {
       const size_t listing = p->moving_block.first + l;
-      const nsvcd__pair pair =
-          nsvcd__pair_of(p, i, j, listing, fixed->first + nsvcd__lowest_bit(met));
+      const nsvcd__couple couple =
+          nsvcd__couple_of(p, i, j, listing, fixed->first + nsvcd__lowest_bit(met));
       nsvcd__d3 posed[3];
-      nsvcd__place_triangle(at, pair.moving, posed);
+      nsvcd__place_triangle(at, couple.moving, posed);
       p->work++;
-      const nsvcd__nearest nearest = nsvcd__contact_of(p, posed, &pair);
+      const nsvcd__nearest nearest = nsvcd__contact_of(p, posed, &couple);
       if (!(nearest.square < HUGE_VAL))
         continue;
       if (p->gathers) {
-        nsvcd__gather_contact(p, &pair, posed);
+        nsvcd__gather_contact(p, &couple, posed);
         continue;
       }
-      const nsvcd__verdict verdict = nsvcd__take_contact(p, &pair, u, &nearest);
+      const nsvcd__verdict verdict = nsvcd__take_contact(p, &couple, u, &nearest);
       if (verdict == NSVCD__MEETS)
         return verdict;
       // The pair may touch sooner, or come closer.
-      const nsvcd__verdict better = nsvcd__settle_pair(p, &pair, 0, 1);
+      const nsvcd__verdict better = nsvcd__settle_couple(p, &couple, 0, 1);
       return better == NSVCD__MEETS ? better : verdict;
     }
   }
@@ -10314,7 +10357,7 @@ static nsvcd__verdict nsvcd__find_witness(nsvcd__proof *p, size_t i, size_t j, u
       nsvcd__block_box(p, 1);
       for (size_t n = 0; n < p->window; n++) {
         p->work++;
-        if (p->work > p->limit)
+        if (nsvcd__is_spent(p))
           return NSVCD__FREE;
         const nsvcd__verdict verdict = nsvcd__find_witness_in(p, i, j, n, &at, u, margin);
         if (verdict != NSVCD__FREE)
@@ -10388,10 +10431,10 @@ static nsvcd__verdict nsvcd__settle_row(nsvcd__proof *p, size_t i, size_t j, siz
     if (patience == 0)
       return NSVCD__TOO_LONG;
     const size_t listing = p->moving_block.first + l;
-    const nsvcd__pair pair =
-        nsvcd__pair_of(p, i, j, listing, fixed->first + nsvcd__lowest_bit(met));
-    const nsvcd__verdict one = nsvcd__settle_pair(p, &pair, u0, u1);
-    if (one == NSVCD__MEETS || one == NSVCD__TAKEN || p->work > p->limit)
+    const nsvcd__couple couple =
+        nsvcd__couple_of(p, i, j, listing, fixed->first + nsvcd__lowest_bit(met));
+    const nsvcd__verdict one = nsvcd__settle_couple(p, &couple, u0, u1);
+    if (one == NSVCD__MEETS || one == NSVCD__TAKEN || nsvcd__is_spent(p))
       return one;
     if (one == NSVCD__UNDECIDED)
       verdict = one;
@@ -10422,7 +10465,7 @@ static NSVCD__APART nsvcd__verdict nsvcd__settle_triangles(nsvcd__proof *p, size
       for (size_t n = 0; n < p->window; n++) {
         const uint32_t lanes = nsvcd__lanes_near(&p->moving_block, p->bounds[n], margin);
         p->work++;
-        if (p->work > p->limit)
+        if (nsvcd__is_spent(p))
           return NSVCD__UNDECIDED;
         for (size_t l = 0; l < p->moving_block.count; l++) {
           if (!(lanes >> l & 1)) {
@@ -10433,7 +10476,7 @@ static NSVCD__APART nsvcd__verdict nsvcd__settle_triangles(nsvcd__proof *p, size
               nsvcd__settle_row(p, i, j, l, n, span, margin, u0, u1, patience);
           if (row == NSVCD__MEETS || row == NSVCD__TOO_LONG || row == NSVCD__TAKEN)
             return row;
-          if (p->work > p->limit)
+          if (nsvcd__is_spent(p))
             return NSVCD__UNDECIDED;
           if (row == NSVCD__UNDECIDED)
             verdict = row;
@@ -10475,7 +10518,7 @@ static nsvcd__verdict nsvcd__settle_arc(nsvcd__proof *p, const nsvcd__item *item
       const size_t patience = may_halve ? NSVCD__PATIENCE_TO_PART : (size_t)-1;
       const nsvcd__verdict part =
           nsvcd__settle_triangles(p, item->moving, item->fixed, &p->span, u, end, patience);
-      if (part == NSVCD__MEETS || p->work > p->limit)
+      if (part == NSVCD__MEETS || nsvcd__is_spent(p))
         return part;
       if (part == NSVCD__TAKEN)
         continue;
@@ -10504,7 +10547,7 @@ static nsvcd__verdict nsvcd__settle_item(nsvcd__proof *p, const nsvcd__search *s
     const uint32_t next = end < knot ? end : knot;
     const double u1 = (double)(next - first) / (double)(knot - first);
     const nsvcd__verdict part = nsvcd__settle_arc(p, item, first, u0, u1);
-    if (part == NSVCD__MEETS || p->work > p->limit)
+    if (part == NSVCD__MEETS || nsvcd__is_spent(p))
       return part;
     if (part == NSVCD__UNDECIDED)
       verdict = part;
@@ -10523,17 +10566,17 @@ static float nsvcd__least_height(nsvcd__proof *p, const nsvcd__span *span, size_
   float lowest = HUGE_VALF;
   NSVCD__EACH_SLICE(l) {
     const nsvcd__v3 n = nsvcd__v3_set(p->held);
-    const nsvcd__v3 hull = nsvcd__facet_vertices(&p->moving, i, 0, p->moving.hull_counts[i], l);
+    const nsvcd__v3 hull = nsvcd__hull_of(&p->moving, i, l);
     const nsvcd__v at_start = nsvcd__v3_dot(n, nsvcd__v3_transform(&span->start, hull));
     const nsvcd__v at_end = nsvcd__v3_dot(n, nsvcd__v3_transform(&span->end, hull));
     lowest = nsvcd__least_of(lowest, nsvcd__v_least(nsvcd__v_min(at_start, at_end)));
   }
-  const float slack =
-      (p->motion->scale * p->moving.slacks[i] + span->rounding) * nsvcd__f3_length(p->held);
+  const float length = nsvcd__f3_length(p->held);
+  const float slack = (p->motion->scale * p->moving.slacks[i] + span->rounding) * length;
+  const float reach = nsvcd__patch_reach(&p->moving, i);
   known->plane = p->plane;
   known->key = key;
-  known->height =
-      lowest - slack - nsvcd__deviation(span, p->held, nsvcd__patch_reach(&p->moving, i));
+  known->height = lowest - slack - nsvcd__deviation(span, p->held, reach);
   return known->height;
 }
 
@@ -10544,7 +10587,7 @@ static float nsvcd__greatest_height(nsvcd__proof *p, size_t j) {
     return known->height;
   float highest = HUGE_VALF;  // negated
   NSVCD__EACH_SLICE(l) {
-    const nsvcd__v3 hull = nsvcd__facet_vertices(&p->fixed, j, 0, p->fixed.hull_counts[j], l);
+    const nsvcd__v3 hull = nsvcd__hull_of(&p->fixed, j, l);
     const nsvcd__v height = nsvcd__v3_dot(nsvcd__v3_set(p->held), hull);
     highest = nsvcd__least_of(highest, nsvcd__v_least(nsvcd__v_negate(height)));
   }
@@ -10647,19 +10690,20 @@ static NSVCD__APART void nsvcd__clip_segment(nsvcd__proof *p, nsvcd__search *sea
 static NSVCD__APART nsvcd__verdict nsvcd__settle_items(nsvcd__proof *p, nsvcd__search *search) {
   nsvcd__sort_items(p, p->of.items, p->count);
   for (size_t n = 0; n < p->count; n++) {
-    if (p->work > p->limit)
+    if (nsvcd__is_spent(p))
       return NSVCD__UNDECIDED;
+    const nsvcd__item *item = &p->of.items[n];
     nsvcd__clip_segment(p, search);
-    if (!nsvcd__matters(p, search, p->of.items[n].segment))
+    if (!nsvcd__matters(p, search, item->segment))
       continue;
-    if (p->clipped >> p->of.items[n].segment & 1 &&
-        nsvcd__item_is_parted(p, search, &p->of.items[n]))
+    const int is_clipped = (p->clipped >> item->segment & 1) != 0;
+    if (is_clipped && nsvcd__item_is_parted(p, search, item))
       continue;
-    if (nsvcd__settle_item(p, search, &p->of.items[n]) == NSVCD__MEETS)
+    if (nsvcd__settle_item(p, search, item) == NSVCD__MEETS)
       return NSVCD__MEETS;
   }
   p->count = 0;
-  return p->work > p->limit ? NSVCD__UNDECIDED : NSVCD__FREE;
+  return nsvcd__is_spent(p) ? NSVCD__UNDECIDED : NSVCD__FREE;
 }
 
 // Looks at fresh items, the best first: parts those that planes can part, looks for a witness in
@@ -10682,7 +10726,7 @@ static NSVCD__APART nsvcd__verdict nsvcd__sift_items(nsvcd__proof *p, nsvcd__sea
 
   for (size_t n = 0; n < count; n++) {
     nsvcd__item *item = &p->fresh[n];
-    if (p->work > p->limit)
+    if (nsvcd__is_spent(p))
       return NSVCD__UNDECIDED;
     nsvcd__clip_segment(p, search);
     if (!nsvcd__matters(p, search, item->segment))
@@ -10722,7 +10766,7 @@ static int nsvcd__ray_crosses(const nsvcd__ray *ray, const nsvcd__d3 *t, double 
   double least = HUGE_VAL;
   double most = -HUGE_VAL;
   double nearest = HUGE_VAL;
-  const nsvcd__d3 n = nsvcd__d3_cross(nsvcd__d3_sub(t[1], t[0]), nsvcd__d3_sub(t[2], t[0]));
+  const nsvcd__d3 n = nsvcd__face_normal(t);
   // the signed volumes of the edges and the ray: all alike if it passes within
   for (size_t k = 0; k < 3; k++) {
     const nsvcd__d3 edge = nsvcd__d3_sub(t[(k + 1) % 3], t[k]);
@@ -10833,7 +10877,7 @@ static uint32_t nsvcd__lanes_on_ray(nsvcd__block *block, const nsvcd__ray *ray, 
     const nsvcd__v allowed = nsvcd__v_fma(nsvcd__v_set(margin), longest, nsvcd__v_set(rounding));
     missed |= (nsvcd__v_lt(least, nsvcd__v_negate(allowed)) & nsvcd__v_lt(allowed, most)) << l;
   }
-  return (((uint32_t)1 << (block->count - 1) << 1) - 1) & ~missed;
+  return nsvcd__block_lanes(block) & ~missed;
 }
 
 // How often the surface of the closed components winds about a point, by one ray; *unclear if it
@@ -11072,7 +11116,7 @@ static int nsvcd__encloses_seeds(nsvcd__proof *p, const nsvcd__enclosure *e, siz
       nearby = nsvcd__seeds_near(e->inner, n, &e->rounded, e->scale, e->outer);
     if (!(nearby >> l & 1))
       continue;
-    if (p->work > p->limit) {
+    if (nsvcd__is_spent(p)) {
       p->lost = 1;
       return 0;
     }
@@ -11323,11 +11367,11 @@ static double nsvcd__vertices_apart(const nsvcd__proof *p, const nsvcd__transfor
   float lanes[3][NSVCD__LANES];
   float least = HUGE_VALF;
   NSVCD__EACH_SLICE(l) {
-    const nsvcd__v3 moving = nsvcd__facet_vertices(&p->moving, i, 0, p->moving.hull_counts[i], l);
+    const nsvcd__v3 moving = nsvcd__hull_of(&p->moving, i, l);
     nsvcd__v3_store(lanes, l, nsvcd__v3_transform(pose, moving));
   }
   NSVCD__EACH_SLICE(l) {
-    const nsvcd__v3 fixed = nsvcd__facet_vertices(&p->fixed, j, 0, p->fixed.hull_counts[j], l);
+    const nsvcd__v3 fixed = nsvcd__hull_of(&p->fixed, j, l);
     for (size_t n = 0; n < NSVCD__LANES; n++) {
       const nsvcd__v3 d = nsvcd__v3_sub(fixed, nsvcd__v3_set(nsvcd__lane_of(lanes, n)));
       least = nsvcd__least_of(least, nsvcd__v_least(nsvcd__v3_dot(d, d)));

@@ -31,14 +31,14 @@ lanes without drift|return nsvcd__v_fma(turn, nsvcd__v_set(reach), nsvcd__v_min(
 disc without across|nsvcd__v_mul(disc->across, across);|nsvcd__v_mul(nsvcd__v_set(0), across);
 group of eight|for (size_t i = first; i < first + NSVCD__GROUP \&\& i < f->body->points; i++) {\n    const size_t all|for (size_t i = first; i < first + 8 \&\& i < f->body->points; i++) {\n    const size_t all
 group's disc at the start only|nsvcd__v3_add(at_start, nsvcd__vmat3_apply_transpose(turn, n));|at_start;
-held plane without deviation|lowest - slack - nsvcd__deviation(span, p->held, nsvcd__patch_reach(\&p->moving, i));|lowest - slack;
+held plane without deviation|lowest - slack - nsvcd__deviation(span, p->held, reach);|lowest - slack - 0 * reach;
 held plane without slack|highest + p->fixed.slacks[j] * nsvcd__f3_length(p->held);|highest;
 heights over another plane|if (known->plane == p->plane \&\& known->key == key)|if (known->key == key)
-pair without quanta|p->arc.scale * (double)p->moving.quanta[i] + (double)p->fixed.quanta[j] + pair.rounding;|pair.rounding;
-pair without bulge|(arc->bulge * pair->reach * off_axis + arc->drift);|(0 * off_axis + arc->drift);
-pair without drift|(arc->bulge * pair->reach * off_axis + arc->drift);|(arc->bulge * pair->reach * off_axis);
-pair without clearance|> p->clearance + pair->slack + deviation;|> pair->slack + deviation;
-pair at the start only|lowest = fmin(lowest, nsvcd__d3_dot(normal, nsvcd__place_point(end, pair->moving[k])));|(void)end;
+pair without quanta|couple.slack = moving_quantum + (double)p->fixed.quanta[j] + couple.rounding;|couple.slack = 0 * moving_quantum + couple.rounding;
+pair without bulge|(u1 - u0) * (u1 - u0) * (bulge + arc->drift);|(u1 - u0) * (u1 - u0) * (0 * bulge + arc->drift);
+pair without drift|(u1 - u0) * (u1 - u0) * (bulge + arc->drift);|(u1 - u0) * (u1 - u0) * bulge;
+pair without clearance|> p->clearance + couple->slack + deviation;|> couple->slack + deviation;
+pair at the start only|lowest = fmin(lowest, nsvcd__d3_dot(normal, at_end));|(void)at_end;
 block without quanta|nsvcd__quanta_of(p, i, j) + span->spread + nsvcd__clearance_of(p) + span->bulge * reach;|span->spread + nsvcd__clearance_of(p) + span->bulge * reach;
 block without clearance|span->spread + nsvcd__clearance_of(p) + span->bulge * reach;|span->spread + span->bulge * reach;
 block without bulge|nsvcd__clearance_of(p) + span->bulge * reach;|nsvcd__clearance_of(p) + 0 * reach;
@@ -49,7 +49,7 @@ parting plane without quanta|quanta + span->rounding + nsvcd__clearance_of(p) + 
 pose of another arc|known->arc == arc->first \&\& known->ticks == arc->ticks \&\& known->u == u|known->ticks == arc->ticks \&\& known->u == u
 first half only|        ends[left++] = 0.5 * (u + end);\n|        ends[left - 1] = 0.5 * (u + end);\n
 a window forgotten|b < fixed_end; b += NSVCD__WINDOW * NSVCD__LANES) {\n    nsvcd__window_load(p, j, b);\n    for (size_t a = p->moving.first_triangle[i]; a < moving_end; a += NSVCD__LANES) {\n      nsvcd__moving_block_load(p, i, a);\n      nsvcd__block_pose(p, \&span->start, 0);|b < fixed_end; b += 2 * NSVCD__WINDOW * NSVCD__LANES) {\n    nsvcd__window_load(p, j, b);\n    for (size_t a = p->moving.first_triangle[i]; a < moving_end; a += NSVCD__LANES) {\n      nsvcd__moving_block_load(p, i, a);\n      nsvcd__block_pose(p, \&span->start, 0);
-bounds of half a window's block|nsvcd__f3_of(nsvcd__least_lane(block->low[0]),|nsvcd__f3_of(0.5f * (nsvcd__least_lane(block->low[0]) + nsvcd__greatest_lane(block->high[0])),
+bounds of half a window's block|out.low.x = nsvcd__least_lane(block->low[0]);|out.low.x = 0.5f * (nsvcd__least_lane(block->low[0]) + nsvcd__greatest_lane(block->high[0]));
 half of the box|slice \&= nsvcd__v_le(at[k], nsvcd__v_set(outer->box[3 + k] + rounding));|slice \&= nsvcd__v_le(at[k], nsvcd__v_set(0.5f * outer->box[k] + 0.5f * outer->box[3 + k]));
 rays past half the groups|while (!*unclear \&\& nsvcd__walk_next(\&walk, \&g)) {\n    uint32_t patches|while (!*unclear \&\& nsvcd__walk_next(\&walk, \&g)) {\n    if (g % 2) continue;\n    uint32_t patches
 block's boxes at the start only|nsvcd__block_box(p, 2);|nsvcd__block_box(p, 1);
