@@ -146,6 +146,7 @@
 //   candidate         two patches and a contact interval, in which their balls meet
 //   ranker            the tiny decoder, which chooses the candidates that the chosen one sees
 //   item              two patches that the proof has yet to part in a segment
+//   couple            two listed triangles, one of each body
 //   disc              of a patch: what it reaches along a normal, and across
 //   hull, slack       of a patch: 16 vertices at most, and how far the surface sticks out
 //   listing           a triangle, or a part of one, that a patch stores
@@ -8415,11 +8416,11 @@ static void nsvcd__candidates_start(nsvcd__candidates *kept, nsvcd__candidate *i
 //      convex, and so all places between.
 //   4. Discs: the plane is normal to a patch, or to a group of 16; what each side reaches along it
 //      follows from its disc. Hulls: any plane; a patch's pieces are within its slack of the hull
-//      of its first vertices. Triangles: a plane for a pair of listed triangles. A patch lists all
-//      triangles of its pieces, whole or in parts.
+//      of its first vertices. Triangles: a plane for a couple, two listed triangles. A patch lists
+//      all triangles of its pieces, whole or in parts.
 //   5. Rounding: every plane allows for NSVCD__ROUNDING of all lengths that enter a float
 //      computation (`rounding`, part of `spread`). Stored vertices are off by the patch's slack or
-//      quantum, which every plane allows for too. Pairs of triangles are parted in double.
+//      quantum, which every plane allows for too. Couples of triangles are parted in double.
 //      Comparisons are such that a NaN parts nothing.
 //   6. Containment is decided at t = 0, component by component: a body that gets in or out later
 //      crosses a surface. The crossings of a ray with the closed components of the other body are
@@ -8446,7 +8447,7 @@ static void nsvcd__candidates_start(nsvcd__candidates *kept, nsvcd__candidate *i
 // that matters.
 //
 // Work is counted in units: a plane sought for two hulls, 16 triangles against the box of 16, one
-// of them against these, a pair of triangles at one time, a ray against 16 triangles. A query stops
+// of them against these, a couple at one time, a ray against 16 triangles. A query stops
 // within one patch's listings, or one ray, of its limit.
 
 // items that no plane parts, kept at once; when there are more, those are settled first
@@ -8466,8 +8467,8 @@ static void nsvcd__candidates_start(nsvcd__candidates *kept, nsvcd__candidate *i
 #define NSVCD__LIFTS 6      // directions in which they are undone, at most
 // segments that are searched together, where the first contact is sought
 #define NSVCD__IN_ORDER 4
-#define NSVCD__HALVINGS 40  // of a span for a pair of triangles, at most
-// parts of a span that pairs of triangles ask for, before all go on with its halves,
+#define NSVCD__HALVINGS 40  // of a span for a couple, at most
+// parts of a span that couples ask for, before all go on with its halves,
 #define NSVCD__PATIENCE_TO_PART 12
 #define NSVCD__SHORTEST 0.015    // if it is longer than this share of an arc
 #define NSVCD__ARC_PARTS 8       // of an arc, waiting
@@ -8600,9 +8601,9 @@ typedef struct nsvcd__proof {
   nsvcd__arc arc;        // the last one asked for
   uint64_t spans_known;  // segments
   nsvcd__span *spans;    // (S)
-  // Where the search is: in a moving group, in a pair of it and a resting one; what this one's
-  // patches meet, and in which segments.
-  int in_group, in_pair;
+  // Where the search is: in a moving group; in that and a resting one. Which of its patches are
+  // met, and in which segments.
+  int in_group, in_both;
   uint32_t met;
   uint64_t met_in[NSVCD__GROUP];
   size_t fresh_count, count;
@@ -8619,12 +8620,12 @@ typedef struct nsvcd__proof {
   nsvcd__block moving_block, fixed_blocks[NSVCD__WINDOW];
   nsvcd__box bounds[NSVCD__WINDOW];  // of the fixed blocks
   size_t window;                     // how many they are
-  // later ends of the parts of a span to come, for a pair, the last one first
+  // later ends of the parts of a span to come, for a couple, the last one first
   double couple_ends[NSVCD__HALVINGS + 2];
-  double arc_ends[NSVCD__ARC_PARTS];  // the same for all pairs of an item
+  double arc_ends[NSVCD__ARC_PARTS];  // the same for all couples of an item
   nsvcd__span span;                   // of an arc
-  nsvcd__d3 parting;                  // unit normal of the plane that parted a pair last
-  size_t parts;                       // of the span, that pairs asked for so far
+  nsvcd__d3 parting;                  // unit normal of the plane that parted a couple last
+  size_t parts;                       // of the span, that couples asked for so far
   size_t misses;                      // looks for a witness that found none
   nsvcd__placed placed[NSVCD__PLACED];
   size_t next_placed;
@@ -8793,7 +8794,7 @@ static nsvcd__placement nsvcd__placement_at(const nsvcd__arc *arc, double u) {
   return at;
 }
 
-// The same, of the arc last asked for, remembered: pairs of triangles ask for the same poses again.
+// The same, of the arc last asked for, remembered: couples ask for the same poses again.
 // The last two that were asked for stay where they are.
 static const nsvcd__placement *nsvcd__placed_at(nsvcd__proof *p, double u) {
   size_t n = 0;
@@ -9501,7 +9502,7 @@ static NSVCD__APART int nsvcd__hulls_are_apart(nsvcd__proof *p, size_t i, size_t
   return 0;
 }
 
-// ---- pairs of triangles, in double
+// ---- couples: a triangle of each body, in double
 
 // The normal of a triangle (3 corners), twice as long as its area is large.
 static nsvcd__d3 nsvcd__face_normal(const nsvcd__d3 *t) {
@@ -9631,7 +9632,7 @@ static void nsvcd__place_triangle(const nsvcd__placement *at, const nsvcd__d3 *c
     out[k] = nsvcd__place_point(at, corners[k]);
 }
 
-// A pair of listed triangles, body frames.
+// Two listed triangles, one of each body, in their frames.
 typedef struct nsvcd__couple {
   size_t moving_patch, fixed_patch, moving_listing, fixed_listing;
   nsvcd__d3 moving[3], fixed[3];
@@ -9712,7 +9713,7 @@ static double nsvcd__arc_limit(const nsvcd__proof *p) {
   return (p->end - (double)p->arc.first) / (double)p->arc.ticks;
 }
 
-// Does the plane with this unit normal part the pair from u0 to u1 of the arc?
+// Does the plane with this unit normal part the couple from u0 to u1 of the arc?
 static int nsvcd__plane_parts(nsvcd__proof *p, const nsvcd__couple *couple, double u0, double u1,
                               nsvcd__d3 normal) {
   const nsvcd__arc *arc = &p->arc;
@@ -9735,7 +9736,7 @@ static int nsvcd__plane_parts(nsvcd__proof *p, const nsvcd__couple *couple, doub
   return lowest - highest > p->clearance + couple->slack + deviation;
 }
 
-// A pair at three times: the moving triangle's corners.
+// A couple at three times: the moving triangle's corners.
 typedef struct nsvcd__passage {
   nsvcd__d3 start[3], middle[3], end[3];
   double way;  // no point of it moves farther between these times, seen from the fixed one
@@ -9825,7 +9826,7 @@ static int nsvcd__triangles_pass(const nsvcd__passage *p, const nsvcd__d3 *fixed
   return 0;
 }
 
-// The same for a pair from u0 to u1 of the arc, at that speed.
+// The same for a couple from u0 to u1 of the arc, at that speed.
 static int nsvcd__couple_passes(nsvcd__proof *p, const nsvcd__couple *couple, double u0, double u1,
                                 double speed) {
   nsvcd__passage passage;
@@ -9836,7 +9837,7 @@ static int nsvcd__couple_passes(nsvcd__proof *p, const nsvcd__couple *couple, do
   return nsvcd__triangles_pass(&passage, couple->fixed, couple->rounding);
 }
 
-// Where a pair has met by passing, the time is narrowed down to rounding, and is the contact's.
+// Where a couple has met by passing, the time is narrowed down to rounding, and is the contact's.
 // FREE where it has not.
 static NSVCD__APART nsvcd__verdict nsvcd__find_passage(nsvcd__proof *p, const nsvcd__couple *couple,
                                                        double u0, double u1, double speed) {
@@ -9888,9 +9889,9 @@ static nsvcd__verdict nsvcd__settle_short_part(nsvcd__proof *p, const nsvcd__cou
   return NSVCD__UNDECIDED;
 }
 
-// Settles a pair of triangles from u0 to u1 of the arc: halves the time until a plane parts them in
-// each part, the one that parted a pair last or one at the middle's nearest points, or there is a
-// contact, or they come too close to tell.
+// Settles a couple from u0 to u1 of the arc: halves the time until, in each part, a plane parts the
+// triangles, or there is a contact, or they come too close to tell. The planes tried are the one
+// that parted a couple last, and one at the nearest points of the middle.
 static NSVCD__APART nsvcd__verdict nsvcd__settle_couple(nsvcd__proof *p,
                                                         const nsvcd__couple *couple, double u0,
                                                         double u1) {
@@ -10159,7 +10160,7 @@ NSVCD__INLINE nsvcd__v3 nsvcd__normal_to_try(nsvcd__proof *p, size_t l, nsvcd__b
 }
 
 #ifdef NSVCD__CERTIFIES
-// All pairs of lane l and the `apart` lanes of a block, by the planes of their slice, from s on,
+// All couples of lane l and the `apart` lanes of a block, by the planes of their slice, from s on,
 // or, where that is NULL, by their boxes.
 static void nsvcd__certify_block(nsvcd__proof *p, size_t i, size_t j, size_t l,
                                  const nsvcd__block *b, const nsvcd__span *span, uint32_t apart,
@@ -10322,7 +10323,7 @@ static nsvcd__verdict nsvcd__find_witness_in(nsvcd__proof *p, size_t i, size_t j
       const nsvcd__verdict verdict = nsvcd__take_contact(p, &couple, u, &nearest);
       if (verdict == NSVCD__MEETS)
         return verdict;
-      // The pair may touch sooner, or come closer.
+      // They may touch sooner, or come closer.
       const nsvcd__verdict better = nsvcd__settle_couple(p, &couple, 0, 1);
       return better == NSVCD__MEETS ? better : verdict;
     }
@@ -10402,9 +10403,9 @@ static nsvcd__verdict nsvcd__seek_item(nsvcd__proof *p, const nsvcd__search *sea
 // ---- what hulls leave
 
 // Lane l of the moving block, posed at both ends of a span from u0 to u1 of the arc, and block n of
-// the window: pairs that planes do not part are settled one by one, and what parts one may part
+// the window: couples that planes do not part are settled one by one, and what parts one may part
 // others. TOO_LONG when they have asked for more than `patience` parts of the span; without any,
-// when there is such a pair.
+// when there is such a couple.
 static nsvcd__verdict nsvcd__settle_row(nsvcd__proof *p, size_t i, size_t j, size_t l, size_t n,
                                         const nsvcd__span *span, float margin, double u0, double u1,
                                         size_t patience) {
@@ -10444,7 +10445,7 @@ static nsvcd__verdict nsvcd__settle_row(nsvcd__proof *p, size_t i, size_t j, siz
   return verdict;
 }
 
-// All pairs of triangles of an item's patches over a span from u0 to u1 of the arc.
+// All couples of an item's patches over a span from u0 to u1 of the arc.
 static NSVCD__APART nsvcd__verdict nsvcd__settle_triangles(nsvcd__proof *p, size_t i, size_t j,
                                                            const nsvcd__span *span, double u0,
                                                            double u1, size_t patience) {
@@ -10620,7 +10621,7 @@ static int nsvcd__item_is_parted(nsvcd__proof *p, const nsvcd__search *search,
   return 1;
 }
 
-// Is there one for each pair of their triangles?
+// Is there one for each couple of their triangles?
 static int nsvcd__triangles_are_parted(nsvcd__proof *p, const nsvcd__search *search,
                                        const nsvcd__item *item) {
   const nsvcd__span *span = nsvcd__segment_span(p, search, item->segment);
@@ -11256,11 +11257,11 @@ static NSVCD__APART int nsvcd__collect(nsvcd__proof *p, nsvcd__search *search) {
     while (search->waiting) {
       const size_t at = nsvcd__lowest_bit(search->waiting);
       const size_t h = search->fixed_tile.groups[at];
-      if (!p->in_pair) {
+      if (!p->in_both) {
         const uint64_t wanted =
             nsvcd__nearby(search, next)[at] & nsvcd__segments_that_matter(p, search);
         p->met = nsvcd__group_against_members(search, h, wanted, p->met_in);
-        p->in_pair = 1;
+        p->in_both = 1;
       }
       for (; p->met; p->met &= p->met - 1) {
         const size_t l = nsvcd__lowest_bit(p->met);
@@ -11273,7 +11274,7 @@ static NSVCD__APART int nsvcd__collect(nsvcd__proof *p, nsvcd__search *search) {
           return 1;
       }
       search->waiting &= search->waiting - 1;
-      p->in_pair = 0;
+      p->in_both = 0;
       if (p->fresh_count >= NSVCD__NEWS)
         return 1;
     }
@@ -11430,7 +11431,7 @@ static nsvcd__verdict nsvcd__prove_tile_in_order(nsvcd__proof *p, nsvcd__search 
     search->wanted = few << s;
     search->step = 0;
     search->waiting = 0;
-    p->in_group = p->in_pair = 0;
+    p->in_group = p->in_both = 0;
     verdict = nsvcd__prove_segments(p, search);
     const size_t next =
         s + NSVCD__IN_ORDER < search->segments ? s + NSVCD__IN_ORDER : search->segments;
@@ -11496,7 +11497,7 @@ static void nsvcd__proof_restart(nsvcd__proof *p) {
   p->held = nsvcd__f3_of(0, 0, 0);
   p->plane = 0;
   p->arc.ticks = 0;
-  p->in_group = p->in_pair = 0;
+  p->in_group = p->in_both = 0;
   p->misses = 0;
   p->window = 0;
   p->parting = nsvcd__d3_of(0, 0, 0);
