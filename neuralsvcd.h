@@ -8450,31 +8450,32 @@ static void nsvcd__candidates_start(nsvcd__candidates *kept, nsvcd__candidate *i
 // of them against these, a couple at one time, a ray against 16 triangles. A query stops
 // within one patch's listings, or one ray, of its limit.
 
-// items that no plane parts, kept at once; when there are more, those are settled first
-#define NSVCD__ITEMS 256
-#define NSVCD__NEWS 8           // items that are worth a look before the search goes on
-#define NSVCD__FRESH 48         // items found, before planes are tried on them
-#define NSVCD__PLANE_STEPS 12   // of Gilbert's iteration
-#define NSVCD__HEIGHTS 256      // over the last plane, remembered: of moving patches,
+// THE SCHEDULE, in the order in which a query comes to it.
+// The search hands over items as it finds them.
+#define NSVCD__FRESH 48  // room for items on which nothing has been tried
+#define NSVCD__NEWS 8    // of them are worth a look before the search goes on
+// A look: planes and witnesses, the deepest item first.
+#define NSVCD__DEEP 0.2f        // items as deep: a witness is sought before any plane
+#define NSVCD__PLANE_STEPS 12   // of Gilbert's iteration, for a plane between two hulls
+#define NSVCD__HOPE 8           // looks for a witness in vain, before triangles are tried as well
+#define NSVCD__HEIGHTS 256      // over the plane that held last, remembered: of moving patches,
 #define NSVCD__REST_HEIGHTS 64  // and of resting ones
-// depth from which on an item is worth a look for a witness before any plane
-#define NSVCD__DEEP 0.2f
-#define NSVCD__WINDOW 8  // blocks of a resting patch, loaded at once
-// so many looks for a witness come before triangles are tried over a whole segment
-#define NSVCD__HOPE 8
-#define NSVCD__NEVER 1e300  // ticks
-#define NSVCD__TOUCHES 32   // contacts at the start, looked at together
-#define NSVCD__LIFTS 6      // directions in which they are undone, at most
-// segments that are searched together, where the first contact is sought
-#define NSVCD__IN_ORDER 4
-#define NSVCD__HALVINGS 40  // of a span for a couple, at most
-// parts of a span that couples ask for, before all go on with its halves,
-#define NSVCD__PATIENCE_TO_PART 12
+// What no plane parts is settled by its triangles, arc by arc.
+#define NSVCD__ITEMS 256  // room for such items; when it is full they are settled first
+#define NSVCD__WINDOW 8   // blocks of a resting patch, loaded at once
+#define NSVCD__PATIENCE_TO_PART \
+  12                             // parts that couples ask for, before the span is halved for all,
 #define NSVCD__SHORTEST 0.015    // if it is longer than this share of an arc
 #define NSVCD__ARC_PARTS 8       // of an arc, waiting
-#define NSVCD__PLACED 8          // poses that are remembered
-#define NSVCD__CROSSED 128       // triangles that a ray may cross
-#define NSVCD__SAME_PLACE 1e-13  // of all lengths: distance in double that is none
+#define NSVCD__HALVINGS 40       // of a span for one couple
+#define NSVCD__PLACED 8          // poses, remembered
+#define NSVCD__SAME_PLACE 1e-13  // of all lengths: a distance in double that is none
+// What else a question asks.
+#define NSVCD__IN_ORDER 4   // segments searched together, where the first contact is sought
+#define NSVCD__TOUCHES 32   // contacts at the start, looked at together, where there is a skin
+#define NSVCD__LIFTS 6      // directions in which they are undone
+#define NSVCD__CROSSED 128  // triangles that a ray crosses, where containment is decided
+#define NSVCD__NEVER 1e300  // ticks
 
 typedef struct nsvcd__item {
   uint16_t moving, fixed, segment;
