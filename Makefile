@@ -36,9 +36,9 @@ endif
 .DELETE_ON_ERROR:
 
 PLANNERS = build/dish_insertion build/bimanual_insertion build/mining_site
-DEMOS = build/quickstart build/game build/fly_through $(PLANNERS)
+DEMOS = build/quickstart build/plan build/game build/fly_through $(PLANNERS)
 
-all: build/svcd $(DEMOS)  ## the examples, in build/: svcd, quickstart, game, fly_through and three that plan motions
+all: build/svcd $(DEMOS)  ## the examples, in build/: svcd, quickstart, plan, game, fly_through and three tasks for arms
 
 help:  ## this list
 	@sed -n 's/^\([a-z][a-z-]*\):.*##/\1:/p' $(MAKEFILE_LIST) | sort
