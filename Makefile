@@ -18,7 +18,8 @@ SCENERY = $(wildcard examples/scenery/*.h)
 
 # libccd checks the oracle on convex pairs. Found by pkg-config, or by its header where that is not installed.
 HASH := \#
-HAVE_CCD := $(shell (pkg-config --exists ccd || echo '$(HASH)include <ccd/ccd.h>' | $(CC) -E -x c - >/dev/null) 2>/dev/null && echo 1)
+HAVE_CCD := $(shell (pkg-config --exists ccd || echo '$(HASH)include <ccd/ccd.h>' | $(CC) -E -x c - >/dev/null) \
+  2>/dev/null && echo 1)
 ifeq ($(HAVE_CCD),1)
 CCD_CFLAGS := -DHAVE_LIBCCD $(shell pkg-config --cflags ccd 2>/dev/null)
 CCD_LIBS := $(shell pkg-config --libs ccd 2>/dev/null || echo -lccd)
@@ -28,12 +29,16 @@ ifeq ($(BENCH),quick)
 COUNT ?= 200
 endif
 
-.PHONY: firmware check-firmware bench-asks bench-level bench-scale race mutants bench-plan preview profile instructions sizes bench check-extremes all demo test assets problems accuracy weights format clean help check-header check-tiles check-32 check-examples check-problems check-gradient check-motions check-text
+.PHONY: all demo preview assets help format clean firmware weights problems accuracy
+.PHONY: test check-text check-header check-examples check-gradient check-tiles check-32 check-firmware
+.PHONY: check-motions check-problems check-extremes mutants
+.PHONY: bench bench-asks bench-level bench-scale bench-plan race profile instructions sizes
 .DELETE_ON_ERROR:
 
 PLANNERS = build/dish_insertion build/bimanual_insertion build/mining_site
+DEMOS = build/quickstart build/plan build/game build/fly_through $(PLANNERS)
 
-all: build/svcd build/quickstart build/game build/fly_through $(PLANNERS)  ## the examples: build/svcd, build/quickstart, build/game, build/fly_through and three that plan motions
+all: build/svcd $(DEMOS)  ## the examples, in build/: svcd, quickstart, plan, game, fly_through and three tasks for arms
 
 help:  ## this list
 	@sed -n 's/^\([a-z][a-z-]*\):.*##/\1:/p' $(MAKEFILE_LIST) | sort
@@ -48,13 +53,8 @@ $(EXAMPLES): build/%: examples/%.c $(wildcard examples/*.h) $(SCENERY) $(LIBRARY
 	$(CC) $(ALL_CFLAGS) -o $@ $< -lm
 build/game build/fly_through: WARNINGS += -Wno-unused-function  # of problem_file.h
 
-demo: build/quickstart build/game build/fly_through $(PLANNERS)  ## the examples, seconds each: what they find, and a picture each in build/
-	build/quickstart
-	build/game
-	build/fly_through
-	build/dish_insertion
-	build/bimanual_insertion
-	build/mining_site
+demo: $(DEMOS)  ## the examples, seconds each: what they find, and a picture each in build/
+	@for demo in $(DEMOS); do echo $$demo; $$demo || exit 1; done
 
 preview: build/tasks_preview  ## the planning tasks as pictures: build/task_*.svg
 	build/tasks_preview
@@ -82,7 +82,7 @@ $(BENCHES): build/%: tests/bench/%.c $(HELPERS) $(PEERS) $(SCENERY) $(LIBRARY) |
 
 check-header: | build  # as C99 to C++17, strictly, and what it leaves in the namespace
 	CC="$(CC)" CXX="$(CXX)" tests/header.sh
-check-examples: all build/make_assets  # they run, and they say no as FORMATS.md demands
+check-examples: all build/make_assets  # they run, and they say no as examples/FORMATS.md demands
 	tests/examples.sh
 check-problems: build/problems build/svcd  # every set that the generator can make
 	tests/bench/problems.sh
@@ -101,16 +101,19 @@ build/test_proof: tests/test_proof.c $(HELPERS) $(SCENERY) $(LIBRARY) | build
 build/test_tiles: tests/test_proof.c $(HELPERS) $(SCENERY) $(LIBRARY) | build
 	$(CC) $(CFLAGS) -std=c99 $(TEST_WARNINGS) -DNSVCD__TILE=2 -DTEST_ALONE -o $@ $< -lm
 check-tiles: build/test_tiles
-	@build/test_tiles >build/test_tiles.txt || { cat build/test_tiles.txt; exit 1; }; echo build/test_tiles; tail -1 build/test_tiles.txt
+	@build/test_tiles >build/test_tiles.txt || { cat build/test_tiles.txt; exit 1; }
+	@echo build/test_tiles; tail -1 build/test_tiles.txt
 # On 32 bits, where sizes end at 4 GB, under sanitizers; where the compiler can (Debian: gcc-multilib).
 CFLAGS_32 = -m32 -msse2 -mfpmath=sse -O1 -fsanitize=address,undefined -fno-sanitize-recover=all
 build/test_%_32: tests/test_%.c $(HELPERS) $(PEERS) $(SCENERY) $(LIBRARY) | build
 	$(CC) $(CFLAGS_32) -pthread -std=c99 $(TEST_WARNINGS) -DTEST_ALONE -o $@ $< -lm
 check-32:
 	@if echo 'int main(void) { return 0; }' | $(CC) $(CFLAGS_32) -x c -o build/can_32 - 2>/dev/null; then \
-	  $(MAKE) build/test_level_32 build/test_optimizer_32 && build/test_level_32 && build/test_optimizer_32 plan_sizes; \
+	  $(MAKE) build/test_level_32 build/test_optimizer_32 && build/test_level_32 && \
+	  build/test_optimizer_32 plan_sizes; \
 	else echo "check-32: $(CC) has no libraries for -m32: not tested"; fi
-# On Cortex-M4F and M7 under QEMU, where its tools are there (Debian: gcc-arm-none-eabi, libnewlib-arm-none-eabi, qemu-system-arm).
+# On Cortex-M4F and M7 under QEMU, where its tools are there (Debian: gcc-arm-none-eabi, libnewlib-arm-none-eabi,
+# qemu-system-arm).
 check-firmware: | build
 	$(MAKE) -C examples/firmware LEVELS=O2 run
 firmware: | build  ## Cortex-M under QEMU: answers as on the host; flash, RAM, stack and instructions as a table
@@ -122,11 +125,13 @@ mutants:  ## the header with one mistake at a time: the tests of the proof must 
 # files; FIRST: tolerance of first contacts, a share of the motion. FRAMES=1000 for more.
 FRAMES = 60
 FIRST = 0.01
-check-motions: build/check_motions build/game build/problems build/svcd  ## first contacts, clearances and two movers against an oracle
+check-motions:  ## first contacts, clearances and two movers against an oracle
+check-motions: build/check_motions build/game build/problems build/svcd
 	@mkdir -p build/motions
 	build/problems --set standard --meshes procedural --count 100 --seed 407 --out build/motions/standard.txt
 	build/check_motions build/motions/standard.txt 0 $(FIRST)
-	@! command -v python3 >/dev/null || { python3 tests/bench/carry.py build/motions/standard.txt build/motions/carried.txt && \
+	@! command -v python3 >/dev/null || { \
+	  python3 tests/bench/carry.py build/motions/standard.txt build/motions/carried.txt && \
 	  build/check_motions build/motions/carried.txt 0 $(FIRST) && \
 	  build/svcd check --repeat 1 build/motions/carried.txt 2>&1 >/dev/null | grep '^accuracy *100.00'; }
 	build/game --frames $(FRAMES) --problems build/motions
@@ -136,72 +141,83 @@ check-motions: build/check_motions build/game build/problems build/svcd  ## firs
 check-extremes: build/problems build/svcd  # tiny, huge, far, thin, spinning ...
 	tests/bench/extremes.sh
 
-test: build/tests check-text check-header check-gradient check-examples check-tiles check-32 check-firmware check-motions check-problems check-extremes  ## everything; the last line is `N passed, N failed`
+CHECKS = text header gradient examples tiles 32 firmware motions problems extremes
+test: build/tests $(CHECKS:%=check-%)  ## everything; the last line is `N passed, N failed`
 	build/tests
 
 # ---------------------------------------------------------------------------------------------------------- accuracy
 
 problems: build/problems  ## the generator of exactly labelled problems
 
-# The seeds and counts of the measured accuracy; COUNT=200 for a quick look. Labelling takes minutes.
+# Real meshes: a folder of sets, each an archive NAME.tar.gz or a folder NAME of OBJ files. Without it a small sample, which
+# is in the repository.
+MESHES ?=
+MESH_SETS = $(or $(MESHES),examples/scenery/meshes)
+FOUND = $(patsubst %.tar.gz,%,$(notdir $(wildcard $(MESH_SETS)/*.tar.gz))) \
+  $(notdir $(patsubst %/,%,$(wildcard $(MESH_SETS)/*/)))
+REAL = $(strip $(filter random_urdfs,$(FOUND)) $(filter metaworld,$(FOUND)) \
+  $(sort $(filter-out random_urdfs metaworld,$(FOUND))))
+# What bodies do where they touch, from this set.
+AT_REST = $(firstword $(REAL))
+
+# The problem sets: what is made up lies in DATA, what is made of real meshes in REAL_DATA. COUNT=200 for a quick look.
+# Labelling takes minutes.
 DATA = build/accuracy$(if $(COUNT),_$(COUNT))
-MESHES = ../shared/meshes
-REAL = $(patsubst $(MESHES)/%.tar.gz,%,$(wildcard $(MESHES)/random_urdfs.tar.gz $(MESHES)/metaworld.tar.gz))
-COUNT_standard = $(or $(COUNT),4000)
-COUNT_hollow = $(or $(COUNT),1000)
-COUNT_inside = $(or $(COUNT),400)
-COUNT_random_urdfs = $(or $(COUNT),2000)
-COUNT_metaworld = $(or $(COUNT),2000)
-COUNT_open = $(or $(COUNT),500)
-COUNT_large = $(or $(COUNT),1000)
-# What bodies do, and meshes that are hard to get right.
-COUNT_rest = $(or $(COUNT),2000)
-COUNT_rest_real = $(or $(COUNT),2000)
-COUNT_nested = $(or $(COUNT),1000)
-COUNT_same = $(or $(COUNT),1000)
-COUNT_one = $(or $(COUNT),1000)
-COUNT_soup = $(or $(COUNT),500)
-COUNT_slivers = $(or $(COUNT),300)
+REAL_DATA = $(if $(MESHES),$(DATA),build/sample$(if $(COUNT),_$(COUNT)))
 HARD = rest nested same one soup slivers
-SETS = standard hollow inside $(REAL) $(if $(filter metaworld,$(REAL)),open) $(HARD) $(if $(filter random_urdfs,$(REAL)),rest_real) $(if $(REAL),large)
+MADE_UP = standard hollow inside $(HARD)
+OF_REAL = $(if $(filter metaworld,$(REAL)),open) $(if $(REAL),rest_real large)
+SETS = standard hollow inside $(REAL) $(filter open,$(OF_REAL)) $(HARD) $(filter-out open,$(OF_REAL))
+# $(call files,NAMES): the problem files of these sets.
+files = $(foreach set,$(1),$(if $(filter $(set),$(MADE_UP)),$(DATA),$(REAL_DATA))/$(set).txt)
+
+# The seeds and counts of the measured accuracy; of real meshes 2,000, seed 410, where nothing else is said.
+SEED_standard = 401
+SEED_hollow = 404
+SEED_inside = 405
+SEED_random_urdfs = 402
+SEED_metaworld = 403
+COUNT_standard = 4000
+COUNT_hollow = 1000
+COUNT_inside = 400
+COUNT_open = 500
+COUNT_large = 1000
+COUNT_rest = 2000
+COUNT_rest_real = 2000
+COUNT_nested = 1000
+COUNT_same = 1000
+COUNT_one = 1000
+COUNT_soup = 500
+COUNT_slivers = 300
 CHECK_FLAGS =
 
-$(DATA)/standard.txt: | build/problems
-	@mkdir -p $(DATA)
-	build/problems --set standard --meshes procedural --count $(COUNT_standard) --seed 401 --out $@
-$(DATA)/hollow.txt: | build/problems
-	@mkdir -p $(DATA)
-	build/problems --set hollow --meshes procedural --count $(COUNT_hollow) --seed 404 --out $@
-$(DATA)/inside.txt: | build/problems
-	@mkdir -p $(DATA)
-	build/problems --set inside --meshes procedural --count $(COUNT_inside) --seed 405 --out $@
-$(DATA)/random_urdfs.txt: $(DATA)/meshes/random_urdfs | build/problems
-	build/problems --set standard --meshes $(DATA)/meshes/random_urdfs --count $(COUNT_random_urdfs) --seed 402 --out $@
-$(DATA)/metaworld.txt: $(DATA)/meshes/metaworld | build/problems
-	build/problems --set standard --meshes $(DATA)/meshes/metaworld --count $(COUNT_metaworld) --seed 403 --out $@
-$(DATA)/open.txt: $(DATA)/meshes/metaworld | build/problems  # meshes that are not closed
-	build/problems --set standard --meshes $(DATA)/meshes/metaworld --open only --count $(COUNT_open) --seed 406 --out $@
-$(HARD:%=$(DATA)/%.txt): $(DATA)/%.txt: | build/problems
-	@mkdir -p $(DATA)
-	build/problems --set $* --meshes procedural --count $(COUNT_$*) --seed 407 --out $@
-$(DATA)/rest_real.txt: $(DATA)/meshes/random_urdfs | build/problems
-	build/problems --set rest --meshes $(DATA)/meshes/random_urdfs --count $(COUNT_rest_real) --seed 408 --out $@
-$(DATA)/large.txt: $(DATA)/meshes/large | build/problems  # closed meshes of 1,500 triangles and more
-	build/problems --set standard --meshes $(DATA)/meshes/large --count $(COUNT_large) --seed 409 --out $@
-$(DATA)/meshes/large: $(REAL:%=$(DATA)/meshes/%)
-	mkdir -p $@.part
-	for mesh in $(REAL:%=$(DATA)/meshes/%/*.obj); do [ `grep -c '^f' $$mesh` -lt 1500 ] || cp $$mesh $@.part/; done
+# $(call label,SET,MESHES,COUNT,SEED)
+label = mkdir -p $(@D) && build/problems --set $(1) --meshes $(2) --count $(or $(COUNT),$(3)) --seed $(4) --out $@
+$(MADE_UP:%=$(DATA)/%.txt): $(DATA)/%.txt: | build/problems
+	$(call label,$*,procedural,$(COUNT_$*),$(or $(SEED_$*),407))
+$(REAL:%=$(REAL_DATA)/%.txt): $(REAL_DATA)/%.txt: $(REAL_DATA)/meshes/% | build/problems
+	$(call label,standard,$<,$(or $(COUNT_$*),2000),$(or $(SEED_$*),410))
+$(REAL_DATA)/open.txt: $(REAL_DATA)/meshes/metaworld | build/problems  # meshes that are not closed
+	$(call label,standard,$< --open only,$(COUNT_open),406)
+$(REAL_DATA)/rest_real.txt: $(REAL_DATA)/meshes/$(AT_REST) | build/problems
+	$(call label,rest,$<,$(COUNT_rest_real),408)
+$(REAL_DATA)/large.txt: $(REAL_DATA)/meshes/large | build/problems  # closed meshes of 1,500 triangles and more
+	$(call label,standard,$<,$(COUNT_large),409)
+$(REAL_DATA)/meshes/large: $(REAL:%=$(REAL_DATA)/meshes/%)
+	rm -rf $@.part && mkdir -p $@.part
+	for mesh in $(^:%=%/*.obj); do [ `grep -c '^f' $$mesh` -lt 1500 ] || cp $$mesh $@.part/; done
 	mv $@.part $@
-# All OBJ files of the archive, flat.
-$(DATA)/meshes/%: | $(MESHES)/%.tar.gz
-	mkdir -p $@.part
-	tar xzf $(MESHES)/$*.tar.gz -C $@.part
-	find $@.part -mindepth 2 -name '*.obj' -exec mv -n {} $@.part/ \;
-	mv $@.part $@
-.PRECIOUS: $(DATA)/%.txt $(DATA)/meshes/%
+# All OBJ files of an archive or a folder, flat.
+$(REAL:%=$(REAL_DATA)/meshes/%): $(REAL_DATA)/meshes/%:
+	rm -rf $@.part && mkdir -p $@.part/all
+	if test -d $(MESH_SETS)/$*; then cp -r $(MESH_SETS)/$*/. $@.part/all; \
+	else tar xzf $(MESH_SETS)/$*.tar.gz -C $@.part/all; fi
+	find $@.part/all -name '*.obj' -exec mv -n {} $@.part/ \;
+	rm -rf $@.part/all && mv $@.part $@
 
-accuracy: build/svcd $(SETS:%=$(DATA)/%.txt)  ## labels the problem sets (minutes, kept) and measures on each
-	@for set in $(SETS); do echo; build/svcd check $(CHECK_FLAGS) $(DATA)/$$set.txt >$(DATA)/$$set.tsv || exit 1; done
+accuracy: build/svcd $(call files,$(SETS))  ## labels the problem sets (minutes, kept) and measures on each
+	@for file in $(call files,$(SETS)); do echo; \
+	  build/svcd check $(CHECK_FLAGS) $$file >$${file%.txt}.tsv || exit 1; done
 
 # --------------------------------------------------------------------------------------------------------- benchmark
 
@@ -212,53 +228,53 @@ build/extremes/%.txt: | build/problems
 	build/problems --set $* --meshes procedural --count 300 --seed 501 --out $@
 .PRECIOUS: build/extremes/%.txt
 
+comma := ,
+space := $(subst x,,x x)
 # BENCH=quick: fewer settings on 200 problems a set, two minutes. PROBLEMS=file: your own problems instead.
 ifdef PROBLEMS
 BENCH_SETS = $(basename $(notdir $(PROBLEMS)))=$(PROBLEMS)
 else
-BENCH_SETS = $(if $(REAL),real=$(subst $(space),$(comma),$(REAL:%=$(DATA)/%.txt)),standard=$(DATA)/standard.txt) \
-  hollow=$(DATA)/hollow.txt rest=$(DATA)/$(if $(filter random_urdfs,$(REAL)),rest_real,rest).txt \
+BENCH_REAL = $(call files,$(or $(REAL),standard))
+BENCH_REST = $(call files,$(or $(filter rest_real,$(OF_REAL)),rest))
+BENCH_SETS = $(if $(REAL),real,standard)=$(subst $(space),$(comma),$(strip $(BENCH_REAL))) \
+  hollow=$(DATA)/hollow.txt rest=$(BENCH_REST) \
   $(if $(BENCH),,$(foreach set,$(EXTREMES),$(set)=build/extremes/$(set).txt))
-BENCH_FILES = $(if $(REAL),$(REAL:%=$(DATA)/%.txt),$(DATA)/standard.txt) $(DATA)/hollow.txt \
-  $(DATA)/$(if $(filter random_urdfs,$(REAL)),rest_real,rest).txt $(if $(BENCH),,$(EXTREMES:%=build/extremes/%.txt))
+BENCH_FILES = $(BENCH_REAL) $(DATA)/hollow.txt $(BENCH_REST) $(if $(BENCH),,$(EXTREMES:%=build/extremes/%.txt))
 endif
-comma := ,
-space := $(subst x,,x x)
-
-bench-scale: build/bench_scale  ## bytes and microseconds against triangles, 12 to a million, and against N: table, build/scale.svg
-	build/bench_scale
-bench-level: build/bench_level  ## a level of 20 m as one body: encoding, memory, and motions of a frame
-	for n in 20000 60000 200000 1000000; do build/bench_level $$n $(or $(LEVEL_MOTIONS),200) || exit 1; done
-bench-asks: build/bench_asks build/game $(DATA)/standard.txt $(DATA)/hollow.txt $(DATA)/rest.txt  ## what first contacts, clearances and skins cost
-	@mkdir -p build/motions
-	build/game --frames 300 --problems build/motions
-	build/bench_asks build/motions/game.txt 0.002
-	build/bench_asks $(DATA)/standard.txt
-	build/bench_asks $(DATA)/hollow.txt
-	build/bench_asks $(DATA)/rest.txt
-
-profile: build/profile $(DATA)/random_urdfs.txt $(DATA)/hollow.txt $(DATA)/rest.txt  ## where a query's time goes, stage by stage
-	build/profile $(DATA)/random_urdfs.txt 64 128 512
-	build/profile $(DATA)/hollow.txt 512
-	build/profile $(DATA)/rest.txt 256
-
-instructions: $(DATA)/random_urdfs.txt  ## what a query executes, counted by callgrind
-	CC="$(CC)" tests/bench/instructions.sh $(DATA)/random_urdfs.txt 64 512
-
-sizes:  ## code and data that each compile-time switch leaves out, host and Cortex-M
-	CC="$(CC)" tests/bench/sizes.sh
 
 bench: build/bench $(BENCH_FILES)  ## every method on the same problems: table, build/tradeoff.tsv, build/tradeoff.svg
 	build/bench $(if $(BENCH),--quick --limit 150,--limit 600) $(BENCH_SETS)
 
 # The proof, the network's default and the mesh hierarchy on all sets, in one run: for ratios.
-race: build/bench $(BENCH_FILES) $(DATA)/standard.txt $(HARD:%=$(DATA)/%.txt) $(if $(REAL),$(DATA)/large.txt)  ## the proof against the hierarchy and the network, minutes
-	build/bench --race --out build/race $(if $(LIMIT),--limit $(LIMIT)) $(BENCH_SETS) standard=$(DATA)/standard.txt $(foreach set,$(filter-out rest,$(HARD)) $(if $(REAL),large),$(set)=$(DATA)/$(set).txt)
+RACE = standard $(filter-out rest,$(HARD)) $(filter large,$(OF_REAL))
+race: build/bench $(BENCH_FILES) $(call files,$(RACE))  ## the proof against the hierarchy and the network, minutes
+	build/bench --race --out build/race $(if $(LIMIT),--limit $(LIMIT)) $(BENCH_SETS) \
+	  $(foreach set,$(RACE),$(set)=$(call files,$(set)))
 
+bench-scale: build/bench_scale  ## bytes and microseconds against triangles and against N: table, build/scale.svg
+	build/bench_scale
+bench-level: build/bench_level  ## a level of 20 m as one body: encoding, memory, and motions of a frame
+	for n in 20000 60000 200000 1000000; do build/bench_level $$n $(or $(LEVEL_MOTIONS),200) || exit 1; done
+ASKED = $(call files,standard hollow rest)
+bench-asks: build/bench_asks build/game $(ASKED)  ## what first contacts, clearances and skins cost
+	@mkdir -p build/motions
+	build/game --frames 300 --problems build/motions
+	build/bench_asks build/motions/game.txt 0.002
+	for file in $(ASKED); do build/bench_asks $$file || exit 1; done
 # EPISODES=10 for a quick look; 100, the default, take half an hour.
 bench-plan: build/plan_bench  ## four planners on three tasks: table, build/plan.tsv, build/plan.svg
 	build/plan_bench --episodes $(or $(EPISODES),100) --tsv build/plan.tsv
 	build/plan_bench chart build/plan.tsv build/plan.svg
+
+TIMED = $(REAL_DATA)/$(AT_REST).txt
+profile: build/profile $(TIMED) $(call files,hollow rest)  ## where a query's time goes, stage by stage
+	build/profile $(TIMED) 64 128 512
+	build/profile $(DATA)/hollow.txt 512
+	build/profile $(DATA)/rest.txt 256
+instructions: $(TIMED)  ## what a query executes, counted by callgrind
+	CC="$(CC)" tests/bench/instructions.sh $(TIMED) 64 512
+sizes:  ## code and data that each compile-time switch leaves out, host and Cortex-M
+	CC="$(CC)" tests/bench/sizes.sh
 
 # ---------------------------------------------------------------------------------------------------------- training
 
@@ -270,6 +286,7 @@ CALIBRATION = build/calibration
 build/train/checkpoint.pt:
 	cd train && $(PYTHON) train.py --out ../build/train --groups 5000 --shapes 6000 --seed 11 --rate 6e-3 --steps 51341 \
 	  --shape '{"channels":4,"heads":[["tiny",[32,16]],["small",[96,32]],["base",[160,128,32]]]}'
+CALIBRATED = $(CALIBRATION)/standard.txt $(CALIBRATION)/hollow.txt
 $(CALIBRATION)/standard.txt: | build/problems
 	@mkdir -p $(CALIBRATION)
 	build/problems --set standard --meshes procedural --count 8000 --pool 400 --seed 301 --out $@
@@ -278,19 +295,21 @@ $(CALIBRATION)/hollow.txt: | build/problems
 	build/problems --set hollow --meshes procedural --count 4000 --seed 302 --out $@
 .PRECIOUS: $(CALIBRATION)/%.txt
 
-weights: $(CHECKPOINT) $(CALIBRATION)/standard.txt $(CALIBRATION)/hollow.txt  ## trains anew on a GPU, calibrates, writes weights.h
+weights: $(CHECKPOINT) $(CALIBRATED)  ## trains anew on a GPU, calibrates, writes weights.h
 	cd train && $(PYTHON) export.py ../$(CHECKPOINT) ../weights.h ../tests/data/golden.h uncalibrated
 	$(MAKE) build/svcd
-	cd train && $(PYTHON) calibrate.py ../$(CHECKPOINT) ../build/svcd $(CALIBRATION:%=../%/standard.txt) $(CALIBRATION:%=../%/hollow.txt)
+	cd train && $(PYTHON) calibrate.py ../$(CHECKPOINT) ../build/svcd $(CALIBRATED:%=../%)
 	cd train && $(PYTHON) export.py ../$(CHECKPOINT) ../weights.h ../tests/data/golden.h
 
-FORMATTED = neuralsvcd.h $(wildcard examples/*.[ch] examples/scenery/*.h examples/firmware/*.[ch] tests/*.[ch] tests/bench/*.[ch])
+WRITTEN = examples examples/scenery examples/firmware tests tests/bench
+FORMATTED = neuralsvcd.h $(wildcard $(WRITTEN:%=%/*.[ch]))
 format:  ## clang-format on what is written by hand
 	clang-format -i $(FORMATTED)
 # Version 14 decides, as in Debian 12: others break lines elsewhere.
 check-text:  ## the header as a text: its lines, functions, contents, the order of its sections; and that all is formatted
 	@if command -v python3 >/dev/null; then python3 tests/text.py; else echo "check-text: no python3: not tested"; fi
-	@if clang-format --version 2>/dev/null | grep -q 'version 14'; then clang-format --dry-run -Werror $(FORMATTED); \
+	@if clang-format --version 2>/dev/null | grep -q 'version 14'; then \
+	  clang-format --dry-run -Werror $(FORMATTED); \
 	else echo "check-text: no clang-format 14: format not tested"; fi
 
 clean:  ## removes build/

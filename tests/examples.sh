@@ -32,6 +32,14 @@ grep -q 'carried high -> clears (certified-free' "$dir/out" || fail "the mug car
 tail -1 build/demo.svg | grep -q '^</svg>$' || fail "build/demo.svg is not whole"
 if command -v xmllint >/dev/null; then xmllint --noout build/demo.svg || fail "build/demo.svg is not XML"; fi
 
+# One motion, planned: it ends with 0 if it is certified free, and begins and ends where it should.
+expect 0 '' build/plan
+test "$(sed -n 1p "$dir/out")" = 'converged: certified free' || fail "plan says: $(sed -n 1p "$dir/out")"
+test "$(sed -n 2p "$dir/out")" = ' 0.00 -0.50  0.00' || fail "plan begins at: $(sed -n 2p "$dir/out")"
+test "$(tail -1 "$dir/out")" = ' 0.00  0.50  0.00' || fail "plan ends at: $(tail -1 "$dir/out")"
+(cd "$dir" && "$OLDPWD/build/plan") 2>"$dir/err" && fail "plan without its meshes ends with 0"
+grep -q 'mug.obj:0: the file is missing' "$dir/err" || fail "plan without its meshes says: $(cat "$dir/err")"
+
 # The planners: free motions by the oracle's word (the exit status), and a whole picture.
 for planner in dish_insertion bimanual_insertion mining_site; do
   rm -f build/$planner.svg

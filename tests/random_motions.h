@@ -47,7 +47,7 @@ static void rotate64(const double *q, const double *v, double *out) {
     out[k] = v[k] + 2 * (q[3] * c[k] + d[k]);
 }
 
-// FORMATS.md's motion, in double.
+// A motion as examples/FORMATS.md has it, in double.
 static pose64 pose_at(const nsvcd_pose *samples, size_t count, double t) {
   if (count == 1)
     return to_double(&samples[0]);

@@ -21,6 +21,7 @@ static void poses_at_are_poses(void) {
     nsvcd_pose fixed = {{1, -2, 0.5f}, {0, 0, 0, 1}};
     float times[NSVCD__LANES], lanes[12][NSVCD__LANES];
     nsvcd__motion motion;
+    memset(&motion, 0, sizeof motion);
     random_quat(fixed.rotation);
     random_motion(count, trial % 3, uniform(0, 12), 1, middle);
     CHECK_EQ(motion_init(poses, count, &fixed, &motion), NSVCD_OK);

@@ -140,7 +140,7 @@ FACTS = 12
 
 def invariants(s: Shape, z1: Tensor, z2: Tensor, g: Geometry, scaling: str = "sum", roll: str = "velocity",
                canonical: bool = True) -> Tensor:
-    """Inputs of the decoder, invariant to rigid motion, scale, swap, mirror and time reversal (appendix F, and DESIGN.md).
+    """Inputs of the decoder, invariant to rigid motion, scale, swap, mirror and time reversal (the paper, appendix F).
 
     z1, z2 (..., latent) in their bodies' frames; g of shape (...). Larger patch first; the line between the centres is
     axis 1; the velocity across it, with a little of the difference of the mean directions so that it has a limit where

@@ -15,7 +15,7 @@ from torch import Tensor
 import shapes
 from shapes import gradient
 
-SAMPLES = 33  # poses of a motion; between two: position linear, rotation slerp (FORMATS.md)
+SAMPLES = 33  # poses of a motion; between two: position linear, rotation slerp (examples/FORMATS.md)
 SEGMENTS = 16  # of the broad phase: every second pose
 PAIRS = 16  # candidates kept per problem
 

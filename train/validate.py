@@ -1,4 +1,4 @@
-"""Accuracy on problem files (FORMATS.md) with exact labels, by N and by distance from contact. Same steps as the library."""
+"""Accuracy on problem files (examples/FORMATS.md), by N and by distance from contact. Same steps as the library."""
 from __future__ import annotations
 
 import importlib

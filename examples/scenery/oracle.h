@@ -1,12 +1,11 @@
 // oracle.h - exact answers to the questions that the library answers by a network. Slow, double
 // precision: for tests, and for examples that let themselves be judged.
 //
-// In:  triangle meshes, a fixed pose, a motion as FORMATS.md defines it (COUNT poses at t =
-// i/(COUNT-1), position
-//      linear, rotation slerp on the shorter arc in between).
-// Out: the least separation of two surfaces over the motion, with time and witness points; whether
-// they touch;
-//      the first time at which they do; whether one body lies inside the other.
+// In: triangle meshes, a fixed pose, a motion as examples/FORMATS.md has it: poses at equal times,
+// the position linear in between, the rotation by slerp on the shorter arc.
+//
+// Out: the least separation of two surfaces over the motion, with its time and witness points;
+// whether they touch, and the first time at which they do; whether one body lies inside the other.
 //
 // Exact means: every number is either computed in double from the triangles themselves, or bounded
 // rigorously (a bound on how fast any point of the body moves); nothing is sampled and hoped for.

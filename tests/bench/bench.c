@@ -3,7 +3,7 @@
 //
 //   bench [--quick|--race] [--limit N] [--out build/tradeoff] NAME=FILE[,FILE...]...
 //
-// For each set NAME (problem files, FORMATS.md) and each method: rows of settings, with accuracy,
+// For each set NAME (problem files, examples/FORMATS.md) and each method: rows of settings, with accuracy,
 // misses and false alarms, time per query (pose samples in, verdict out; warm, the least of three
 // runs), bytes per body and the time to prepare it. Output: OUT.tsv with every row, OUT.svg
 // (accuracy against time), and on standard output the fronts - the rows that no other row of the

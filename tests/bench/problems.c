@@ -1,4 +1,4 @@
-// problems.c - writes labelled problem files (FORMATS.md), exact by scenery/oracle.h. See `problems`
+// problems.c - writes labelled problem files (examples/FORMATS.md), exact by scenery/oracle.h. See `problems`
 // without arguments.
 //
 // What sets there are: the table `sets` below. How a problem comes about (the paper's appendix B,

@@ -1,7 +1,7 @@
 #!/bin/sh
-# The generator of problems: every set comes out as FORMATS.md wants it and is what it says it is. The labels themselves
-# are the oracle's (tests/test_oracle.c). Needs build/problems and build/svcd; run from the repository root. Ends with 1 if
-# anything is not as it should be.
+# The generator of problems: every set comes out as examples/FORMATS.md wants it and is what it says it is. The labels
+# themselves are the oracle's (tests/test_oracle.c). Needs build/problems and build/svcd; run from the repository root.
+# Ends with 1 if anything is not as it should be.
 set -u
 dir=$(mktemp -d)
 trap 'rm -rf "$dir"' EXIT
