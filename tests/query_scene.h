@@ -120,11 +120,10 @@ static void query_multiply(const float *r, const float *a, float *out) {
 // The same pose after everything was moved by `common`.
 static nsvcd_pose query_moved(const nsvcd_pose *common, const nsvcd_pose *pose) {
   nsvcd_pose out;
-  float m[9];
-  nsvcd__quat_to_matrix(common->rotation, m);
-  nsvcd__mul33_vec(m, pose->position, out.position);
-  for (int k = 0; k < 3; k++)
-    out.position[k] += common->position[k];
+  const nsvcd__mat3 m = nsvcd__mat3_of(nsvcd__quat_load(common->rotation));
+  const nsvcd__f3 turned = nsvcd__mat3_apply(&m, nsvcd__f3_load(pose->position));
+  const nsvcd__f3 moved = nsvcd__f3_add(turned, nsvcd__f3_load(common->position));
+  nsvcd__f3_store(moved, out.position);
   query_multiply(common->rotation, pose->rotation, out.rotation);
   return out;
 }
