@@ -832,6 +832,11 @@ static inline nsvcd__f3 nsvcd__f3_cross(nsvcd__f3 a, nsvcd__f3 b) {
 }
 static inline float nsvcd__f3_length(nsvcd__f3 a) { return sqrtf(nsvcd__f3_dot(a, a)); }
 
+// A box along the axes.
+typedef struct nsvcd__box {
+  nsvcd__f3 low, high;
+} nsvcd__box;
+
 static inline nsvcd__d3 nsvcd__d3_of(double x, double y, double z) {
   const nsvcd__d3 out = {x, y, z};
   return out;
@@ -966,11 +971,7 @@ static nsvcd__d3 nsvcd__dmat3_apply_transpose(const nsvcd__dmat3 *m, nsvcd__d3 a
   return nsvcd__d3_add(sum, nsvcd__d3_scale(m->z, a.z));
 }
 
-// ---- boxes and spheres
-
-typedef struct nsvcd__box {
-  nsvcd__f3 low, high;
-} nsvcd__box;
+// ---- spheres
 
 typedef struct nsvcd__sphere {
   nsvcd__f3 centre;
@@ -13628,6 +13629,10 @@ typedef struct nsvcd__wrench {
   nsvcd__f3 force, torque;
 } nsvcd__wrench;
 
+static nsvcd__wrench nsvcd__wrench_load(const float *row) {
+  const nsvcd__wrench out = {nsvcd__f3_load(row), nsvcd__f3_load(row + 3)};
+  return out;
+}
 // row (6) += (force, torque).
 static void nsvcd__add_to_row(float *row, nsvcd__f3 force, nsvcd__f3 torque) {
   nsvcd__f3_store(nsvcd__f3_add(nsvcd__f3_load(row), force), row);
@@ -13969,60 +13974,99 @@ static void nsvcd__solve_upper(const double *l, size_t n, double *x) {  // x = L
 // In: a problem. Out: control points. Top to bottom:
 //
 //   memory      everything in the caller's workspace
+//   culling     which bodies may meet in which segments: a broad phase of whole bodies
 //   collision   poses along a trajectory -> cost, and its derivative by the poses (wrenches)
 //   cost        control points -> smoothness + limits + collision, and the derivative by the
 //               control points
 //   explore     MPPI: smooth random changes of a mean, weighted by exp(-cost / temperature)
 //   refine      L-BFGS with bundled gradients, in the metric of the smoothness
 //   plan        start and goal, several seeds, and the last check
+//
+// A trajectory is looked at in *moments*, uniform in t, both ends among them; a *segment* lies
+// between two of them. A *rollout* is one of MPPI's random trajectories; a *bundle* is the random
+// changes over which L-BFGS takes the mean of a gradient. Letters of shapes: M via points, F
+// joints, B bodies, P pairs.
 
-// per radian^2 or metre^2, mean over the samples: joints out of their limits,
+// The schedule of the search.
+// cost: of joints out of their limits, per radian^2 or metre^2, mean over the moments
 #define NSVCD__LIMIT_COST 1e5f
-// of which this share of the range is kept free where start and goal allow it
+// cost: of a joint's range, kept free at both limits
 #define NSVCD__LIMIT_MARGIN 0.005f
-#define NSVCD__ASKED_AT_ONCE 8  // segments asked about at once, at first
-#define NSVCD__HISTORY 8        // L-BFGS: steps remembered
-#define NSVCD__STEPS 5          // step lengths tried
-#define NSVCD__PUSHES 3         // refinements more, where the proof finds a hit
+// collision: logits over which the cost grows from a slope of 0 to one of 1
+#define NSVCD__SOFT_LOGITS 2
+// collision: segments that one query asks about, where a first look may do
+#define NSVCD__FIRST_LOOK_SEGMENTS 8
+// gradient by differences: a joint's step, and what it grows by with the joint's value
+#define NSVCD__JOINT_STEP 1e-3f
+#define NSVCD__JOINT_STEP_SHARE 1e-6f
+// explore: temperatures above the least cost at which a rollout weighs nothing
+#define NSVCD__WEIGHTLESS 10
+// explore: one in so many rollouts costs less than the least cost and two temperatures
+#define NSVCD__ELITE 10
+// explore: how far the mean goes towards that of the rollouts
+#define NSVCD__MEAN_STEP 0.9f
+// explore: it ends after so many iterations without a gain of 1 %, once the best is free
+#define NSVCD__PATIENCE 3
+// refine: steps of L-BFGS that are remembered; step lengths that are tried
+#define NSVCD__HISTORY 8
+#define NSVCD__STEPS 5
+// plan: refinements more, with a wider margin, where the proof finds a hit
+#define NSVCD__PUSHES 3
 
-// What culling knows of a body at each sample: TRACK arrays of (samples).
-enum { NSVCD__CENTRE = 0, NSVCD__ORIGIN = 3, NSVCD__AXES = 6, NSVCD__BEND = 15, NSVCD__TRACK = 16 };
+// A body at a moment.
+typedef struct nsvcd__stance {
+  nsvcd__transform pose;
+  nsvcd__f3 centre;  // of its bounding sphere, from its origin, in the world's axes
+  // of its turn to the next moment: the root of 1 - cos of half the angle
+  float bend;
+} nsvcd__stance;
 
+// One way of looking at trajectories: while exploring, refining, or for the last check.
 typedef struct nsvcd__stage {
-  size_t via, samples;  // M; poses along the trajectory: segments + 1
-  size_t iterations, count;
+  size_t via, moments;  // M; segments + 1
+  size_t iterations;
+  size_t draws;      // rollouts of an iteration, or gradients in a bundle
   double *form;      // (M + 2, M + 2): smoothness
   double *factor;    // (M, M): Cholesky's, of the rows and columns of the via points
   double deviation;  // of factor^-T times normal numbers: the greatest of a via point
-  float *weights;    // (samples, M + 2)
+  float *weights;    // (moments, M + 2): of the control points, in the joints
 } nsvcd__stage;
 
 typedef struct nsvcd__planner {
   const nsvcd_plan_problem *problem;
   nsvcd_plan_options options;  // with the defaults filled in
   nsvcd__stage explore, refine, check;
-  void *query;
+  void *query;  // workspace of queries
   size_t query_size;
-  uint64_t random;
+  uint64_t random;     // the state of the random numbers
   nsvcd_result error;  // the first that a query or a pose gave
   size_t trajectories, sweeps;
-  float *path;        // (samples, F)
-  nsvcd_pose *poses;  // (samples, B)
-  nsvcd_pose *moved;  // (B)
-  float *tracks;      // (B, TRACK, samples)
-  // (B, 6): of a body, in its own axes, low and high
-  float *boxes;
-  float *seen;                                                       // (4, samples)
-  uint32_t *order;                                                   // (P): of the pairs
-  unsigned char *meets;                                              // (samples)
-  float *wrenches;                                                   // (samples, B, 6)
-  float *jacobian;                                                   // (B, 6, F)
-  float *by_path;                                                    // (F)
-  float *result, *control, *best, *trial, *gradient, *sum, *offset;  // (MAX + 2, F) each
-  float *tries;                                                      // (count, M, F)
-  float *costs;                                                      // (count)
-  float *steps, *changes;                                            // (HISTORY, M, F) each
-  double *vector;                                                    // (M, F)
+
+  // the trajectory that is looked at
+  float *path;             // (moments, F)
+  nsvcd_pose *poses;       // (moments, B)
+  nsvcd__stance *stances;  // (moments, B)
+  nsvcd__box *boxes;       // (B): of a body's patches, in its own axes
+  unsigned char *meets;    // (moments): may the pair at hand meet there?
+  uint32_t *queue;         // (P): pairs, in the order in which they are looked at
+  float *wrenches;         // (moments, B, 6)
+  nsvcd_pose *moved;       // (B): at a moment, with one joint moved
+  float *jacobian;         // (B, 6, F)
+  float *by_path;          // (F): derivative by the joints of a moment
+
+  // control points, (M + 2, F) each; the gradient's and those below have rows for via points only
+  float *result;    // the best of all seeds
+  float *control;   // where the search is: MPPI's mean, L-BFGS's last point
+  float *best;      // of this seed
+  float *trial;     // the one that is costed
+  float *gradient;  // at `trial`, (M + 2, F)
+  float *sum;       // means of offsets, or of gradients
+  float *offset;    // a change, or a direction
+  float *drawn;     // (draws, M, F): the random changes
+  float *costs;     // (draws): of rollouts, then their weights
+  float *steps;     // (HISTORY, M, F): of L-BFGS,
+  float *changes;   // (HISTORY, M, F): and what they changed in the gradient
+  double *vector;   // (M + 2): scratch
 } nsvcd__planner;
 
 // What a trajectory costs.
@@ -14031,51 +14075,56 @@ typedef struct nsvcd__cost {
   int collides;  // in segments looked at
   size_t joint;  // that leaves its limits, or NSVCD_NONE
 } nsvcd__cost;
+
 static int nsvcd__is_free(const nsvcd__cost *cost) {
   return !cost->collides && cost->joint == NSVCD_NONE;
 }
 
 // ---- memory
 
-static int nsvcd__stage_of(const nsvcd_plan_stage *given, size_t via, size_t segments,
-                           size_t iterations, size_t count, nsvcd__stage *stage) {
-  stage->via = given->via_points ? given->via_points : via;
-  const size_t pieces = given->segments ? given->segments : segments;
-  stage->samples = pieces + 1;
-  stage->iterations = given->iterations == NSVCD_NONE ? 0
-                      : given->iterations             ? given->iterations
-                                                      : iterations;
-  stage->count = given->samples ? given->samples : count;
-  return stage->via <= NSVCD_MAX_VIA_POINTS && pieces <= NSVCD_MAX_SEGMENTS &&
-         stage->count <= 10000 && stage->iterations <= 100000;
+// A stage of what the caller gave, and the defaults where that is 0. Returns 0 for what cannot be.
+static int nsvcd__stage_of(const nsvcd_plan_stage *given, nsvcd_plan_stage defaults,
+                           nsvcd__stage *stage) {
+  const size_t segments = given->segments ? given->segments : defaults.segments;
+  stage->via = given->via_points ? given->via_points : defaults.via_points;
+  stage->moments = segments + 1;
+  stage->iterations = given->iterations ? given->iterations : defaults.iterations;
+  if (given->iterations == NSVCD_NONE)
+    stage->iterations = 0;
+  stage->draws = given->samples ? given->samples : defaults.samples;
+  if (stage->via > NSVCD_MAX_VIA_POINTS || segments > NSVCD_MAX_SEGMENTS)
+    return 0;
+  return stage->draws <= 10000 && stage->iterations <= 100000;
 }
 
-static float nsvcd__default(float given, float otherwise) {  // negative: none
+// A weight: the default where 0 is given, 0 where it is negative.
+static float nsvcd__weight_of(float given, float otherwise) {
   return given > 0 ? given : given < 0 ? 0 : otherwise;
 }
 
-// Fills in the defaults. Returns 0 for what cannot be.
-static int nsvcd__planner_settings(const nsvcd_plan_problem *problem,
-                                   const nsvcd_plan_options *options, nsvcd__planner *p) {
-  memset(p, 0, sizeof *p);
-  if (!problem || problem->joints - 1 >= NSVCD_MAX_JOINTS || problem->body_count > 65536 ||
-      !problem->place)
+// Is the problem one that can be stated?
+static int nsvcd__problem_is_whole(const nsvcd_plan_problem *problem) {
+  if (!problem || !problem->place)
+    return 0;
+  if (problem->joints < 1 || problem->joints > NSVCD_MAX_JOINTS || problem->body_count > 65536)
     return 0;
   if (!problem->low || !problem->high || !problem->start || !problem->goal)
     return 0;
-  if (problem->pair_count > 0 && (!problem->pairs || (!problem->bodies && !problem->collision)))
+  const int by_network = !problem->collision;
+  if (problem->pair_count > 0 && (!problem->pairs || (by_network && !problem->bodies)))
     return 0;
   for (size_t k = 0; k < problem->pair_count; k++) {
-    const nsvcd_body_pair *pair = &problem->pairs[k];
-    if (pair->a >= problem->body_count || pair->b >= problem->body_count || pair->a == pair->b)
+    const nsvcd_body_pair pair = problem->pairs[k];
+    if (pair.a >= problem->body_count || pair.b >= problem->body_count || pair.a == pair.b)
       return 0;
-    if (!problem->collision && (!problem->bodies[pair->a] || !problem->bodies[pair->b]))
+    if (by_network && (!problem->bodies[pair.a] || !problem->bodies[pair.b]))
       return 0;
   }
-  p->problem = problem;
-  if (options)
-    p->options = *options;
-  nsvcd_plan_options *o = &p->options;
+  return 1;
+}
+
+// Are the options' numbers finite, and those of the queries in order?
+static int nsvcd__plan_options_are_valid(const nsvcd_plan_options *o) {
   const float floats[9] = {o->velocity, o->acceleration, o->jerk,   o->collision,   o->duration,
                            o->margin,   o->spread,       o->bundle, o->sweep.recall};
   for (size_t k = 0; k < 9; k++) {
@@ -14083,123 +14132,141 @@ static int nsvcd__planner_settings(const nsvcd_plan_problem *problem,
       return 0;
   }
   nsvcd__settings unused;
-  if (nsvcd__settings_of(&o->sweep, 1, 1, &unused))
+  return nsvcd__settings_of(&o->sweep, 1, 1, &unused) == NSVCD_OK;
+}
+
+// Fills in the defaults. Returns 0 for what cannot be.
+static int nsvcd__planner_settings(const nsvcd_plan_problem *problem,
+                                   const nsvcd_plan_options *options, nsvcd__planner *p) {
+  // via points, segments, iterations, draws
+  static const nsvcd_plan_stage explore = {5, 24, 40, 100};
+  static const nsvcd_plan_stage refine = {10, 22, 10, 10};
+  memset(p, 0, sizeof *p);
+  if (!nsvcd__problem_is_whole(problem))
     return 0;
-  if (!nsvcd__stage_of(&o->explore, 5, 24, 40, 100, &p->explore))
+  p->problem = problem;
+  if (options)
+    p->options = *options;
+  nsvcd_plan_options *o = &p->options;
+  if (!nsvcd__plan_options_are_valid(o))
     return 0;
-  if (!nsvcd__stage_of(&o->refine, 10, 22, 10, 10, &p->refine))
+  if (!nsvcd__stage_of(&o->explore, explore, &p->explore))
+    return 0;
+  if (!nsvcd__stage_of(&o->refine, refine, &p->refine))
     return 0;
   if (o->refine.iterations == NSVCD_NONE)
     p->refine.via = p->explore.via;
+
   o->seeds = o->seeds ? o->seeds : 6;
-  o->velocity = nsvcd__default(o->velocity, 10);
-  o->acceleration = nsvcd__default(o->acceleration, 2);
-  o->jerk = nsvcd__default(o->jerk, 10);
-  o->collision = nsvcd__default(o->collision, 20);
+  o->velocity = nsvcd__weight_of(o->velocity, 10);
+  o->acceleration = nsvcd__weight_of(o->acceleration, 2);
+  o->jerk = nsvcd__weight_of(o->jerk, 10);
   // something must be least
   if (!(o->velocity > 0 || o->acceleration > 0 || o->jerk > 0))
     o->velocity = 1e-3f;
+  o->collision = nsvcd__weight_of(o->collision, 20);
   o->duration = o->duration > 0 ? o->duration : 20;
-  o->margin = nsvcd__default(o->margin, 2);
-  o->spread = nsvcd__default(o->spread, 0.3f);
-  o->bundle = nsvcd__default(o->bundle, 0.01f);
+  o->margin = nsvcd__weight_of(o->margin, 2);
+  o->spread = nsvcd__weight_of(o->spread, 0.3f);
+  o->bundle = nsvcd__weight_of(o->bundle, 0.01f);
+
   p->check = p->refine;
-  const size_t finest =
-      p->explore.samples > p->refine.samples ? p->explore.samples : p->refine.samples;
+  const int explores_finer = p->explore.moments > p->refine.moments;
+  const size_t finest = explores_finer ? p->explore.moments : p->refine.moments;
   o->check = o->check ? o->check : 4 * (finest - 1);
-  p->check.samples = o->check + 1;
+  p->check.moments = o->check + 1;
   return o->check <= 4 * NSVCD_MAX_SEGMENTS && o->seeds <= 1000;
+}
+
+// The next rows of so many floats, or doubles, of a workspace: nsvcd__take.
+static float *nsvcd__take_floats(char *base, uint64_t *used, size_t rows, size_t floats) {
+  return (float *)nsvcd__take(base, used, rows, floats * sizeof(float));
+}
+static double *nsvcd__take_doubles(char *base, uint64_t *used, size_t rows, size_t doubles) {
+  return (double *)nsvcd__take(base, used, rows, doubles * sizeof(double));
 }
 
 static void nsvcd__stage_memory(nsvcd__stage *stage, char *base, uint64_t *used) {
   const size_t via = stage->via;
-  const size_t all = via + 2;
-  stage->form = (double *)nsvcd__take(base, used, all * all, sizeof(double));
-  stage->factor = (double *)nsvcd__take(base, used, via * via, sizeof(double));
-  stage->weights = (float *)nsvcd__take(base, used, stage->samples * all, sizeof(float));
+  stage->form = nsvcd__take_doubles(base, used, via + 2, via + 2);
+  stage->factor = nsvcd__take_doubles(base, used, via, via);
+  stage->weights = nsvcd__take_floats(base, used, stage->moments, via + 2);
 }
+
+static size_t nsvcd__larger(size_t a, size_t b) { return a > b ? a : b; }
 
 // Lays the planner's memory out in base, or, where that is NULL, only measures. Returns the bytes;
 // 0 if they are more than can be counted.
 static size_t nsvcd__planner_memory(nsvcd__planner *p, char *base) {
   const size_t f = p->problem->joints;
-  const size_t b = p->problem->body_count;
-  const size_t via = p->explore.via > p->refine.via ? p->explore.via : p->refine.via;
-  const size_t count = p->explore.count > p->refine.count ? p->explore.count : p->refine.count;
-  size_t samples = p->check.samples;
-  samples = samples > p->explore.samples ? samples : p->explore.samples;
-  samples = samples > p->refine.samples ? samples : p->refine.samples;
-  const size_t point = (via + 2) * f * sizeof(float);
+  const size_t bodies = p->problem->body_count;
+  const size_t via = nsvcd__larger(p->explore.via, p->refine.via);
+  const size_t draws = nsvcd__larger(p->explore.draws, p->refine.draws);
+  const size_t searched = nsvcd__larger(p->explore.moments, p->refine.moments);
+  const size_t moments = nsvcd__larger(p->check.moments, searched);
+  const size_t placed = moments * bodies;
+  const size_t point = (via + 2) * f;
   uint64_t used = 0;
+
   const nsvcd__needs needs = nsvcd__needs_most();
   p->query_size = nsvcd__query_layout(&needs, NULL);
   p->query = nsvcd__take(base, &used, 1, p->query_size);
   nsvcd__stage_memory(&p->explore, base, &used);
   nsvcd__stage_memory(&p->refine, base, &used);
   nsvcd__stage_memory(&p->check, base, &used);
-  p->path = (float *)nsvcd__take(base, &used, samples * f, sizeof(float));
-  p->poses = (nsvcd_pose *)nsvcd__take(base, &used, samples * b, sizeof(nsvcd_pose));
-  p->moved = (nsvcd_pose *)nsvcd__take(base, &used, b, sizeof(nsvcd_pose));
-  p->tracks = (float *)nsvcd__take(base, &used, samples * b, NSVCD__TRACK * sizeof(float));
-  p->boxes = (float *)nsvcd__take(base, &used, b, 6 * sizeof(float));
-  p->seen = (float *)nsvcd__take(base, &used, samples, 4 * sizeof(float));
-  p->order = (uint32_t *)nsvcd__take(base, &used, p->problem->pair_count, sizeof(uint32_t));
-  p->meets = (unsigned char *)nsvcd__take(base, &used, samples, 1);
-  p->wrenches = (float *)nsvcd__take(base, &used, samples * b, 6 * sizeof(float));
-  p->jacobian = (float *)nsvcd__take(base, &used, b, 6 * f * sizeof(float));
-  p->by_path = (float *)nsvcd__take(base, &used, f, sizeof(float));
-  p->result = (float *)nsvcd__take(base, &used, 1, point);
-  p->control = (float *)nsvcd__take(base, &used, 1, point);
-  p->best = (float *)nsvcd__take(base, &used, 1, point);
-  p->trial = (float *)nsvcd__take(base, &used, 1, point);
-  p->gradient = (float *)nsvcd__take(base, &used, 1, point);
-  p->sum = (float *)nsvcd__take(base, &used, 1, point);
-  p->offset = (float *)nsvcd__take(base, &used, 1, point);
-  p->tries = (float *)nsvcd__take(base, &used, count, point);
-  p->costs = (float *)nsvcd__take(base, &used, count, sizeof(float));
-  p->steps = (float *)nsvcd__take(base, &used, NSVCD__HISTORY, point);
-  p->changes = (float *)nsvcd__take(base, &used, NSVCD__HISTORY, point);
-  p->vector = (double *)nsvcd__take(base, &used, via + 2, sizeof(double));
+
+  p->path = nsvcd__take_floats(base, &used, moments, f);
+  p->poses = (nsvcd_pose *)nsvcd__take(base, &used, placed, sizeof(nsvcd_pose));
+  p->stances = (nsvcd__stance *)nsvcd__take(base, &used, placed, sizeof(nsvcd__stance));
+  p->boxes = (nsvcd__box *)nsvcd__take(base, &used, bodies, sizeof(nsvcd__box));
+  p->meets = (unsigned char *)nsvcd__take(base, &used, moments, 1);
+  p->queue = (uint32_t *)nsvcd__take(base, &used, p->problem->pair_count, sizeof(uint32_t));
+  p->wrenches = nsvcd__take_floats(base, &used, placed, 6);
+  p->moved = (nsvcd_pose *)nsvcd__take(base, &used, bodies, sizeof(nsvcd_pose));
+  p->jacobian = nsvcd__take_floats(base, &used, bodies, 6 * f);
+  p->by_path = nsvcd__take_floats(base, &used, 1, f);
+
+  p->result = nsvcd__take_floats(base, &used, 1, point);
+  p->control = nsvcd__take_floats(base, &used, 1, point);
+  p->best = nsvcd__take_floats(base, &used, 1, point);
+  p->trial = nsvcd__take_floats(base, &used, 1, point);
+  p->gradient = nsvcd__take_floats(base, &used, 1, point);
+  p->sum = nsvcd__take_floats(base, &used, 1, point);
+  p->offset = nsvcd__take_floats(base, &used, 1, point);
+  p->drawn = nsvcd__take_floats(base, &used, draws, point);
+  p->costs = nsvcd__take_floats(base, &used, 1, draws);
+  p->steps = nsvcd__take_floats(base, &used, NSVCD__HISTORY, point);
+  p->changes = nsvcd__take_floats(base, &used, NSVCD__HISTORY, point);
+  p->vector = nsvcd__take_doubles(base, &used, 1, via + 2);
   return used <= SIZE_MAX ? (size_t)used : 0;
 }
 
-// The boxes of all bodies' patches.
-static void nsvcd__find_boxes(nsvcd__planner *p) {
-  for (size_t b = 0; !p->problem->collision && p->problem->bodies && b < p->problem->body_count;
-       b++) {
-    const nsvcd_body *body = p->problem->bodies[b];
-    float *box = p->boxes + 6 * b;
-    for (size_t k = 0; body && k < 3; k++) {
-      const float *x = nsvcd__body_floats(body, k * body->padded);
-      const float *r = nsvcd__body_r(body);
-      box[k] = INFINITY;
-      box[3 + k] = -INFINITY;
-      for (size_t i = 0; i < body->points; i++) {
-        box[k] = x[i] - r[i] < box[k] ? x[i] - r[i] : box[k];
-        box[3 + k] = x[i] + r[i] > box[3 + k] ? x[i] + r[i] : box[3 + k];
-      }
-    }
-  }
-}
-
-static void nsvcd__stage_init(const nsvcd_plan_options *o, nsvcd__stage *stage) {
-  const size_t via = stage->via;
-  const size_t all = via + 2;
+// Fills in the stage's form: the smoothness of control points is a quadratic form of them.
+static void nsvcd__stage_form(const nsvcd_plan_options *o, nsvcd__stage *stage) {
   const double weights[3] = {(double)o->velocity, (double)o->acceleration, (double)o->jerk};
+  const size_t all = stage->via + 2;
   double rate = 1;
-  double w[NSVCD_MAX_VIA_POINTS + 2];
   for (size_t k = 0; k < all * all; k++)
     stage->form[k] = 0;
   for (size_t d = 1; d <= 3; d++) {
     rate /= (double)o->duration * (double)o->duration;
-    nsvcd__add_mean_square(via, d, rate * weights[d - 1], stage->form);
+    nsvcd__add_mean_square(stage->via, d, rate * weights[d - 1], stage->form);
   }
+}
+
+// Fills in what a stage knows beforehand.
+static void nsvcd__stage_init(const nsvcd_plan_options *o, nsvcd__stage *stage) {
+  const size_t via = stage->via;
+  const size_t all = via + 2;
+  double w[NSVCD_MAX_VIA_POINTS + 2];
+  nsvcd__stage_form(o, stage);
   for (size_t i = 0; i < via; i++) {
     for (size_t j = 0; j < via; j++)
       stage->factor[i * via + j] = stage->form[(i + 1) * all + j + 1];
   }
   // in place: row i is read before it is written
   nsvcd__cholesky(stage->factor, via, stage->factor);
+
   stage->deviation = 0;
   for (size_t k = 0; k < via; k++) {  // the variance of via point k is |L^-1 e_k|^2
     double square = 0;
@@ -14208,132 +14275,178 @@ static void nsvcd__stage_init(const nsvcd_plan_options *o, nsvcd__stage *stage) 
     nsvcd__solve_lower(stage->factor, via, w);
     for (size_t i = 0; i < via; i++)
       square += w[i] * w[i];
-    stage->deviation = sqrt(square) > stage->deviation ? sqrt(square) : stage->deviation;
+    stage->deviation = fmax(sqrt(square), stage->deviation);
   }
-  for (size_t s = 0; s < stage->samples; s++) {
-    nsvcd__spline_weights(via, stage->samples > 1 ? (double)s / (double)(stage->samples - 1) : 0, 0,
-                          w);
+
+  const size_t last = stage->moments - 1;
+  for (size_t s = 0; s <= last; s++) {
+    const double t = last > 0 ? (double)s / (double)last : 0;
+    nsvcd__spline_weights(via, t, 0, w);
     for (size_t k = 0; k < all; k++)
       stage->weights[s * all + k] = (float)w[k];
   }
 }
 
-// ---- collision
+// ---- culling
+//
+// A plan asks about each pair in each segment, and most of these are far from a collision. This
+// rules them out for less than a query costs. It is a broad phase of whole bodies along a whole
+// trajectory; that of section *broad phase* then goes through the patches of two bodies in one
+// segment.
+//
+// In: the poses at the moments, and of each body its bounding sphere and the box of its patches.
+// Out: for a pair, p->meets (moments): 0 where the query about the segment from there on would
+// certify it free.
+//
+// Nothing is missed, for the box about the ends of a sphere's way is grown by all that the way may
+// stray. The motion is the query's: as b sees it, a's origin goes straight, and a turns evenly
+// about one axis by an angle c, no more than what a and b turn in the world. Two tests rule out:
+//
+//   a's sphere against b's box. Its centre turns about a's origin on an arc of radius `arm` or
+//   less, and strays by no more than the arc's height, arm (1 - cos(c / 2)).
+//
+//   b's sphere against a's box. As a sees it, its centre v goes and turns at once. It strays by no
+//   more than an eighth of its acceleration, c^2 |v| + 2 c |u|: u is its way in b's axes, and no
+//   longer than its way in a's axes + c |v|. In all c (c |v| 3 / 8 + its way in a's axes / 4).
 
-// a as seen from b.
-static void nsvcd__relative_pose(const nsvcd_pose *a, const nsvcd_pose *b, nsvcd_pose *out) {
-  const nsvcd__quat to_b = nsvcd__quat_inverse(nsvcd__quat_load(b->rotation));
-  const nsvcd__mat3 axes = nsvcd__mat3_of(nsvcd__quat_load(b->rotation));
-  const nsvcd__f3 from = nsvcd__f3_load(b->position);
-  const nsvcd__f3 offset = nsvcd__f3_sub(nsvcd__f3_load(a->position), from);
-  const nsvcd__quat seen = nsvcd__quat_mul(to_b, nsvcd__quat_load(a->rotation));
-  nsvcd__f3_store(nsvcd__mat3_apply_transpose(&axes, offset), out->position);
-  nsvcd__quat_store(seen, out->rotation);
+// The boxes of all bodies' patches.
+static void nsvcd__find_boxes(nsvcd__planner *p) {
+  const nsvcd_plan_problem *problem = p->problem;
+  if (problem->collision || !problem->bodies)
+    return;
+  for (size_t b = 0; b < problem->body_count; b++) {
+    const nsvcd_body *body = problem->bodies[b];
+    if (!body)
+      continue;
+    const nsvcd__spheres patches = nsvcd__body_patches(body);
+    nsvcd__f3 low = nsvcd__f3_of(INFINITY, INFINITY, INFINITY);
+    nsvcd__f3 high = nsvcd__f3_of(-INFINITY, -INFINITY, -INFINITY);
+    for (size_t i = 0; i < body->points; i++) {
+      const nsvcd__f3 centre = nsvcd__centre_of(patches, i);
+      const float r = patches.r[i];
+      const nsvcd__f3 about = nsvcd__f3_of(r, r, r);
+      low = nsvcd__f3_min(low, nsvcd__f3_sub(centre, about));
+      high = nsvcd__f3_max(high, nsvcd__f3_add(centre, about));
+    }
+    p->boxes[b].low = low;
+    p->boxes[b].high = high;
+  }
 }
 
-// Tracks of all bodies: from the origin to the bounding sphere's centre, the pose as origin and
-// matrix, and how much the way to the next sample bends: the root of 1 - cos of half the angle.
-static void nsvcd__track_bodies(nsvcd__planner *p, size_t samples) {
+// The stances of all bodies at the moments of p->poses.
+static void nsvcd__find_stances(nsvcd__planner *p, size_t moments) {
   const size_t bodies = p->problem->body_count;
   for (size_t b = 0; p->problem->bodies && b < bodies; b++) {
     const nsvcd_body *body = p->problem->bodies[b];
-    float *track = p->tracks + NSVCD__TRACK * samples * b;
     if (!body)
       continue;
-    for (size_t s = 0; s < samples; s++) {
+    const nsvcd__f3 centre = nsvcd__f3_load(body->centre);
+    for (size_t s = 0; s < moments; s++) {
       const nsvcd_pose *pose = &p->poses[s * bodies + b];
-      const nsvcd_pose *next = s + 1 < samples ? pose + bodies : pose;
+      const nsvcd_pose *next = s + 1 < moments ? pose + bodies : pose;
       const nsvcd__quat q = nsvcd__quat_load(pose->rotation);
-      const nsvcd__quat r = nsvcd__quat_load(next->rotation);
-      const nsvcd__mat3 m = nsvcd__mat3_of(q);
-      const nsvcd__f3 turned = nsvcd__mat3_apply(&m, nsvcd__f3_load(body->centre));
-      const nsvcd__f3 position = nsvcd__f3_load(pose->position);
-      nsvcd__f3_put(turned, track + NSVCD__CENTRE * samples + s, samples);
-      nsvcd__f3_put(position, track + NSVCD__ORIGIN * samples + s, samples);
-      nsvcd__f3_put(m.x, track + NSVCD__AXES * samples + s, samples);
-      nsvcd__f3_put(m.y, track + (NSVCD__AXES + 3) * samples + s, samples);
-      nsvcd__f3_put(m.z, track + (NSVCD__AXES + 6) * samples + s, samples);
-      const float bend = 1.000001f - fabsf(nsvcd__quat_dot(q, r));
-      track[NSVCD__BEND * samples + s] = sqrtf(bend > 0 ? bend : 0);
+      const float cosine = nsvcd__quat_dot(q, nsvcd__quat_load(next->rotation));
+      const float square = 1.000001f - fabsf(cosine);
+      nsvcd__stance *stance = &p->stances[s * bodies + b];
+      stance->pose.rotation = nsvcd__mat3_of(q);
+      stance->pose.position = nsvcd__f3_load(pose->position);
+      stance->centre = nsvcd__mat3_apply(&stance->pose.rotation, centre);
+      stance->bend = sqrtf(square > 0 ? square : 0);
     }
   }
 }
 
-// Clears p->meets for the segments (stride 1) or samples (0) in which a's bounding sphere stays
-// away from b's box, by the clearance. The
-// motion is the query's, in which one of them rests: a's origin goes straight as seen from it, and
-// a turns by an angle c relative to it. If that is b, a's centre leaves its chord by no more than
-// its arm * (1 - cos(c / 2)). If it is a itself (`resting`), a's centre v as b sees it turns while
-// it goes: by no more than c^2 |v| / 8 + c |dv| / 4, where dv is what it goes in its own axes,
-// itself no more than in b's axes + c |v|.
-static void nsvcd__meet_box(nsvcd__planner *p, size_t a, size_t b, int resting, size_t samples,
-                            size_t stride) {
-  const nsvcd_body *body = p->problem->bodies[a];
-  const float *from = p->tracks + NSVCD__TRACK * samples * a;
-  const float *to = p->tracks + NSVCD__TRACK * samples * b;
-  const float *axes = to + NSVCD__AXES * samples;
-  const nsvcd__f3 low = nsvcd__f3_load(p->boxes + 6 * b);
-  const nsvcd__f3 high = nsvcd__f3_load(p->boxes + 6 * b + 3);
-  const float arm = nsvcd__f3_length(nsvcd__f3_load(body->centre));
-  const float radius = 1.00001f * body->radius;
-  float *seen = p->seen;  // (4, samples): a's centre as b sees it, and its distance from b's origin
-  for (size_t s = 0; s < samples; s++) {
-    const nsvcd__f3 origin = nsvcd__f3_get(from + NSVCD__ORIGIN * samples + s, samples);
-    const nsvcd__f3 other = nsvcd__f3_get(to + NSVCD__ORIGIN * samples + s, samples);
-    const nsvcd__f3 centre = nsvcd__f3_get(from + NSVCD__CENTRE * samples + s, samples);
-    const nsvcd__f3 d = nsvcd__f3_add(nsvcd__f3_sub(origin, other), centre);
-    nsvcd__mat3 m;
-    m.x = nsvcd__f3_get(axes + s, samples);
-    m.y = nsvcd__f3_get(axes + 3 * samples + s, samples);
-    m.z = nsvcd__f3_get(axes + 6 * samples + s, samples);
-    nsvcd__f3_put(nsvcd__mat3_apply_transpose(&m, d), seen + s, samples);
-    seen[3 * samples + s] = nsvcd__f3_length(d);
-  }
-  for (size_t s = 0; s + stride < samples; s++) {
-    // The roots of 1 - cos of half an angle: that of the sum of two angles is no more than their
-    // sum, and c < 3.15 bend.
-    const float bend = from[NSVCD__BEND * samples + s] + to[NSVCD__BEND * samples + s];
-    const nsvcd__f3 u = nsvcd__f3_get(seen + s, samples);
-    const nsvcd__f3 v = nsvcd__f3_get(seen + s + stride, samples);
-    const nsvcd__f3 step = nsvcd__f3_sub(v, u);
-    const float way = fabsf(step.x) + fabsf(step.y) + fabsf(step.z);
-    const float reaches = seen[3 * samples + s] + seen[3 * samples + s + stride];
-    const float leaves = resting ? (3.75f * bend * reaches + 0.8f * way) * bend : arm * bend * bend;
-    const float reach =
-        radius + p->options.sweep.clearance + (float)stride * leaves + NSVCD__ROUNDING * reaches;
-    const nsvcd__f3 about = nsvcd__f3_of(reach, reach, reach);
-    const int above = nsvcd__f3_exceeds(nsvcd__f3_min(u, v), nsvcd__f3_add(high, about));
-    const int below = nsvcd__f3_exceeds(nsvcd__f3_sub(low, about), nsvcd__f3_max(u, v));
-    p->meets[s] &= (unsigned char)!(above | below);
-  }
+// The centre of one body's bounding sphere as another sees it, and how far it is from that one's
+// origin.
+typedef struct nsvcd__seen {
+  nsvcd__f3 centre;
+  float distance;
+} nsvcd__seen;
+
+static inline nsvcd__seen nsvcd__seen_from(const nsvcd__stance *other, const nsvcd__stance *body) {
+  const nsvcd__transform *from = &other->pose;
+  const nsvcd__f3 origin = nsvcd__f3_sub(body->pose.position, from->position);
+  const nsvcd__f3 centre = nsvcd__f3_add(origin, body->centre);
+  nsvcd__seen out;
+  out.centre = nsvcd__mat3_apply_transpose(&from->rotation, centre);
+  out.distance = nsvcd__f3_length(centre);
+  return out;
 }
 
-// Marks the segments, or with stride 0 the samples, in which a pair may meet.
-static void nsvcd__find_meetings(nsvcd__planner *p, const nsvcd_body_pair *pair, size_t samples,
+// Does the bounding sphere of `body` stay away from the box of `other`, by the clearance, from
+// moment s to s + stride? rests: `body` is the one that rests in the query, and `other` moves.
+static inline int nsvcd__passes_by(const nsvcd__planner *p, size_t body, size_t other, int rests,
+                                   size_t s, size_t stride) {
+  const nsvcd_body *sphere = p->problem->bodies[body];
+  const nsvcd__box box = p->boxes[other];
+  const nsvcd__stance *now = p->stances + s * p->problem->body_count;
+  const nsvcd__stance *then = now + stride * p->problem->body_count;
+  const nsvcd__seen start = nsvcd__seen_from(&now[other], &now[body]);
+  const nsvcd__seen end = nsvcd__seen_from(&then[other], &then[body]);
+  const nsvcd__f3 way = nsvcd__f3_sub(end.centre, start.centre);
+  const float distance = start.distance + end.distance;
+
+  // That root of the sum of two angles is no more than the sum of the roots, and c < 3.15 bend.
+  const float bend = now[body].bend + now[other].bend;
+  float strays = 0;
+  if (rests) {
+    const float length = fabsf(way.x) + fabsf(way.y) + fabsf(way.z);
+    strays = (3.75f * bend * distance + 0.8f * length) * bend;
+  } else {
+    strays = nsvcd__f3_length(nsvcd__f3_load(sphere->centre)) * bend * bend;
+  }
+  const float apart = 1.00001f * sphere->radius + p->options.sweep.clearance;
+  const float grown = apart + (float)stride * strays + NSVCD__ROUNDING * distance;
+  const nsvcd__f3 about = nsvcd__f3_of(grown, grown, grown);
+  const nsvcd__f3 low = nsvcd__f3_min(start.centre, end.centre);
+  const nsvcd__f3 high = nsvcd__f3_max(start.centre, end.centre);
+  const int above = nsvcd__f3_exceeds(low, nsvcd__f3_add(box.high, about));
+  const int below = nsvcd__f3_exceeds(nsvcd__f3_sub(box.low, about), high);
+  return above | below;
+}
+
+// Marks the segments (stride 1), or the moments (stride 0), in which a pair may meet: p->meets.
+static void nsvcd__find_meetings(nsvcd__planner *p, const nsvcd_body_pair *pair, size_t moments,
                                  size_t stride) {
-  memset(p->meets, 1, samples);
-  nsvcd__meet_box(p, pair->a, pair->b, 0, samples, stride);
-  nsvcd__meet_box(p, pair->b, pair->a, 1, samples, stride);
+  for (size_t s = 0; s + stride < moments; s++) {
+    p->meets[s] = !nsvcd__passes_by(p, pair->a, pair->b, 0, s, stride) &&
+                  !nsvcd__passes_by(p, pair->b, pair->a, 1, s, stride);
+  }
 }
 
-// What a logit costs: nothing far below zero, its excess over -margin above; and the derivative by
-// the logit.
+// ---- collision
+
+// The pose of a as b sees it.
+static nsvcd_pose nsvcd__relative_pose(const nsvcd_pose *a, const nsvcd_pose *b) {
+  const nsvcd__quat turned = nsvcd__quat_load(b->rotation);
+  const nsvcd__mat3 axes = nsvcd__mat3_of(turned);
+  const nsvcd__f3 from = nsvcd__f3_load(b->position);
+  const nsvcd__f3 offset = nsvcd__f3_sub(nsvcd__f3_load(a->position), from);
+  const nsvcd__quat to_b = nsvcd__quat_inverse(turned);
+  nsvcd_pose out;
+  nsvcd__f3_store(nsvcd__mat3_apply_transpose(&axes, offset), out.position);
+  nsvcd__quat_store(nsvcd__quat_mul(to_b, nsvcd__quat_load(a->rotation)), out.rotation);
+  return out;
+}
+
+// What a logit costs: nothing below -margin, and above it its excess, but for a soft beginning.
+// *slope: the derivative by the logit.
 static float nsvcd__cost_of_logit(float logit, float margin, float *slope) {
   const float x = logit + margin;
-  const float soft = 2;
+  const float soft = NSVCD__SOFT_LOGITS;
   *slope = x <= 0 ? 0 : x < soft ? x / soft : 1;
   return x <= 0 ? 0 : x < soft ? 0.5f * x * x / soft : x - 0.5f * soft;
 }
 
-// A force and a torque in b's axes on a, and what they do to b, in the world: poses (B), wrenches
-// (B, 6).
+// Adds to the wrenches (B, 6) a wrench on a, in b's axes, times `scale`, and what that does to b.
+// poses: (B).
 static void nsvcd__add_wrench(const nsvcd_body_pair *pair, const nsvcd_pose *poses, float scale,
-                              const float *wrench, float *wrenches) {
+                              nsvcd__wrench seen, float *wrenches) {
   const nsvcd_pose *a = &poses[pair->a];
   const nsvcd_pose *b = &poses[pair->b];
   const nsvcd__mat3 axes = nsvcd__mat3_of(nsvcd__quat_load(b->rotation));
-  const nsvcd__f3 force = nsvcd__mat3_apply(&axes, nsvcd__f3_load(wrench));
-  const nsvcd__f3 torque = nsvcd__mat3_apply(&axes, nsvcd__f3_load(wrench + 3));
+  const nsvcd__f3 force = nsvcd__mat3_apply(&axes, seen.force);
+  const nsvcd__f3 torque = nsvcd__mat3_apply(&axes, seen.torque);
   const nsvcd__f3 arm = nsvcd__f3_sub(nsvcd__f3_load(a->position), nsvcd__f3_load(b->position));
   const nsvcd__f3 back = nsvcd__f3_add(torque, nsvcd__f3_cross(arm, force));
   float *on_a = wrenches + 6 * pair->a;
@@ -14349,156 +14462,225 @@ typedef struct nsvcd__worst {
   int proven;  // a proof has found it
 } nsvcd__worst;
 
-// What is to be said of pair k from sample `first` on, over `segments` of them: by the network, or,
-// at the end, by the method of the options. gradient: (segments + 1, 6), or NULL.
+static nsvcd__worst nsvcd__worst_at_first(void) {
+  const nsvcd__worst none = {-NSVCD_LOGIT_CERTAIN, 0, NSVCD_NONE, 0};
+  return none;
+}
+
+// The answer about pair k from moment `first` on, over so many segments: by the network, or, at the
+// end, by the method of the options. gradient: (segments + 1, 6), or NULL.
 static nsvcd_answer nsvcd__ask(nsvcd__planner *p, uint32_t k, size_t first, size_t segments,
                                int at_end, float *gradient) {
   const nsvcd_body_pair *pair = &p->problem->pairs[k];
-  const nsvcd_body *a = p->problem->bodies[pair->a];
-  const nsvcd_body *b = p->problem->bodies[pair->b];
-  nsvcd_pose motion[NSVCD__ASKED_AT_ONCE + 1];
-  nsvcd_question question;
-  nsvcd_answer answer;
-  nsvcd__answer_free(&answer);
+  nsvcd_pose motion[NSVCD__FIRST_LOOK_SEGMENTS + 1];
   for (size_t n = 0; n <= segments; n++) {
     const nsvcd_pose *row = p->poses + (first + n) * p->problem->body_count;
-    nsvcd__relative_pose(&row[pair->a], &row[pair->b], &motion[n]);
+    motion[n] = nsvcd__relative_pose(&row[pair->a], &row[pair->b]);
   }
+
+  nsvcd_question question;
   memset(&question, 0, sizeof question);
-  question.a.body = a;
+  question.a.body = p->problem->bodies[pair->a];
   question.a.poses = motion;
   question.a.count = segments + 1;
-  question.b.body = b;
+  question.b.body = p->problem->bodies[pair->b];
   question.options = p->options.sweep;
   if (!at_end) {
     question.options.method = NSVCD_METHOD_NETWORK;
-    question.options.clearance = question.options.measure = question.options.first =
-        question.options.skin = 0;
+    question.options.clearance = 0;
+    question.options.measure = 0;
+    question.options.first = 0;
+    question.options.skin = 0;
   }
-  const nsvcd_result error =
-      gradient ? nsvcd_sweep_gradient(&question, p->query, p->query_size, &answer, gradient, NULL)
-               : nsvcd_sweep(&question, p->query, p->query_size, &answer);
+
+  nsvcd_answer answer;
+  nsvcd_result error;
+  nsvcd__answer_free(&answer);
+  if (gradient)
+    error = nsvcd_sweep_gradient(&question, p->query, p->query_size, &answer, gradient, NULL);
+  else
+    error = nsvcd_sweep(&question, p->query, p->query_size, &answer);
   if (error)
     p->error = error;
   p->sweeps++;
   return answer;
 }
 
-// The network's cost of the poses (samples, B), up to the first sum above `limit`; adds to wrenches
-// (samples, B, 6) unless that is NULL. worst: NULL but for the last check, which wants to know it.
-static float nsvcd__network_cost(nsvcd__planner *p, size_t samples, float limit, int *collides,
-                                 float *wrenches, nsvcd__worst *worst) {
+// The collision cost of a trajectory, as it is summed up.
+typedef struct nsvcd__collision {
+  size_t moments;
+  size_t stride;        // 1: segments are asked about, 0: moments
+  float limit;          // a sum beyond it is not finished
+  float sum;            // the cost
+  int collides;         // in what was looked at
+  float *wrenches;      // (moments, B, 6), added to, or NULL
+  nsvcd__worst *worst;  // of the last check, which looks closer; NULL before
+} nsvcd__collision;
+
+// How many segments follow each other from s on in which the pair may meet: so many are asked about
+// at once.
+static size_t nsvcd__run_from(const nsvcd__planner *p, size_t s, size_t moments) {
+  size_t length = 1;
+  while (length < NSVCD__FIRST_LOOK_SEGMENTS && s + length + 1 < moments && p->meets[s + length])
+    length++;
+  return length;
+}
+
+// Remembers the answer about pair k at segment s, if it is the worst so far.
+static void nsvcd__note_worst(const nsvcd__collision *c, const nsvcd_answer *answer, uint32_t k,
+                              size_t s) {
+  nsvcd__worst *worst = c->worst;
+  if (!(answer->logit > worst->logit))
+    return;
+  worst->logit = answer->logit;
+  worst->pair = k;
+  worst->proven = answer->collides && answer->status >= NSVCD_STATUS_WITNESS;
+  worst->time = 0;
+  if (c->moments > 1) {
+    const float at = (float)s + (float)c->stride * answer->contact_time;
+    worst->time = at / (float)(c->moments - 1);
+  }
+}
+
+// Adds what pair k costs from moment s to s + stride.
+static void nsvcd__add_segment(nsvcd__planner *p, uint32_t k, size_t s, nsvcd__collision *c) {
+  const nsvcd_body_pair *pair = &p->problem->pairs[k];
   const size_t bodies = p->problem->body_count;
-  const size_t stride = !p->options.discrete && samples > 1;
-  float sum = 0;
-  nsvcd__track_bodies(p, samples);
-  for (size_t n = 0; n < p->problem->pair_count && sum <= limit; n++) {
-    const uint32_t k = p->order[n];
-    const float before = sum;
-    nsvcd__find_meetings(p, &p->problem->pairs[k], samples, stride);
-    for (size_t s = 0, checked = 0; s + stride < samples && sum <= limit && !p->error; s++) {
-      float gradient[12], slope;
-      if (!p->meets[s])
+  float gradient[2 * 6];
+  float slope;
+  float *wanted = c->wrenches ? gradient : NULL;
+  const nsvcd_answer answer = nsvcd__ask(p, k, s, c->stride, c->worst != NULL, wanted);
+  if (c->worst)
+    nsvcd__note_worst(c, &answer, k, s);
+  c->collides |= answer.collides;
+  c->sum += nsvcd__cost_of_logit(answer.logit, p->options.margin, &slope);
+  if (!c->wrenches || !(slope > 0))
+    return;
+  for (size_t i = 0; i <= c->stride; i++) {
+    const size_t row = (s + i) * bodies;
+    const nsvcd__wrench seen = nsvcd__wrench_load(gradient + 6 * i);
+    nsvcd__add_wrench(pair, p->poses + row, slope, seen, c->wrenches + 6 * row);
+  }
+}
+
+// Adds what pair k costs along the trajectory.
+static void nsvcd__add_pair(nsvcd__planner *p, uint32_t k, nsvcd__collision *c) {
+  const int looks_ahead = c->stride && !c->worst;
+  size_t seen = 0;  // up to here segments have had a first look
+  nsvcd__find_meetings(p, &p->problem->pairs[k], c->moments, c->stride);
+  for (size_t s = 0; s + c->stride < c->moments && c->sum <= c->limit && !p->error; s++) {
+    if (!p->meets[s])
+      continue;
+    if (looks_ahead && s >= seen) {
+      // Several segments at once: if they are far from a collision, that is all.
+      const size_t run = nsvcd__run_from(p, s, c->moments);
+      seen = s + run;
+      if (run > 1 && nsvcd__ask(p, k, s, run, 0, NULL).logit <= -p->options.margin) {
+        s += run - 1;
         continue;
-      // Several segments at once: if they are far from a collision, that is all. The last check
-      // looks closer.
-      if (stride && !worst && s >= checked) {
-        size_t ahead = 1;
-        while (ahead < NSVCD__ASKED_AT_ONCE && s + ahead + 1 < samples && p->meets[s + ahead])
-          ahead++;
-        checked = s + ahead;
-        if (ahead > 1 && nsvcd__ask(p, k, s, ahead, 0, NULL).logit <= -p->options.margin) {
-          s += ahead - 1;
-          continue;
-        }
-      }
-      const nsvcd_answer answer =
-          nsvcd__ask(p, k, s, stride, worst != NULL, wrenches ? gradient : NULL);
-      if (worst && answer.logit > worst->logit) {
-        worst->logit = answer.logit;
-        worst->pair = k;
-        worst->proven = answer.collides && answer.status >= NSVCD_STATUS_WITNESS;
-        worst->time = samples > 1
-                          ? ((float)s + (float)stride * answer.contact_time) / (float)(samples - 1)
-                          : 0;
-      }
-      *collides |= answer.collides;
-      sum += nsvcd__cost_of_logit(answer.logit, p->options.margin, &slope);
-      for (size_t i = 0; wrenches && slope > 0 && i <= stride; i++) {
-        const size_t row = (s + i) * bodies;
-        nsvcd__add_wrench(&p->problem->pairs[k], p->poses + row, slope, gradient + 6 * i,
-                          wrenches + 6 * row);
       }
     }
+    nsvcd__add_segment(p, k, s, c);
+  }
+}
+
+// Adds the network's cost of p->poses.
+static void nsvcd__add_pairs(nsvcd__planner *p, nsvcd__collision *c) {
+  nsvcd__find_stances(p, c->moments);
+  for (size_t n = 0; n < p->problem->pair_count && c->sum <= c->limit; n++) {
+    const uint32_t k = p->queue[n];
+    const float before = c->sum;
+    nsvcd__add_pair(p, k, c);
     // what costs comes earlier next time, so that bad trajectories end early
-    if (n > 0 && sum > before) {
-      p->order[n] = p->order[n - 1];
-      p->order[n - 1] = k;
+    if (n > 0 && c->sum > before) {
+      p->queue[n] = p->queue[n - 1];
+      p->queue[n - 1] = k;
     }
   }
-  return sum;
+}
+
+// The collision cost of p->poses, by the problem's own function or by the network, up to the first
+// sum above `limit`. wrenches: (moments, B, 6), added to, or NULL. worst: NULL but for the last
+// check, which wants to know it.
+static nsvcd__collision nsvcd__collision_of(nsvcd__planner *p, size_t moments, float limit,
+                                            float *wrenches, nsvcd__worst *worst) {
+  const nsvcd_plan_problem *problem = p->problem;
+  nsvcd__collision c;
+  c.moments = moments;
+  c.stride = !p->options.discrete && moments > 1;
+  c.limit = limit;
+  c.sum = 0;
+  c.collides = 0;
+  c.wrenches = wrenches;
+  c.worst = worst;
+  if (!problem->collision) {
+    nsvcd__add_pairs(p, &c);
+    return c;
+  }
+  c.sum = problem->collision(problem->user, p->poses, moments, limit, &c.collides, wrenches);
+  if (worst)
+    worst->logit = c.sum;
+  return c;
 }
 
 // ---- cost
 
-// The derivative of the cost by the joints of one sample, from the wrenches (B, 6) there. Returns 0
-// if there are none.
-static int nsvcd__by_joints(nsvcd__planner *p, const float *joints, const nsvcd_pose *poses,
-                            const float *wrenches, float *by_joints) {
+// The derivative by the joints of one moment, by_joints (F), from the wrenches (B, 6) there, by the
+// problem's Jacobian.
+static void nsvcd__by_jacobian(const nsvcd__planner *p, const float *joints, const float *wrenches,
+                               float *by_joints) {
   const nsvcd_plan_problem *problem = p->problem;
   const size_t f = problem->joints;
-  const size_t bodies = problem->body_count;
-  float moved[NSVCD_MAX_JOINTS];
-  size_t k = 0;
-  while (k < 6 * bodies && !(wrenches[k] < 0 || wrenches[k] > 0))
-    k++;
-  if (k == 6 * bodies)
-    return 0;
-  if (problem->jacobian)
-    problem->jacobian(problem->user, joints, p->jacobian);
-  memcpy(moved, joints, f * sizeof *moved);
+  problem->jacobian(problem->user, joints, p->jacobian);
   for (size_t j = 0; j < f; j++) {
-    float step = 1;
     by_joints[j] = 0;
-    if (!problem->jacobian) {
-      moved[j] = joints[j] + (1e-3f + 1e-6f * fabsf(joints[j]));
-      step = moved[j] - joints[j];  // as rounded
-      problem->place(problem->user, moved, p->moved);
-      moved[j] = joints[j];
-    }
-    for (size_t b = 0; b < bodies; b++) {
-      const float *w = wrenches + 6 * b;
-      if (problem->jacobian) {
-        for (size_t i = 0; i < 6; i++)
-          by_joints[j] += w[i] * p->jacobian[(6 * b + i) * f + j];
-        continue;
-      }
+    for (size_t i = 0; i < 6 * problem->body_count; i++)
+      by_joints[j] += wrenches[i] * p->jacobian[i * f + j];
+  }
+}
+
+// The same by differences of `place`. poses: (B), at these joints.
+static void nsvcd__by_differences(const nsvcd__planner *p, const float *joints,
+                                  const nsvcd_pose *poses, const float *wrenches,
+                                  float *by_joints) {
+  const nsvcd_plan_problem *problem = p->problem;
+  float moved[NSVCD_MAX_JOINTS];
+  memcpy(moved, joints, problem->joints * sizeof *moved);
+  for (size_t j = 0; j < problem->joints; j++) {
+    moved[j] = joints[j] + (NSVCD__JOINT_STEP + NSVCD__JOINT_STEP_SHARE * fabsf(joints[j]));
+    const float step = moved[j] - joints[j];  // as rounded
+    problem->place(problem->user, moved, p->moved);
+    moved[j] = joints[j];
+    by_joints[j] = 0;
+    for (size_t b = 0; b < problem->body_count; b++) {
+      const nsvcd__wrench by = nsvcd__wrench_load(wrenches + 6 * b);
       const nsvcd__quat q = nsvcd__quat_load(poses[b].rotation);
       const nsvcd__quat r = nsvcd__quat_load(p->moved[b].rotation);
       const float twice = nsvcd__quat_dot(q, r) < 0 ? -2.0f : 2.0f;
       const nsvcd__f3 turn = nsvcd__f3_scale(nsvcd__quat_turn(q, r), twice / step);
       const nsvcd__f3 from = nsvcd__f3_load(poses[b].position);
       const nsvcd__f3 way = nsvcd__f3_sub(nsvcd__f3_load(p->moved[b].position), from);
-      by_joints[j] += nsvcd__f3_dot(nsvcd__f3_load(w), way) / step;
-      by_joints[j] += nsvcd__f3_dot(nsvcd__f3_load(w + 3), turn);
+      by_joints[j] += nsvcd__f3_dot(by.force, way) / step;
+      by_joints[j] += nsvcd__f3_dot(by.torque, turn);
     }
   }
-  return 1;
 }
 
-// The poses of all bodies (samples, B), their quaternions made of unit length, from the joints
-// (samples, F).
-static void nsvcd__place(nsvcd__planner *p, const float *joints, size_t samples) {
+// The poses of all bodies, p->poses (moments, B), their quaternions made of unit length, from the
+// joints (moments, F).
+static void nsvcd__place(nsvcd__planner *p, const float *joints, size_t moments) {
   const nsvcd_plan_problem *problem = p->problem;
   const size_t bodies = problem->body_count;
-  for (size_t s = 0; s < samples; s++) {
-    problem->place(problem->user, joints + s * problem->joints, p->poses + s * bodies);
+  const size_t count = moments * bodies;
+  for (size_t s = 0; s < moments; s++) {
+    const float *row = joints + s * problem->joints;
+    problem->place(problem->user, row, p->poses + s * bodies);
   }
-  if (bodies > 0 && !nsvcd__poses_are_valid(p->poses, samples * bodies)) {
+  if (count > 0 && !nsvcd__poses_are_valid(p->poses, count)) {
     p->error = NSVCD_ERROR_POSE;
     return;
   }
-  for (size_t k = 0; k < samples * bodies; k++) {
+  for (size_t k = 0; k < count; k++) {
     const nsvcd__quat unit = nsvcd__quat_unit(nsvcd__quat_load(p->poses[k].rotation));
     nsvcd__quat_store(unit, p->poses[k].rotation);
   }
@@ -14512,9 +14694,10 @@ static float nsvcd__smoothness(const nsvcd__planner *p, const nsvcd__stage *stag
   double smoothness = 0;
   for (size_t j = 0; j < f; j++) {
     for (size_t i = 0; i < all; i++) {
+      const double *row = stage->form + i * all;
       double sum = 0;
       for (size_t k = 0; k < all; k++)
-        sum += stage->form[i * all + k] * (double)control[k * f + j];
+        sum += row[k] * (double)control[k * f + j];
       smoothness += sum * (double)control[i * f + j];
       if (gradient)
         gradient[i * f + j] = (float)(2 * sum);
@@ -14540,22 +14723,24 @@ static int nsvcd__leaves_limits(const nsvcd_plan_problem *problem, size_t joint,
   return value < problem->low[joint] - rounding || value > problem->high[joint] + rounding;
 }
 
-// Fills p->path with the samples of a trajectory, and adds what leaving the limits costs.
+// Fills p->path with the joints at the moments of a trajectory, and adds what leaving the limits
+// costs. gradient: (M + 2, F), added to, or NULL.
 static void nsvcd__add_limits(nsvcd__planner *p, const nsvcd__stage *stage, const float *control,
                               float *gradient, nsvcd__cost *cost) {
   const size_t f = p->problem->joints;
   const size_t all = stage->via + 2;
-  const float share = NSVCD__LIMIT_COST / (float)stage->samples;
-  for (size_t s = 0; s < stage->samples; s++) {
+  const float share = NSVCD__LIMIT_COST / (float)stage->moments;
+  for (size_t s = 0; s < stage->moments; s++) {
     const float *w = stage->weights + s * all;
     for (size_t j = 0; j < f; j++) {
-      float sum = 0;
+      float value = 0;
       for (size_t k = 0; k < all; k++)
-        sum += w[k] * control[k * f + j];
-      const float out = nsvcd__beyond_limits(p->problem, j, sum);
-      p->path[s * f + j] = sum;
+        value += w[k] * control[k * f + j];
+      p->path[s * f + j] = value;
+
+      const float out = nsvcd__beyond_limits(p->problem, j, value);
       cost->total += share * out * out;
-      if (nsvcd__leaves_limits(p->problem, j, sum))
+      if (nsvcd__leaves_limits(p->problem, j, value))
         cost->joint = j;
       for (size_t k = 0; gradient && k < all; k++)
         gradient[k * f + j] += 2 * share * out * w[k];
@@ -14563,37 +14748,45 @@ static void nsvcd__add_limits(nsvcd__planner *p, const nsvcd__stage *stage, cons
   }
 }
 
-// Adds what collisions cost, of the samples in p->path, which p->poses are of. wrenches: those of
-// p->poses are written, or NULL.
-static void nsvcd__add_collision(nsvcd__planner *p, size_t samples, float limit, float *wrenches,
+// Adds what collisions cost at p->poses, up to `limit` for the total. wrenches: (moments, B, 6),
+// written, or NULL.
+static void nsvcd__add_collision(nsvcd__planner *p, size_t moments, float limit, float *wrenches,
                                  nsvcd__worst *worst, nsvcd__cost *cost) {
-  const nsvcd_plan_problem *problem = p->problem;
   const float weight = p->options.collision;
   const float left = weight > 0 ? (limit - cost->total) / weight : INFINITY;
   if (wrenches)
-    memset(wrenches, 0, samples * problem->body_count * 6 * sizeof *wrenches);
+    memset(wrenches, 0, moments * p->problem->body_count * 6 * sizeof *wrenches);
   NSVCD__TALLY(collision, 0);  // begins
-  if (problem->collision) {
-    cost->collision =
-        problem->collision(problem->user, p->poses, samples, left, &cost->collides, wrenches);
-    if (worst)
-      worst->logit = cost->collision;
-  } else {
-    cost->collision = nsvcd__network_cost(p, samples, left, &cost->collides, wrenches, worst);
-  }
+  const nsvcd__collision c = nsvcd__collision_of(p, moments, left, wrenches, worst);
   NSVCD__TALLY(collision, 1);  // ends
-  cost->total += weight * cost->collision;
+  cost->collides = c.collides;
+  cost->collision = c.sum;
+  cost->total += weight * c.sum;
 }
 
-// Adds to the gradient by the control points what the wrenches of all samples say.
+// Is any of so many numbers other than 0?
+static int nsvcd__has_any(const float *numbers, size_t count) {
+  for (size_t k = 0; k < count; k++) {
+    if (numbers[k] < 0 || numbers[k] > 0)
+      return 1;
+  }
+  return 0;
+}
+
+// Adds to the gradient by the control points what p->wrenches say.
 static void nsvcd__add_wrenches(nsvcd__planner *p, const nsvcd__stage *stage, float *gradient) {
   const size_t f = p->problem->joints;
+  const size_t bodies = p->problem->body_count;
   const size_t all = stage->via + 2;
-  for (size_t s = 0; s < stage->samples; s++) {
-    const size_t row = s * p->problem->body_count;
-    const float *wrenches = p->wrenches + 6 * row;
-    if (!nsvcd__by_joints(p, p->path + s * f, p->poses + row, wrenches, p->by_path))
+  for (size_t s = 0; s < stage->moments; s++) {
+    const float *joints = p->path + s * f;
+    const float *wrenches = p->wrenches + 6 * s * bodies;
+    if (!nsvcd__has_any(wrenches, 6 * bodies))
       continue;
+    if (p->problem->jacobian)
+      nsvcd__by_jacobian(p, joints, wrenches, p->by_path);
+    else
+      nsvcd__by_differences(p, joints, p->poses + s * bodies, wrenches, p->by_path);
     for (size_t k = 0; k < all; k++) {
       const float weight = p->options.collision * stage->weights[s * all + k];
       for (size_t j = 0; j < f; j++)
@@ -14603,7 +14796,7 @@ static void nsvcd__add_wrenches(nsvcd__planner *p, const nsvcd__stage *stage, fl
 }
 
 // What the trajectory costs, up to `limit`: a sum beyond it is not finished. gradient: (M + 2, F),
-// written, or NULL.
+// written, or NULL. worst: NULL but for the last check.
 static nsvcd__cost nsvcd__cost_of(nsvcd__planner *p, const nsvcd__stage *stage,
                                   const float *control, float limit, float *gradient,
                                   nsvcd__worst *worst) {
@@ -14614,10 +14807,11 @@ static nsvcd__cost nsvcd__cost_of(nsvcd__planner *p, const nsvcd__stage *stage,
   nsvcd__add_limits(p, stage, control, gradient, &cost);
   if (cost.total > limit || p->error)
     return cost;
-  nsvcd__place(p, p->path, stage->samples);
+  nsvcd__place(p, p->path, stage->moments);
   if (p->error)
     return cost;
-  nsvcd__add_collision(p, stage->samples, limit, gradient ? p->wrenches : NULL, worst, &cost);
+  float *wrenches = gradient ? p->wrenches : NULL;
+  nsvcd__add_collision(p, stage->moments, limit, wrenches, worst, &cost);
   if (gradient)
     nsvcd__add_wrenches(p, stage, gradient);
   if (!nsvcd__is_finite(cost.total))
@@ -14654,7 +14848,7 @@ static void nsvcd__smooth_noise(nsvcd__planner *p, const nsvcd__stage *stage,
   }
 }
 
-// control + offset (M, F), with via points taken into the limits.
+// control + scale * offset (M, F), with via points taken into the limits: out (M + 2, F).
 static void nsvcd__change(const nsvcd__planner *p, size_t via, const float *control,
                           const float *offset, float scale, float *out) {
   const size_t f = p->problem->joints;
@@ -14667,35 +14861,39 @@ static void nsvcd__change(const nsvcd__planner *p, size_t via, const float *cont
   }
 }
 
+// Tells the caller how far an iteration has come. Returns what the callback returns: not 0 cancels.
 static int nsvcd__report(nsvcd__planner *p, size_t seed, size_t iteration,
-                         const nsvcd__stage *stage, int refining, const nsvcd__cost *cost) {
-  const nsvcd_plan_progress progress = {seed,     iteration,   stage->iterations,
-                                        refining, cost->total, cost->collision,
-                                        p->best,  stage->via};
+                         const nsvcd__stage *stage, const nsvcd__cost *best) {
+  nsvcd_plan_progress progress;
+  progress.seed = seed;
+  progress.iteration = iteration;
+  progress.iterations = stage->iterations;
+  progress.refining = stage == &p->refine;
+  progress.cost = best->total;
+  progress.collision = best->collision;
+  progress.control = p->best;
+  progress.via_points = stage->via;
   return p->problem->progress && p->problem->progress(p->problem->user, &progress);
 }
 
 // The k-th smallest of costs (count).
 static float nsvcd__kth_cost(const float *costs, size_t count, size_t k) {
-  float least = 0;
+  float kth = 0;
   for (size_t i = 0; i < count; i++) {
     size_t below = 0;
-    size_t same = 0;
+    size_t not_above = 0;
     for (size_t n = 0; n < count; n++) {
       below += costs[n] < costs[i];
-      same += costs[n] <= costs[i];
+      not_above += costs[n] <= costs[i];
     }
-    if (below <= k && k < same)
-      least = costs[i];
+    if (below <= k && k < not_above)
+      kth = costs[i];
   }
-  return least;
+  return kth;
 }
 
-// iterations without a gain of 1 %, once the best is free, before MPPI ends
-#define NSVCD__PATIENCE 3
-
-// The deviations (F) of a wide change: no more than a quarter of a joint's range.
-static void nsvcd__spread(const nsvcd__planner *p, float *deviations) {
+// The deviations (F) of the first rollouts: no more than a quarter of a joint's range.
+static void nsvcd__first_deviations(const nsvcd__planner *p, float *deviations) {
   for (size_t j = 0; j < p->problem->joints; j++) {
     const float quarter = 0.25f * (p->problem->high[j] - p->problem->low[j]);
     deviations[j] = p->options.spread < quarter ? p->options.spread : quarter;
@@ -14704,14 +14902,15 @@ static void nsvcd__spread(const nsvcd__planner *p, float *deviations) {
 
 // Where MPPI is.
 typedef struct nsvcd__exploring {
-  float deviations[NSVCD_MAX_JOINTS];  // of the samples, joint by joint
+  float deviations[NSVCD_MAX_JOINTS];  // of the rollouts, joint by joint
   float first[NSVCD_MAX_JOINTS];       // what they were
   float temperature;                   // 0 at first
-  float least;                         // cost, of the last samples
+  float least;                         // cost, of the last rollouts
   nsvcd__cost best;                    // of all
 } nsvcd__exploring;
 
-// Draws a sample's offsets (M, F) from p->control: none, then the best so far, then noise.
+// Draws the n-th rollout: p->trial, and its offset (M, F) from p->control. None, then the best so
+// far, then noise.
 static void nsvcd__draw(nsvcd__planner *p, const nsvcd__exploring *at, size_t n, float *offset) {
   const nsvcd__stage *stage = &p->explore;
   const size_t f = p->problem->joints;
@@ -14729,16 +14928,18 @@ static void nsvcd__draw(nsvcd__planner *p, const nsvcd__exploring *at, size_t n,
     offset[k] = p->trial[f + k] - p->control[f + k];
 }
 
-// Draws samples about p->control and finds what they cost; the best of all goes to p->best.
-static void nsvcd__try_samples(nsvcd__planner *p, nsvcd__exploring *at) {
+// Draws rollouts about p->control and finds what they cost; the best of all goes to p->best.
+static void nsvcd__roll_out(nsvcd__planner *p, nsvcd__exploring *at) {
   const nsvcd__stage *stage = &p->explore;
   const size_t f = p->problem->joints;
+  const size_t bytes = (stage->via + 2) * f * sizeof *p->best;
   at->least = INFINITY;
-  for (size_t n = 0; n < stage->count; n++) {
-    nsvcd__draw(p, at, n, p->tries + n * stage->via * f);
-    // What is 10 temperatures worse than another weighs nothing: its cost need not be known
-    // exactly.
-    const float limit = at->temperature > 0 ? at->least + 10 * at->temperature : INFINITY;
+  for (size_t n = 0; n < stage->draws; n++) {
+    nsvcd__draw(p, at, n, p->drawn + n * stage->via * f);
+    // The cost of one that weighs nothing need not be known exactly.
+    float limit = INFINITY;
+    if (at->temperature > 0)
+      limit = at->least + NSVCD__WEIGHTLESS * at->temperature;
     const nsvcd__cost cost = nsvcd__cost_of(p, stage, p->trial, limit, NULL, NULL);
     p->costs[n] = cost.total;
     if (cost.total < at->least)
@@ -14746,57 +14947,64 @@ static void nsvcd__try_samples(nsvcd__planner *p, nsvcd__exploring *at) {
     if (cost.total >= at->best.total || cost.total > limit)
       continue;
     at->best = cost;
-    memcpy(p->best, p->trial, (stage->via + 2) * f * sizeof *p->best);
+    memcpy(p->best, p->trial, bytes);
   }
 }
 
 // Turns p->costs into weights, whose sum is 1, and p->sum into the mean of the offsets.
-static void nsvcd__weigh_samples(nsvcd__planner *p, nsvcd__exploring *at) {
+static void nsvcd__weigh_rollouts(nsvcd__planner *p, nsvcd__exploring *at) {
   const nsvcd__stage *stage = &p->explore;
   const size_t numbers = stage->via * p->problem->joints;
-  const size_t elite = stage->count / 10;
-  const float spread = nsvcd__kth_cost(p->costs, stage->count, elite) - at->least;
+  const float elite = nsvcd__kth_cost(p->costs, stage->draws, stage->draws / NSVCD__ELITE);
   float total = 0;
-  at->temperature = 0.5f * spread + 1e-6f * (1 + at->least);
+  at->temperature = 0.5f * (elite - at->least) + 1e-6f * (1 + at->least);
   memset(p->sum, 0, numbers * sizeof *p->sum);
-  for (size_t n = 0; n < stage->count; n++) {
+  for (size_t n = 0; n < stage->draws; n++) {
     p->costs[n] = expf((at->least - p->costs[n]) / at->temperature);
     total += p->costs[n];
   }
-  for (size_t n = 0; n < stage->count; n++) {
+  for (size_t n = 0; n < stage->draws; n++) {
+    const float *offset = p->drawn + n * numbers;
     const float weight = p->costs[n] / total;
     p->costs[n] = weight;
     if (!(weight > 1e-9f))
       continue;
     for (size_t k = 0; k < numbers; k++)
-      p->sum[k] += weight * p->tries[n * numbers + k];
+      p->sum[k] += weight * offset[k];
   }
 }
 
-// Takes the deviation of a joint towards that of the good samples about their mean, slowly.
+// Takes the deviation of a joint towards that of the good rollouts about their mean, slowly.
 static void nsvcd__adapt_deviation(const nsvcd__planner *p, size_t joint, nsvcd__exploring *at) {
   const nsvcd__stage *stage = &p->explore;
   const size_t f = p->problem->joints;
   const size_t numbers = stage->via * f;
   const float now = at->deviations[joint];
-  const float least = 1e-3f * at->first[joint];
+  const float first = at->first[joint];
   float square = 0;
-  for (size_t n = 0; n < stage->count; n++) {
+  for (size_t n = 0; n < stage->draws; n++) {
     const float weight = p->costs[n];
-    for (size_t k = joint; weight > 1e-9f && k < numbers; k += f) {
-      const float d = p->tries[n * numbers + k] - p->sum[k];
+    if (!(weight > 1e-9f))
+      continue;
+    for (size_t k = joint; k < numbers; k += f) {
+      const float d = p->drawn[n * numbers + k] - p->sum[k];
       square += weight * d * d / (float)stage->via;
     }
   }
   const float variance = 0.9f * now * now + 0.1f * 2 * square;
-  const float floor = least * at->first[joint];
-  at->deviations[joint] = sqrtf(variance > floor ? variance : floor);
+  const float least = 1e-3f * first * first;
+  at->deviations[joint] = sqrtf(variance > least ? variance : least);
 }
 
-// MPPI from p->control, the mean, on; leaves the best trajectory in p->best. *cancelled: by the
-// progress callback.
-static void nsvcd__explore(nsvcd__planner *p, size_t seed, nsvcd_plan_answer *answer,
-                           int *cancelled) {
+// A search as it goes: of one seed.
+typedef struct nsvcd__searching {
+  size_t seed;
+  size_t iterations;  // of all seeds, both stages
+  int cancelled;      // by the progress callback
+} nsvcd__searching;
+
+// MPPI from p->control, the mean, on; leaves the best trajectory in p->best.
+static void nsvcd__explore(nsvcd__planner *p, nsvcd__searching *search) {
   const nsvcd__stage *stage = &p->explore;
   const size_t f = p->problem->joints;
   const size_t bytes = (stage->via + 2) * f * sizeof(float);
@@ -14804,27 +15012,27 @@ static void nsvcd__explore(nsvcd__planner *p, size_t seed, nsvcd_plan_answer *an
   memset(&at, 0, sizeof at);
   at.best = nsvcd__cost_of(p, stage, p->control, INFINITY, NULL, NULL);
   memcpy(p->best, p->control, bytes);
-  nsvcd__spread(p, at.first);
-  nsvcd__spread(p, at.deviations);
+  nsvcd__first_deviations(p, at.first);
+  nsvcd__first_deviations(p, at.deviations);
   float before = at.best.total;
   size_t waited = 0;
   for (size_t i = 0; i < stage->iterations && waited < NSVCD__PATIENCE; i++) {
-    if (*cancelled || p->error)
+    if (search->cancelled || p->error)
       break;
-    nsvcd__try_samples(p, &at);
+    nsvcd__roll_out(p, &at);
     if (p->error)
       break;
-    nsvcd__weigh_samples(p, &at);
+    nsvcd__weigh_rollouts(p, &at);
     for (size_t j = 0; j < f; j++)
       nsvcd__adapt_deviation(p, j, &at);
-    nsvcd__change(p, stage->via, p->control, p->sum, 0.9f, p->trial);
+    nsvcd__change(p, stage->via, p->control, p->sum, NSVCD__MEAN_STEP, p->trial);
     memcpy(p->control, p->trial, bytes);
-    answer->iterations++;
+    search->iterations++;
 
     const int better = at.best.total < 0.99f * before;
     waited = !nsvcd__is_free(&at.best) || better ? 0 : waited + 1;
     before = better ? at.best.total : before;
-    *cancelled = nsvcd__report(p, seed, i, stage, 0, &at.best);
+    search->cancelled = nsvcd__report(p, search->seed, i, stage, &at.best);
   }
 }
 
@@ -14851,39 +15059,43 @@ static void nsvcd__by_metric(nsvcd__planner *p, const nsvcd__stage *stage, float
   }
 }
 
-// The mean of the gradients at control + each of the bundle's offsets (in p->tries), (M, F) ->
-// p->sum.
+// The mean of the gradients at control + each of the bundle's offsets, p->drawn: p->sum (M, F).
 static void nsvcd__bundled_gradient(nsvcd__planner *p, const nsvcd__stage *stage,
                                     const float *control) {
   const size_t f = p->problem->joints;
   const size_t numbers = stage->via * f;
   memset(p->sum, 0, numbers * sizeof *p->sum);
-  for (size_t n = 0; n < stage->count && !p->error; n++) {
-    nsvcd__change(p, stage->via, control, p->tries + n * numbers, 1, p->trial);
+  for (size_t n = 0; n < stage->draws && !p->error; n++) {
+    nsvcd__change(p, stage->via, control, p->drawn + n * numbers, 1, p->trial);
     nsvcd__cost_of(p, stage, p->trial, INFINITY, p->gradient, NULL);
     for (size_t k = 0; k < numbers; k++)
-      p->sum[k] += p->gradient[f + k] / (float)stage->count;
+      p->sum[k] += p->gradient[f + k] / (float)stage->draws;
   }
 }
 
+// What L-BFGS remembers: the `kept` steps before step `next`, and what each changed in the
+// gradient.
+typedef struct nsvcd__history {
+  size_t kept, next;
+} nsvcd__history;
+
 // The n-th step, or change of the gradient along it, of which the last HISTORY are kept.
-static float *nsvcd__remembered(float *history, size_t n, size_t numbers) {
-  return history + n % NSVCD__HISTORY * numbers;
+static float *nsvcd__remembered(float *rows, size_t n, size_t numbers) {
+  return rows + n % NSVCD__HISTORY * numbers;
 }
 
-// L-BFGS's direction for the gradient in p->sum -> p->offset, (M, F), from the `kept` steps before
-// step `next`. It starts from half the inverse of the smoothness' form, which is exact where
-// nothing collides.
-static void nsvcd__direction(nsvcd__planner *p, const nsvcd__stage *stage, size_t kept,
-                             size_t next) {
+// L-BFGS's direction for the gradient in p->sum: p->offset (M, F). It starts from half the inverse
+// of the smoothness' form, which is exact where nothing collides.
+static void nsvcd__direction(nsvcd__planner *p, const nsvcd__stage *stage,
+                             const nsvcd__history *history) {
   const size_t numbers = stage->via * p->problem->joints;
   double alpha[NSVCD__HISTORY];
   float *d = p->offset;
   for (size_t k = 0; k < numbers; k++)
     d[k] = -p->sum[k];
-  for (size_t n = 1; n <= kept; n++) {
-    const float *s = nsvcd__remembered(p->steps, next - n, numbers);
-    const float *y = nsvcd__remembered(p->changes, next - n, numbers);
+  for (size_t n = 1; n <= history->kept; n++) {
+    const float *s = nsvcd__remembered(p->steps, history->next - n, numbers);
+    const float *y = nsvcd__remembered(p->changes, history->next - n, numbers);
     alpha[n - 1] = nsvcd__dot(s, d, numbers) / nsvcd__dot(s, y, numbers);
     for (size_t k = 0; k < numbers; k++)
       d[k] -= (float)alpha[n - 1] * y[k];
@@ -14891,72 +15103,94 @@ static void nsvcd__direction(nsvcd__planner *p, const nsvcd__stage *stage, size_
   nsvcd__by_metric(p, stage, d);
   for (size_t k = 0; k < numbers; k++)
     d[k] *= 0.5f;
-  for (size_t n = kept; n > 0; n--) {
-    const float *s = nsvcd__remembered(p->steps, next - n, numbers);
-    const float *y = nsvcd__remembered(p->changes, next - n, numbers);
+  for (size_t n = history->kept; n > 0; n--) {
+    const float *s = nsvcd__remembered(p->steps, history->next - n, numbers);
+    const float *y = nsvcd__remembered(p->changes, history->next - n, numbers);
     const double beta = nsvcd__dot(y, d, numbers) / nsvcd__dot(s, y, numbers);
     for (size_t k = 0; k < numbers; k++)
       d[k] += (float)(alpha[n - 1] - beta) * s[k];
   }
 }
 
+// Finishes the change along the last step, which is known as minus the gradient before it. Forgets
+// the step if the gradient does not grow along it.
+static void nsvcd__finish_change(nsvcd__planner *p, size_t numbers, nsvcd__history *history) {
+  if (history->kept == 0)
+    return;
+  const float *step = nsvcd__remembered(p->steps, history->next - 1, numbers);
+  float *change = nsvcd__remembered(p->changes, history->next - 1, numbers);
+  for (size_t k = 0; k < numbers; k++)
+    change[k] += p->sum[k];
+  if (nsvcd__dot(step, change, numbers) > 1e-12)
+    return;
+  history->next--;
+  history->kept--;
+}
+
+// Remembers the step from p->control to p->best.
+static void nsvcd__remember_step(nsvcd__planner *p, size_t numbers, nsvcd__history *history) {
+  const size_t f = p->problem->joints;
+  float *step = nsvcd__remembered(p->steps, history->next, numbers);
+  float *change = nsvcd__remembered(p->changes, history->next, numbers);
+  for (size_t k = 0; k < numbers; k++) {
+    step[k] = p->best[f + k] - p->control[f + k];
+    change[k] = -p->sum[k];
+  }
+  history->next++;
+  history->kept = history->kept < NSVCD__HISTORY ? history->kept + 1 : history->kept;
+}
+
+// Tries steps of several lengths along p->offset from p->control. Where one is better than *best,
+// it is that, and p->best.
+static void nsvcd__try_steps(nsvcd__planner *p, const nsvcd__stage *stage, nsvcd__cost *best) {
+  static const float lengths[NSVCD__STEPS] = {1, 0.5f, 0.2f, 0.05f, 0.01f};
+  const size_t point = (stage->via + 2) * p->problem->joints * sizeof(float);
+  for (size_t n = 0; n < NSVCD__STEPS && !p->error; n++) {
+    nsvcd__change(p, stage->via, p->control, p->offset, lengths[n], p->trial);
+    const nsvcd__cost cost = nsvcd__cost_of(p, stage, p->trial, best->total, NULL, NULL);
+    if (!(cost.total < best->total))
+      continue;
+    *best = cost;
+    memcpy(p->best, p->trial, point);
+  }
+}
+
 // L-BFGS from p->best on, which it improves. Ends early where not even the first direction leads
 // down.
-static void nsvcd__refine(nsvcd__planner *p, size_t seed, nsvcd_plan_answer *answer,
-                          int *cancelled) {
-  static const float lengths[NSVCD__STEPS] = {1, 0.5f, 0.2f, 0.05f, 0.01f};
+static void nsvcd__refine(nsvcd__planner *p, nsvcd__searching *search) {
   const nsvcd__stage *stage = &p->refine;
   const size_t f = p->problem->joints;
   const size_t numbers = stage->via * f;
   const size_t point = (stage->via + 2) * f * sizeof(float);
   float deviations[NSVCD_MAX_JOINTS];
-  size_t kept = 0;
-  size_t next = 0;
+  nsvcd__history history = {0, 0};
   int stuck = 0;
   nsvcd__cost best = nsvcd__cost_of(p, stage, p->best, INFINITY, NULL, NULL);
-  for (size_t j = 0; j < f; j++)
-    deviations[j] = p->options.bundle;
+
   // The same offsets at each iteration: the mean is then a function, and its gradients differ by
   // where they are taken.
-  for (size_t n = 0; n < stage->count; n++)
-    nsvcd__smooth_noise(p, stage, deviations, p->tries + n * numbers);
-  for (size_t i = 0; i < stage->iterations && !stuck && !*cancelled && !p->error; i++) {
+  for (size_t j = 0; j < f; j++)
+    deviations[j] = p->options.bundle;
+  for (size_t n = 0; n < stage->draws; n++)
+    nsvcd__smooth_noise(p, stage, deviations, p->drawn + n * numbers);
+
+  for (size_t i = 0; i < stage->iterations; i++) {
+    if (stuck || search->cancelled || p->error)
+      break;
     const float before = best.total;
     memcpy(p->control, p->best, point);
     nsvcd__bundled_gradient(p, stage, p->control);
-    if (kept > 0) {  // the last change is known as minus the gradient before it
-      float *change = nsvcd__remembered(p->changes, next - 1, numbers);
-      for (size_t k = 0; k < numbers; k++)
-        change[k] += p->sum[k];
-      if (!(nsvcd__dot(nsvcd__remembered(p->steps, next - 1, numbers), change, numbers) > 1e-12)) {
-        next--;
-        kept--;
-      }
-    }
-    nsvcd__direction(p, stage, kept, next);
-    for (size_t n = 0; n < NSVCD__STEPS && !p->error; n++) {
-      nsvcd__change(p, stage->via, p->control, p->offset, lengths[n], p->trial);
-      const nsvcd__cost cost = nsvcd__cost_of(p, stage, p->trial, best.total, NULL, NULL);
-      if (!(cost.total < best.total))
-        continue;
-      best = cost;
-      memcpy(p->best, p->trial, point);
-    }
+    nsvcd__finish_change(p, numbers, &history);
+    nsvcd__direction(p, stage, &history);
+    nsvcd__try_steps(p, stage, &best);
     if (best.total < before) {
-      float *step = nsvcd__remembered(p->steps, next, numbers);
-      float *change = nsvcd__remembered(p->changes, next, numbers);
-      for (size_t k = 0; k < numbers; k++) {
-        step[k] = p->best[f + k] - p->control[f + k];
-        change[k] = -p->sum[k];
-      }
-      next++;
-      kept = kept < NSVCD__HISTORY ? kept + 1 : kept;
+      nsvcd__remember_step(p, numbers, &history);
     } else {
-      stuck = kept == 0;
-      kept = 0;
+      stuck = history.kept == 0;
+      history.kept = 0;
     }
-    answer->iterations++;
-    *cancelled = nsvcd__report(p, seed, i, stage, 1, &best);
+    search->iterations++;
+    search->cancelled = nsvcd__report(p, search->seed, i, stage, &best);
   }
 }
 
@@ -14983,13 +15217,14 @@ static void nsvcd__smoothest(nsvcd__planner *p, const nsvcd__stage *stage, float
   memcpy(control + (via + 1) * f, p->problem->goal, f * sizeof *control);
 }
 
-// The same curve, nearly, through another number of via points: p->best.
+// Turns p->best into nearly the same curve through another number of via points.
 static void nsvcd__resample(nsvcd__planner *p, size_t from, size_t to) {
   const size_t f = p->problem->joints;
   if (from == to)
     return;
   for (size_t k = 0; k < to + 2; k++) {
-    nsvcd_spline(p->best, from, f, (float)k / (float)(to + 1), 0, p->trial + k * f);
+    const float t = (float)k / (float)(to + 1);
+    nsvcd_spline(p->best, from, f, t, 0, p->trial + k * f);
   }
   memcpy(p->best, p->trial, (to + 2) * f * sizeof *p->best);
 }
@@ -14997,23 +15232,19 @@ static void nsvcd__resample(nsvcd__planner *p, size_t from, size_t to) {
 // Are the joints within the limits, and free of collision? Fills in the answer's facts if not.
 static int nsvcd__is_good(nsvcd__planner *p, const float *joints, nsvcd_plan_answer *answer) {
   const nsvcd_plan_problem *problem = p->problem;
-  nsvcd__worst worst = {-NSVCD_LOGIT_CERTAIN, 0, NSVCD_NONE, 0};
+  nsvcd__worst worst = nsvcd__worst_at_first();
+  answer->logit = 0;
+  answer->pair = NSVCD_NONE;
   for (size_t j = 0; j < problem->joints; j++) {
     if (joints[j] < problem->low[j] || joints[j] > problem->high[j])
       answer->joint = j;
   }
-  answer->logit = 0;
-  answer->pair = NSVCD_NONE;
   if (answer->joint != NSVCD_NONE)
     return 0;
   nsvcd__place(p, joints, 1);
   if (p->error)
     return 0;
-  if (problem->collision) {
-    worst.logit = problem->collision(problem->user, p->poses, 1, INFINITY, &answer->collides, NULL);
-  } else {
-    nsvcd__network_cost(p, 1, INFINITY, &answer->collides, NULL, &worst);
-  }
+  answer->collides = nsvcd__collision_of(p, 1, INFINITY, NULL, &worst).collides;
   answer->logit = worst.logit;
   answer->pair = worst.pair;
   return !answer->collides;
@@ -15039,8 +15270,9 @@ NSVCDDEF const char *nsvcd_plan_status_string(nsvcd_plan_status status) {
 NSVCDDEF size_t nsvcd_plan_workspace_size(const nsvcd_plan_problem *problem,
                                           const nsvcd_plan_options *options) {
   nsvcd__planner planner;
-  return nsvcd__planner_settings(problem, options, &planner) ? nsvcd__planner_memory(&planner, NULL)
-                                                             : 0;
+  if (!nsvcd__planner_settings(problem, options, &planner))
+    return 0;
+  return nsvcd__planner_memory(&planner, NULL);
 }
 
 // Are limits, start and goal finite and within bounds, and no lower limit above the upper one?
@@ -15049,12 +15281,11 @@ static nsvcd_result nsvcd__limits_check(const nsvcd_plan_problem *problem) {
   for (size_t j = 0; j < problem->joints; j++) {
     const float low = problem->low[j];
     const float high = problem->high[j];
-    if (nsvcd__magnitude(low) > most || nsvcd__magnitude(high) > most)
-      return NSVCD_ERROR_NUMBER;
-    if (nsvcd__magnitude(problem->start[j]) > most)
-      return NSVCD_ERROR_NUMBER;
-    if (nsvcd__magnitude(problem->goal[j]) > most)
-      return NSVCD_ERROR_NUMBER;
+    const float ends[4] = {low, high, problem->start[j], problem->goal[j]};
+    for (size_t k = 0; k < 4; k++) {
+      if (nsvcd__magnitude(ends[k]) > most)
+        return NSVCD_ERROR_NUMBER;
+    }
     if (low > high)
       return NSVCD_ERROR_ARGUMENT;
   }
@@ -15069,7 +15300,7 @@ static void nsvcd__planner_begin(nsvcd__planner *p, nsvcd_plan_answer *found) {
   nsvcd__stage_init(&p->options, &p->check);
   nsvcd__find_boxes(p);
   for (size_t k = 0; k < problem->pair_count; k++)
-    p->order[k] = (uint32_t)k;
+    p->queue[k] = (uint32_t)k;
   p->random = p->options.seed;
   found->via_points = p->refine.via;
   if (!nsvcd__is_good(p, problem->start, found)) {
@@ -15088,7 +15319,7 @@ static void nsvcd__start_seed(nsvcd__planner *p, size_t seed) {
   nsvcd__smoothest(p, &p->explore, p->control);
   if (seed == 0)
     return;
-  nsvcd__spread(p, deviations);
+  nsvcd__first_deviations(p, deviations);
   nsvcd__smooth_noise(p, &p->explore, deviations, p->offset);
   nsvcd__change(p, p->explore.via, p->control, p->offset, 1, p->trial);
   memcpy(p->control, p->trial, numbers * sizeof(float));
@@ -15096,16 +15327,15 @@ static void nsvcd__start_seed(nsvcd__planner *p, size_t seed) {
 
 // Refines p->best until the last check finds it free, with a wider margin each time that the proof
 // finds a hit. Returns the cost of that check.
-static nsvcd__cost nsvcd__refine_and_check(nsvcd__planner *p, nsvcd_plan_answer *found,
-                                           int *cancelled, nsvcd__worst *worst) {
-  const nsvcd__worst nowhere = {-NSVCD_LOGIT_CERTAIN, 0, NSVCD_NONE, 0};
+static nsvcd__cost nsvcd__refine_and_check(nsvcd__planner *p, nsvcd__searching *search,
+                                           nsvcd__worst *worst) {
   const float margin = p->options.margin;
   nsvcd__cost cost = {0, 0, 0, 0, NSVCD_NONE};
   for (size_t push = 0; push <= NSVCD__PUSHES; push++) {
-    *worst = nowhere;
-    nsvcd__refine(p, found->seeds, found, cancelled);
+    *worst = nsvcd__worst_at_first();
+    nsvcd__refine(p, search);
     cost = nsvcd__cost_of(p, &p->check, p->best, INFINITY, NULL, worst);
-    if (nsvcd__is_free(&cost) || *cancelled || p->error || !worst->proven)
+    if (nsvcd__is_free(&cost) || search->cancelled || p->error || !worst->proven)
       break;
     p->options.margin = 2 * p->options.margin + 0.5f;
   }
@@ -15117,12 +15347,12 @@ static nsvcd__cost nsvcd__refine_and_check(nsvcd__planner *p, nsvcd_plan_answer 
 // Returns 1 if there is reason to go on.
 static int nsvcd__try_seed(nsvcd__planner *p, nsvcd_plan_answer *found) {
   const size_t bytes = (p->refine.via + 2) * p->problem->joints * sizeof(float);
+  nsvcd__searching search = {found->seeds, found->iterations, 0};
   nsvcd__worst worst;
-  int cancelled = 0;
-  nsvcd__start_seed(p, found->seeds);
-  nsvcd__explore(p, found->seeds, found, &cancelled);
+  nsvcd__start_seed(p, search.seed);
+  nsvcd__explore(p, &search);
   nsvcd__resample(p, p->explore.via, p->refine.via);
-  const nsvcd__cost cost = nsvcd__refine_and_check(p, found, &cancelled, &worst);
+  const nsvcd__cost cost = nsvcd__refine_and_check(p, &search, &worst);
   const int good = nsvcd__is_free(&cost);
   if (found->seeds == 0 || good || cost.total < found->cost) {
     memcpy(p->result, p->best, bytes);
@@ -15134,13 +15364,14 @@ static int nsvcd__try_seed(nsvcd__planner *p, nsvcd_plan_answer *found) {
     found->time = worst.time;
     found->pair = worst.pair;
   }
+  found->iterations = search.iterations;
   found->seeds++;
   found->status = NSVCD_PLAN_LIMIT;
   if (good)
     found->status = NSVCD_PLAN_CONVERGED;
-  if (cancelled)
+  if (search.cancelled)
     found->status = NSVCD_PLAN_CANCELLED;
-  return !good && !cancelled && !p->error && found->seeds < p->options.seeds;
+  return !good && !search.cancelled && !p->error && found->seeds < p->options.seeds;
 }
 
 NSVCDDEF nsvcd_result nsvcd_plan(const nsvcd_plan_problem *problem,

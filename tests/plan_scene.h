@@ -332,7 +332,7 @@ static int plan_open(plan_scene *s, plan_inside *in) {
   nsvcd__stage_init(&p->options, &p->check);
   nsvcd__find_boxes(p);
   for (size_t k = 0; k < s->problem.pair_count; k++)
-    p->order[k] = (uint32_t)k;
+    p->queue[k] = (uint32_t)k;
   return 1;
 }
 

@@ -93,7 +93,7 @@ static void plan_gradient_case(plan_kind kind, int jacobian, int limits, double 
     if (!plan_open(&s, &in))
       continue;
     nsvcd__planner *p = &in.planner;
-    const size_t segments = p->refine.samples - 1;
+    const size_t segments = p->refine.moments - 1;
     const nsvcd__cost cost = nsvcd__cost_of(p, &p->refine, control, INFINITY, gradient, NULL);
     const nsvcd__cost again = nsvcd__cost_of(p, &p->refine, control, INFINITY, NULL, NULL);
     const double whole = plan_exact_cost(&s, &p->options, via, segments, exact);
@@ -136,7 +136,7 @@ static uint64_t plan_decisive(nsvcd__planner *p, const nsvcd__stage *stage, cons
   uint64_t hash = 1469598103934665603u;
   nsvcd__cost_of(p, stage, control, INFINITY, NULL, NULL);  // p->poses
   for (uint32_t k = 0; k < p->problem->pair_count; k++) {
-    for (size_t s = 0; s + 1 < stage->samples; s++) {
+    for (size_t s = 0; s + 1 < stage->moments; s++) {
       const nsvcd_answer answer = nsvcd__ask(p, k, s, 1, 0, NULL);
       if (answer.logit <= -p->options.margin)
         continue;
@@ -258,7 +258,7 @@ static void plan_wrenches_are_derivatives(void) {
     for (int b = 0; b < 2; b++)
       query_random_pose(&rng, 1, &poses[b]);
     plan_random_numbers(&rng, 6, 1, wrench);
-    nsvcd__add_wrench(&pair, poses, 0.5f, wrench, wrenches);
+    nsvcd__add_wrench(&pair, poses, 0.5f, nsvcd__wrench_load(wrench), wrenches);
     oracle_pose exact[2];
     for (int b = 0; b < 2; b++) {
       exact[b] = plan_exact_pose(&poses[b]);
@@ -322,14 +322,14 @@ static void plan_bundled_gradient_is_a_mean(void) {
   double difference = 0;
   double spread = 0;
   plan_random_numbers(&rng, numbers + 2 * f, 0.3, control);
-  plan_random_numbers(&rng, stage->count * numbers, 0.2, p->tries);
-  for (size_t n = 0; n < stage->count; n++) {
+  plan_random_numbers(&rng, stage->draws * numbers, 0.2, p->drawn);
+  for (size_t n = 0; n < stage->draws; n++) {
     memcpy(moved, control, sizeof moved);
     for (size_t k = 0; k < numbers; k++)
-      moved[f + k] += p->tries[n * numbers + k];
+      moved[f + k] += p->drawn[n * numbers + k];
     nsvcd__cost_of(p, stage, moved, INFINITY, gradient, NULL);
     for (size_t k = 0; k < numbers; k++)
-      sum[k] += (double)gradient[f + k] / (double)stage->count;
+      sum[k] += (double)gradient[f + k] / (double)stage->draws;
   }
   nsvcd__cost_of(p, stage, control, INFINITY, gradient, NULL);
   nsvcd__bundled_gradient(p, stage, control);
@@ -352,9 +352,7 @@ static void plan_refining_converges(void) {
     for (int longer = 0; longer < 2; longer++) {
       plan_begin(&s, PLAN_XYZ, 2);
       plan_inside in;
-      nsvcd_plan_answer unused;
-      int cancelled = 0;
-      memset(&unused, 0, sizeof unused);
+      nsvcd__searching search = {0, 0, 0};
       s.problem.collision = plan_bump_collision;
       s.problem.jacobian = plan_jacobian;
       s.problem.progress = NULL;
@@ -364,13 +362,13 @@ static void plan_refining_converges(void) {
       plan_pair(&s, 0, 1);
       s.options.explore.iterations = NSVCD_NONE;
       s.options.refine.iterations = longer ? 300 : 12;
-      s.options.refine.samples = 1;
+      s.options.refine.moments = 1;
       s.options.bundle = -1;
       s.options.collision = 1;
       if (!plan_open(&s, &in))
         return;
       nsvcd__smoothest(&in.planner, &in.planner.refine, in.planner.best);
-      nsvcd__refine(&in.planner, 0, &unused, &cancelled);
+      nsvcd__refine(&in.planner, &search);
       cost[longer] =
           nsvcd__cost_of(&in.planner, &in.planner.refine, in.planner.best, INFINITY, NULL, NULL)
               .total;
@@ -452,7 +450,7 @@ static void plan_culling_misses_nothing(void) {
     // far off, and rounded
     for (size_t i = 0; n % 5 == 0 && i < samples * 6; i++)
       p->poses[i].position[1] += 1e5f;
-    nsvcd__track_bodies(p, samples);
+    nsvcd__find_stances(p, samples);
     for (uint32_t k = 0; k < s.problem.pair_count; k++) {
       for (size_t stride = 0; stride < 2; stride++) {
         nsvcd__find_meetings(p, &s.problem.pairs[k], samples, stride);
@@ -518,18 +516,18 @@ static void plan_cost_is_the_sum_over_segments(void) {
     for (uint32_t k = 0; k < s.problem.pair_count; k++) {
       unsigned char meets[64] = {0};
       unsigned char runs[64];
-      nsvcd__find_meetings(p, &s.pairs[k], stage->samples, 1);
-      memcpy(meets, p->meets, stage->samples - 1);
+      nsvcd__find_meetings(p, &s.pairs[k], stage->moments, 1);
+      memcpy(meets, p->meets, stage->moments - 1);
       memset(runs, 0, sizeof runs);
-      for (size_t i = 0; i + 1 < stage->samples;) {  // which runs are clear
+      for (size_t i = 0; i + 1 < stage->moments;) {  // which runs are clear
         size_t length = 0;
-        while (length < 8 && i + length + 1 < stage->samples && meets[i + length])
+        while (length < 8 && i + length + 1 < stage->moments && meets[i + length])
           length++;
         if (length > 1 && nsvcd__ask(p, k, i, length, 0, NULL).logit <= -p->options.margin)
           memset(runs + i, 1, length);
         i += length ? length : 1;
       }
-      for (size_t i = 0; i + 1 < stage->samples; i++) {
+      for (size_t i = 0; i + 1 < stage->moments; i++) {
         const nsvcd_answer answer = nsvcd__ask(p, k, i, 1, 0, NULL);
         const double share = (double)nsvcd__cost_of_logit(answer.logit, p->options.margin, &slope);
         sum += share;
@@ -621,7 +619,7 @@ static plan_outcome plan_run(plan_scene *s) {
                          : o->explore.iterations             ? o->explore.iterations
                                                              : 40;
   const size_t tries = o->explore.samples ? o->explore.samples : 200;
-  const size_t bundle = o->refine.samples ? o->refine.samples : 10;
+  const size_t bundle = o->refine.moments ? o->refine.moments : 10;
   query_memory memory = query_reserve(size + PLAN_GUARD);
   size_t written = 0;
   s->reports = s->disorders = s->out_of_place = s->placed = s->again = 0;
@@ -1025,7 +1023,7 @@ static void plan_refuses_options_out_of_range(void) {
                            &o->refine.via_points,
                            &o->refine.segments,
                            &o->refine.iterations,
-                           &o->refine.samples,
+                           &o->refine.moments,
                            &o->seeds,
                            &o->check,
                            &o->sweep.pairs};
@@ -1170,7 +1168,8 @@ static void plan_sizes_do_not_wrap(void) {
   s.problem.body_count = 2260;
   s.options.check = 16384;
   const size_t size = nsvcd_plan_workspace_size(&s.problem, &s.options);
-  const double least = 16385.0 * 2260 * (sizeof(nsvcd_pose) + (6 + NSVCD__TRACK) * sizeof(float));
+  const double least =
+      16385.0 * 2260 * (sizeof(nsvcd_pose) + sizeof(nsvcd__stance) + 6 * sizeof(float));
   if (least > (double)SIZE_MAX)
     CHECK_EQ(size, 0);
   if (least < (double)SIZE_MAX)
@@ -1290,7 +1289,7 @@ static int plan_trouble_case(plan_trouble trouble, uint64_t seed) {
   o->explore.segments = 8;
   o->explore.via_points = 3;
   o->refine.iterations = 3;
-  o->refine.samples = 2;
+  o->refine.moments = 2;
   o->refine.segments = 10;
   o->refine.via_points = 4;
   if (trouble == PLAN_START_HITS || trouble == PLAN_GOAL_HITS) {
