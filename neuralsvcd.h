@@ -45,8 +45,9 @@
 //
 // Or plan a motion that hits nothing: nsvcd_plan, below.
 //
-// Every function that can fail returns a nsvcd_result, 0 being success, and then leaves its outputs
-// as they were. examples/quickstart.c is the whole program.
+// What can fail returns a nsvcd_result: 0 is success, and on failure the outputs are left as they
+// were. But for sizes and nsvcd_body_patch, which return 0 where there is none, and nsvcd_spline,
+// which writes nothing. examples/quickstart.c is the whole program.
 //
 // OPTIONS, defined before the implementation is included
 //   NSVCD_STATIC      all functions static
@@ -88,7 +89,8 @@
 // NUMERIC ROBUSTNESS (float32), as measured by `make race`, `make bench`, tests/test_proof.c and
 // tests/extremes.sh
 //   Coordinates up to NSVCD_MAX_COORDINATE; bodies from NSVCD_MIN_RADIUS, below which squares
-//   underflow. Proofs hold at every scale, tested from 3e-11 to 3e5 m. They allow for float32 with
+//   underflow. A stored triangle is off by the body's quantum, a few micrometres at most on bodies
+//   of 0.3 m. Proofs hold at every scale, tested from 3e-11 to 3e5 m. They allow for float32 with
 //   NSVCD__ROUNDING, two millionths, of the distances and extents involved: so much room must be
 //   between the surfaces of what is to be certified free, and little more; 2 um for bodies of 0.3
 //   m, 80 um where one of them measures 20 m. Positions are taken relative to the fixed body first,
@@ -195,34 +197,48 @@ extern "C" {
 
 typedef enum nsvcd_result {
   NSVCD_OK = 0,
-  NSVCD_ERROR_ARGUMENT,   // NULL where it is not allowed, or an option out of its range
-  NSVCD_ERROR_IO,         // the file is missing or cannot be read
-  NSVCD_ERROR_MEMORY,     // the allocator returned NULL
-  NSVCD_ERROR_SYNTAX,     // OBJ: a line that cannot be understood, a face of one or two vertices
-  NSVCD_ERROR_INDEX,      // an index that is zero, or refers to no vertex
-  NSVCD_ERROR_NUMBER,     // a coordinate is not finite or too large (NSVCD_MAX_COORDINATE)
-  NSVCD_ERROR_EMPTY,      // no triangle, or no area
-  NSVCD_ERROR_TOO_LARGE,  // more vertices, triangles or bytes than can be counted
-  NSVCD_ERROR_POSE,       // a pose is not finite, or its quaternion is not of unit length to 1e-4
-  // a scale is not finite, negative, or out of range, or makes a body larger or smaller than may be
+  // NULL where it is not allowed, or an option out of its range
+  NSVCD_ERROR_ARGUMENT,
+  // the file is missing or cannot be read
+  NSVCD_ERROR_IO,
+  // the allocator returned NULL
+  NSVCD_ERROR_MEMORY,
+  // OBJ: a line that cannot be understood, or a face of one or two vertices
+  NSVCD_ERROR_SYNTAX,
+  // an index that is zero, or refers to no vertex
+  NSVCD_ERROR_INDEX,
+  // a coordinate is not finite, or larger than NSVCD_MAX_COORDINATE
+  NSVCD_ERROR_NUMBER,
+  // no triangle, or no area
+  NSVCD_ERROR_EMPTY,
+  // more vertices, triangles or bytes than can be counted
+  NSVCD_ERROR_TOO_LARGE,
+  // a pose is not finite, or its quaternion is not of unit length to 1e-4
+  NSVCD_ERROR_POSE,
+  // a scale is not finite, negative or out of range, or the body becomes larger or smaller than
+  // a body may be
   NSVCD_ERROR_SCALE,
   // a tolerance, a clearance or the like is negative, not finite, or beyond the scene
   NSVCD_ERROR_TOLERANCE,
   // both sides of a question are the same body in the same motion: something was passed twice
   NSVCD_ERROR_SAME,
-  // a body blob is damaged, cut short, misaligned, of another version or model, or has not what the
-  // method asked for needs
+  // a blob is damaged, cut short, misaligned, or of another version or model; or a body lacks
+  // what the method needs
   NSVCD_ERROR_BODY,
-  NSVCD_ERROR_WORKSPACE,  // the memory given is too small, or not aligned to NSVCD_ALIGNMENT bytes
-  NSVCD_ERROR_CANCELLED   // by the caller's progress function
+  // the memory given is too small, or not aligned to NSVCD_ALIGNMENT bytes
+  NSVCD_ERROR_WORKSPACE,
+  // by the caller's progress function
+  NSVCD_ERROR_CANCELLED
 } nsvcd_result;
 
+// What a result says, for a person: a sentence without a full stop, never NULL.
 NSVCDDEF const char *nsvcd_result_string(nsvcd_result result);
 
 // -------------------------------------------------------------------------------------- allocation
 
-// NULL in place of an allocator means malloc and free. alloc returns NULL on failure; memory is
-// aligned as malloc's.
+// Where memory comes from. NULL in place of an allocator means malloc and free.
+//   alloc      returns memory aligned as malloc's, or NULL on failure
+//   user       handed to both
 typedef struct nsvcd_allocator {
   void *(*alloc)(size_t size, void *user);
   void (*free)(void *memory, void *user);
@@ -232,100 +248,119 @@ typedef struct nsvcd_allocator {
 // ------------------------------------------------------------------------------------------ meshes
 
 typedef struct nsvcd_mesh {
-  float *positions;  // (vertex_count, 3) metres
-  // (triangle_count, 3) counter-clockwise from outside: the winding gives the normals
+  // (vertex_count, 3) metres
+  float *positions;
+  // (triangle_count, 3) vertices, counter-clockwise from outside
   uint32_t *indices;
   size_t vertex_count;
   size_t triangle_count;
 } nsvcd_mesh;
 
 #ifndef NSVCD_NO_OBJ
-// Reads OBJ text of `size` bytes, which need not end in a NUL or a newline, into a mesh that
-// nsvcd_mesh_free gives back. Faces of any number of corners are cut into triangles, concave ones
-// of up to 4096 corners too; a face may refer to vertices further down; only v and f lines matter.
-// Linear time but for concave faces. On failure *mesh is left as it was, nothing stays allocated,
-// and *error_line (NULL allowed) is the line at fault, from 1, or 0 where no line is; of several
-// faults the one found first, in the order statements and counts, vertices, faces. Errors:
-// ARGUMENT, MEMORY, SYNTAX, INDEX, NUMBER, EMPTY, TOO_LARGE; load: also IO.
+// Reads OBJ text into a mesh. Only lines v and f matter. A face may refer to vertices further down.
+// Faces of any number of corners are cut into triangles, concave ones of up to 4096 corners.
+//   text       (size) characters, not NULL; they need not end in a NUL or a newline
+//   allocator  NULL: malloc and free
+//   mesh       not NULL; nsvcd_mesh_free gives it back; left as it was on failure
+//   error_line NULL, or set to the line at fault, from 1; 0 where no line is at fault
+//   allocates  the mesh, and working memory that is given back; time is linear in size, but for
+//              concave faces
+//   errors     ARGUMENT, MEMORY, SYNTAX, INDEX, NUMBER, EMPTY, TOO_LARGE. Of several faults the
+//              one that is found first: statements and counts come before vertices, these before
+//              faces
+//   source     Wavefront, "Object Files", version 3.0; ear clipping after Meisters 1975
 NSVCDDEF nsvcd_result nsvcd_obj_parse(const char *text, size_t size,
                                       const nsvcd_allocator *allocator, nsvcd_mesh *mesh,
                                       size_t *error_line);
 #ifndef NSVCD_NO_STDIO
+// nsvcd_obj_parse on what a file holds.
+//   path       not NULL, as fopen takes it
+//   errors     those of nsvcd_obj_parse, and IO
 NSVCDDEF nsvcd_result nsvcd_obj_load(const char *path, const nsvcd_allocator *allocator,
                                      nsvcd_mesh *mesh, size_t *error_line);
 #endif
 #endif
 #ifndef NSVCD_NO_ENCODER
-// The part of a mesh within the box low..high (its own frame), for where a large mesh changes all
-// the time, or the network is to answer, which needs patches not much larger than the gap in
-// question: encode only what the moving body can reach - the box over its sweep, grown a little -
-// as an `open` body. A mesh that stays is better encoded whole, once. Triangles are cut at the box;
-// vertices are not shared. part: given back by nsvcd_mesh_free. On failure it is left as it was.
-// Errors: ARGUMENT (also a box that is not finite, or has no volume), EMPTY (nothing of it in the
-// box), and those of a mesh that nsvcd_encode would refuse; MEMORY, TOO_LARGE. Source: Sutherland
-// and Hodgman 1974.
+// Cuts out the part of a mesh within a box: triangles are cut at the box, vertices are not shared.
+// For a large mesh that changes all the time, or that the network is to judge, whose patches must
+// not be much larger than the gap in question: encode what the moving body can reach, the box over
+// its sweep grown a little, as an `open` body. A mesh that stays is better encoded whole, once.
+//   low, high  the box in the mesh's frame, metres, not NULL, finite, low < high
+//   allocator  NULL: malloc and free
+//   part       not NULL; nsvcd_mesh_free gives it back; left as it was on failure
+//   allocates  the part
+//   errors     ARGUMENT, EMPTY (nothing of it is in the box), INDEX, NUMBER, TOO_LARGE, MEMORY
+//   source     Sutherland and Hodgman 1974
 NSVCDDEF nsvcd_result nsvcd_mesh_cut(const nsvcd_mesh *mesh, const float low[3],
                                      const float high[3], const nsvcd_allocator *allocator,
                                      nsvcd_mesh *part);
-// Gives back what nsvcd_obj_parse, nsvcd_obj_load or nsvcd_mesh_cut allocated; the same allocator.
-// NULL is allowed.
+// Gives back what nsvcd_obj_parse, nsvcd_obj_load or nsvcd_mesh_cut allocated, and empties *mesh.
+//   mesh       may be NULL
+//   allocator  the one that it came from
 NSVCDDEF void nsvcd_mesh_free(nsvcd_mesh *mesh, const nsvcd_allocator *allocator);
 #endif
 
 // ------------------------------------------------------------------------------------------ bodies
 
-// An encoded body: one relocatable blob without pointers, `size` bytes, aligned to NSVCD_ALIGNMENT.
-// Copy it with memcpy, write it with fwrite, map it, or bake it into flash as a const array.
-// Little-endian, IEEE 754.
+// An encoded body: one relocatable blob without pointers, aligned to NSVCD_ALIGNMENT. Copy it with
+// memcpy, write it with fwrite, map it, or bake it into flash as a const array. Little-endian,
+// IEEE 754. nsvcd_body_facts.size is its size. Threads may share it.
 typedef struct nsvcd_body nsvcd_body;
 
 #define NSVCD_ALIGNMENT 8
+// Patches of a body, where the options do not say: of one with triangles, and of one for the
+// network alone, which needs finer patches than a proof.
 #define NSVCD_DEFAULT_POINTS 192
-// Of bodies for the network alone, which needs finer patches than a proof.
 #define NSVCD_DEFAULT_NETWORK_POINTS 256
-#define NSVCD_MAX_POINTS 65536  // representative points (patches) of a body
-// Bodies of more are levels: patches in a tree, and latents only if asked for.
+#define NSVCD_MAX_POINTS 65536
+// A body of more patches is a level: its patches are in a tree, and it has latents only if asked.
 #define NSVCD_SMALL_POINTS 512
-// A mesh of up to so many triangles is encoded with NSVCD_DEFAULT_POINTS, if nothing is said, of
-// up to MANY with NSVCD_SMALL_POINTS. More are taken for a level, with a patch for each 12.
+// A mesh of up to FEW triangles has NSVCD_DEFAULT_POINTS patches, where the options do not say; of
+// up to MANY, NSVCD_SMALL_POINTS. A mesh of more is a level, with a patch for each 12 triangles.
 #define NSVCD_FEW_TRIANGLES 32768
 #define NSVCD_MANY_TRIANGLES 131072
 #define NSVCD_LEVEL_TRIANGLES 12
-#define NSVCD_MAX_COORDINATE 1e6f  // metres
-#define NSVCD_MIN_RADIUS 1e-12f    // metres, of a body's bounding sphere
-#define NSVCD_MAX_POSES 65536      // per motion
-#define NSVCD_MIN_SCALE 1e-6f      // of a body in a question
+// metres
+#define NSVCD_MAX_COORDINATE 1e6f
+// metres, of the sphere about a body
+#define NSVCD_MIN_RADIUS 1e-12f
+// per motion
+#define NSVCD_MAX_POSES 65536
+// of a body in a question
+#define NSVCD_MIN_SCALE 1e-6f
 #define NSVCD_MAX_SCALE 1e6f
 
-// done: in [0,1]. Returns 0 to go on, else the work is given up, and the result is
-// NSVCD_ERROR_CANCELLED.
+// Told now and then how much is done, in [0,1]. Returns 0 to go on; otherwise the work is given up,
+// and the result is NSVCD_ERROR_CANCELLED.
 typedef int nsvcd_progress(float done, void *user);
 
+// What is zero is the default.
 typedef struct nsvcd_encode_options {
-  // N, representative points (patches), 1..NSVCD_MAX_POINTS; 0: by the number of triangles, see
-  // above; NSVCD_DEFAULT_NETWORK_POINTS without triangles
+  // N, patches, 1..NSVCD_MAX_POINTS; 0: by the number of triangles, see above
   size_t points;
-  // metres; if > 0 and points is 0: as many points as make patches of about this radius. For a
-  // level about half the size of the bodies that move in it
+  // metres; if > 0 and points is 0: as many patches as have about this radius. For a level about
+  // half the size of the bodies that move in it
   float patch_radius;
   // 1: the mesh is not closed (a sheet, or a part cut out): nothing counts as inside it
   int open;
-  int no_triangles;  // 1: for the network alone, in fewer bytes; then there is no proof
-  int no_latents;    // 1: for the proof alone
-  // 1: for the network too, also where there are more than NSVCD_SMALL_POINTS points. Not with
-  // no_latents
+  // 1: for the network alone, in fewer bytes; then there is no proof
+  int no_triangles;
+  // 1: for the proof alone
+  int no_latents;
+  // 1: for the network too, also of more than NSVCD_SMALL_POINTS patches. Not with no_latents
   int latents;
-  // NULL, or told now and then how much is done; a large mesh takes seconds
+  // NULL, or told how much is done
   nsvcd_progress *progress;
-  void *user;  // handed to it
+  // handed to progress
+  void *user;
 } nsvcd_encode_options;
 
 #ifndef NSVCD_NO_NETWORK
-// Bytes of a body of `points` points without triangles; 0 if there can be no such body. One with
-// triangles takes up to 12 bytes more for each, and 100 to 200 for each point: let nsvcd_encode
-// allocate it, or ask nsvcd_body_describe.
+// Bytes of a body without triangles; 0 if there can be no such body. One with triangles is larger:
+// let nsvcd_encode allocate it.
+//   points     patches
 NSVCDDEF size_t nsvcd_body_size(size_t points);
-// The same as a constant, for 1 to NSVCD_SMALL_POINTS points.
+// The same as a constant, for 1 to NSVCD_SMALL_POINTS patches.
 #define NSVCD_BODY_BYTES(points)                                                           \
   ((64 + 28 * (((points) + 15) / 16 * 16) + 16 * ((((points) + 15) / 16 + 15) / 16 * 16) + \
     40 * (points) + 7) /                                                                   \
@@ -333,92 +368,120 @@ NSVCDDEF size_t nsvcd_body_size(size_t points);
 #endif
 
 #ifndef NSVCD_NO_ENCODER
-// Encodes a mesh and points *body to the result.
-//   options    NULL for the defaults: triangles for the proof, latents for the network.
-//   allocator  NULL for malloc and free. Working memory comes from it and is given back.
-//   memory     `capacity` bytes, aligned to NSVCD_ALIGNMENT, for the body. NULL: the body comes
-//              from the allocator, is as large as it has to be, and nsvcd_body_free gives it back.
-// The body may have fewer points than asked where the surface has too few to tell apart.
-// Deterministic: same mesh, same bytes, in one build. On failure *body is left as it was. Errors:
-// ARGUMENT, NUMBER, INDEX, EMPTY, TOO_LARGE, MEMORY, WORKSPACE. Source: NeuralSVCD, appendix F; the
-// triangles: this library.
+// Encodes a mesh into a body. The body may have fewer patches than asked, where the surface has too
+// few points to tell apart. Deterministic: same mesh, same bytes, in one build.
+//   mesh       not NULL; not kept
+//   options    NULL: the defaults, triangles for the proof and latents for the network
+//   allocator  NULL: malloc and free
+//   memory     (capacity) bytes, aligned to NSVCD_ALIGNMENT, for the body. NULL: the body comes
+//              from the allocator, and nsvcd_body_free gives it back
+//   body       not NULL; set to the body; left as it was on failure
+//   allocates  working memory, which is given back, and the body where memory is NULL
+//   errors     ARGUMENT, INDEX, NUMBER, EMPTY, TOO_LARGE, MEMORY, WORKSPACE, CANCELLED
+//   source     the latents: NeuralSVCD, appendix F; the triangles: this library
 NSVCDDEF nsvcd_result nsvcd_encode(const nsvcd_mesh *mesh, const nsvcd_encode_options *options,
                                    const nsvcd_allocator *allocator, void *memory, size_t capacity,
                                    const nsvcd_body **body);
-// Gives back a body that nsvcd_encode allocated; the same allocator. NULL is allowed.
+// Gives back a body that nsvcd_encode allocated.
+//   body       may be NULL
+//   allocator  the one that it came from
 NSVCDDEF void nsvcd_body_free(const nsvcd_body *body, const nsvcd_allocator *allocator);
 #endif
 
-// Checks an untrusted blob in `memory` and points *body at it, without a copy: every byte of it is
-// read. BODY if anything is wrong with it.
+// Checks a blob that nobody vouches for, every byte of it, and takes it for a body.
+//   memory     (size) bytes, not NULL, aligned to NSVCD_ALIGNMENT; the body stays in it
+//   body       not NULL; set to the body; left as it was on failure
+//   allocates  nothing
+//   errors     ARGUMENT (NULL), BODY (anything is wrong with it)
 NSVCDDEF nsvcd_result nsvcd_body_load(const void *memory, size_t size, const nsvcd_body **body);
 
-// The same for bytes that are known to be what nsvcd_encode made, and only looks at the header: is
-// it a body of this version and these weights, and as long as it says? For an array baked into the
-// program (`svcd encode`), which is as trustworthy as its code, and for a large file that is mapped
-// and has been loaded once before: pages are then read as queries need them. Bytes that were
-// changed since do harm: wrong answers, or reads anywhere.
+// nsvcd_body_load for bytes that are known to be what nsvcd_encode made. Only the header is read:
+// is it a body of this version and these weights, and is all of it there? For an array baked into
+// the program, and for a large mapped file that was loaded once before: its pages are then read as
+// queries need them. Bytes that were changed since do harm: wrong answers, or reads anywhere.
 NSVCDDEF nsvcd_result nsvcd_body_trust(const void *memory, size_t size, const nsvcd_body **body);
 
-// Writes a copy of `body` scaled by `scale` > 0 about its origin (in place is allowed): for a
-// planner's bodies, or to bake one; a question has scales of its own. Latents are scale-free, so
-// this takes microseconds and the answers scale along, to rounding. Errors: ARGUMENT, also where
-// the result would be smaller or larger than a body may be; WORKSPACE.
+// Writes a copy of a body, scaled about its origin: for a planner's bodies, or to bake one; a
+// question has scales of its own. Latents do not depend on scale, and answers scale along, to
+// rounding.
+//   body       not NULL
+//   scale      > 0
+//   memory     (capacity) bytes, not NULL, aligned to NSVCD_ALIGNMENT; may be where the body is
+//   scaled     not NULL; set to the copy; left as it was on failure
+//   allocates  nothing
+//   errors     ARGUMENT (also if the copy were smaller or larger than a body may be), WORKSPACE
 NSVCDDEF nsvcd_result nsvcd_body_scale(const nsvcd_body *body, float scale, void *memory,
                                        size_t capacity, const nsvcd_body **scaled);
 
 typedef struct nsvcd_body_facts {
-  size_t size;      // bytes: what to save
-  size_t points;    // N
-  float centre[3];  // of a sphere that contains the body, metres
+  // bytes: what to save
+  size_t size;
+  // N, patches
+  size_t points;
+  // metres: a sphere that contains the body
+  float centre[3];
   float radius;
-  float mean_patch_radius;  // metres
-  size_t triangles;         // of the mesh; 0: none are stored
-  size_t listed;            // triangles and parts of them that are stored, patch by patch
-  float quantum;            // metres: stored triangles are within this of the mesh's
-  int latents;              // 1: the network can answer
+  // metres
+  float mean_patch_radius;
+  // of the mesh; 0: none are stored
+  size_t triangles;
+  // triangles and parts of them that are stored, patch by patch
+  size_t listed;
+  // metres: stored triangles are within this of the mesh's
+  float quantum;
+  // 1: the network can answer
+  int latents;
 } nsvcd_body_facts;
 
-// `body` must not be NULL.
+// What a body is.
+//   body       not NULL
 NSVCDDEF nsvcd_body_facts nsvcd_body_describe(const nsvcd_body *body);
 
-// Centre and radius of one patch (as in nsvcd_answer), metres, body frame; neither may be NULL.
-// Returns 0, and writes nothing, if there is no such patch.
+// The sphere of one patch. Returns 1, or, if there is no such patch or no body, 0: then nothing is
+// written.
+//   patch      as in nsvcd_answer
+//   centre     not NULL, metres, body frame
+//   radius     not NULL, metres
 NSVCDDEF int nsvcd_body_patch(const nsvcd_body *body, uint32_t patch, float centre[3],
                               float *radius);
 
 // ----------------------------------------------------------------------------------------- queries
 
+// a -> rotation a + position, from the body's frame to the world.
 typedef struct nsvcd_pose {
   float position[3];  // metres
   float rotation[4];  // unit quaternion x y z w
 } nsvcd_pose;
 
 typedef enum nsvcd_status {
-  NSVCD_STATUS_OK = 0,  // the network has answered
-  // proven: the surfaces never meet, and by the proof, nothing is inside of anything
+  // the network has answered
+  NSVCD_STATUS_OK = 0,
+  // proven: the surfaces never meet; and, by the proof, nothing is inside of anything
   NSVCD_STATUS_CERTIFIED_FREE,
-  // one body, or a part of it, lies inside the other at the start. By the network's method an
-  // estimate, by the proof exact
+  // one body, or a part of it, lies inside the other at the start: by the proof a fact, by the
+  // network's method an estimate
   NSVCD_STATUS_INSIDE,
-  // the network has answered, but more pairs overlapped than options.pairs let through
+  // the network has answered, but more pairs of patches overlapped than options.pairs let through
   NSVCD_STATUS_LIMIT,
-  NSVCD_STATUS_WITNESS,   // proven: two triangles meet
-  NSVCD_STATUS_UNDECIDED  // the proof came to no end: see nsvcd_answer
+  // proven: two triangles meet
+  NSVCD_STATUS_WITNESS,
+  // the proof came to no end: see nsvcd_answer
+  NSVCD_STATUS_UNDECIDED
 } nsvcd_status;
 
-NSVCDDEF const char *nsvcd_status_string(nsvcd_status status);  // as `svcd check` prints it
+// A status in a word or two, for a person; never NULL.
+NSVCDDEF const char *nsvcd_status_string(nsvcd_status status);
 
-// The decoders, all on the same latents: about 4, 13 and 40 thousand multiplications per pair of
-// patches.
+// The decoders, all on the same latents: about 4, 13 and 40 thousand multiplications for each pair
+// of patches.
 typedef enum nsvcd_model {
-  NSVCD_MODEL_DEFAULT = 0,
+  NSVCD_MODEL_DEFAULT = 0,  // the largest that is compiled in
   NSVCD_MODEL_TINY,
   NSVCD_MODEL_SMALL,
   NSVCD_MODEL_BASE
 } nsvcd_model;
 
-// of the decoder
+// The arithmetic of the decoder. Latents are int8 in any case.
 typedef enum nsvcd_precision { NSVCD_PRECISION_FLOAT = 0, NSVCD_PRECISION_INT8 } nsvcd_precision;
 
 // How a question is answered.
@@ -428,31 +491,35 @@ typedef enum nsvcd_method {
   NSVCD_METHOD_NETWORK       // an opinion, in a time that is bounded strictly
 } nsvcd_method;
 
-#define NSVCD_DEFAULT_WORK 100000  // units of the proof
+#define NSVCD_DEFAULT_WORK 100000
 #define NSVCD_NO_TRIANGLE 0xffffffffu
 #define NSVCD_DEFAULT_PAIRS 8
 #define NSVCD_MAX_PAIRS 256
-#define NSVCD_LOGIT_CERTAIN 100.0f  // the logit of INSIDE; its negative is that of CERTIFIED_FREE
+// the logit of INSIDE; its negative is that of CERTIFIED_FREE
+#define NSVCD_LOGIT_CERTAIN 100.0f
 
+// What is zero is the default.
 typedef struct nsvcd_sweep_options {
-  // K, pairs of patches that the network looks at, 1..NSVCD_MAX_PAIRS; 0: the default
+  // K, pairs of patches that the network looks at, 1..NSVCD_MAX_PAIRS; 0: NSVCD_DEFAULT_PAIRS
   size_t pairs;
-  nsvcd_model model;          // 0: base
-  nsvcd_precision precision;  // of the decoder's arithmetic; latents are int8 in any case
-  // share of collisions to be found: 0 (balanced errors), 0.99f, 0.999f or 0.9999f, as calibrated
+  nsvcd_model model;
+  nsvcd_precision precision;
+  // share of collisions that the network is to find: 0 (balanced errors), 0.99f, 0.999f or 0.9999f
   float recall;
   nsvcd_method method;
   // units that a proof may take, about; 0: NSVCD_DEFAULT_WORK. A unit is a plane sought for two
-  // patches, 16 triangles against the box of 16, one of them against these, a pair of triangles at
-  // one time, or a ray against 16: up to 0.5 microseconds
+  // patches, 16 triangles against the box of 16, one of them against these, two triangles at one
+  // time, or a ray against 16
   size_t work;
-  // a motion is cut into at most so many, in multiples of 16 up to 64; 0: 64. Fewer take less
-  // memory; what turns by more than 20 degrees in one of them takes longer to prove
+  // a motion is cut into at most so many, a multiple of 16 up to 64; 0: 64. Fewer take less memory;
+  // what turns by more than 20 degrees in one of them takes longer to prove
   size_t segments;
-  // metres, at least 0: surfaces that come closer than this, and do not meet, may be left undecided
+  // metres: surfaces that come closer than this, and do not meet, may be left undecided
   float tolerance;
+
   // By proof only:
-  float clearance;  // metres: to come as close as this counts as a collision; 0: to meet does
+  // metres: to come as close as this counts as a collision; 0: to meet does
+  float clearance;
   // share of the motion, up to 1: contact_time is that of the first contact, to this, and all
   // before is proven free. 0: of any contact
   float first;
@@ -460,99 +527,116 @@ typedef struct nsvcd_sweep_options {
   // for what the stored triangles are off by (nsvcd_body_facts.quantum). 0: unasked. Not with
   // `first`
   float measure;
-  // metres: what touches at the start, or is nearer than the clearance, by no more than this, does
-  // not stop a body that rests on it, slides along it or leaves it: the question is asked as if a
-  // were lifted off it, by this much along the normals of all that it touches. See answer.lift
+  // metres: a contact at the start that is no deeper than this does not count, nor does what is
+  // nearer than the clearance by no more than this. So a body may rest on another, slide along it
+  // or leave it. The question is asked as if a were lifted off b, by this much along the normals of
+  // all that it touches: see answer.lift
   float skin;
 } nsvcd_sweep_options;
 
 // A body in a scene: how it moves, and how large it is. Many may share one body.
 typedef struct nsvcd_mover {
-  const nsvcd_body *body;  // from nsvcd_encode, nsvcd_body_load or nsvcd_body_scale
-  // (count), uniform in t in [0,1]; position linear and rotation slerp in between. One pose: it
+  // from nsvcd_encode, nsvcd_body_load, nsvcd_body_trust or nsvcd_body_scale
+  const nsvcd_body *body;
+  // (count), uniform in t in [0,1]; in between, position linear and rotation slerp. One pose: it
   // rests there. NULL, and count 0: it rests at the origin
   const nsvcd_pose *poses;
+  // up to NSVCD_MAX_POSES
   size_t count;
-  float scale;  // of the body, about its origin, NSVCD_MIN_SCALE..NSVCD_MAX_SCALE; 0: 1
+  // of the body, about its origin, NSVCD_MIN_SCALE..NSVCD_MAX_SCALE; 0: 1
+  float scale;
 } nsvcd_mover;
 
 // Do two bodies hit each other? What is zero is the default, but for the bodies.
 typedef struct nsvcd_question {
-  nsvcd_mover a, b;  // either may move, or both, in the same time; their counts may differ
+  // either may move, or both, in the same time; their counts of poses may differ
+  nsvcd_mover a, b;
   nsvcd_sweep_options options;
 } nsvcd_question;
 
 typedef struct nsvcd_answer {
-  // of collision; positive is yes. The threshold that options.recall asks for is already in it. The
-  // greatest of the pairs looked at; the search ends at the first above 3. Where the tiny decoder,
-  // which ranks the pairs, is clear (beyond +-3), it is the one that answers. Of a proof:
+  // of collision; positive is yes. By the network: the greatest of the pairs looked at, less the
+  // threshold that options.recall asks for; the search ends at the first above 3. Where the tiny
+  // decoder, which ranks the pairs, is clear (beyond +-3), it is the one that answers. By proof:
   // +-NSVCD_LOGIT_CERTAIN; where it is undecided, the network's
   float logit;
   // logit > 0. UNDECIDED: the network's opinion on whether they meet, or yes where there is none or
   // something else is asked
   int collides;
   // in [0,1]. WITNESS: when the triangles meet; with options.first that is the first contact, and 0
-  // if they meet at the start; INSIDE: 0; by the network: where the most suspicious pair comes
+  // if they meet at the start. INSIDE: 0. By the network: where the most suspicious pair comes
   // closest
   float contact_time;
-  // in [0,1]. By proof: no contact is before that. CERTIFIED_FREE: 1; WITNESS: 0, or with
-  // options.first no less than contact_time - first; UNDECIDED with it: when doubt begins
+  // in [0,1]. By proof: no contact is before this. CERTIFIED_FREE: 1. WITNESS: 0, or with
+  // options.first no less than contact_time - first. UNDECIDED with options.first: when doubt
+  // begins
   float free_until;
   // metres. By proof: they stay farther apart than `low` until free_until, and come as near as
-  // `high`, at contact_time; what stored triangles are off by is allowed for, and so it is not 0
-  // where they meet. HUGE_VALF where it is not known
+  // `high`, at contact_time. What stored triangles are off by is allowed for, and so `high` is not
+  // 0 where they meet. HUGE_VALF where it is not known
   float clearance_low;
   float clearance_high;
-  uint32_t patch_a;  // the pair; 0, 0 where there is none
+  // the pair that decided; 0, 0 where there is none
+  uint32_t patch_a;
   uint32_t patch_b;
   nsvcd_status status;
-  // network: pairs of patches whose spheres meet, each counted once per stretch of time, until the
-  // search ends
+  // by the network: pairs of patches whose spheres meet, each counted once for each stretch of
+  // time, until the search ends
   size_t candidates;
-  // WITNESS: where the triangles meet at that time; INSIDE: what is inside; in the world
+  // metres, world. WITNESS: where the triangles meet at that time. INSIDE: what is inside
   float point[3];
-  // WITNESS: unit normal of one of the triangles, from b to a, in the world; else, and where that
+  // world. WITNESS: unit normal of one of the triangles, from b to a. Otherwise, and where that
   // triangle has no area, 0
   float normal[3];
-  uint32_t triangle_a;  // WITNESS: as numbered in the caller's meshes; else NSVCD_NO_TRIANGLE
+  // WITNESS: as numbered in the caller's meshes. Otherwise NSVCD_NO_TRIANGLE
+  uint32_t triangle_a;
   uint32_t triangle_b;
   // metres, world, at the start: by what a was lifted off b for options.skin; it turns with b. The
   // answer is about the motion so displaced. 0: nothing was touched, or a is pressed in deeper than
   // the skin, or held from all sides
   float lift[3];
-  size_t work;  // units that the proof took
+  // units that the proof took
+  size_t work;
 } nsvcd_answer;
 
-// Answers a question. workspace: nsvcd_sweep_workspace_size(question) bytes, aligned to
-// NSVCD_ALIGNMENT: it depends on the sizes of the bodies, the method, and options.segments, pairs
-// and model; 0 if the question is refused. Of NULL it is enough for any question. For arrays of a
-// fixed size see NSVCD_PROOF_WORKSPACE_BYTES.
-// Allocates nothing; threads may share bodies, each with its own workspace; deterministic, and the
-// same verdict whichever body is a and which b. Bodies of Ga and Gb groups of 16 patches and a
-// motion of S segments, 16 or so up to 320 degrees of turn and 64 at most, take at most 18 S Ga Gb
-// + 3 S tests of 16 spheres against one (the network, of motions that turn by more than 45 degrees,
-// on machines of less than 16 lanes: 34 S Ga Gb); then a proof takes options.work units, and the
-// network the tiny decoder on 12 K pairs and the chosen one on K (tiny alone: on 3 K), and 32
-// distances per patch. Of bodies of more than 512 patches only those groups count that the other
-// body comes near, and some 16 tests more for each level of spheres and each 16 spheres of it that
-// it comes near. Stack: 5 KB on a desktop; on a Cortex-M, -O2, 3.1 KB for a proof, 2.0 KB for the
-// tiny decoder in int8, the caller's variables included (`make firmware`). On failure `answer` is
-// left as it was: ARGUMENT (NULL, a count, or an option out of its range), POSE, SCALE, SAME,
-// WORKSPACE, and BODY where a body has not what the method needs. Source: the proof: this library,
-// see *proof* below; the network: NeuralSVCD, algorithm 1.
-// What a proof says is about the surfaces of the two meshes, scaled and posed exactly as described:
-// CERTIFIED_FREE and INSIDE hold for the meshes themselves; the triangles of a WITNESS meet to
-// within the two bodies' quantum (nsvcd_body_facts, times the scale), a few micrometres at most on
-// bodies of 0.3 m; UNDECIDED are surfaces that come as close as that without meeting, or more work
-// than was allowed.
+// Bytes of the workspace that nsvcd_sweep needs; 0 if the question is refused. They depend on the
+// sizes of the bodies, the method, and options.segments, pairs and model.
+//   question   NULL: enough for any question
 NSVCDDEF size_t nsvcd_sweep_workspace_size(const nsvcd_question *question);
+
+// Answers a question. Deterministic, and the same verdict whichever body is a and which b.
+//   question   not NULL
+//   workspace  (workspace_size) bytes, nsvcd_sweep_workspace_size(question) or more, not NULL,
+//              aligned to NSVCD_ALIGNMENT
+//   answer     not NULL; left as it was on failure
+//   allocates  nothing
+//   threads    each with its own workspace; they may share bodies
+//   errors     ARGUMENT, POSE, SCALE, TOLERANCE, SAME, WORKSPACE, and BODY where a body lacks what
+//              the method needs
+//   source     the proof: this library, section *proof*; the network: NeuralSVCD, algorithm 1
+//
+// What a proof says is about the surfaces of the two meshes, scaled and posed exactly as described.
+// CERTIFIED_FREE and INSIDE hold for the meshes themselves. The triangles of a WITNESS meet to
+// within the two bodies' quantum (nsvcd_body_facts, times the scale). UNDECIDED are surfaces that
+// come as close as that without meeting, or more work than was allowed.
+//
+// What it costs: Ga and Gb are the bodies' groups of 16 patches. A motion has S segments: 16 or so
+// up to 320 degrees of turn, 64 at most. The search takes at most 18 S Ga Gb + 3 S tests of 16
+// spheres against one; by the network, for motions that turn by more than 45 degrees, on machines
+// of less than 16 lanes, 34 S Ga Gb. Of bodies of more than 512 patches only those groups count
+// that the other body comes near, and some 16 tests more for each level of spheres and each 16
+// spheres of it that it comes near. Then a proof takes options.work units. The network takes the
+// tiny decoder on 12 K pairs and the chosen one on K (tiny alone: on 3 K), and 32 distances for
+// each patch.
 NSVCDDEF nsvcd_result nsvcd_sweep(const nsvcd_question *question, void *workspace,
                                   size_t workspace_size, nsvcd_answer *answer);
 
-// The same as constants, for arrays of a fixed size, a little larger than need be. points_a,
-// points_b: N of the bodies, or more; segments: options.segments, 16 to 64; pairs: options.pairs,
-// K. Where one workspace is for both methods, take the larger. NSVCD_MEMORY declares an array that
-// is aligned:
+// Workspaces as constants, for arrays of a fixed size, a little larger than need be. Where one
+// workspace is for both methods, take the larger.
+//   points_a, points_b   patches of the bodies, or more
+//   segments             options.segments, 16 to 64
+//   pairs                options.pairs, K
+// NSVCD_MEMORY declares an array that is aligned:
 //   static NSVCD_MEMORY(workspace, NSVCD_PROOF_WORKSPACE_BYTES(64, 192, 16));
 #define NSVCD_MEMORY(name, bytes) uint64_t name[((bytes) + 7) / 8]
 #define NSVCD__GROUPS_OF(points) ((points) > 512 ? 32 : ((points) + 15) / 16)
@@ -564,33 +648,43 @@ NSVCDDEF nsvcd_result nsvcd_sweep(const nsvcd_question *question, void *workspac
 #define NSVCD_NETWORK_WORKSPACE_BYTES(points_a, points_b, segments, pairs) \
   (NSVCD__SEARCH_BYTES(points_a, points_b, segments) + 96 * (pairs))
 
-// The same for `count` questions, as a frame of a game or a sampling planner has them; answers:
-// (count). Errors as above, of the first question that has one, and then no answer is written; no
-// questions are no error.
-// Where neighbours ask the network about the same two bodies, this is faster than as many
-// nsvcd_sweep calls: each is first asked where the one before it collided, and if that is a clear
-// collision again (logit above 3), it is the answer, and the rest is not searched. Other answers
-// are nsvcd_sweep's, to the bit. Source: this library; physics engines call it temporal coherence.
+// Answers many questions, as a frame of a game or a sampling planner has them. Where a question and
+// the one before it ask the network about the same two bodies, it is first asked where that one
+// collided. If that is a clear collision again (logit above 3), it is the answer, and the rest is
+// not searched. All other answers are nsvcd_sweep's, to the bit.
+//   questions  (count); count may be 0
+//   workspace  as for nsvcd_sweep, large enough for each of them
+//   answers    (count); left as they were on failure
+//   allocates  nothing
+//   threads    as nsvcd_sweep
+//   errors     those of nsvcd_sweep, of the first question that has one
+//   source     this library; physics engines call it temporal coherence
 NSVCDDEF nsvcd_result nsvcd_sweep_batch(const nsvcd_question *questions, size_t count,
                                         void *workspace, size_t workspace_size,
                                         nsvcd_answer *answers);
 
 #ifndef NSVCD_NO_GRADIENT
-// nsvcd_sweep by the network, and the derivatives of answer->logit by the poses of a and of b: what
-// drives them (joints, a spline) takes it from there by the chain rule. gradient_a, gradient_b:
-// (count, 6), or NULL where it is not wanted, but not both: per pose, by a displacement of the
-// body's origin (metres, world axes), then by a small rotation about that origin (rotation vector,
-// radians, world axes, applied on the left); of one row for a body without poses.
-// Zero where no network answered (CERTIFIED_FREE, INSIDE) and for poses that the decisive pair does
-// not pass. It is that of the pair and the stretch of time that decided: the logit is the greatest
-// of several, and so has kinks, also where the network (ReLU) and the frame of a pair have theirs;
-// where the pair is at rest, or does not turn, it is the mean of both sides. The ends of the
-// stretch move with the poses, but for those at t = 0 or 1 and where a segment of the search begins
-// or ends; the unit of length and the spheres' allowance for what the motion does between its
-// samples are taken as constant. In int8 arithmetic it is the derivative of the float decoder, or,
-// without that, of the function that the int8 one rounds. Errors as nsvcd_sweep's, and then the
-// gradients are left as they were. Takes 2 to 3 microseconds more. Source: reverse mode; this
-// library.
+// Answers a question by the network, with the derivatives of answer->logit by the poses of a and b.
+// What drives the poses (joints, a spline) goes on from there by the chain rule.
+//   question   options.method is not PROOF, and no option is set that only a proof has
+//   workspace, answer   as for nsvcd_sweep
+//   gradient_a, gradient_b   (count, 6), one row for a body without poses; one of them may be NULL;
+//              left as they were on failure. Of each pose: by a displacement of the body's origin
+//              (metres, world axes), then by a small rotation about that origin (rotation vector,
+//              radians, world axes, applied on the left)
+//   allocates  nothing
+//   threads    as nsvcd_sweep
+//   errors     those of nsvcd_sweep
+//   source     reverse mode; this library
+//
+// Zero where no network answered (CERTIFIED_FREE, INSIDE), and for poses that the decisive pair
+// does not pass. It is the gradient of the pair and the stretch of time that decided: the logit is
+// the greatest of several, and so has kinks, also where the network (ReLU) and the frame of a pair
+// have theirs. Where the pair is at rest, or does not turn, it is the mean of both sides. The ends
+// of the stretch move with the poses, but for those at t = 0 or 1 and where a segment of the search
+// begins or ends. The unit of length, and the spheres' allowance for what the motion does between
+// its knots, are taken as constant. In int8 arithmetic it is the derivative of the float decoder,
+// or, without that, of the function that the int8 one rounds.
 NSVCDDEF nsvcd_result nsvcd_sweep_gradient(const nsvcd_question *question, void *workspace,
                                            size_t workspace_size, nsvcd_answer *answer,
                                            float *gradient_a, float *gradient_b);
@@ -599,23 +693,29 @@ NSVCDDEF nsvcd_result nsvcd_sweep_gradient(const nsvcd_question *question, void 
 #ifndef NSVCD_NO_OPTIMIZER
 // ------------------------------------------------------------------------------------ trajectories
 // A trajectory of F joints is a spline through control points: the start, M via points, the goal,
-// control (M + 2, F), uniform in t in [0,1]. Between two points it is of degree five, with the
-// velocity and the acceleration of central differences at via points, and at rest at both ends; so
-// both are continuous everywhere.
+// control (M + 2, F), uniform in t in [0,1]. Between two points it is of degree five. At via points
+// it has the velocity and the acceleration of central differences, and it is at rest at both ends;
+// so both are continuous everywhere.
 
 #define NSVCD_MAX_JOINTS 32
 #define NSVCD_MAX_VIA_POINTS 32
+// of a stage of the planner
 #define NSVCD_MAX_SEGMENTS 4096
 
-// The joints at t (F), or with derivative = 1, 2, 3 their velocity, acceleration, jerk by t.
-// control: (via_points + 2, F); t is taken into [0,1]. No errors. Source: quintic Hermite
-// interpolation, as the paper's authors use it.
+// The joints at a time, or their derivatives by t.
+//   control    (via_points + 2, joints), not NULL
+//   via_points M, up to NSVCD_MAX_VIA_POINTS; of more, nothing is written
+//   t          taken into [0,1]
+//   derivative 0: the joints; 1, 2, 3: velocity, acceleration, jerk
+//   out        (joints), not NULL
+//   allocates  nothing
+//   source     quintic Hermite interpolation, as the paper's authors use it
 NSVCDDEF void nsvcd_spline(const float *control, size_t via_points, size_t joints, float t,
                            size_t derivative, float *out);
 
-// Two bodies that can meet, by their indices. Queries are asked in b's frame, with a moving: take
-// the body that rests, or else the larger one, as b. The other way round costs a little accuracy,
-// as nsvcd_sweep does.
+// Two bodies that can meet, by their indices. The planner asks about a's motion as seen from b. So
+// take the body that rests, or else the larger one, as b: the other way round costs a little
+// accuracy.
 typedef struct nsvcd_body_pair {
   uint32_t a, b;
 } nsvcd_body_pair;
@@ -624,120 +724,169 @@ typedef enum nsvcd_plan_status {
   // the trajectory is within the limits and free of collision: certified where bodies have
   // triangles, else as far as the network knows
   NSVCD_PLAN_CONVERGED = 0,
-  NSVCD_PLAN_LIMIT,      // the iterations ended before one was found; this is the best
-  NSVCD_PLAN_CANCELLED,  // by the progress callback; this is the best so far
+  // the iterations ended before one was found; this is the best
+  NSVCD_PLAN_LIMIT,
+  // by the progress callback; this is the best so far
+  NSVCD_PLAN_CANCELLED,
   // the start is out of the limits or in collision: control is the smoothest way to the goal
   NSVCD_PLAN_START,
-  NSVCD_PLAN_GOAL  // the goal is
+  // the goal is out of the limits or in collision: so again
+  NSVCD_PLAN_GOAL
 } nsvcd_plan_status;
+
+// A status in a word or two, for a person; never NULL.
 NSVCDDEF const char *nsvcd_plan_status_string(nsvcd_plan_status status);
 
 typedef struct nsvcd_plan_progress {
-  // of `iterations` in this stage; L-BFGS begins anew where the proof found a hit
+  // from 0
   size_t seed, iteration;
+  // of this stage; L-BFGS begins anew where the proof found a hit
   size_t iterations;
-  int refining;  // 0: MPPI, 1: L-BFGS
-  // of the best trajectory of this stage; stages sample differently, and do not compare
+  // 0: MPPI, 1: L-BFGS
+  int refining;
+  // of the best trajectory of this stage. Stages look at different poses: their costs do not
+  // compare
   float cost;
   // the part of it that is due to collision: at 0 it is free, as far as the stage's segments show
   float collision;
-  const float *control;  // (via_points + 2, F), valid during the call
+  // (via_points + 2, F), valid during the call
+  const float *control;
   size_t via_points;
 } nsvcd_plan_progress;
 
 // A scene: who moves how, and who can meet whom. Nothing else is looked at. One `user` serves all
 // callbacks; these must depend on nothing but their arguments and it.
 typedef struct nsvcd_plan_problem {
-  size_t joints;                    // F, 1..NSVCD_MAX_JOINTS
-  const float *low, *high;          // (F), limits
-  const float *start, *goal;        // (F)
-  const nsvcd_body *const *bodies;  // (B); ones in no pair may be NULL
+  // F, 1..NSVCD_MAX_JOINTS
+  size_t joints;
+  // (F), limits
+  const float *low, *high;
+  // (F)
+  const float *start, *goal;
+  // (B), up to 65536; ones in no pair may be NULL
+  const nsvcd_body *const *bodies;
   size_t body_count;
-  const nsvcd_body_pair *pairs;  // (P)
+  // (P)
+  const nsvcd_body_pair *pairs;
   size_t pair_count;
-  // (F) -> (B), in the world. What is grasped moves with the hand because this says so: nothing is
-  // encoded anew.
+  // joints (F) -> poses (B), in the world. What is grasped moves with the hand because this says
+  // so: nothing is encoded anew
   void (*place)(void *user, const float *joints, nsvcd_pose *poses);
-  // (F) -> (B, 6, F): per body, by a joint, the displacement of its origin and its rotation vector,
-  // in the world's axes. NULL: by differences of `place`.
+  // joints (F) -> jacobian (B, 6, F): of each body, by a joint, the displacement of its origin and
+  // its rotation vector, in the world's axes. NULL: by differences of `place`
   void (*jacobian)(void *user, const float *joints, float *jacobian);
   // Instead of the network: the cost of collision of poses (samples, B) along the trajectory, which
-  // may end at the first sum above `limit`; sets *collides if there is a collision, and, unless
+  // may end at the first sum above `limit`. Sets *collides if there is a collision. Unless
   // `gradient` is NULL, adds the cost's derivative to it, (samples, B, 6), as nsvcd_sweep_gradient
-  // has it. NULL: the network.
+  // has it. NULL: the network
   float (*collision)(void *user, const nsvcd_pose *poses, size_t samples, float limit,
                      int *collides, float *gradient);
-  // once per iteration; not 0 cancels. May be NULL
+  // once in each iteration; not 0 cancels. May be NULL
   int (*progress)(void *user, const nsvcd_plan_progress *progress);
   void *user;
 } nsvcd_plan_problem;
 
 #define NSVCD_NONE ((size_t)-1)
+
+// What is zero is the stage's default.
 typedef struct nsvcd_plan_stage {
-  size_t via_points;  // M
-  // of the trajectory, each swept as one motion; with `discrete`, the ends of these are looked at
+  // M
+  size_t via_points;
+  // of the trajectory, each swept as one motion; with `discrete`, their ends are looked at; up to
+  // NSVCD_MAX_SEGMENTS
   size_t segments;
-  size_t iterations;  // at most; NSVCD_NONE: leave the stage out
-  size_t samples;     // trajectories per iteration of MPPI; gradients in a bundle of L-BFGS
+  // at most, up to 100000; NSVCD_NONE: leave the stage out
+  size_t iterations;
+  // trajectories in an iteration of MPPI, or gradients in a bundle of L-BFGS; up to 10000
+  size_t samples;
 } nsvcd_plan_stage;
 
-// Zero is the default everywhere, as tests/plan_bench.c found it good; weights that are negative
-// count as zero. If an exact check finds contacts, raise sweep.recall, `collision` or the bodies'
-// number of patches; if the status is LIMIT, `seeds` or explore.samples. The smoothness counts
-// radians and metres alike: for ways of hundreds of metres, raise `duration` or `collision`.
+// What is zero is the default, which stands last; weights that are negative count as zero. If an
+// exact check finds contacts, raise sweep.recall, `collision` or the bodies' number of patches; if
+// the status is LIMIT, `seeds` or explore.samples. The smoothness counts radians and metres alike:
+// for ways of hundreds of metres, raise `duration` or `collision`.
 typedef struct nsvcd_plan_options {
-  uint64_t seed;                       // of all random numbers
-  size_t seeds;                        // starts, tried until one ends free; 6
-  nsvcd_plan_stage explore;            // MPPI: 5, 24, 40, 100
-  nsvcd_plan_stage refine;             // L-BFGS: 10, 22, 10, 10
-  float velocity, acceleration, jerk;  // weights of the means of squares over the motion: 10, 2, 10
-  // weight of the logits' sum over pairs and segments: 20 (the paper's: 1)
+  // of all random numbers
+  uint64_t seed;
+  // starts, tried until one ends free, up to 1000; 6
+  size_t seeds;
+  // MPPI: 5 via points, 24 segments, 40 iterations, 100 samples
+  nsvcd_plan_stage explore;
+  // L-BFGS: 10, 22, 10, 10
+  nsvcd_plan_stage refine;
+  // weights of the means of squares over the motion: 10, 2, 10
+  float velocity, acceleration, jerk;
+  // weight of the logits' sum over pairs and segments: 20; the paper's is 1
   float collision;
   // seconds from start to goal, which only weights the terms above: 20
   float duration;
-  float margin;  // logits above minus this cost: 2
-  // of MPPI's first samples, radians or metres, at mid-motion: 0.3
+  // logits above minus this cost: 2
+  float margin;
+  // of MPPI's first random trajectories, radians or metres, at mid-motion: 0.3
   float spread;
-  float bundle;  // of L-BFGS's gradients: 0.01
-  int discrete;  // poses instead of sweeps
-  size_t check;  // segments of the last check; 4 times the finest stage
-  // of all queries; recall = 0.999f keeps more distance. The search asks the network; `method` is
+  // of L-BFGS's gradients: 0.01
+  float bundle;
+  // 1: poses instead of sweeps
+  int discrete;
+  // segments of the last check; 4 times the finest stage's
+  size_t check;
+  // of all queries; recall = 0.999f keeps more distance. The search asks the network. `method` is
   // that of start, goal and the last check, and so are `clearance`, `skin` and the like
   nsvcd_sweep_options sweep;
 } nsvcd_plan_options;
 
 typedef struct nsvcd_plan_answer {
   nsvcd_plan_status status;
-  int collides;  // by the last check, of the start or the goal where the status says so
-  size_t joint;  // that leaves its limits, or NSVCD_NONE
-  size_t pair;   // of the greatest logit, or NSVCD_NONE
+  // by the last check, or of the start or the goal where the status says so
+  int collides;
+  // that leaves its limits, or NSVCD_NONE
+  size_t joint;
+  // of the greatest logit, or NSVCD_NONE
+  size_t pair;
   // greatest of the last check; with a custom cost of collision that cost
   float logit;
-  float time;  // of it, in [0,1]
+  // of that logit, in [0,1]
+  float time;
   // of the trajectory, the latter without collision and limits; 0 where none was sought
   float cost, smoothness;
-  size_t via_points;         // M of `control`
-  size_t seeds, iterations;  // used; the latter of both stages
-  size_t trajectories;       // that were costed
-  size_t sweeps;             // queries asked of the network
+  // M of `control`
+  size_t via_points;
+  // used; the latter of both stages
+  size_t seeds, iterations;
+  // that were costed
+  size_t trajectories;
+  // queries asked
+  size_t sweeps;
 } nsvcd_plan_answer;
 
-// Finds a smooth trajectory from start to goal on which no pair meets. control: (M + 2, F) with the
-// M of options.refine (of explore, if that is left out), always written; NSVCD_MAX_VIA_POINTS + 2
-// rows are always enough. options: NULL for the defaults. workspace:
-// nsvcd_plan_workspace_size(problem, options) bytes, aligned to NSVCD_ALIGNMENT; 0 if problem or
-// options are refused, or more than SIZE_MAX would be needed. Start, goal and the trajectory at the
-// end are proven free, where bodies have triangles: for the motion of each pair as seen from b
-// between the poses of the check's segments, position linear and rotation slerp. Where the proof
-// finds a hit, the refinement goes on from there with twice the margin, three times at most.
-// Allocates nothing; deterministic; ends within seeds * (iterations of MPPI + 4 times those of
-// L-BFGS) iterations, of `samples` trajectories each, and for L-BFGS 5 more. Errors: ARGUMENT
-// (sizes, options, NULL), NUMBER (limits, start or goal not finite or beyond NSVCD_MAX_COORDINATE;
-// a cost beyond the range of float), POSE (from `place`), WORKSPACE, TOO_LARGE (more bytes than can
-// be counted); then control and answer are not written. Source: MPPI (Williams et al. 2017), then
-// L-BFGS with bundled gradients (Suh et al. 2022); NeuralSVCD, appendix D.
+// Bytes of the workspace that nsvcd_plan needs; 0 if problem or options are refused, or if it were
+// more than SIZE_MAX.
+//   options    NULL: the defaults
 NSVCDDEF size_t nsvcd_plan_workspace_size(const nsvcd_plan_problem *problem,
                                           const nsvcd_plan_options *options);
+
+// Finds a smooth trajectory from start to goal on which no pair meets. Deterministic.
+//   problem    not NULL
+//   options    NULL: the defaults
+//   workspace  (workspace_size) bytes, nsvcd_plan_workspace_size(problem, options) or more, not
+//              NULL, aligned to NSVCD_ALIGNMENT
+//   control    (M + 2, F), not NULL, with the M of options.refine, or of explore if that is left
+//              out; NSVCD_MAX_VIA_POINTS + 2 rows are always enough. Written whatever the status
+//              is; not on failure
+//   answer     not NULL; left as it was on failure
+//   allocates  nothing
+//   threads    each with its own workspace; they may share bodies
+//   errors     ARGUMENT (NULL, sizes, options, a lower limit above the upper one), NUMBER (limits,
+//              start or goal not finite or beyond NSVCD_MAX_COORDINATE; a cost beyond the range of
+//              float), POSE (from `place`), WORKSPACE, TOO_LARGE, and those of the queries
+//   source     MPPI (Williams et al. 2017), then L-BFGS with bundled gradients (Suh et al. 2022);
+//              NeuralSVCD, appendix D
+//
+// Start, goal and the trajectory at the end are proven free where bodies have triangles: for the
+// motion of each pair as seen from b between the poses of the check's segments, position linear and
+// rotation slerp. Where the proof finds a hit, the refinement goes on from there with twice the
+// margin, three times at most. It ends within seeds * (iterations of MPPI + 4 times those of
+// L-BFGS) iterations, of `samples` trajectories each, and for L-BFGS 5 more.
 NSVCDDEF nsvcd_result nsvcd_plan(const nsvcd_plan_problem *problem,
                                  const nsvcd_plan_options *options, void *workspace,
                                  size_t workspace_size, float *control, nsvcd_plan_answer *answer);
