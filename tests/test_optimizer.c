@@ -362,7 +362,7 @@ static void plan_refining_converges(void) {
       plan_pair(&s, 0, 1);
       s.options.explore.iterations = NSVCD_NONE;
       s.options.refine.iterations = longer ? 300 : 12;
-      s.options.refine.moments = 1;
+      s.options.refine.samples = 1;
       s.options.bundle = -1;
       s.options.collision = 1;
       if (!plan_open(&s, &in))
@@ -619,7 +619,7 @@ static plan_outcome plan_run(plan_scene *s) {
                          : o->explore.iterations             ? o->explore.iterations
                                                              : 40;
   const size_t tries = o->explore.samples ? o->explore.samples : 200;
-  const size_t bundle = o->refine.moments ? o->refine.moments : 10;
+  const size_t bundle = o->refine.samples ? o->refine.samples : 10;
   query_memory memory = query_reserve(size + PLAN_GUARD);
   size_t written = 0;
   s->reports = s->disorders = s->out_of_place = s->placed = s->again = 0;
@@ -1023,7 +1023,7 @@ static void plan_refuses_options_out_of_range(void) {
                            &o->refine.via_points,
                            &o->refine.segments,
                            &o->refine.iterations,
-                           &o->refine.moments,
+                           &o->refine.samples,
                            &o->seeds,
                            &o->check,
                            &o->sweep.pairs};
@@ -1289,7 +1289,7 @@ static int plan_trouble_case(plan_trouble trouble, uint64_t seed) {
   o->explore.segments = 8;
   o->explore.via_points = 3;
   o->refine.iterations = 3;
-  o->refine.moments = 2;
+  o->refine.samples = 2;
   o->refine.segments = 10;
   o->refine.via_points = 4;
   if (trouble == PLAN_START_HITS || trouble == PLAN_GOAL_HITS) {
