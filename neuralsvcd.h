@@ -87,7 +87,7 @@
 //   proof.
 //
 // NUMERIC ROBUSTNESS (float32), as measured by `make race`, `make bench`, tests/test_proof.c and
-// tests/extremes.sh
+// tests/bench/extremes.sh
 //   Coordinates up to NSVCD_MAX_COORDINATE; bodies from NSVCD_MIN_RADIUS, below which squares
 //   underflow. A stored triangle is off by the body's quantum, a few micrometres at most on bodies
 //   of 0.3 m. Proofs hold at every scale, tested from 3e-11 to 3e5 m. They allow for float32 with
@@ -909,14 +909,40 @@ NSVCDDEF nsvcd_result nsvcd_plan(const nsvcd_plan_problem *problem,
 #endif
 
 // -------------------------------------------------------------------------------------------- math
-// Vectors are float[3], quaternions float[4] x y z w, rotation matrices float[9] row-major.
+// Vectors, quaternions and matrices are values: f3, quat and mat3 of floats, d3, dquat and dmat3 of
+// doubles. A matrix is its rows.
 
-static float nsvcd__dot3(const float *a, const float *b) {
+// Functions whose loops over constant arguments must be unrolled: left to its own measure, gcc may
+// not inline them, and the decoder takes four times as long (tests/bench/PERFORMANCE.md).
+#if defined(__OPTIMIZE_SIZE__)
+#define NSVCD__INLINE static inline
+#elif defined(__GNUC__) || defined(__clang__)
+#define NSVCD__INLINE static inline __attribute__((always_inline))
+#elif defined(_MSC_VER)
+#define NSVCD__INLINE static __forceinline
+#else
+#define NSVCD__INLINE static inline
+#endif
+// Functions that must not be inlined: what they take of the stack would add up.
+#if defined(__GNUC__) || defined(__clang__)
+#define NSVCD__APART __attribute__((noinline))
+#elif defined(_MSC_VER)
+#define NSVCD__APART __declspec(noinline)
+#else
+#define NSVCD__APART
+#endif
+#if defined(__GNUC__) && !defined(__clang__)
+#define NSVCD__UNROLL _Pragma("GCC unroll 8")  // at -O2 too, so that sums stay in registers
+#else
+#define NSVCD__UNROLL
+#endif
+
+static inline float nsvcd__dot3(const float *a, const float *b) {
   return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
 }
 
 // Finite test on the bits, so that it survives -ffast-math.
-static int nsvcd__is_finite(float x) {
+static inline int nsvcd__is_finite(float x) {
   uint32_t bits;
   memcpy(&bits, &x, sizeof bits);
   return (bits & 0x7f800000u) != 0x7f800000u;
@@ -1031,7 +1057,7 @@ static inline nsvcd__d3 nsvcd__d3_unit(nsvcd__d3 a, nsvcd__d3 otherwise) {
 // Rounds for certain. gcc 12 at -O2 forgets to where two doubles side by side become floats and
 // doubles again: it takes the two conversions of a vector for none, and a proof built on what is
 // stored would not hold.
-static float nsvcd__to_float(double x) {
+static inline float nsvcd__to_float(double x) {
   volatile float rounded = (float)x;
   return rounded;
 }
@@ -1052,26 +1078,26 @@ typedef struct nsvcd__dmat3 {
   nsvcd__d3 x, y, z;
 } nsvcd__dmat3;
 
-static nsvcd__dquat nsvcd__dquat_scale(nsvcd__dquat q, double s) {
+static inline nsvcd__dquat nsvcd__dquat_scale(nsvcd__dquat q, double s) {
   const nsvcd__dquat out = {q.x * s, q.y * s, q.z * s, q.w * s};
   return out;
 }
 // a + s b.
-static nsvcd__dquat nsvcd__dquat_add_scaled(nsvcd__dquat a, double s, nsvcd__dquat b) {
+static inline nsvcd__dquat nsvcd__dquat_add_scaled(nsvcd__dquat a, double s, nsvcd__dquat b) {
   const nsvcd__dquat out = {a.x + s * b.x, a.y + s * b.y, a.z + s * b.z, a.w + s * b.w};
   return out;
 }
-static double nsvcd__dquat_square(nsvcd__dquat q) {
+static inline double nsvcd__dquat_square(nsvcd__dquat q) {
   return q.x * q.x + q.y * q.y + q.z * q.z + q.w * q.w;
 }
-static nsvcd__dquat nsvcd__dquat_unit(nsvcd__dquat q) {
+static inline nsvcd__dquat nsvcd__dquat_unit(nsvcd__dquat q) {
   return nsvcd__dquat_scale(q, 1 / sqrt(nsvcd__dquat_square(q)));
 }
-static nsvcd__d3 nsvcd__dquat_axis(nsvcd__dquat q) {  // times the sine of half the angle
+static inline nsvcd__d3 nsvcd__dquat_axis(nsvcd__dquat q) {  // times the sine of half the angle
   return nsvcd__d3_of(q.x, q.y, q.z);
 }
 // The inverse of a, unit, times b.
-static nsvcd__dquat nsvcd__dquat_inverse_mul(nsvcd__dquat a, nsvcd__dquat b) {
+static inline nsvcd__dquat nsvcd__dquat_inverse_mul(nsvcd__dquat a, nsvcd__dquat b) {
   const nsvcd__d3 u = nsvcd__dquat_axis(a);
   const nsvcd__d3 v = nsvcd__dquat_axis(b);
   const nsvcd__d3 across = nsvcd__d3_cross(u, v);
@@ -1084,7 +1110,7 @@ static nsvcd__dquat nsvcd__dquat_inverse_mul(nsvcd__dquat a, nsvcd__dquat b) {
 }
 
 // The matrix of a unit quaternion.
-static nsvcd__dmat3 nsvcd__dmat3_of(nsvcd__dquat q) {
+static inline nsvcd__dmat3 nsvcd__dmat3_of(nsvcd__dquat q) {
   nsvcd__dmat3 m;
   m.x.x = 1 - 2 * (q.y * q.y + q.z * q.z);
   m.x.y = 2 * (q.x * q.y - q.z * q.w);
@@ -1097,25 +1123,25 @@ static nsvcd__dmat3 nsvcd__dmat3_of(nsvcd__dquat q) {
   m.z.z = 1 - 2 * (q.x * q.x + q.y * q.y);
   return m;
 }
-static nsvcd__dmat3 nsvcd__dmat3_scale(const nsvcd__dmat3 *m, double s) {
+static inline nsvcd__dmat3 nsvcd__dmat3_scale(const nsvcd__dmat3 *m, double s) {
   nsvcd__dmat3 out;
   out.x = nsvcd__d3_scale(m->x, s);
   out.y = nsvcd__d3_scale(m->y, s);
   out.z = nsvcd__d3_scale(m->z, s);
   return out;
 }
-static nsvcd__dmat3 nsvcd__dmat3_transpose(const nsvcd__dmat3 *m) {
+static inline nsvcd__dmat3 nsvcd__dmat3_transpose(const nsvcd__dmat3 *m) {
   nsvcd__dmat3 out;
   out.x = nsvcd__d3_of(m->x.x, m->y.x, m->z.x);
   out.y = nsvcd__d3_of(m->x.y, m->y.y, m->z.y);
   out.z = nsvcd__d3_of(m->x.z, m->y.z, m->z.z);
   return out;
 }
-static nsvcd__d3 nsvcd__dmat3_apply(const nsvcd__dmat3 *m, nsvcd__d3 a) {
+static inline nsvcd__d3 nsvcd__dmat3_apply(const nsvcd__dmat3 *m, nsvcd__d3 a) {
   return nsvcd__d3_of(nsvcd__d3_dot(m->x, a), nsvcd__d3_dot(m->y, a), nsvcd__d3_dot(m->z, a));
 }
 // The transpose of m, times a.
-static nsvcd__d3 nsvcd__dmat3_apply_transpose(const nsvcd__dmat3 *m, nsvcd__d3 a) {
+static inline nsvcd__d3 nsvcd__dmat3_apply_transpose(const nsvcd__dmat3 *m, nsvcd__d3 a) {
   const nsvcd__d3 sum = nsvcd__d3_add(nsvcd__d3_scale(m->x, a.x), nsvcd__d3_scale(m->y, a.y));
   return nsvcd__d3_add(sum, nsvcd__d3_scale(m->z, a.z));
 }
@@ -1205,7 +1231,7 @@ static inline nsvcd__quat nsvcd__quat_unit(nsvcd__quat q) {
 // Is the shorter arc from a to b the one to -b? Products of floats are exact in double, so that
 // every machine and the exact poses of the proof say the same, also where the arcs are equally long
 // to rounding.
-static int nsvcd__quats_opposed(nsvcd__quat a, nsvcd__quat b) {
+static NSVCD__APART int nsvcd__quats_opposed(nsvcd__quat a, nsvcd__quat b) {
   double dot = (double)a.x * (double)b.x;
   dot += (double)a.y * (double)b.y;
   dot += (double)a.z * (double)b.z;
@@ -1216,7 +1242,7 @@ static int nsvcd__quats_opposed(nsvcd__quat a, nsvcd__quat b) {
 // The length of the arc from a to b in quaternion space: half the angle of rotation. [0, pi/2]
 // where it is the shorter one. From the chord, because acos of a dot product near 1 has no digits
 // left.
-static float nsvcd__quat_arc(nsvcd__quat a, nsvcd__quat b) {
+static inline float nsvcd__quat_arc(nsvcd__quat a, nsvcd__quat b) {
   float chord = (a.x - b.x) * (a.x - b.x);
   chord += (a.y - b.y) * (a.y - b.y);
   chord += (a.z - b.z) * (a.z - b.z);
@@ -1225,7 +1251,7 @@ static float nsvcd__quat_arc(nsvcd__quat a, nsvcd__quat b) {
 }
 
 // The same rotation on the side of another quaternion, to which q is opposed or not.
-static nsvcd__quat nsvcd__quat_beside(nsvcd__quat q, int opposed) {
+static inline nsvcd__quat nsvcd__quat_beside(nsvcd__quat q, int opposed) {
   return opposed ? nsvcd__quat_of(-q.x, -q.y, -q.z, -q.w) : q;
 }
 static inline nsvcd__quat nsvcd__quat_inverse(nsvcd__quat q) {  // of a unit one
@@ -1248,7 +1274,7 @@ static inline nsvcd__f3 nsvcd__quat_turn(nsvcd__quat a, nsvcd__quat b) {
 }
 
 // a, b: unit to 1e-4.
-static nsvcd__quat nsvcd__quat_slerp(nsvcd__quat a, nsvcd__quat b, float u) {
+static inline nsvcd__quat nsvcd__quat_slerp(nsvcd__quat a, nsvcd__quat b, float u) {
   const nsvcd__quat start = nsvcd__quat_unit(a);
   const nsvcd__quat end = nsvcd__quat_beside(nsvcd__quat_unit(b), nsvcd__quats_opposed(a, b));
   const float angle = nsvcd__quat_arc(start, end);
@@ -1264,7 +1290,7 @@ static nsvcd__quat nsvcd__quat_slerp(nsvcd__quat a, nsvcd__quat b, float u) {
 }
 
 // The matrix of a unit quaternion.
-static nsvcd__mat3 nsvcd__mat3_of(nsvcd__quat q) {
+static inline nsvcd__mat3 nsvcd__mat3_of(nsvcd__quat q) {
   nsvcd__mat3 m;
   m.x.x = 1 - 2 * (q.y * q.y + q.z * q.z);
   m.x.y = 2 * (q.x * q.y - q.z * q.w);
@@ -1277,7 +1303,7 @@ static nsvcd__mat3 nsvcd__mat3_of(nsvcd__quat q) {
   m.z.z = 1 - 2 * (q.x * q.x + q.y * q.y);
   return m;
 }
-static nsvcd__mat3 nsvcd__mat3_transpose(nsvcd__mat3 m) {
+static inline nsvcd__mat3 nsvcd__mat3_transpose(nsvcd__mat3 m) {
   nsvcd__mat3 out;
   out.x = nsvcd__f3_of(m.x.x, m.y.x, m.z.x);
   out.y = nsvcd__f3_of(m.x.y, m.y.y, m.z.y);
@@ -1293,14 +1319,15 @@ static inline nsvcd__f3 nsvcd__mat3_apply_transpose(const nsvcd__mat3 *m, nsvcd_
   return nsvcd__mat3_apply(&back, a);
 }
 // s (a + t b).
-static nsvcd__mat3 nsvcd__mat3_mix(float s, const nsvcd__mat3 *a, float t, const nsvcd__mat3 *b) {
+static inline nsvcd__mat3 nsvcd__mat3_mix(float s, const nsvcd__mat3 *a, float t,
+                                          const nsvcd__mat3 *b) {
   nsvcd__mat3 out;
   out.x = nsvcd__f3_scale(nsvcd__f3_add_scaled(a->x, t, b->x), s);
   out.y = nsvcd__f3_scale(nsvcd__f3_add_scaled(a->y, t, b->y), s);
   out.z = nsvcd__f3_scale(nsvcd__f3_add_scaled(a->z, t, b->z), s);
   return out;
 }
-static nsvcd__mat3 nsvcd__mat3_mul(const nsvcd__mat3 *a, const nsvcd__mat3 *b) {
+static inline nsvcd__mat3 nsvcd__mat3_mul(const nsvcd__mat3 *a, const nsvcd__mat3 *b) {
   const nsvcd__mat3 columns = nsvcd__mat3_transpose(*b);
   nsvcd__mat3 out;
   out.x = nsvcd__mat3_apply(&columns, a->x);
@@ -1361,31 +1388,6 @@ static uint32_t nsvcd__magnitude(float x) {
 // The tests hold what a query does against the bound that nsvcd_sweep states.
 #ifndef NSVCD__TALLY
 #define NSVCD__TALLY(what, amount) ((void)0)
-#endif
-
-// Functions whose loops over constant arguments must be unrolled: left to its own measure, gcc may
-// not inline them, and the decoder takes four times as long (tests/PERFORMANCE.md).
-#if defined(__OPTIMIZE_SIZE__)
-#define NSVCD__INLINE static inline
-#elif defined(__GNUC__) || defined(__clang__)
-#define NSVCD__INLINE static inline __attribute__((always_inline))
-#elif defined(_MSC_VER)
-#define NSVCD__INLINE static __forceinline
-#else
-#define NSVCD__INLINE static inline
-#endif
-// Functions that must not be inlined: what they take of the stack would add up.
-#if defined(__GNUC__) || defined(__clang__)
-#define NSVCD__APART __attribute__((noinline))
-#elif defined(_MSC_VER)
-#define NSVCD__APART __declspec(noinline)
-#else
-#define NSVCD__APART
-#endif
-#if defined(__GNUC__) && !defined(__clang__)
-#define NSVCD__UNROLL _Pragma("GCC unroll 8")  // at -O2 too, so that sums stay in registers
-#else
-#define NSVCD__UNROLL
 #endif
 
 // What is done 16 lanes wide is done a *slice* at a time: as many lanes as a register holds. A
@@ -1659,16 +1661,16 @@ NSVCD__INLINE nsvcd__v3 nsvcd__v3_load(float (*p)[NSVCD__LANES], size_t l) {
 }
 
 // Of each lane alone: the one in lane l of p (3, LANES).
-static nsvcd__f3 nsvcd__lane_of(float (*lanes)[NSVCD__LANES], size_t l) {
+static inline nsvcd__f3 nsvcd__lane_of(float (*lanes)[NSVCD__LANES], size_t l) {
   return nsvcd__f3_of(lanes[0][l], lanes[1][l], lanes[2][l]);
 }
-static void nsvcd__lane_set(nsvcd__f3 a, float (*lanes)[NSVCD__LANES], size_t l) {
+static inline void nsvcd__lane_set(nsvcd__f3 a, float (*lanes)[NSVCD__LANES], size_t l) {
   lanes[0][l] = a.x;
   lanes[1][l] = a.y;
   lanes[2][l] = a.z;
 }
 // Vectors over their lengths; x where there is none.
-static nsvcd__v3 nsvcd__v3_unit(nsvcd__v3 a) {
+static inline nsvcd__v3 nsvcd__v3_unit(nsvcd__v3 a) {
   const nsvcd__v zero = nsvcd__v_set(0);
   const nsvcd__v one = nsvcd__v_set(1);
   const nsvcd__v least = nsvcd__v_set(1e-18f);
@@ -1730,7 +1732,7 @@ static inline nsvcd__vquat nsvcd__vquat_unit(nsvcd__vquat q) {
 static inline nsvcd__vquat nsvcd__vquat_inverse(nsvcd__vquat q) {  // of unit ones
   return nsvcd__vquat_of(nsvcd__v3_negate(nsvcd__vquat_axis(q)), q.w);
 }
-static nsvcd__vquat nsvcd__vquat_mul(nsvcd__vquat a, nsvcd__vquat b) {
+static inline nsvcd__vquat nsvcd__vquat_mul(nsvcd__vquat a, nsvcd__vquat b) {
   const nsvcd__v3 u = nsvcd__vquat_axis(a);
   const nsvcd__v3 v = nsvcd__vquat_axis(b);
   const nsvcd__v3 along = nsvcd__v3_fma(a.w, v, nsvcd__v3_scale(u, b.w));
@@ -1744,7 +1746,7 @@ NSVCD__INLINE nsvcd__vmat3 nsvcd__vmat3_set(const nsvcd__mat3 *m) {
   return out;
 }
 // The matrix in lane l of p (9, LANES), row-major.
-static nsvcd__mat3 nsvcd__mat3_lane(float (*p)[NSVCD__LANES], size_t l) {
+static inline nsvcd__mat3 nsvcd__mat3_lane(float (*p)[NSVCD__LANES], size_t l) {
   const nsvcd__mat3 out = {nsvcd__lane_of(p, l), nsvcd__lane_of(p + 3, l),
                            nsvcd__lane_of(p + 6, l)};
   return out;
@@ -1816,7 +1818,7 @@ NSVCD__INLINE nsvcd__v3 nsvcd__v3_transform(const nsvcd__transform *t, nsvcd__v3
 }
 
 // Of quaternions of any length but 0.
-static nsvcd__vmat3 nsvcd__vmat3_of(nsvcd__vquat q) {
+static inline nsvcd__vmat3 nsvcd__vmat3_of(nsvcd__vquat q) {
   const nsvcd__v one = nsvcd__v_set(1);
   const nsvcd__v3 axis = nsvcd__vquat_axis(q);
   const nsvcd__v square = nsvcd__v_add(nsvcd__v_mul(q.w, q.w), nsvcd__v3_dot(axis, axis));
@@ -13778,7 +13780,7 @@ typedef struct nsvcd__wrench {
   nsvcd__f3 force, torque;
 } nsvcd__wrench;
 
-static nsvcd__wrench nsvcd__wrench_load(const float *row) {
+static inline nsvcd__wrench nsvcd__wrench_load(const float *row) {
   const nsvcd__wrench out = {nsvcd__f3_load(row), nsvcd__f3_load(row + 3)};
   return out;
 }
@@ -15411,9 +15413,8 @@ NSVCDDEF const char *nsvcd_plan_status_string(nsvcd_plan_status status) {
       return "infeasible start";
     case NSVCD_PLAN_GOAL:
       return "infeasible goal";
-    default:
-      return "unknown status";
   }
+  return "unknown status";
 }
 
 NSVCDDEF size_t nsvcd_plan_workspace_size(const nsvcd_plan_problem *problem,

@@ -52,6 +52,18 @@ for cxx in $(compilers "${CXX:-c++}" g++ clang++); do
   compile "$cxx" cc c++17 -O0
 done
 test "$objects" -gt 0 || fail "no compiler"
+
+# All that clang can say, but for what is meant so: declarations where a value is known (C99), padding, numbers compared
+# for being the same, (size_t)ceilf(x); in C++ also what makes it C: casts, NULL, and names with two underscores, which
+# tell what is private and no other library has.
+meant="-Wno-declaration-after-statement -Wno-padded -Wno-float-equal -Wno-bad-function-cast"
+meant_in_cxx="-Wno-old-style-cast -Wno-zero-as-null-pointer-constant -Wno-reserved-identifier -Wno-reserved-macro-identifier"
+if clang --version 2>/dev/null | grep -q 'version 14'; then  # others know other warnings
+  compile clang c c99 "-Weverything $meant -O2"
+  compile clang++ cc c++11 "-Weverything -Wno-c++98-compat-pedantic $meant $meant_in_cxx -O2"
+else
+  echo "header: no clang 14: -Weverything not tested"
+fi
 compile "${CC:-cc}" c c99 "-DNSVCD_NO_STDIO -O0"
 compile "${CC:-cc}" c c99 "-DNSVCD_NO_ENCODER -DNSVCD_NO_OBJ -O2"
 ! nm "$dir/twice.o" | grep -E ' U .*(alloc|free|brk|mmap)' >&2 || fail "a query can allocate"
