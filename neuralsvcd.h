@@ -1275,8 +1275,9 @@ static inline nsvcd__f3 nsvcd__quat_turn(nsvcd__quat a, nsvcd__quat b) {
 
 // a, b: unit to 1e-4.
 static inline nsvcd__quat nsvcd__quat_slerp(nsvcd__quat a, nsvcd__quat b, float u) {
+  const int opposed = nsvcd__quats_opposed(a, b);
   const nsvcd__quat start = nsvcd__quat_unit(a);
-  const nsvcd__quat end = nsvcd__quat_beside(nsvcd__quat_unit(b), nsvcd__quats_opposed(a, b));
+  const nsvcd__quat end = nsvcd__quat_beside(nsvcd__quat_unit(b), opposed);
   const float angle = nsvcd__quat_arc(start, end);
   float wa = 1 - u;
   float wb = u;
@@ -12140,12 +12141,12 @@ static nsvcd__v_pose nsvcd__track_poses_at(const nsvcd__track *track, const floa
 // The moving body's poses in the fixed frame at `count` times, 1 to SLICE, one per lane.
 static nsvcd__v_pose nsvcd__v_poses_at(const nsvcd__motion *motion, const float *t, size_t count) {
   const nsvcd__f3 origin = motion->fixed_position;
-  const nsvcd__v_pose moving = nsvcd__track_poses_at(&motion->moving, t, count, origin);
-  nsvcd__v_poses at = {moving.rotation, moving.rotation, moving.position};
+  nsvcd__v_pose pose = nsvcd__track_poses_at(&motion->moving, t, count, origin);
+  nsvcd__v_poses at = {pose.rotation, pose.rotation, pose.position};
   if (motion->fixed_moves) {
-    const nsvcd__v_pose fixed = nsvcd__track_poses_at(&motion->fixed, t, count, origin);
-    at.fixed = fixed.rotation;
-    at.offset = nsvcd__v3_sub(moving.position, fixed.position);
+    pose = nsvcd__track_poses_at(&motion->fixed, t, count, origin);
+    at.fixed = pose.rotation;
+    at.offset = nsvcd__v3_sub(at.offset, pose.position);
   }
   return nsvcd__v_seen(motion, &at);
 }
