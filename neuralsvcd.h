@@ -12388,7 +12388,15 @@ static void nsvcd__decoder_logits(const nsvcd__decoder *decoder, const float *x,
 
 // ------------------------------------------------------------------------------------------- query
 // In: two bodies and a motion. Out: an answer, by proof (section *proof*) or by the network
-// (NeuralSVCD, algorithm 1).
+// (NeuralSVCD, algorithm 1). nsvcd_sweep stands at the end. A question goes through these phases:
+//
+//   check       is it in order, which method can answer it, and is the workspace large enough?
+//   lay out     what it needs, and where in the workspace that is
+//   who moves   of its two bodies; all is reckoned in the other's frame and units
+//   answer      by proof, or by the network
+//   write       what was found about moving and fixed, as facts about a and b
+//
+// A batch checks all of its questions before it answers the first one.
 
 NSVCDDEF const char *nsvcd_status_string(nsvcd_status status) {
   switch (status) {
@@ -12417,23 +12425,36 @@ NSVCDDEF const char *nsvcd_status_string(nsvcd_status status) {
 #define NSVCD__LARGEST_MODEL NSVCD_MODEL_TINY
 #endif
 
-#define NSVCD__SHORTLIST 4  // times K: the deepest pairs, from which the tiny decoder chooses
-// a verdict this positive needs no second pair, and one this clear no second decoder
-#define NSVCD__CLEAR_LOGIT 3.0f
-#define NSVCD__PORTION 4  // pairs that the chosen decoder sees at once
-// times the shortlist: pairs to look at before the search is done, at most
-#define NSVCD__LOOKS 2
-// new pairs that are worth a first look before the search is done; later a full batch
+// ---- the network's schedule
+//
+// The search finds pairs of patches whose balls meet. The deepest of them make the shortlist. The
+// ranker, which is the tiny decoder, scores these while the search goes on, and the chosen decoder
+// judges the K most suspicious. K is options.pairs, NSVCD_DEFAULT_PAIRS where nothing is said. That
+// a motion is cut into 16 to 64 segments stands in *broad phase*, what goes through the decoder at
+// once (NSVCD__BATCH, NSVCD__ROWS) in *decoder*, and what a proof may take in *proof*.
+
+// pairs on the shortlist, times K; of the tiny decoder, which needs none, K: nsvcd__settings_of,
+// nsvcd__needs_of
+#define NSVCD__SHORTLIST 4
+// new pairs that are worth the first look by the ranker, before the search is done. Later looks
+// wait for NSVCD__BATCH: nsvcd__search_and_judge
 #define NSVCD__FIRST_LOOK 8
-
-#endif  // NSVCD_NO_NETWORK
-
-#ifndef NSVCD_NO_NETWORK
+// pairs that such looks may take, times the shortlist: nsvcd__search_and_judge
+#define NSVCD__LOOKS 2
+// pairs that the chosen decoder sees at once, until one is clear: nsvcd__judge; and pairs that are
+// kept where the last of a batch collided: nsvcd__collides_again
+#define NSVCD__PORTION 4
+// a logit so far from 0 is clear. A clear collision needs no second pair (nsvcd__judge), and what
+// is clear to the ranker no second decoder (nsvcd__is_clear): 35,000 answers on the validation
+// sets, N = 128 to 512, are the same as with twice this, but for one, which is better
+#define NSVCD__CLEAR_LOGIT 3.0f
+// times that the place where the last of a batch collided may mislead before it is forgotten:
+// nsvcd__answer_by_network
+#define NSVCD__MISLEADS 2
 
 // The threshold to subtract from the logit. weights.h has one per decoder, recall and N = 32, 64,
 // ..., 512; between those, and for two bodies that differ, it is interpolated at the mean of log2
-// N.
-// Returns 0 for any other recall.
+// N. Returns 0 for any other recall.
 static int nsvcd__threshold(size_t model, float recall, size_t points1, size_t points2,
                             float *threshold) {
   if (!nsvcd__is_finite(recall))
@@ -12441,23 +12462,25 @@ static int nsvcd__threshold(size_t model, float recall, size_t points1, size_t p
   for (size_t k = 0; k < NSVCD_W_RECALLS; k++) {
     if (recall < nsvcd_w_recall[k] || recall > nsvcd_w_recall[k])
       continue;
-    float size = 0.5f * (log2f((float)points1) + log2f((float)points2)) - 5;
-    size = size < 0 ? 0 : size > NSVCD_W_SIZES - 1 ? NSVCD_W_SIZES - 1 : size;
-    const size_t row = size < NSVCD_W_SIZES - 1 ? (size_t)size : NSVCD_W_SIZES - 2;
+    const float last = NSVCD_W_SIZES - 1;
+    const float size = 0.5f * (log2f((float)points1) + log2f((float)points2)) - 5;
+    const float at = size < 0 ? 0 : size > last ? last : size;
+    const size_t row = at < last ? (size_t)at : NSVCD_W_SIZES - 2;
     const float low = nsvcd_w_threshold[model][row][k];
     const float high = nsvcd_w_threshold[model][row + 1][k];
-    *threshold = low + (size - (float)row) * (high - low);
+    *threshold = low + (at - (float)row) * (high - low);
     return 1;
   }
   return 0;
 }
 
-// Scores of `count` candidates, 1 to 16, by a decoder.
+// Scores `count` candidates, 1 to 16, by a decoder.
 static void nsvcd__decode(const nsvcd_body *moving, const nsvcd_body *fixed,
                           const nsvcd__motion *motion, nsvcd__candidate *const *candidates,
                           size_t count, const nsvcd__decoder *decoder, int int8) {
   for (size_t first = 0; first < count; first += NSVCD__ROWS) {
-    const size_t rows = count - first < NSVCD__ROWS ? count - first : NSVCD__ROWS;
+    const size_t left = count - first;
+    const size_t rows = left < NSVCD__ROWS ? left : NSVCD__ROWS;
     float x[NSVCD__ROWS * NSVCD__DECODER_IN];
     float logits[NSVCD__ROWS];
     nsvcd__inputs_of(moving, fixed, motion, candidates + first, rows, x);
@@ -12470,12 +12493,13 @@ static void nsvcd__decode(const nsvcd_body *moving, const nsvcd_body *fixed,
   }
 }
 
-// Options with the defaults filled in.
+// The network's options, with the defaults filled in.
 typedef struct nsvcd__settings {
-  size_t pairs, shortlist;
+  size_t pairs;      // K
+  size_t shortlist;  // pairs that are kept
   const nsvcd__decoder *decoder, *ranker;
   int int8;
-  float threshold;
+  float threshold;  // subtracted from the decoder's logit
 } nsvcd__settings;
 
 // The candidate that an answer is about, and the decoder that gave its logit.
@@ -12486,6 +12510,8 @@ typedef struct nsvcd__decisive {
 
 #endif  // NSVCD_NO_NETWORK
 
+// ---- tasks, and their memory
+
 // A question that has been checked.
 typedef struct nsvcd__task {
   const nsvcd_body *moving, *fixed;
@@ -12494,21 +12520,23 @@ typedef struct nsvcd__task {
   float lengths;        // extents of both bodies, in the fixed one's units
   nsvcd_method method;  // PROOF or NETWORK
   size_t work;
-  float tolerance, clearance, measure, skin;  // in the fixed body's units
-  float first;
+  // as options has them, in the fixed body's units
+  float tolerance, clearance, measure, skin;
+  float first;                         // a share of the motion
   const nsvcd_sweep_options *options;  // the caller's
 #ifndef NSVCD_NO_NETWORK
-  nsvcd__settings settings;   // by these
+  nsvcd__settings settings;   // of the network
   nsvcd__decisive *decisive;  // written unless NULL
 #endif
 } nsvcd__task;
 
+// What a workspace holds, at its beginning.
 typedef struct nsvcd__query {
   nsvcd__search broad_phase;
   nsvcd__task task;
-  // In one place, for one method follows the other:
+  // The memory of the network and that of the proof are in one place, for one follows the other.
 #ifndef NSVCD_NO_NETWORK
-  nsvcd__candidate *kept;
+  nsvcd__candidate *kept;  // (shortlist)
 #endif
 #ifndef NSVCD_NO_PROOF
   nsvcd__proof *proof;
@@ -12537,7 +12565,13 @@ typedef char nsvcd__network_constants_hold
 
 // What any question may need.
 static nsvcd__needs nsvcd__needs_most(void) {
-  nsvcd__needs needs = {NSVCD__TILE_SLOTS, NSVCD__TILE_SLOTS, 1, NSVCD__MAX_SEGMENTS, 0, 1};
+  nsvcd__needs needs;
+  needs.moving_groups = NSVCD__TILE_SLOTS;
+  needs.fixed_groups = NSVCD__TILE_SLOTS;
+  needs.large = 1;
+  needs.segments = NSVCD__MAX_SEGMENTS;
+  needs.candidates = 0;
+  needs.proof = 1;
 #ifndef NSVCD_NO_NETWORK
   needs.candidates = NSVCD__SHORTLIST * NSVCD_MAX_PAIRS;
 #endif
@@ -12555,15 +12589,15 @@ static size_t nsvcd__query_layout(const nsvcd__needs *needs, char *base) {
   uint64_t end = used;
 #ifndef NSVCD_NO_NETWORK
   uint64_t network = used;
-  query->kept =
-      (nsvcd__candidate *)nsvcd__take(base, &network, needs->candidates, sizeof(nsvcd__candidate));
+  void *kept = nsvcd__take(base, &network, needs->candidates, sizeof(nsvcd__candidate));
+  query->kept = (nsvcd__candidate *)kept;
   end = network;
 #endif
 #ifndef NSVCD_NO_PROOF
   uint64_t proof = used;
+  const size_t spans = needs->proof ? needs->segments : 0;
   query->proof = (nsvcd__proof *)nsvcd__take(base, &proof, needs->proof != 0, sizeof(nsvcd__proof));
-  query->spans = (nsvcd__span *)nsvcd__take(base, &proof, needs->proof ? needs->segments : 0,
-                                            sizeof(nsvcd__span));
+  query->spans = (nsvcd__span *)nsvcd__take(base, &proof, spans, sizeof(nsvcd__span));
   end = proof > end ? proof : end;
 #endif
   return (size_t)end;
@@ -12578,10 +12612,20 @@ static void nsvcd__answer_free(nsvcd_answer *answer) {
   answer->triangle_b = NSVCD_NO_TRIANGLE;
 }
 
+// Where the last of a batch collided by the network: the next is asked there first. Forgotten when
+// it has misled MISLEADS times, or the bodies change.
+typedef struct nsvcd__hint {
+  int known;
+  int misled;
+  uint32_t moving, fixed;  // patches
+} nsvcd__hint;
+
 // ---- by the network
 
 #ifndef NSVCD_NO_NETWORK
 
+// The settings for two bodies of so many patches. An error where the options ask for what is not
+// there; *settings is then not whole.
 static nsvcd_result nsvcd__settings_of(const nsvcd_sweep_options *options, size_t points1,
                                        size_t points2, nsvcd__settings *settings) {
   const nsvcd_sweep_options *o = options;
@@ -12589,13 +12633,13 @@ static nsvcd_result nsvcd__settings_of(const nsvcd_sweep_options *options, size_
     return NSVCD_ERROR_ARGUMENT;
   if (o->precision != NSVCD_PRECISION_FLOAT && o->precision != NSVCD_PRECISION_INT8)
     return NSVCD_ERROR_ARGUMENT;
-  const size_t model =
-      (size_t)(o->model ? o->model : NSVCD__LARGEST_MODEL) - (size_t)NSVCD_MODEL_TINY;
-  if (!nsvcd_w_decoders[model].layers)
+  const nsvcd_model model = o->model ? o->model : NSVCD__LARGEST_MODEL;
+  const size_t decoder = (size_t)model - (size_t)NSVCD_MODEL_TINY;
+  if (!nsvcd_w_decoders[decoder].layers)
     return NSVCD_ERROR_ARGUMENT;  // compiled out
   settings->pairs = o->pairs ? o->pairs : NSVCD_DEFAULT_PAIRS;
-  settings->shortlist = model == 0 ? settings->pairs : NSVCD__SHORTLIST * settings->pairs;
-  settings->decoder = &nsvcd_w_decoders[model];
+  settings->shortlist = decoder == 0 ? settings->pairs : NSVCD__SHORTLIST * settings->pairs;
+  settings->decoder = &nsvcd_w_decoders[decoder];
   settings->ranker = &nsvcd_w_decoders[0];
 #ifdef NSVCD_NO_FLOAT
   settings->int8 = 1;
@@ -12606,11 +12650,12 @@ static nsvcd_result nsvcd__settings_of(const nsvcd_sweep_options *options, size_
   if (settings->int8)
     return NSVCD_ERROR_ARGUMENT;
 #endif
-  return nsvcd__threshold(model, o->recall, points1, points2, &settings->threshold)
-             ? NSVCD_OK
-             : NSVCD_ERROR_ARGUMENT;
+  if (!nsvcd__threshold(decoder, o->recall, points1, points2, &settings->threshold))
+    return NSVCD_ERROR_ARGUMENT;
+  return NSVCD_OK;
 }
 
+// Is a part of one body inside of the other at the start?
 static NSVCD__APART int nsvcd__starts_inside(const nsvcd__task *ask) {
   const nsvcd__transform pose = nsvcd__motion_pose(&ask->motion, 0);
   return nsvcd__is_contained(ask->moving, ask->fixed, ask->motion.scale, &pose);
@@ -12620,6 +12665,7 @@ static NSVCD__APART int nsvcd__starts_inside(const nsvcd__task *ask) {
 // heap ends with them. Returns 0, and does nothing, if there are fewer than `least`.
 static int nsvcd__score(const nsvcd__task *ask, nsvcd__candidates *kept, size_t least,
                         size_t most) {
+  const nsvcd__settings *settings = &ask->settings;
   nsvcd__candidate *batch[NSVCD__BATCH];
   size_t count = 0;
   size_t left = 0;
@@ -12629,21 +12675,22 @@ static int nsvcd__score(const nsvcd__task *ask, nsvcd__candidates *kept, size_t 
     return 0;
   left = left < most ? left : most;
   for (size_t k = kept->count; left > 0; k--) {
-    if (kept->items[k - 1].score > NSVCD__NO_SCORE)
+    nsvcd__candidate *candidate = &kept->items[k - 1];
+    if (candidate->score > NSVCD__NO_SCORE)
       continue;
-    batch[count++] = &kept->items[k - 1];
+    batch[count++] = candidate;
     if (count < NSVCD__BATCH && count < left)
       continue;
     NSVCD__TALLY(ranked, count);
-    nsvcd__decode(ask->moving, ask->fixed, &ask->motion, batch, count, ask->settings.ranker,
-                  ask->settings.int8);
+    nsvcd__decode(ask->moving, ask->fixed, &ask->motion, batch, count, settings->ranker,
+                  settings->int8);
     left -= count;
     count = 0;
   }
   return 1;
 }
 
-// Puts the `count` candidates of the highest scores first, the highest first of all.
+// Puts the `count` candidates of the highest scores, among `of`, first, in falling order.
 static void nsvcd__best_first(nsvcd__candidate *items, size_t count, size_t of) {
   for (size_t k = 0; k < count; k++) {
     size_t best = k;
@@ -12658,6 +12705,7 @@ static void nsvcd__best_first(nsvcd__candidate *items, size_t count, size_t of) 
   }
 }
 
+// Answers with a candidate, of which a decoder has given the score.
 static void nsvcd__answer_with(const nsvcd__task *ask, const nsvcd__candidate *candidate,
                                const nsvcd__decoder *decoder, nsvcd_answer *answer) {
   answer->logit = candidate->score - ask->settings.threshold;
@@ -12676,8 +12724,7 @@ static int nsvcd__is_harmless(const nsvcd__candidate *candidate, float threshold
 }
 
 // Is the most suspicious of the candidates scored so far clearly a collision, or, where they are
-// all, clearly none? Then no other decoder needs to look: 35,000 answers on the validation sets, N
-// = 128 to 512, are the same as with twice the margin, but for one, which is better.
+// all, clearly none? Then that is the answer, and no other decoder needs to look.
 static int nsvcd__is_clear(const nsvcd__task *ask, const nsvcd__candidates *kept, int all,
                            nsvcd_answer *answer) {
   const float threshold = ask->settings.threshold;
@@ -12691,39 +12738,35 @@ static int nsvcd__is_clear(const nsvcd__task *ask, const nsvcd__candidates *kept
   return yes || no;
 }
 
-// The verdict on the `pairs` most suspicious of the scored candidates, but for the harmless ones, 4
-// at a time, until one is clearly positive.
+// The verdict on the K most suspicious of the scored candidates, but for the harmless ones, a
+// portion at a time, until one is clearly positive.
 static void nsvcd__judge(const nsvcd__task *ask, nsvcd__candidates *kept, nsvcd_answer *answer) {
   const nsvcd__settings *settings = &ask->settings;
+  nsvcd__candidate *items = kept->items;
   size_t count = kept->count < settings->pairs ? kept->count : settings->pairs;
-  nsvcd__best_first(kept->items, count, kept->count);
-  while (count > 1 && nsvcd__is_harmless(&kept->items[count - 1], settings->threshold))
+  nsvcd__best_first(items, count, kept->count);
+  while (count > 1 && nsvcd__is_harmless(&items[count - 1], settings->threshold))
     count--;
-  for (size_t first = 0; first < count && answer->logit < NSVCD__CLEAR_LOGIT;
-       first += NSVCD__PORTION) {
-    nsvcd__candidate *batch[NSVCD__PORTION] = {NULL};
-    const size_t size = count - first < NSVCD__PORTION ? count - first : NSVCD__PORTION;
+  for (size_t first = 0; first < count; first += NSVCD__PORTION) {
+    if (!(answer->logit < NSVCD__CLEAR_LOGIT))
+      break;
+    nsvcd__candidate *portion[NSVCD__PORTION] = {NULL};
+    const size_t left = count - first;
+    const size_t size = left < NSVCD__PORTION ? left : NSVCD__PORTION;
     for (size_t k = 0; k < size; k++)
-      batch[k] = &kept->items[first + k];
+      portion[k] = &items[first + k];
     if (settings->decoder != settings->ranker) {
       NSVCD__TALLY(judged, size);
-      nsvcd__decode(ask->moving, ask->fixed, &ask->motion, batch, size, settings->decoder,
+      nsvcd__decode(ask->moving, ask->fixed, &ask->motion, portion, size, settings->decoder,
                     settings->int8);
     }
     for (size_t k = 0; k < size; k++) {
-      if (first + k > 0 && !(batch[k]->score - settings->threshold > answer->logit))
-        continue;
-      nsvcd__answer_with(ask, batch[k], settings->decoder, answer);
+      const int is_first = first + k == 0;
+      if (is_first || portion[k]->score - settings->threshold > answer->logit)
+        nsvcd__answer_with(ask, portion[k], settings->decoder, answer);
     }
   }
 }
-
-// Where the last of a batch of motions collided: the next is asked there first. Forgotten when it
-// misleads twice.
-typedef struct nsvcd__hint {
-  int known, misled;
-  uint32_t moving, fixed;
-} nsvcd__hint;
 
 // Does this motion, cut already, clearly collide where the hint says?
 static NSVCD__APART int nsvcd__collides_again(const nsvcd__task *ask, const nsvcd__hint *hint,
@@ -12749,14 +12792,14 @@ static NSVCD__APART int nsvcd__collides_again(const nsvcd__task *ask, const nsvc
 // all are known.
 static NSVCD__APART void nsvcd__search_and_judge(nsvcd__task *ask, nsvcd__query *query,
                                                  nsvcd_answer *answer) {
+  const size_t shortlist = ask->settings.shortlist;
   nsvcd__search *search = &query->broad_phase;
   nsvcd__candidates kept;
-  size_t worth =
-      ask->settings.shortlist < NSVCD__FIRST_LOOK ? ask->settings.shortlist : NSVCD__FIRST_LOOK;
-  size_t left = NSVCD__LOOKS * ask->settings.shortlist;
+  size_t worth = shortlist < NSVCD__FIRST_LOOK ? shortlist : NSVCD__FIRST_LOOK;
+  size_t left = NSVCD__LOOKS * shortlist;
   int clear = 0;
   int more = nsvcd__search_begin(ask->moving, ask->fixed, search);
-  nsvcd__candidates_start(&kept, query->kept, ask->settings.shortlist);
+  nsvcd__candidates_start(&kept, query->kept, shortlist);
   while (more && !clear) {
     more = nsvcd__search_step(search, ask->moving, ask->fixed, &kept);
     // A deep collision shows early. What is scored now need not be scored later, so that looking
@@ -12768,6 +12811,7 @@ static NSVCD__APART void nsvcd__search_and_judge(nsvcd__task *ask, nsvcd__query 
     if (worth == NSVCD__FIRST_LOOK)
       worth = NSVCD__BATCH;
   }
+
   answer->candidates = kept.total;
   if (kept.total > 0)
     answer->status = kept.total > ask->settings.pairs ? NSVCD_STATUS_LIMIT : NSVCD_STATUS_OK;
@@ -12787,16 +12831,19 @@ static void nsvcd__answer_by_network(nsvcd__task *ask, nsvcd__query *query, nsvc
   if (nsvcd__motion_is_far(&ask->motion, ask->lengths))
     return;
   nsvcd__cut_motion(&ask->motion, ask->lengths, &query->broad_phase);
-  if (!(hint && hint->known && nsvcd__collides_again(ask, hint, query, answer))) {
+
+  const int hinted = hint && hint->known;
+  if (!hinted || !nsvcd__collides_again(ask, hint, query, answer)) {
     nsvcd__answer_free(answer);
-    if (hint && hint->known)
-      hint->known = ++hint->misled < 2;
+    if (hinted)
+      hint->known = ++hint->misled < NSVCD__MISLEADS;
     nsvcd__search_and_judge(ask, query, answer);
   }
   if (hint && answer->logit >= NSVCD__CLEAR_LOGIT) {
     const nsvcd__hint here = {1, 0, answer->patch_a, answer->patch_b};
     *hint = here;
   }
+
   if (nsvcd__starts_inside(ask)) {  // a body inside another need not touch anything
     answer->status = NSVCD_STATUS_INSIDE;
     answer->logit = NSVCD_LOGIT_CERTAIN;
@@ -12831,6 +12878,7 @@ static nsvcd__to_world nsvcd__to_world_at(const nsvcd__motion *motion, double t)
   return out;
 }
 
+// Answers with the contact that a proof has found: when, where, and of what.
 static void nsvcd__answer_with_contact(const nsvcd__proof *p, nsvcd_answer *answer) {
   const nsvcd__contact *found = &p->found;
   const int rests = p->motion->moving.count == 1 && !p->motion->fixed_moves;
@@ -12855,9 +12903,9 @@ static void nsvcd__answer_with_bounds(const nsvcd__proof *p, nsvcd__verdict verd
   const double known = p->lost ? p->settled : NSVCD__NEVER;
   const double until = fmin(fmin(p->end, p->unsure), known) / (double)p->motion->ticks;
   const int is_free = verdict == NSVCD__FREE;
-  const double proven = is_free                                    ? 1
-                        : p->first > 0 && verdict != NSVCD__WITHIN ? fmin(fmax(until, 0), 1)
-                                                                   : 0;
+  double proven = is_free;
+  if (!is_free && p->first > 0 && verdict != NSVCD__WITHIN)
+    proven = fmin(fmax(until, 0), 1);
   const int measured = p->measure > 0 && verdict != NSVCD__WITHIN && verdict != NSVCD__UNDECIDED;
   const double low = measured || is_free ? p->clearance : 0;
   answer->free_until = (float)(proven < 1 ? proven * (1 - 1e-7) : 1);
@@ -12867,7 +12915,8 @@ static void nsvcd__answer_with_bounds(const nsvcd__proof *p, nsvcd__verdict verd
     answer->clearance_high = 0;
   } else if (p->has_contact) {
     const float quanta = nsvcd__quanta_of(p, p->found.moving_patch, p->found.fixed_patch);
-    answer->clearance_high = (float)((p->found.distance + (double)quanta) * unit * (1 + 1e-6));
+    const double distance = p->found.distance + (double)quanta;
+    answer->clearance_high = (float)(distance * unit * (1 + 1e-6));
   }
 }
 
@@ -12898,9 +12947,8 @@ static NSVCD__APART nsvcd__verdict nsvcd__prove_start(nsvcd__proof *p, nsvcd__se
   return verdict;
 }
 
-// Proves a question whose motion has been prepared, if it can; else the answer is UNDECIDED and
-// says yes.
-static void nsvcd__answer_by_proof(nsvcd__task *ask, nsvcd__query *query, nsvcd_answer *answer) {
+// Makes the proof ready for a question whose motion has been prepared.
+static void nsvcd__proof_begin(nsvcd__task *ask, nsvcd__query *query) {
   nsvcd__proof *p = query->proof;
   p->spans = query->spans;
   p->motion = &ask->motion;
@@ -12916,88 +12964,68 @@ static void nsvcd__answer_by_proof(nsvcd__task *ask, nsvcd__query *query, nsvcd_
   p->gathers = 0;
   p->work = 0;
   nsvcd__proof_restart(p);
-  if (p->skin > 0)
-    nsvcd__lift_motion(p, &query->broad_phase);
-  nsvcd__verdict verdict = nsvcd__prove(p, &query->broad_phase);
-  if (verdict == NSVCD__MEETS && p->first > 0 && p->found.tick > 0 && p->end <= 0) {
-    verdict = nsvcd__prove_start(p, &query->broad_phase);
+}
+
+// By what the moving body was lifted, in the world at the start.
+static nsvcd__f3 nsvcd__lift_of(const nsvcd__proof *p) {
+  const nsvcd__to_world start = nsvcd__to_world_at(p->motion, 0);
+  const nsvcd__d3 lift = nsvcd__rotate(start.rows, nsvcd__d3_widen(p->motion->lift));
+  return nsvcd__f3_round(nsvcd__d3_scale(lift, p->skin > 0 ? start.unit : 0));
+}
+
+// What a proof that has measured the least distance says of the clearance that was asked for.
+static nsvcd__verdict nsvcd__verdict_of_distance(const nsvcd__proof *p, double clearance) {
+  const int is_near = p->has_contact && p->found.distance <= clearance;
+  if (is_near)
+    return NSVCD__MEETS;
+  const int is_clear = clearance > 0 ? p->clearance > clearance : 1;
+  return is_clear ? NSVCD__FREE : NSVCD__UNDECIDED;
+}
+
+static nsvcd_status nsvcd__status_of(nsvcd__verdict verdict) {
+  switch (verdict) {
+    case NSVCD__MEETS:
+      return NSVCD_STATUS_WITNESS;
+    case NSVCD__WITHIN:
+      return NSVCD_STATUS_INSIDE;
+    case NSVCD__FREE:
+      return NSVCD_STATUS_CERTIFIED_FREE;
+    default:
+      return NSVCD_STATUS_UNDECIDED;
   }
+}
+
+// Proves a question whose motion has been prepared, if it can; else the answer is UNDECIDED and
+// says yes.
+static void nsvcd__answer_by_proof(nsvcd__task *ask, nsvcd__query *query, nsvcd_answer *answer) {
+  nsvcd__proof *p = query->proof;
+  nsvcd__search *search = &query->broad_phase;
+  nsvcd__proof_begin(ask, query);
+  if (p->skin > 0)
+    nsvcd__lift_motion(p, search);
+  nsvcd__verdict verdict = nsvcd__prove(p, search);
+  if (verdict == NSVCD__MEETS && p->first > 0 && p->found.tick > 0 && p->end <= 0)
+    verdict = nsvcd__prove_start(p, search);
 
   nsvcd__answer_free(answer);
   answer->work = p->work;
   if (p->has_contact || verdict == NSVCD__WITHIN)
     nsvcd__answer_with_contact(p, answer);
   nsvcd__answer_with_bounds(p, verdict, answer);
-  if (p->measure > 0 && verdict != NSVCD__WITHIN && verdict != NSVCD__UNDECIDED) {
-    const double asked = (double)ask->clearance;
-    const int is_near = p->has_contact && p->found.distance <= asked;
-    const int is_clear = asked > 0 ? p->clearance > asked : !is_near;
-    verdict = is_near ? NSVCD__MEETS : is_clear ? NSVCD__FREE : NSVCD__UNDECIDED;
-  }
-  answer->status = verdict == NSVCD__MEETS    ? NSVCD_STATUS_WITNESS
-                   : verdict == NSVCD__WITHIN ? NSVCD_STATUS_INSIDE
-                   : verdict == NSVCD__FREE   ? NSVCD_STATUS_CERTIFIED_FREE
-                                              : NSVCD_STATUS_UNDECIDED;
-  const nsvcd__to_world start = nsvcd__to_world_at(p->motion, 0);
-  const nsvcd__d3 lift = nsvcd__rotate(start.rows, nsvcd__d3_widen(p->motion->lift));
-  const nsvcd__f3 lifted = nsvcd__f3_round(nsvcd__d3_scale(lift, p->skin > 0 ? start.unit : 0));
-  memcpy(answer->lift, &lifted, sizeof answer->lift);
+  if (p->measure > 0 && verdict != NSVCD__WITHIN && verdict != NSVCD__UNDECIDED)
+    verdict = nsvcd__verdict_of_distance(p, (double)ask->clearance);
+  nsvcd__f3_store(nsvcd__lift_of(p), answer->lift);
+  answer->status = nsvcd__status_of(verdict);
   answer->collides = verdict != NSVCD__FREE;
   answer->logit = answer->collides ? NSVCD_LOGIT_CERTAIN : -NSVCD_LOGIT_CERTAIN;
 }
 #endif
 
-// What was found out about moving and fixed, said about a and b.
-static void nsvcd__turn_answer(nsvcd_answer *answer) {
-  const uint32_t patch = answer->patch_a;
-  const uint32_t triangle = answer->triangle_a;
-  answer->patch_a = answer->patch_b;
-  answer->patch_b = patch;
-  answer->triangle_a = answer->triangle_b;
-  answer->triangle_b = triangle;
-  for (size_t k = 0; k < 3; k++)
-    answer->normal[k] = 0 - answer->normal[k];
-  for (size_t k = 0; k < 3; k++)
-    answer->lift[k] = 0 - answer->lift[k];
-}
+// ---- check
 
 // Is something asked that the network knows nothing of?
 static int nsvcd__needs_proof(const nsvcd_sweep_options *options) {
   return options->clearance > 0 || options->measure > 0 || options->first > 0 || options->skin > 0;
-}
-
-// Answers a question that has been checked. hint: NULL, or that of a batch, for the network.
-static void nsvcd__answer_task(nsvcd__task *ask, nsvcd__query *query, void *hint,
-                               nsvcd_answer *answer) {
-  int proven = 0;
-#ifndef NSVCD_NO_PROOF
-  if (ask->method == NSVCD_METHOD_PROOF) {
-    nsvcd__answer_by_proof(ask, query, answer);
-    proven = 1;
-#ifndef NSVCD_NO_NETWORK
-    const nsvcd_sweep_options *options = ask->options;
-    const int is_plain = !(options->clearance > 0 || options->measure > 0 || options->skin > 0);
-    const int has_opinion = ask->moving->weights_id && ask->fixed->weights_id && is_plain;
-    if (answer->status == NSVCD_STATUS_UNDECIDED && has_opinion) {
-      const nsvcd_answer proof = *answer;
-      nsvcd__answer_by_network(ask, query, NULL, answer);
-      answer->status = NSVCD_STATUS_UNDECIDED;
-      answer->work = proof.work;
-      answer->free_until = proof.free_until;
-      answer->clearance_low = proof.clearance_low;
-      answer->clearance_high = proof.clearance_high;
-    }
-#endif
-  }
-#endif
-#ifndef NSVCD_NO_NETWORK
-  if (!proven)
-    nsvcd__answer_by_network(ask, query, (nsvcd__hint *)hint, answer);
-#endif
-  (void)hint;
-  (void)proven;
-  if (ask->swapped)
-    nsvcd__turn_answer(answer);
 }
 
 // The method that answers, or DEFAULT where there is none.
@@ -13020,6 +13048,65 @@ static nsvcd_method nsvcd__method_of(const nsvcd_body *moving, const nsvcd_body 
   return NSVCD_METHOD_DEFAULT;
 }
 
+// Are both sides one and the same body in the same motion? Then something was passed twice.
+static int nsvcd__is_itself(const nsvcd_question *question) {
+  const nsvcd_mover *a = &question->a;
+  const nsvcd_mover *b = &question->b;
+  const int same_size = !(a->scale < b->scale) && !(b->scale < a->scale);
+  return a->body == b->body && a->poses == b->poses && a->count == b->count && same_size;
+}
+
+// Are the options' numbers in their ranges, and do they go together?
+static nsvcd_result nsvcd__options_check(const nsvcd_sweep_options *options) {
+  if ((unsigned)options->method > (unsigned)NSVCD_METHOD_NETWORK)
+    return NSVCD_ERROR_ARGUMENT;
+  if (options->segments > NSVCD__MAX_SEGMENTS || options->segments % NSVCD__LANES)
+    return NSVCD_ERROR_ARGUMENT;
+  const float lengths[4] = {options->tolerance, options->clearance, options->measure,
+                            options->skin};
+  for (size_t k = 0; k < 4; k++) {
+    if (!nsvcd__is_finite(lengths[k]))
+      return NSVCD_ERROR_TOLERANCE;
+    if (lengths[k] < 0 || lengths[k] > NSVCD_MAX_COORDINATE)
+      return NSVCD_ERROR_TOLERANCE;
+  }
+  if (!nsvcd__is_finite(options->first) || options->first < 0 || options->first > 1)
+    return NSVCD_ERROR_TOLERANCE;
+  if (options->first > 0 && options->measure > 0)
+    return NSVCD_ERROR_ARGUMENT;
+  if (nsvcd__needs_proof(options) && options->method == NSVCD_METHOD_NETWORK)
+    return NSVCD_ERROR_ARGUMENT;
+  return NSVCD_OK;
+}
+
+// Is a question in order?
+static nsvcd_result nsvcd__question_check(const nsvcd_question *question) {
+  const nsvcd_body *a = question->a.body;
+  const nsvcd_body *b = question->b.body;
+  const nsvcd_sweep_options *options = &question->options;
+  nsvcd_result result = nsvcd__mover_check(&question->a);
+  if (!result)
+    result = nsvcd__mover_check(&question->b);
+  if (result)
+    return result;
+  if (nsvcd__is_itself(question))
+    return NSVCD_ERROR_SAME;
+  result = nsvcd__options_check(options);
+  if (result)
+    return result;
+  const nsvcd_method wanted = nsvcd__needs_proof(options) ? NSVCD_METHOD_PROOF : options->method;
+  if (nsvcd__method_of(a, b, wanted) == NSVCD_METHOD_DEFAULT)
+    return NSVCD_ERROR_BODY;
+#ifndef NSVCD_NO_NETWORK
+  nsvcd__settings unused;
+  return nsvcd__settings_of(options, a->points, b->points, &unused);
+#else
+  return NSVCD_OK;
+#endif
+}
+
+// ---- who moves
+
 // Is b to be the one that moves, and a the one in whose frame that is seen? The one that rests is
 // that, else the larger one; where they are equal, any rule that does not depend on which is a:
 // then both ways of asking are answered alike.
@@ -13039,52 +13126,6 @@ static int nsvcd__is_swapped(const nsvcd_mover *a, const nsvcd_mover *b) {
   const nsvcd_pose *poses_a = a->poses ? a->poses : &nsvcd__at_origin;
   const nsvcd_pose *poses_b = b->poses ? b->poses : &nsvcd__at_origin;
   return memcmp(poses_b, poses_a, count_a * sizeof *poses_a) < 0;
-}
-
-// Are both sides one and the same body in the same motion? Then something was passed twice.
-static int nsvcd__is_itself(const nsvcd_question *question) {
-  const nsvcd_mover *a = &question->a;
-  const nsvcd_mover *b = &question->b;
-  const int same_size = !(a->scale < b->scale) && !(b->scale < a->scale);
-  return a->body == b->body && a->poses == b->poses && a->count == b->count && same_size;
-}
-
-static nsvcd_result nsvcd__question_check(const nsvcd_question *question) {
-  nsvcd_result result = nsvcd__mover_check(&question->a);
-  if (!result)
-    result = nsvcd__mover_check(&question->b);
-  if (result)
-    return result;
-  if (nsvcd__is_itself(question))
-    return NSVCD_ERROR_SAME;
-  const nsvcd_sweep_options *options = &question->options;
-  if ((unsigned)options->method > (unsigned)NSVCD_METHOD_NETWORK)
-    return NSVCD_ERROR_ARGUMENT;
-  if (options->segments > NSVCD__MAX_SEGMENTS || options->segments % NSVCD__LANES)
-    return NSVCD_ERROR_ARGUMENT;
-  const float lengths[4] = {options->tolerance, options->clearance, options->measure,
-                            options->skin};
-  for (size_t k = 0; k < 4; k++) {
-    const int fits =
-        nsvcd__is_finite(lengths[k]) && lengths[k] >= 0 && lengths[k] <= NSVCD_MAX_COORDINATE;
-    if (!fits)
-      return NSVCD_ERROR_TOLERANCE;
-  }
-  if (!nsvcd__is_finite(options->first) || options->first < 0 || options->first > 1)
-    return NSVCD_ERROR_TOLERANCE;
-  if (options->first > 0 && options->measure > 0)
-    return NSVCD_ERROR_ARGUMENT;
-  if (nsvcd__needs_proof(options) && options->method == NSVCD_METHOD_NETWORK)
-    return NSVCD_ERROR_ARGUMENT;
-  const nsvcd_method wanted = nsvcd__needs_proof(options) ? NSVCD_METHOD_PROOF : options->method;
-  if (nsvcd__method_of(question->a.body, question->b.body, wanted) == NSVCD_METHOD_DEFAULT)
-    return NSVCD_ERROR_BODY;
-#ifndef NSVCD_NO_NETWORK
-  nsvcd__settings unused;
-  return nsvcd__settings_of(options, question->a.body->points, question->b.body->points, &unused);
-#else
-  return NSVCD_OK;
-#endif
 }
 
 // The task of a question that is in order.
@@ -13110,28 +13151,28 @@ static void nsvcd__task_of(const nsvcd_question *question, nsvcd__task *ask) {
 #endif
 }
 
+// ---- lay out
+
+// How many groups of a body are searched together.
 static size_t nsvcd__tile_groups(const nsvcd_body *body) {
   const size_t groups = nsvcd__body_groups(body);
   return groups < NSVCD__TILE_SLOTS ? groups : NSVCD__TILE_SLOTS;
 }
 
 // What a question that is in order needs. Which of its bodies is to be the moving one makes no
-// difference.
+// difference to how much that is.
 static nsvcd__needs nsvcd__needs_of(const nsvcd_question *question) {
   const nsvcd_body *a = question->a.body;
   const nsvcd_body *b = question->b.body;
   const nsvcd_sweep_options *options = &question->options;
+  const int swapped = nsvcd__is_swapped(&question->a, &question->b);
+  const size_t segments = options->segments ? options->segments : NSVCD__MAX_SEGMENTS;
   nsvcd__needs needs;
-  memset(&needs, 0, sizeof needs);
-  needs.moving_groups = nsvcd__tile_groups(a);
-  needs.fixed_groups = nsvcd__tile_groups(b);
-  if (nsvcd__is_swapped(&question->a, &question->b)) {
-    needs.moving_groups = nsvcd__tile_groups(b);
-    needs.fixed_groups = nsvcd__tile_groups(a);
-  }
+  needs.moving_groups = nsvcd__tile_groups(swapped ? b : a);
+  needs.fixed_groups = nsvcd__tile_groups(swapped ? a : b);
   needs.large = nsvcd__is_large(a) || nsvcd__is_large(b);
-  needs.segments =
-      options->segments ? nsvcd__round_up(options->segments, NSVCD__LANES) : NSVCD__MAX_SEGMENTS;
+  needs.segments = nsvcd__round_up(segments, NSVCD__LANES);
+  needs.candidates = 0;
   needs.proof = nsvcd__method_of(a, b, options->method) == NSVCD_METHOD_PROOF;
 #ifndef NSVCD_NO_NETWORK
   const size_t pairs = options->pairs ? options->pairs : NSVCD_DEFAULT_PAIRS;
@@ -13155,13 +13196,14 @@ static NSVCD__APART nsvcd_result nsvcd__check(const nsvcd_question *question, co
   const nsvcd_result result = nsvcd__question_check(question);
   if (result)
     return result;
+  if (!workspace || !nsvcd__is_aligned(workspace))
+    return NSVCD_ERROR_WORKSPACE;
   const nsvcd__needs needs = nsvcd__needs_of(question);
-  const size_t size = nsvcd__query_layout(&needs, NULL);
-  const int fits = workspace && workspace_size >= size && nsvcd__is_aligned(workspace);
-  return fits ? NSVCD_OK : NSVCD_ERROR_WORKSPACE;
+  const size_t size = nsvcd__query_layout(&needs, NULL);  // counts
+  return workspace_size >= size ? NSVCD_OK : NSVCD_ERROR_WORKSPACE;
 }
 
-// Makes a workspace ready for a question that has been checked.
+// Lays a question that has been checked out in the workspace, and chooses who moves.
 static NSVCD__APART nsvcd__query *nsvcd__query_open(const nsvcd_question *question,
                                                     void *workspace) {
   const nsvcd__needs needs = nsvcd__needs_of(question);
@@ -13171,10 +13213,71 @@ static NSVCD__APART nsvcd__query *nsvcd__query_open(const nsvcd_question *questi
   return query;
 }
 
+// ---- answer, and write
+
+// What was found out about moving and fixed, said about a and b.
+static void nsvcd__turn_answer(nsvcd_answer *answer) {
+  const uint32_t patch = answer->patch_a;
+  const uint32_t triangle = answer->triangle_a;
+  answer->patch_a = answer->patch_b;
+  answer->patch_b = patch;
+  answer->triangle_a = answer->triangle_b;
+  answer->triangle_b = triangle;
+  for (size_t k = 0; k < 3; k++)
+    answer->normal[k] = 0 - answer->normal[k];
+  for (size_t k = 0; k < 3; k++)
+    answer->lift[k] = 0 - answer->lift[k];
+}
+
+#if !defined(NSVCD_NO_PROOF) && !defined(NSVCD_NO_NETWORK)
+// Adds the network's opinion, where it has one, to what a proof has left undecided.
+static void nsvcd__add_opinion(nsvcd__task *ask, nsvcd__query *query, nsvcd_answer *answer) {
+  const nsvcd_sweep_options *options = ask->options;
+  if (!ask->moving->weights_id || !ask->fixed->weights_id)
+    return;
+  if (options->clearance > 0 || options->measure > 0 || options->skin > 0)
+    return;
+  const nsvcd_answer proof = *answer;
+  nsvcd__answer_by_network(ask, query, NULL, answer);
+  answer->status = NSVCD_STATUS_UNDECIDED;
+  answer->work = proof.work;
+  answer->free_until = proof.free_until;
+  answer->clearance_low = proof.clearance_low;
+  answer->clearance_high = proof.clearance_high;
+}
+#endif
+
+// Answers a question that has been checked and laid out. hint: NULL, or that of a batch, for the
+// network.
+static void nsvcd__answer_task(nsvcd__task *ask, nsvcd__query *query, nsvcd__hint *hint,
+                               nsvcd_answer *answer) {
+#ifndef NSVCD_NO_PROOF
+  if (ask->method == NSVCD_METHOD_PROOF)
+    nsvcd__answer_by_proof(ask, query, answer);
+#endif
+#if !defined(NSVCD_NO_PROOF) && !defined(NSVCD_NO_NETWORK)
+  if (ask->method == NSVCD_METHOD_PROOF && answer->status == NSVCD_STATUS_UNDECIDED)
+    nsvcd__add_opinion(ask, query, answer);
+#endif
+#ifndef NSVCD_NO_NETWORK
+  if (ask->method == NSVCD_METHOD_NETWORK)
+    nsvcd__answer_by_network(ask, query, hint, answer);
+#endif
+  (void)hint;
+  if (ask->swapped)
+    nsvcd__turn_answer(answer);
+}
+
+// Are two questions about the same bodies, in the same order?
+static int nsvcd__same_bodies(const nsvcd_question *p, const nsvcd_question *q) {
+  return p->a.body == q->a.body && p->b.body == q->b.body;
+}
+
 NSVCDDEF nsvcd_result nsvcd_sweep(const nsvcd_question *question, void *workspace,
                                   size_t workspace_size, nsvcd_answer *answer) {
-  return question ? nsvcd_sweep_batch(question, 1, workspace, workspace_size, answer)
-                  : NSVCD_ERROR_ARGUMENT;
+  if (!question)
+    return NSVCD_ERROR_ARGUMENT;
+  return nsvcd_sweep_batch(question, 1, workspace, workspace_size, answer);
 }
 
 NSVCDDEF nsvcd_result nsvcd_sweep_batch(const nsvcd_question *questions, size_t count,
@@ -13187,20 +13290,18 @@ NSVCDDEF nsvcd_result nsvcd_sweep_batch(const nsvcd_question *questions, size_t 
     if (result)
       return result;
   }
-  void *with = NULL;
-#ifndef NSVCD_NO_NETWORK
-  nsvcd__hint hint = {0, 0, 0, 0};
-  with = &hint;
-#endif
+
+  const nsvcd__hint none = {0, 0, 0, 0};
+  nsvcd__hint hint = none;
+  int swapped = 0;
   for (size_t k = 0; k < count; k++) {
     nsvcd__query *query = nsvcd__query_open(&questions[k], workspace);
-#ifndef NSVCD_NO_NETWORK
-    const int other = k > 0 && (questions[k].a.body != questions[k - 1].a.body ||
-                                questions[k].b.body != questions[k - 1].b.body);
-    if (other)
-      hint.known = hint.misled = 0;
-#endif
-    nsvcd__answer_task(&query->task, query, with, &answers[k]);
+    nsvcd__task *ask = &query->task;
+    // The hint is about patches of the moving body and of the fixed one.
+    if (k > 0 && (!nsvcd__same_bodies(&questions[k], &questions[k - 1]) || ask->swapped != swapped))
+      hint = none;
+    swapped = ask->swapped;
+    nsvcd__answer_task(ask, query, &hint, &answers[k]);
   }
   return NSVCD_OK;
 }
