@@ -4898,7 +4898,8 @@ static void nsvcd__encode_patch(const float *points, const float *normals, size_
 
 // numbers of a latent's vectors: (3, CHANNELS), then (5, CHANNELS)
 #define NSVCD__VECTORS (8 * NSVCD_W_CHANNELS)
-#define NSVCD__WIGNER 34  // numbers of D: (3, 3), then (5, 5)
+#define NSVCD__WIGNER 34                 // numbers of D: (3, 3), then (5, 5)
+#define NSVCD__LATENT_STEP (1.0f / 127)  // of a stored latent
 
 // The degree 2 of the symmetric product of a and b, lane by lane: q (5), as nsvcd__degree2.
 static void nsvcd__v_degree2(nsvcd__v3 a, nsvcd__v3 b, nsvcd__v *q) {
@@ -4978,7 +4979,7 @@ static void nsvcd__rotate_latent(const int8_t *z, float (*turn)[NSVCD__SLICE], s
   nsvcd__rotate_degree(degree, turn + 9, l, 5, vectors + 3 * NSVCD_W_CHANNELS);
   z += 5 * NSVCD_W_CHANNELS;
   for (size_t k = 0; k < NSVCD_W_SCALARS; k++)
-    scalars[k] = (float)z[k] * (1.0f / 127);
+    scalars[k] = (float)z[k] * NSVCD__LATENT_STEP;
 }
 
 #endif  // NSVCD_NO_NETWORK
@@ -11730,7 +11731,7 @@ static int nsvcd__is_contained(const nsvcd_body *moving, const nsvcd_body *fixed
 }
 
 // ----------------------------------------------------------------------------------------- decoder
-// In: candidate pairs of patches and the motion over the intervals in which their spheres meet.
+// In: candidate pairs of patches and the motion over the intervals in which their balls meet.
 // Out: a logit each.
 //
 // The motion is linearised about the middle of the interval; then everything is expressed in a
@@ -11765,7 +11766,19 @@ static int nsvcd__is_contained(const nsvcd_body *moving, const nsvcd_body *fixed
 #define NSVCD__ROWS 1
 #define NSVCD__ROW_STEP 1
 #endif
-#define NSVCD__FACTS 12
+// What the decoder sees of a pair's geometry, in the pair's frame and units; vectors take three
+// numbers.
+enum {
+  NSVCD__FACT_DISTANCE = 0,  // of the centres
+  NSVCD__FACT_RADIUS = 1,    // the larger one
+  NSVCD__FACT_CLOSEST = 2,   // distance of the centres, when they come closest,
+  NSVCD__FACT_TAU = 3,       // and when that is: -1 and 1 are the ends of the interval
+  NSVCD__FACT_VELOCITY = 4,
+  NSVCD__FACT_TURN = 7,
+  NSVCD__FACT_SPEED = 10,  // the lengths of these two
+  NSVCD__FACT_SPIN = 11,
+  NSVCD__FACTS = 12
+};
 #define NSVCD__INPUTS (2 * NSVCD__LATENT + NSVCD__FACTS)
 #define NSVCD__DECODER_IN ((NSVCD__INPUTS + 15) / 16 * 16)  // zeros at the end
 // Most outputs of a layer, of the heads that are compiled; the tests hold them against weights.h.
@@ -11783,6 +11796,8 @@ static int nsvcd__is_contained(const nsvcd_body *moving, const nsvcd_body *fixed
 #define NSVCD__LEAN 0.05f  // share of the lean in axis 2
 #define NSVCD__SIDE 1e-4f  // a lean less than this to one side of axes 1 and 2 is on neither
 
+// ---- pairs, as they move
+
 // A slice of pairs.
 typedef struct nsvcd__pairs {
   // centres at mid-interval: of the moving patch, of the fixed one; the fixed body's frame
@@ -11791,32 +11806,37 @@ typedef struct nsvcd__pairs {
   nsvcd__vmat3 rotation;  // of the moving body at mid-interval
   // half displacement of the point midway between p1 and p2, as part of the moving body
   nsvcd__v3 v;
-  nsvcd__v3 w;                                        // half rotation vector
-  const int8_t *z1[NSVCD__SLICE], *z2[NSVCD__SLICE];  // latents, body frames
+  nsvcd__v3 w;  // half rotation vector
+  // latents, in the bodies' frames
+  const int8_t *z1[NSVCD__SLICE], *z2[NSVCD__SLICE];
 } nsvcd__pairs;
 
 // Half the rotation vector of a unit quaternion, from the sine s of half the angle: asin(s) / s
 // times its vector part.
 static nsvcd__v3 nsvcd__v_half_rotation(nsvcd__vquat q) {
+  // of asin(s) / s by s^2, from its end, to 2e-6 for s < 0.5
+  static const float series[5] = {0.03038194f, 0.04464286f, 0.075f, 0.16666667f, 1};
   const nsvcd__v3 axis = nsvcd__vquat_axis(q);
   const nsvcd__v sign = nsvcd__v_sign(q.w);
   const nsvcd__v square = nsvcd__v3_dot(axis, axis);
-  nsvcd__v ratio = nsvcd__v_set(0.02237216f);  // the series of asin(s) / s, to 2e-6 for s < 0.5
-  static const float series[5] = {0.03038194f, 0.04464286f, 0.075f, 0.16666667f, 1};
+  nsvcd__v ratio = nsvcd__v_set(0.02237216f);
   for (size_t k = 0; k < 5; k++)
     ratio = nsvcd__v_fma(ratio, square, nsvcd__v_set(series[k]));
-  // over 60 degrees: a motion of few samples
+  // over 60 degrees: a motion of few poses
   uint32_t wide = nsvcd__v_le(nsvcd__v_set(0.25f), square);
   if (wide) {
-    float r[NSVCD__SLICE], s2[NSVCD__SLICE], c[NSVCD__SLICE];
-    nsvcd__v_store(r, ratio);
-    nsvcd__v_store(s2, square);
-    nsvcd__v_store(c, nsvcd__v_mul(sign, q.w));
+    float ratios[NSVCD__SLICE];
+    float squares[NSVCD__SLICE];
+    float cosines[NSVCD__SLICE];
+    nsvcd__v_store(ratios, ratio);
+    nsvcd__v_store(squares, square);
+    nsvcd__v_store(cosines, nsvcd__v_mul(sign, q.w));
     for (; wide; wide &= wide - 1) {
       const size_t l = nsvcd__lowest_bit(wide);
-      r[l] = atan2f(sqrtf(s2[l]), c[l]) / sqrtf(s2[l]);
+      const float sine = sqrtf(squares[l]);
+      ratios[l] = atan2f(sine, cosines[l]) / sine;
     }
-    ratio = nsvcd__v_load(r);
+    ratio = nsvcd__v_load(ratios);
   }
   return nsvcd__v3_scale(axis, nsvcd__v_mul(sign, ratio));
 }
@@ -11836,14 +11856,15 @@ static nsvcd__v_pose nsvcd__track_poses_at(const nsvcd__track *track, const floa
   float turned[4 * NSVCD__SLICE] = {0};
   float position[3 * NSVCD__SLICE] = {0};
   float moved[3 * NSVCD__SLICE] = {0};
-  const size_t last = track->count > 1 ? track->count - 2 : 0;
+  const int moves = track->count > 1;
+  const size_t last = moves ? track->count - 2 : 0;
   for (size_t l = count; l < NSVCD__SLICE; l++)
     rotation[3 * NSVCD__SLICE + l] = 1;
   for (size_t l = 0; l < count; l++) {
-    const float at = track->count > 1 ? t[l] * (float)(last + 1) : 0;
+    const float at = moves ? t[l] * (float)(last + 1) : 0;
     const size_t k = (size_t)at < last ? (size_t)at : last;
     const nsvcd_pose *a = &track->poses[k];
-    const nsvcd_pose *b = track->count > 1 ? a + 1 : a;
+    const nsvcd_pose *b = moves ? a + 1 : a;
     const nsvcd__f3 from = nsvcd__f3_load(a->position);
     const nsvcd__f3 to = nsvcd__f3_load(b->position);
     nsvcd__quat q = nsvcd__quat_load(a->rotation);
@@ -11895,12 +11916,14 @@ static NSVCD__APART void nsvcd__pairs_of(const nsvcd_body *moving, const nsvcd_b
   float leave[NSVCD__SLICE];
   float middle[NSVCD__SLICE];
   const float scale = motion->scale;
+  const nsvcd__spheres patches1 = nsvcd__body_patches(moving);
+  const nsvcd__spheres patches2 = nsvcd__body_patches(fixed);
   for (size_t l = 0; l < count; l++) {
     const nsvcd__candidate *candidate = candidates[l];
     const size_t i = candidate->moving;
     const size_t j = candidate->fixed;
-    const nsvcd__sphere patch1 = nsvcd__sphere_of(nsvcd__body_patches(moving), i);
-    const nsvcd__sphere patch2 = nsvcd__sphere_of(nsvcd__body_patches(fixed), j);
+    const nsvcd__sphere patch1 = nsvcd__sphere_of(patches1, i);
+    const nsvcd__sphere patch2 = nsvcd__sphere_of(patches2, j);
     nsvcd__f3_put(nsvcd__f3_scale(patch1.centre, scale), centres1 + l, NSVCD__SLICE);
     nsvcd__f3_put(patch2.centre, centres2 + l, NSVCD__SLICE);
     r1[l] = scale * patch1.radius;
@@ -11911,6 +11934,7 @@ static NSVCD__APART void nsvcd__pairs_of(const nsvcd_body *moving, const nsvcd_b
     pairs->z1[l] = nsvcd__body_latents(moving) + NSVCD__LATENT * i;
     pairs->z2[l] = nsvcd__body_latents(fixed) + NSVCD__LATENT * j;
   }
+
   const nsvcd__v half = nsvcd__v_set(0.5f);
   const nsvcd__v3 centre = nsvcd__v3_load_rows(centres1, NSVCD__SLICE);
   const nsvcd__v_pose first = nsvcd__v_poses_at(motion, enter, count);
@@ -11930,6 +11954,8 @@ static NSVCD__APART void nsvcd__pairs_of(const nsvcd_body *moving, const nsvcd_b
   pairs->r1 = nsvcd__v_load(r1);
   pairs->r2 = nsvcd__v_load(r2);
 }
+
+// ---- frames and facts
 
 // The unit of length: r1 + r2; for points without extent whatever keeps the inputs finite.
 static nsvcd__v nsvcd__v_unit_of_length(const nsvcd__pairs *pairs) {
@@ -12011,8 +12037,9 @@ static nsvcd__f3 nsvcd__mean_direction(const int8_t *z) {
   return nsvcd__f3_of((float)z[0], (float)z[NSVCD_W_CHANNELS], (float)z[2 * NSVCD_W_CHANNELS]);
 }
 
+// Views of the first `count` pairs of a slice.
 static void nsvcd__views_of(const nsvcd__pairs *pairs, size_t count, nsvcd__views *view) {
-  const nsvcd__v step = nsvcd__v_set(1.0f / 127);
+  const nsvcd__v step = nsvcd__v_set(NSVCD__LATENT_STEP);
   float means1[3 * NSVCD__SLICE] = {0};
   float means2[3 * NSVCD__SLICE] = {0};
   for (size_t l = 0; l < count; l++) {
@@ -12044,9 +12071,10 @@ typedef struct nsvcd__scenes {
   nsvcd__vmat3 turn1, turn2;  // from the bodies' frames to the pairs'
   nsvcd__v k1, k2;            // radii, in units of the pairs' lengths
   uint32_t keep;              // lanes in which the first patch is the larger
-  float facts[NSVCD__FACTS * NSVCD__SLICE];
+  float facts[NSVCD__FACTS][NSVCD__SLICE];
 } nsvcd__scenes;
 
+// Scenes of the first `count` pairs of a slice.
 static NSVCD__APART void nsvcd__scenes_of(const nsvcd__pairs *pairs, size_t count,
                                           nsvcd__scenes *scene) {
   nsvcd__views view;
@@ -12060,43 +12088,46 @@ static NSVCD__APART void nsvcd__scenes_of(const nsvcd__pairs *pairs, size_t coun
   const nsvcd__v speed2 = nsvcd__v3_dot(view.v, view.v);
   const nsvcd__v above = nsvcd__v_add(speed2, nsvcd__v_set(1e-6f));
   // nearest approach of the centres, in half intervals
-  const nsvcd__v tau = nsvcd__v_clamp(nsvcd__v_div(nsvcd__v3_dot(view.d, view.v), above), -1, 1);
+  const nsvcd__v nearest = nsvcd__v_div(nsvcd__v3_dot(view.d, view.v), above);
+  const nsvcd__v tau = nsvcd__v_clamp(nearest, -1, 1);
   const nsvcd__v3 closest = nsvcd__v3_sub(view.d, nsvcd__v3_scale(view.v, tau));
   const nsvcd__v3 velocity = nsvcd__vmat3_apply(view.frame, view.v);
   const nsvcd__v3 turn = nsvcd__vmat3_apply(view.frame, view.w);
-  float *facts = scene->facts;
-  nsvcd__v_store(facts, nsvcd__v3_length(view.d));
-  nsvcd__v_store(facts + NSVCD__SLICE, nsvcd__v_max(view.k1, view.k2));
-  nsvcd__v_store(facts + 2 * NSVCD__SLICE, nsvcd__v3_length(closest));
-  nsvcd__v_store(facts + 3 * NSVCD__SLICE, tau);
-  nsvcd__v3_store_rows(velocity, facts + 4 * NSVCD__SLICE, NSVCD__SLICE);
-  // an axial vector
-  nsvcd__v3_store_rows(nsvcd__v3_scale(turn, view.side), facts + 7 * NSVCD__SLICE, NSVCD__SLICE);
-  nsvcd__v_store(facts + 10 * NSVCD__SLICE, nsvcd__v_sqrt(speed2));
-  nsvcd__v_store(facts + 11 * NSVCD__SLICE, nsvcd__v3_length(view.w));
+  const nsvcd__v3 mirrored = nsvcd__v3_scale(turn, view.side);  // an axial vector
+
+  float(*facts)[NSVCD__SLICE] = scene->facts;
+  nsvcd__v_store(facts[NSVCD__FACT_DISTANCE], nsvcd__v3_length(view.d));
+  nsvcd__v_store(facts[NSVCD__FACT_RADIUS], nsvcd__v_max(view.k1, view.k2));
+  nsvcd__v_store(facts[NSVCD__FACT_CLOSEST], nsvcd__v3_length(closest));
+  nsvcd__v_store(facts[NSVCD__FACT_TAU], tau);
+  nsvcd__v3_store_rows(velocity, facts[NSVCD__FACT_VELOCITY], NSVCD__SLICE);
+  nsvcd__v3_store_rows(mirrored, facts[NSVCD__FACT_TURN], NSVCD__SLICE);
+  nsvcd__v_store(facts[NSVCD__FACT_SPEED], nsvcd__v_sqrt(speed2));
+  nsvcd__v_store(facts[NSVCD__FACT_SPIN], nsvcd__v3_length(view.w));
 }
 
 // Appendix F: the inputs of the decoder for the first `count` pairs of a slice, x (count,
-// DECODER_IN): vectors of the larger patch and of the other, their scalars, and twelve facts of the
-// geometry.
+// DECODER_IN): vectors of the larger patch and of the other, their scalars, and the facts.
 static NSVCD__APART void nsvcd__invariants(const nsvcd__pairs *pairs, size_t count, float *x) {
   nsvcd__scenes scene;
   float wigner[NSVCD__WIGNER][NSVCD__SLICE];
-  const nsvcd__v step = nsvcd__v_set(1.0f / 127);
+  const nsvcd__v step = nsvcd__v_set(NSVCD__LATENT_STEP);
   nsvcd__scenes_of(pairs, count, &scene);
   nsvcd__wigner(&scene.turn1, nsvcd__v_mul(scene.k1, step), wigner);
   for (size_t l = 0; l < count; l++) {
-    nsvcd__rotate_latent(pairs->z1[l], wigner, l, scene.keep >> l & 1 ? 0 : 1,
-                         x + NSVCD__DECODER_IN * l);
+    const size_t place = scene.keep >> l & 1 ? 0 : 1;
+    nsvcd__rotate_latent(pairs->z1[l], wigner, l, place, x + NSVCD__DECODER_IN * l);
   }
   nsvcd__wigner(&scene.turn2, nsvcd__v_mul(scene.k2, step), wigner);
-  for (size_t l = 0; l < count; l++, x += NSVCD__DECODER_IN) {
-    float *scalars = x + 2 * NSVCD__VECTORS;
-    nsvcd__rotate_latent(pairs->z2[l], wigner, l, scene.keep >> l & 1 ? 1 : 0, x);
+  for (size_t l = 0; l < count; l++) {
+    const size_t place = scene.keep >> l & 1 ? 1 : 0;
+    float *row = x + NSVCD__DECODER_IN * l;
+    float *facts = row + 2 * NSVCD__LATENT;
+    nsvcd__rotate_latent(pairs->z2[l], wigner, l, place, row);
     for (size_t k = 0; k < NSVCD__FACTS; k++)
-      scalars[2 * NSVCD_W_SCALARS + k] = scene.facts[k * NSVCD__SLICE + l];
+      facts[k] = scene.facts[k][l];
     for (size_t k = NSVCD__INPUTS; k < NSVCD__DECODER_IN; k++)
-      x[k] = 0;
+      row[k] = 0;
   }
 }
 
@@ -12113,12 +12144,42 @@ static void nsvcd__inputs_of(const nsvcd_body *moving, const nsvcd_body *fixed,
   }
 }
 
+// ---- layers
+
+// Where a layer's numbers lie: y = w^T x + bias, then ReLU but for the last layer.
+typedef struct nsvcd__layer {
+  size_t inputs, outputs;  // multiples of 4, and of 16
+  size_t weights;          // in nsvcd_w_decoder, (inputs, outputs), and in nsvcd_w_decoder_int8
+  size_t first;            // of its outputs, in nsvcd_w_decoder_bias, _scale and _sum
+  int relu;
+} nsvcd__layer;
+
+// The n-th layer of a decoder.
+static nsvcd__layer nsvcd__layer_of(const nsvcd__decoder *decoder, size_t n) {
+  const size_t *sizes = decoder->sizes;
+  nsvcd__layer out;
+  out.inputs = sizes[n];
+  out.outputs = sizes[n + 1];
+  out.weights = decoder->weights;
+  out.first = decoder->outputs;
+  out.relu = n + 1 < decoder->layers;
+  for (size_t k = 0; k < n; k++) {
+    out.weights += sizes[k] * sizes[k + 1];
+    out.first += sizes[k + 1];
+  }
+  return out;
+}
+
 #ifndef NSVCD_NO_FLOAT
-// `rows` rows of a layer, `tiles` slices of outputs each: y = w^T x + bias. x (rows, from), y
-// (rows, to), w (inputs, outputs). rows * tiles sums must fit into the registers.
-NSVCD__INLINE void nsvcd__layer_tile(const float *w, const float *bias, size_t inputs,
-                                     size_t outputs, const float *x, size_t from, float *y,
-                                     size_t to, int relu, size_t rows, size_t tiles) {
+// Outputs o .. o + tiles * SLICE - 1 of a layer for so many rows: x, of which a row begins every
+// `pitch` floats, and y (rows, WIDEST). rows * tiles sums must fit into the registers.
+NSVCD__INLINE void nsvcd__layer_tile(const nsvcd__layer *layer, size_t o, const float *x,
+                                     size_t pitch, float *y, size_t rows, size_t tiles) {
+  const size_t inputs = layer->inputs;
+  const size_t outputs = layer->outputs;
+  const int relu = layer->relu;
+  const float *w = nsvcd_w_decoder + layer->weights + o;
+  const float *bias = nsvcd_w_decoder_bias + layer->first + o;
   nsvcd__v sum[8][4], column[4];
   NSVCD__UNROLL
   for (size_t p = 0; p < rows; p++) {
@@ -12132,7 +12193,7 @@ NSVCD__INLINE void nsvcd__layer_tile(const float *w, const float *bias, size_t i
       column[t] = nsvcd__v_load(w + NSVCD__SLICE * t);
     NSVCD__UNROLL
     for (size_t p = 0; p < rows; p++) {
-      const nsvcd__v input = nsvcd__v_set(x[from * p + i]);
+      const nsvcd__v input = nsvcd__v_set(x[pitch * p + i]);
       NSVCD__UNROLL
       for (size_t t = 0; t < tiles; t++)
         sum[p][t] = nsvcd__v_fma(input, column[t], sum[p][t]);
@@ -12140,54 +12201,50 @@ NSVCD__INLINE void nsvcd__layer_tile(const float *w, const float *bias, size_t i
   }
   NSVCD__UNROLL
   for (size_t p = 0; p < rows; p++) {
+    float *row = y + NSVCD__WIDEST * p + o;
     NSVCD__UNROLL
     for (size_t t = 0; t < tiles; t++) {
-      nsvcd__v_store(y + to * p + NSVCD__SLICE * t,
-                     relu ? nsvcd__v_max(sum[p][t], nsvcd__v_set(0)) : sum[p][t]);
+      const nsvcd__v value = relu ? nsvcd__v_max(sum[p][t], nsvcd__v_set(0)) : sum[p][t];
+      nsvcd__v_store(row + NSVCD__SLICE * t, value);
     }
   }
 }
 
-// One layer for `rows` pairs, a multiple of 4. outputs: a multiple of 16. The weights of the
-// largest decoder do not fit into the first cache, so the more rows at a time the better: 8 by 2 or
-// 4 by 4 sums in 32 registers, 4 by 16 outputs, or by 4 slices where that is less, in fewer.
+// One layer for `rows` pairs, a multiple of 4: x, of which a row begins every `pitch` floats, and y
+// (rows, WIDEST). The weights of the largest decoder do not fit into the first cache, so the more
+// rows at a time the better: 8 by 2 or 4 by 4 sums in 32 registers, 4 by 16 outputs, or by 4 slices
+// where that is less, in fewer.
 #define NSVCD__TILES (NSVCD__LANES / NSVCD__SLICE < 4 ? NSVCD__LANES / NSVCD__SLICE : 4)
-static void nsvcd__layer(const float *w, const float *bias, size_t inputs, size_t outputs,
-                         size_t rows, const float *x, size_t from, float *y, size_t to, int relu) {
+static void nsvcd__run_layer(const nsvcd__layer *layer, const float *x, size_t pitch, float *y,
+                             size_t rows) {
+  const size_t outputs = layer->outputs;
   size_t p = 0;
   size_t o;
 #if defined(__AVX512F__) && !defined(NSVCD_NO_SIMD)
   for (; p + 8 <= rows; p += 8) {
-    const float *row = x + from * p;
-    for (o = 0; o + 32 <= outputs; o += 32) {
-      nsvcd__layer_tile(w + o, bias + o, inputs, outputs, row, from, y + to * p + o, to, relu, 8,
-                        2);
-    }
+    const float *from = x + pitch * p;
+    float *to = y + NSVCD__WIDEST * p;
+    for (o = 0; o + 32 <= outputs; o += 32)
+      nsvcd__layer_tile(layer, o, from, pitch, to, 8, 2);
     if (o < outputs)
-      nsvcd__layer_tile(w + o, bias + o, inputs, outputs, row, from, y + to * p + o, to, relu, 8,
-                        1);
+      nsvcd__layer_tile(layer, o, from, pitch, to, 8, 1);
   }
   for (; p < rows; p += 4) {
-    const float *row = x + from * p;
-    for (o = 0; o + 64 <= outputs; o += 64) {
-      nsvcd__layer_tile(w + o, bias + o, inputs, outputs, row, from, y + to * p + o, to, relu, 4,
-                        4);
-    }
-    for (; o + 32 <= outputs; o += 32) {
-      nsvcd__layer_tile(w + o, bias + o, inputs, outputs, row, from, y + to * p + o, to, relu, 4,
-                        2);
-    }
+    const float *from = x + pitch * p;
+    float *to = y + NSVCD__WIDEST * p;
+    for (o = 0; o + 64 <= outputs; o += 64)
+      nsvcd__layer_tile(layer, o, from, pitch, to, 4, 4);
+    for (; o + 32 <= outputs; o += 32)
+      nsvcd__layer_tile(layer, o, from, pitch, to, 4, 2);
     if (o < outputs)
-      nsvcd__layer_tile(w + o, bias + o, inputs, outputs, row, from, y + to * p + o, to, relu, 4,
-                        1);
+      nsvcd__layer_tile(layer, o, from, pitch, to, 4, 1);
   }
 #else
   for (; p < rows; p += 4) {
-    const float *row = x + from * p;
-    for (o = 0; o < outputs; o += NSVCD__TILES * NSVCD__SLICE) {
-      nsvcd__layer_tile(w + o, bias + o, inputs, outputs, row, from, y + to * p + o, to, relu, 4,
-                        NSVCD__TILES);
-    }
+    const float *from = x + pitch * p;
+    float *to = y + NSVCD__WIDEST * p;
+    for (o = 0; o < outputs; o += NSVCD__TILES * NSVCD__SLICE)
+      nsvcd__layer_tile(layer, o, from, pitch, to, 4, NSVCD__TILES);
   }
 #endif
 }
@@ -12196,14 +12253,14 @@ static void nsvcd__layer(const float *w, const float *bias, size_t inputs, size_
 #ifndef NSVCD_NO_INT8
 // A layer in integers: its inputs over the largest of them are bytes in [1, 255] about 128, because
 // the processors' instructions multiply unsigned by signed bytes; sums are exact in int32, and 128
-// times the sum of the weights too much.
+// times the sum of the weights too much. BYTE_ROWS rows at a time share the weights that are
+// loaded.
 //   nsvcd__to_bytes   x (inputs) -> bytes (inputs); returns the step
-//   nsvcd__dot_bytes  bytes (BYTE_ROWS, inputs), w (inputs / 4, outputs, 4) -> dot (BYTE_ROWS,
-//                     outputs)
+//   nsvcd__dot_bytes  bytes (BYTE_ROWS, inputs) -> dot (BYTE_ROWS, outputs), by weights of
+//                     (inputs / 4, outputs, 4)
 //   nsvcd__from_dots  dot (outputs) -> y (outputs)
-// Inputs and outputs are multiples of 16.
 #if defined(__AVX512VNNI__) && !defined(NSVCD_NO_SIMD)
-#define NSVCD__BYTE_ROWS 4  // at a time: they share the weights that are loaded
+#define NSVCD__BYTE_ROWS 4
 static float nsvcd__to_bytes(const float *x, size_t inputs, uint8_t *bytes) {
   __m512 most = _mm512_set1_ps(1e-20f);
   for (size_t i = 0; i < inputs; i += 16)
@@ -12212,14 +12269,18 @@ static float nsvcd__to_bytes(const float *x, size_t inputs, uint8_t *bytes) {
   const __m512 inverse = _mm512_set1_ps(127 / largest);
   const __m512 middle = _mm512_set1_ps(128.5f);
   for (size_t i = 0; i < inputs; i += 16) {
-    const __m512i value =
-        _mm512_cvttps_epi32(_mm512_fmadd_ps(_mm512_loadu_ps(x + i), inverse, middle));
+    const __m512 scaled = _mm512_fmadd_ps(_mm512_loadu_ps(x + i), inverse, middle);
+    const __m512i value = _mm512_cvttps_epi32(scaled);
     _mm_storeu_si128((__m128i *)(void *)(bytes + i), _mm512_cvtepi32_epi8(value));
   }
   return largest / 127;
 }
-NSVCD__INLINE void nsvcd__dot_tile(const int8_t *w, size_t inputs, size_t outputs,
-                                   const uint8_t *bytes, int32_t *dot, size_t tiles) {
+// Outputs o .. o + 16 tiles - 1.
+NSVCD__INLINE void nsvcd__dot_tile(const nsvcd__layer *layer, size_t o, const uint8_t *bytes,
+                                   int32_t *dot, size_t tiles) {
+  const size_t inputs = layer->inputs;
+  const size_t outputs = layer->outputs;
+  const int8_t *w = nsvcd_w_decoder_int8 + layer->weights + 4 * o;
   __m512i sum[4][4];
   NSVCD__UNROLL
   for (size_t p = 0; p < 4; p++) {
@@ -12243,28 +12304,32 @@ NSVCD__INLINE void nsvcd__dot_tile(const int8_t *w, size_t inputs, size_t output
   for (size_t p = 0; p < 4; p++) {
     NSVCD__UNROLL
     for (size_t t = 0; t < tiles; t++)
-      _mm512_storeu_si512((void *)(dot + outputs * p + 16 * t), sum[p][t]);
+      _mm512_storeu_si512((void *)(dot + outputs * p + o + 16 * t), sum[p][t]);
   }
 }
-static void nsvcd__dot_bytes(const int8_t *w, size_t inputs, size_t outputs, const uint8_t *bytes,
-                             int32_t *dot) {
+static void nsvcd__dot_bytes(const nsvcd__layer *layer, const uint8_t *bytes, int32_t *dot) {
+  const size_t outputs = layer->outputs;
   size_t o = 0;
   for (; o + 64 <= outputs; o += 64)
-    nsvcd__dot_tile(w + 4 * o, inputs, outputs, bytes, dot + o, 4);
+    nsvcd__dot_tile(layer, o, bytes, dot, 4);
   for (; o + 32 <= outputs; o += 32)
-    nsvcd__dot_tile(w + 4 * o, inputs, outputs, bytes, dot + o, 2);
+    nsvcd__dot_tile(layer, o, bytes, dot, 2);
   if (o < outputs)
-    nsvcd__dot_tile(w + 4 * o, inputs, outputs, bytes, dot + o, 1);
+    nsvcd__dot_tile(layer, o, bytes, dot, 1);
 }
-static void nsvcd__from_dots(const int32_t *dot, const float *sum, const float *scale,
-                             const float *bias, float step, size_t outputs, int relu, float *y) {
-  const __m512 least = _mm512_set1_ps(relu ? 0 : -1e30f);
-  for (size_t o = 0; o < outputs; o += 16) {
+static void nsvcd__from_dots(const nsvcd__layer *layer, const int32_t *dot, float step, float *y) {
+  const float *sum = nsvcd_w_decoder_sum + layer->first;
+  const float *scale = nsvcd_w_decoder_scale + layer->first;
+  const float *bias = nsvcd_w_decoder_bias + layer->first;
+  const __m512 least = _mm512_set1_ps(layer->relu ? 0 : -1e30f);
+  const __m512 steps = _mm512_set1_ps(step);
+  const __m512 middle = _mm512_set1_ps(-128);
+  for (size_t o = 0; o < layer->outputs; o += 16) {
     const __m512 value = _mm512_cvtepi32_ps(_mm512_loadu_si512((const void *)(dot + o)));
-    const __m512 exact = _mm512_fmadd_ps(_mm512_loadu_ps(sum + o), _mm512_set1_ps(-128), value);
-    const __m512 factor = _mm512_mul_ps(_mm512_set1_ps(step), _mm512_loadu_ps(scale + o));
-    _mm512_storeu_ps(
-        y + o, _mm512_max_ps(least, _mm512_fmadd_ps(exact, factor, _mm512_loadu_ps(bias + o))));
+    const __m512 exact = _mm512_fmadd_ps(_mm512_loadu_ps(sum + o), middle, value);
+    const __m512 factor = _mm512_mul_ps(steps, _mm512_loadu_ps(scale + o));
+    const __m512 out = _mm512_fmadd_ps(exact, factor, _mm512_loadu_ps(bias + o));
+    _mm512_storeu_ps(y + o, _mm512_max_ps(least, out));
   }
 }
 #else
@@ -12278,8 +12343,10 @@ static float nsvcd__to_bytes(const float *x, size_t inputs, uint8_t *bytes) {
     bytes[i] = (uint8_t)(int32_t)(x[i] * inverse + 128.5f);
   return most / 127;
 }
-static void nsvcd__dot_bytes(const int8_t *w, size_t inputs, size_t outputs, const uint8_t *bytes,
-                             int32_t *dot) {
+static void nsvcd__dot_bytes(const nsvcd__layer *layer, const uint8_t *bytes, int32_t *dot) {
+  const size_t inputs = layer->inputs;
+  const size_t outputs = layer->outputs;
+  const int8_t *w = nsvcd_w_decoder_int8 + layer->weights;
   memset(dot, 0, outputs * sizeof *dot);
   for (size_t i = 0; i < inputs; i += 4, w += 4 * outputs) {
     const int32_t x0 = bytes[i];
@@ -12291,11 +12358,14 @@ static void nsvcd__dot_bytes(const int8_t *w, size_t inputs, size_t outputs, con
     }
   }
 }
-static void nsvcd__from_dots(const int32_t *dot, const float *sum, const float *scale,
-                             const float *bias, float step, size_t outputs, int relu, float *y) {
-  for (size_t o = 0; o < outputs; o++) {
-    const float value = bias[o] + ((float)dot[o] - 128 * sum[o]) * (step * scale[o]);
-    y[o] = relu && value < 0 ? 0 : value;
+static void nsvcd__from_dots(const nsvcd__layer *layer, const int32_t *dot, float step, float *y) {
+  const float *sum = nsvcd_w_decoder_sum + layer->first;
+  const float *scale = nsvcd_w_decoder_scale + layer->first;
+  const float *bias = nsvcd_w_decoder_bias + layer->first;
+  for (size_t o = 0; o < layer->outputs; o++) {
+    const float exact = (float)dot[o] - 128 * sum[o];
+    const float value = bias[o] + exact * (step * scale[o]);
+    y[o] = layer->relu && value < 0 ? 0 : value;
   }
 }
 #endif
@@ -12304,37 +12374,29 @@ static void nsvcd__from_dots(const int32_t *dot, const float *sum, const float *
 // may take its place.
 static NSVCD__APART void nsvcd__decoder_by_bytes(const nsvcd__decoder *decoder, const float *x,
                                                  size_t count, float *logits) {
-  const float *bias = nsvcd_w_decoder_bias + decoder->outputs;
   float y[NSVCD__ROWS * NSVCD__WIDEST];
-  size_t from = NSVCD__DECODER_IN;
-  size_t weights = decoder->weights;
-  size_t output = decoder->outputs;
-  for (size_t l = 0; l < decoder->layers; l++) {
-    const size_t inputs = decoder->sizes[l];
-    const size_t outputs = decoder->sizes[l + 1];
-    const int relu = l + 1 < decoder->layers;
+  size_t pitch = NSVCD__DECODER_IN;
+  for (size_t n = 0; n < decoder->layers; n++) {
+    const nsvcd__layer layer = nsvcd__layer_of(decoder, n);
     for (size_t first = 0; first < count; first += NSVCD__BYTE_ROWS) {
       uint8_t bytes[NSVCD__BYTE_ROWS * NSVCD__MOST_INPUTS];
       int32_t dot[NSVCD__BYTE_ROWS * NSVCD__WIDEST];
       float step[NSVCD__BYTE_ROWS];
       for (size_t p = 0; p < NSVCD__BYTE_ROWS; p++) {
-        step[p] = nsvcd__to_bytes(x + from * (first + p), inputs, bytes + inputs * p);
+        const float *row = x + pitch * (first + p);
+        step[p] = nsvcd__to_bytes(row, layer.inputs, bytes + layer.inputs * p);
       }
-      nsvcd__dot_bytes(nsvcd_w_decoder_int8 + weights, inputs, outputs, bytes, dot);
+      nsvcd__dot_bytes(&layer, bytes, dot);
       for (size_t p = 0; p < NSVCD__BYTE_ROWS; p++) {
-        nsvcd__from_dots(dot + outputs * p, nsvcd_w_decoder_sum + output,
-                         nsvcd_w_decoder_scale + output, bias, step[p], outputs, relu,
-                         y + NSVCD__WIDEST * (first + p));
+        float *row = y + NSVCD__WIDEST * (first + p);
+        nsvcd__from_dots(&layer, dot + layer.outputs * p, step[p], row);
       }
     }
-    bias += outputs;
-    weights += inputs * outputs;
-    output += outputs;
     x = y;
-    from = NSVCD__WIDEST;
+    pitch = NSVCD__WIDEST;
   }
   for (size_t p = 0; p < count; p++)
-    logits[p] = x[from * p];
+    logits[p] = x[pitch * p];
 }
 #endif  // NSVCD_NO_INT8
 
@@ -12342,27 +12404,20 @@ static NSVCD__APART void nsvcd__decoder_by_bytes(const nsvcd__decoder *decoder, 
 // As nsvcd__decoder_logits, in fp32.
 static NSVCD__APART void nsvcd__decoder_by_floats(const nsvcd__decoder *decoder, const float *x,
                                                   size_t count, float *logits) {
-  const float *bias = nsvcd_w_decoder_bias + decoder->outputs;
+  const size_t rows = nsvcd__round_up(count, NSVCD__ROW_STEP);
   float a[NSVCD__ROWS * NSVCD__WIDEST];
   float b[NSVCD__ROWS * NSVCD__WIDEST];
-  float *to = a;
-  size_t from = NSVCD__DECODER_IN;
-  size_t weights = decoder->weights;
-  for (size_t l = 0; l < decoder->layers; l++) {
-    const size_t inputs = decoder->sizes[l];
-    const size_t outputs = decoder->sizes[l + 1];
-    const size_t rows = nsvcd__round_up(count, NSVCD__ROW_STEP);
-    const int relu = l + 1 < decoder->layers;
-    nsvcd__layer(nsvcd_w_decoder + weights, bias, inputs, outputs, rows, x, from, to, NSVCD__WIDEST,
-                 relu);
-    bias += outputs;
-    weights += inputs * outputs;
-    x = to;
-    from = NSVCD__WIDEST;
-    to = to == a ? b : a;
+  float *y = a;
+  size_t pitch = NSVCD__DECODER_IN;
+  for (size_t n = 0; n < decoder->layers; n++) {
+    const nsvcd__layer layer = nsvcd__layer_of(decoder, n);
+    nsvcd__run_layer(&layer, x, pitch, y, rows);
+    x = y;
+    pitch = NSVCD__WIDEST;
+    y = y == a ? b : a;
   }
   for (size_t p = 0; p < count; p++)
-    logits[p] = x[from * p];
+    logits[p] = x[pitch * p];
 }
 #endif  // NSVCD_NO_FLOAT
 
@@ -12370,17 +12425,17 @@ static NSVCD__APART void nsvcd__decoder_by_floats(const nsvcd__decoder *decoder,
 // arithmetic. Some rows at a time: x must hold numbers up to a multiple of ROW_STEP.
 static void nsvcd__decoder_logits(const nsvcd__decoder *decoder, const float *x, size_t count,
                                   int int8, float *logits) {
+#ifdef NSVCD_NO_INT8
   (void)int8;
-#ifndef NSVCD_NO_INT8
-#ifndef NSVCD_NO_FLOAT
-  if (!int8) {
-    nsvcd__decoder_by_floats(decoder, x, count, logits);
-    return;
-  }
-#endif
+  nsvcd__decoder_by_floats(decoder, x, count, logits);
+#elif defined(NSVCD_NO_FLOAT)
+  (void)int8;
   nsvcd__decoder_by_bytes(decoder, x, count, logits);
 #else
-  nsvcd__decoder_by_floats(decoder, x, count, logits);
+  if (int8)
+    nsvcd__decoder_by_bytes(decoder, x, count, logits);
+  else
+    nsvcd__decoder_by_floats(decoder, x, count, logits);
 #endif
 }
 
@@ -13358,75 +13413,74 @@ static nsvcd__f3 nsvcd__add_turned(nsvcd__f3 sum, nsvcd__f3 a, nsvcd__f3 n, floa
 
 // ---- decoder
 
-// The weights of a layer from input i to outputs o .. o + SLICE - 1. weights, output: where the
-// layer's begin.
-NSVCD__INLINE nsvcd__v nsvcd__weights_at(size_t weights, size_t output, size_t outputs, size_t i,
-                                         size_t o) {
+// The weights of a layer from input i to outputs o .. o + SLICE - 1.
+NSVCD__INLINE nsvcd__v nsvcd__weights_at(const nsvcd__layer *layer, size_t i, size_t o) {
 #ifndef NSVCD_NO_FLOAT
-  (void)output;
-  return nsvcd__v_load(nsvcd_w_decoder + weights + outputs * i + o);
+  return nsvcd__v_load(nsvcd_w_decoder + layer->weights + layer->outputs * i + o);
 #else
-  const int8_t *w = nsvcd_w_decoder_int8 + weights + 4 * (outputs * (i / 4) + o) + i % 4;
+  const size_t at = 4 * (layer->outputs * (i / 4) + o) + i % 4;
+  const int8_t *w = nsvcd_w_decoder_int8 + layer->weights + at;
+  const float *scale = nsvcd_w_decoder_scale + layer->first + o;
   float lanes[NSVCD__SLICE];
   for (size_t l = 0; l < NSVCD__SLICE; l++)
-    lanes[l] = (float)w[4 * l] * nsvcd_w_decoder_scale[output + o + l];
+    lanes[l] = (float)w[4 * l] * scale[l];
   return nsvcd__v_load(lanes);
 #endif
 }
 
-// The derivative of a decoder's logit by its inputs: x, by_x (DECODER_IN). That of ReLU at 0 is 0.
+// What comes out of a layer, but for the last one: x (inputs) -> y (outputs).
+static void nsvcd__layer_values(const nsvcd__layer *layer, const float *x, float *y) {
+  memcpy(y, nsvcd_w_decoder_bias + layer->first, layer->outputs * sizeof *y);
+  for (size_t i = 0; i < layer->inputs; i++) {
+    if (!(x[i] < 0 || x[i] > 0))
+      continue;  // about half of them
+    const nsvcd__v input = nsvcd__v_set(x[i]);
+    for (size_t o = 0; o < layer->outputs; o += NSVCD__SLICE) {
+      const nsvcd__v w = nsvcd__weights_at(layer, i, o);
+      nsvcd__v_store(y + o, nsvcd__v_fma(input, w, nsvcd__v_load(y + o)));
+    }
+  }
+  for (size_t o = 0; o < layer->outputs; o++)
+    y[o] = y[o] > 0 ? y[o] : 0;
+}
+
+// The derivative by a layer's inputs, by_x (inputs), from that by its outputs, by (outputs). x:
+// the inputs, where they come from a ReLU, or NULL; a ReLU's derivative at 0 is 0.
+static void nsvcd__by_layer(const nsvcd__layer *layer, const float *x, const float *by,
+                            float *by_x) {
+  float lanes[NSVCD__LANES];
+  for (size_t i = 0; i < layer->inputs; i++) {
+    by_x[i] = 0;
+    if (x && !(x[i] > 0))
+      continue;
+    NSVCD__EACH_SLICE(l) {
+      nsvcd__v sum = nsvcd__v_set(0);
+      for (size_t o = l; o < layer->outputs; o += NSVCD__LANES) {
+        const nsvcd__v w = nsvcd__weights_at(layer, i, o);
+        sum = nsvcd__v_fma(w, nsvcd__v_load(by + o), sum);
+      }
+      nsvcd__v_store(lanes + l, sum);
+    }
+    for (size_t k = 0; k < NSVCD__LANES; k++)
+      by_x[i] += lanes[k];
+  }
+}
+
+// The derivative of a decoder's logit by its inputs: x, by_x (DECODER_IN).
 static NSVCD__APART void nsvcd__decoder_gradient(const nsvcd__decoder *decoder, const float *x,
                                                  float *by_x) {
-  float values[5][NSVCD__WIDEST];
+  float values[5][NSVCD__WIDEST];  // of the layers, but for the last
   float by[NSVCD__MOST_INPUTS] = {1};
   float by_inputs[NSVCD__MOST_INPUTS];
-  float lanes[NSVCD__LANES];
-  size_t weights = decoder->weights;
-  size_t output = decoder->outputs;
-  size_t l = 0;
-  for (; l + 1 < decoder->layers; l++) {
-    const size_t inputs = decoder->sizes[l];
-    const size_t outputs = decoder->sizes[l + 1];
-    const float *in = l > 0 ? values[l - 1] : x;
-    float *y = values[l];
-    memcpy(y, nsvcd_w_decoder_bias + output, outputs * sizeof *y);
-    for (size_t i = 0; i < inputs; i++) {
-      if (!(in[i] < 0 || in[i] > 0))
-        continue;  // about half of them
-      const nsvcd__v input = nsvcd__v_set(in[i]);
-      for (size_t o = 0; o < outputs; o += NSVCD__SLICE) {
-        const nsvcd__v w = nsvcd__weights_at(weights, output, outputs, i, o);
-        nsvcd__v_store(y + o, nsvcd__v_fma(input, w, nsvcd__v_load(y + o)));
-      }
-    }
-    for (size_t o = 0; o < outputs; o++)
-      y[o] = y[o] > 0 ? y[o] : 0;
-    weights += inputs * outputs;
-    output += outputs;
+  const size_t last = decoder->layers - 1;
+  for (size_t n = 0; n < last; n++) {
+    const nsvcd__layer layer = nsvcd__layer_of(decoder, n);
+    nsvcd__layer_values(&layer, n > 0 ? values[n - 1] : x, values[n]);
   }
-  for (;; l--) {
-    const size_t inputs = decoder->sizes[l];
-    const size_t outputs = decoder->sizes[l + 1];
-    for (size_t i = 0; i < inputs; i++) {
-      by_inputs[i] = 0;
-      if (l > 0 && !(values[l - 1][i] > 0))
-        continue;
-      NSVCD__EACH_SLICE(s) {
-        nsvcd__v sum = nsvcd__v_set(0);
-        for (size_t o = s; o < outputs; o += NSVCD__LANES) {
-          sum = nsvcd__v_fma(nsvcd__weights_at(weights, output, outputs, i, o),
-                             nsvcd__v_load(by + o), sum);
-        }
-        nsvcd__v_store(lanes + s, sum);
-      }
-      for (size_t k = 0; k < NSVCD__LANES; k++)
-        by_inputs[i] += lanes[k];
-    }
-    memcpy(by, by_inputs, inputs * sizeof *by);
-    if (l == 0)
-      break;
-    weights -= decoder->sizes[l - 1] * inputs;
-    output -= inputs;
+  for (size_t n = last + 1; n-- > 0;) {
+    const nsvcd__layer layer = nsvcd__layer_of(decoder, n);
+    nsvcd__by_layer(&layer, n > 0 ? values[n - 1] : NULL, by, by_inputs);
+    memcpy(by, by_inputs, layer.inputs * sizeof *by);
   }
   memcpy(by_x, by, NSVCD__DECODER_IN * sizeof *by_x);
 }
