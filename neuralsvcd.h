@@ -5131,7 +5131,8 @@ static void nsvcd__encode_patch(const float *points, const float *normals, size_
 
 // numbers of a latent's vectors: (3, CHANNELS), then (5, CHANNELS)
 #define NSVCD__VECTORS (8 * NSVCD_W_CHANNELS)
-#define NSVCD__WIGNER 34  // numbers of D: (3, 3), then (5, 5)
+#define NSVCD__WIGNER 34                 // numbers of D: (3, 3), then (5, 5)
+#define NSVCD__LATENT_STEP (1.0f / 127)  // of a stored latent
 
 // The degree 2 of the symmetric product of a and b, lane by lane: q (5), as nsvcd__degree2.
 static void nsvcd__v_degree2(nsvcd__v3 a, nsvcd__v3 b, nsvcd__v *q) {
@@ -5211,7 +5212,7 @@ static void nsvcd__rotate_latent(const int8_t *z, float (*turn)[NSVCD__SLICE], s
   nsvcd__rotate_degree(degree, turn + 9, l, 5, vectors + 3 * NSVCD_W_CHANNELS);
   z += 5 * NSVCD_W_CHANNELS;
   for (size_t k = 0; k < NSVCD_W_SCALARS; k++)
-    scalars[k] = (float)z[k] * (1.0f / 127);
+    scalars[k] = (float)z[k] * NSVCD__LATENT_STEP;
 }
 
 #endif  // NSVCD_NO_NETWORK
@@ -11999,7 +12000,7 @@ static int nsvcd__is_contained(const nsvcd_body *moving, const nsvcd_body *fixed
 }
 
 // ----------------------------------------------------------------------------------------- decoder
-// In: candidate pairs of patches and the motion over the intervals in which their spheres meet.
+// In: candidate pairs of patches and the motion over the intervals in which their balls meet.
 // Out: a logit each.
 //
 // The motion is linearised about the middle of the interval; then everything is expressed in a
@@ -12034,7 +12035,19 @@ static int nsvcd__is_contained(const nsvcd_body *moving, const nsvcd_body *fixed
 #define NSVCD__ROWS 1
 #define NSVCD__ROW_STEP 1
 #endif
-#define NSVCD__FACTS 12
+// What the decoder sees of a pair's geometry, in the pair's frame and units; vectors take three
+// numbers.
+enum {
+  NSVCD__FACT_DISTANCE = 0,  // of the centres
+  NSVCD__FACT_RADIUS = 1,    // the larger one
+  NSVCD__FACT_CLOSEST = 2,   // distance of the centres, when they come closest,
+  NSVCD__FACT_TAU = 3,       // and when that is: -1 and 1 are the ends of the interval
+  NSVCD__FACT_VELOCITY = 4,
+  NSVCD__FACT_TURN = 7,
+  NSVCD__FACT_SPEED = 10,  // the lengths of these two
+  NSVCD__FACT_SPIN = 11,
+  NSVCD__FACTS = 12
+};
 #define NSVCD__INPUTS (2 * NSVCD__LATENT + NSVCD__FACTS)
 #define NSVCD__DECODER_IN ((NSVCD__INPUTS + 15) / 16 * 16)  // zeros at the end
 // Most outputs of a layer, of the heads that are compiled; the tests hold them against weights.h.
@@ -12052,6 +12065,8 @@ static int nsvcd__is_contained(const nsvcd_body *moving, const nsvcd_body *fixed
 #define NSVCD__LEAN 0.05f  // share of the lean in axis 2
 #define NSVCD__SIDE 1e-4f  // a lean less than this to one side of axes 1 and 2 is on neither
 
+// ---- pairs, as they move
+
 // A slice of pairs.
 typedef struct nsvcd__pairs {
   // centres at mid-interval: of the moving patch, of the fixed one; the fixed body's frame
@@ -12060,32 +12075,37 @@ typedef struct nsvcd__pairs {
   nsvcd__vmat3 rotation;  // of the moving body at mid-interval
   // half displacement of the point midway between p1 and p2, as part of the moving body
   nsvcd__v3 v;
-  nsvcd__v3 w;                                        // half rotation vector
-  const int8_t *z1[NSVCD__SLICE], *z2[NSVCD__SLICE];  // latents, body frames
+  nsvcd__v3 w;  // half rotation vector
+  // latents, in the bodies' frames
+  const int8_t *z1[NSVCD__SLICE], *z2[NSVCD__SLICE];
 } nsvcd__pairs;
 
 // Half the rotation vector of a unit quaternion, from the sine s of half the angle: asin(s) / s
 // times its vector part.
 static nsvcd__v3 nsvcd__v_half_rotation(nsvcd__vquat q) {
+  // of asin(s) / s by s^2, from its end, to 2e-6 for s < 0.5
+  static const float series[5] = {0.03038194f, 0.04464286f, 0.075f, 0.16666667f, 1};
   const nsvcd__v3 axis = nsvcd__vquat_axis(q);
   const nsvcd__v sign = nsvcd__v_sign(q.w);
   const nsvcd__v square = nsvcd__v3_dot(axis, axis);
-  nsvcd__v ratio = nsvcd__v_set(0.02237216f);  // the series of asin(s) / s, to 2e-6 for s < 0.5
-  static const float series[5] = {0.03038194f, 0.04464286f, 0.075f, 0.16666667f, 1};
+  nsvcd__v ratio = nsvcd__v_set(0.02237216f);
   for (size_t k = 0; k < 5; k++)
     ratio = nsvcd__v_fma(ratio, square, nsvcd__v_set(series[k]));
-  // over 60 degrees: a motion of few samples
+  // over 60 degrees: a motion of few poses
   uint32_t wide = nsvcd__v_le(nsvcd__v_set(0.25f), square);
   if (wide) {
-    float r[NSVCD__SLICE], s2[NSVCD__SLICE], c[NSVCD__SLICE];
-    nsvcd__v_store(r, ratio);
-    nsvcd__v_store(s2, square);
-    nsvcd__v_store(c, nsvcd__v_mul(sign, q.w));
+    float ratios[NSVCD__SLICE];
+    float squares[NSVCD__SLICE];
+    float cosines[NSVCD__SLICE];
+    nsvcd__v_store(ratios, ratio);
+    nsvcd__v_store(squares, square);
+    nsvcd__v_store(cosines, nsvcd__v_mul(sign, q.w));
     for (; wide; wide &= wide - 1) {
       const size_t l = nsvcd__lowest_bit(wide);
-      r[l] = atan2f(sqrtf(s2[l]), c[l]) / sqrtf(s2[l]);
+      const float sine = sqrtf(squares[l]);
+      ratios[l] = atan2f(sine, cosines[l]) / sine;
     }
-    ratio = nsvcd__v_load(r);
+    ratio = nsvcd__v_load(ratios);
   }
   return nsvcd__v3_scale(axis, nsvcd__v_mul(sign, ratio));
 }
@@ -12105,14 +12125,15 @@ static nsvcd__v_pose nsvcd__track_poses_at(const nsvcd__track *track, const floa
   float turned[4 * NSVCD__SLICE] = {0};
   float position[3 * NSVCD__SLICE] = {0};
   float moved[3 * NSVCD__SLICE] = {0};
-  const size_t last = track->count > 1 ? track->count - 2 : 0;
+  const int moves = track->count > 1;
+  const size_t last = moves ? track->count - 2 : 0;
   for (size_t l = count; l < NSVCD__SLICE; l++)
     rotation[3 * NSVCD__SLICE + l] = 1;
   for (size_t l = 0; l < count; l++) {
-    const float at = track->count > 1 ? t[l] * (float)(last + 1) : 0;
+    const float at = moves ? t[l] * (float)(last + 1) : 0;
     const size_t k = (size_t)at < last ? (size_t)at : last;
     const nsvcd_pose *a = &track->poses[k];
-    const nsvcd_pose *b = track->count > 1 ? a + 1 : a;
+    const nsvcd_pose *b = moves ? a + 1 : a;
     const nsvcd__f3 from = nsvcd__f3_load(a->position);
     const nsvcd__f3 to = nsvcd__f3_load(b->position);
     nsvcd__quat q = nsvcd__quat_load(a->rotation);
@@ -12164,12 +12185,14 @@ static NSVCD__APART void nsvcd__pairs_of(const nsvcd_body *moving, const nsvcd_b
   float leave[NSVCD__SLICE];
   float middle[NSVCD__SLICE];
   const float scale = motion->scale;
+  const nsvcd__spheres patches1 = nsvcd__body_patches(moving);
+  const nsvcd__spheres patches2 = nsvcd__body_patches(fixed);
   for (size_t l = 0; l < count; l++) {
     const nsvcd__candidate *candidate = candidates[l];
     const size_t i = candidate->moving;
     const size_t j = candidate->fixed;
-    const nsvcd__sphere patch1 = nsvcd__sphere_of(nsvcd__body_patches(moving), i);
-    const nsvcd__sphere patch2 = nsvcd__sphere_of(nsvcd__body_patches(fixed), j);
+    const nsvcd__sphere patch1 = nsvcd__sphere_of(patches1, i);
+    const nsvcd__sphere patch2 = nsvcd__sphere_of(patches2, j);
     nsvcd__f3_put(nsvcd__f3_scale(patch1.centre, scale), centres1 + l, NSVCD__SLICE);
     nsvcd__f3_put(patch2.centre, centres2 + l, NSVCD__SLICE);
     r1[l] = scale * patch1.radius;
@@ -12180,6 +12203,7 @@ static NSVCD__APART void nsvcd__pairs_of(const nsvcd_body *moving, const nsvcd_b
     pairs->z1[l] = nsvcd__body_latents(moving) + NSVCD__LATENT * i;
     pairs->z2[l] = nsvcd__body_latents(fixed) + NSVCD__LATENT * j;
   }
+
   const nsvcd__v half = nsvcd__v_set(0.5f);
   const nsvcd__v3 centre = nsvcd__v3_load_rows(centres1, NSVCD__SLICE);
   const nsvcd__v_pose first = nsvcd__v_poses_at(motion, enter, count);
@@ -12199,6 +12223,8 @@ static NSVCD__APART void nsvcd__pairs_of(const nsvcd_body *moving, const nsvcd_b
   pairs->r1 = nsvcd__v_load(r1);
   pairs->r2 = nsvcd__v_load(r2);
 }
+
+// ---- frames and facts
 
 // The unit of length: r1 + r2; for points without extent whatever keeps the inputs finite.
 static nsvcd__v nsvcd__v_unit_of_length(const nsvcd__pairs *pairs) {
@@ -12280,8 +12306,9 @@ static nsvcd__f3 nsvcd__mean_direction(const int8_t *z) {
   return nsvcd__f3_of((float)z[0], (float)z[NSVCD_W_CHANNELS], (float)z[2 * NSVCD_W_CHANNELS]);
 }
 
+// Views of the first `count` pairs of a slice.
 static void nsvcd__views_of(const nsvcd__pairs *pairs, size_t count, nsvcd__views *view) {
-  const nsvcd__v step = nsvcd__v_set(1.0f / 127);
+  const nsvcd__v step = nsvcd__v_set(NSVCD__LATENT_STEP);
   float means1[3 * NSVCD__SLICE] = {0};
   float means2[3 * NSVCD__SLICE] = {0};
   for (size_t l = 0; l < count; l++) {
@@ -12313,9 +12340,10 @@ typedef struct nsvcd__scenes {
   nsvcd__vmat3 turn1, turn2;  // from the bodies' frames to the pairs'
   nsvcd__v k1, k2;            // radii, in units of the pairs' lengths
   uint32_t keep;              // lanes in which the first patch is the larger
-  float facts[NSVCD__FACTS * NSVCD__SLICE];
+  float facts[NSVCD__FACTS][NSVCD__SLICE];
 } nsvcd__scenes;
 
+// Scenes of the first `count` pairs of a slice.
 static NSVCD__APART void nsvcd__scenes_of(const nsvcd__pairs *pairs, size_t count,
                                           nsvcd__scenes *scene) {
   nsvcd__views view;
@@ -12329,43 +12357,46 @@ static NSVCD__APART void nsvcd__scenes_of(const nsvcd__pairs *pairs, size_t coun
   const nsvcd__v speed2 = nsvcd__v3_dot(view.v, view.v);
   const nsvcd__v above = nsvcd__v_add(speed2, nsvcd__v_set(1e-6f));
   // nearest approach of the centres, in half intervals
-  const nsvcd__v tau = nsvcd__v_clamp(nsvcd__v_div(nsvcd__v3_dot(view.d, view.v), above), -1, 1);
+  const nsvcd__v nearest = nsvcd__v_div(nsvcd__v3_dot(view.d, view.v), above);
+  const nsvcd__v tau = nsvcd__v_clamp(nearest, -1, 1);
   const nsvcd__v3 closest = nsvcd__v3_sub(view.d, nsvcd__v3_scale(view.v, tau));
   const nsvcd__v3 velocity = nsvcd__vmat3_apply(view.frame, view.v);
   const nsvcd__v3 turn = nsvcd__vmat3_apply(view.frame, view.w);
-  float *facts = scene->facts;
-  nsvcd__v_store(facts, nsvcd__v3_length(view.d));
-  nsvcd__v_store(facts + NSVCD__SLICE, nsvcd__v_max(view.k1, view.k2));
-  nsvcd__v_store(facts + 2 * NSVCD__SLICE, nsvcd__v3_length(closest));
-  nsvcd__v_store(facts + 3 * NSVCD__SLICE, tau);
-  nsvcd__v3_store_rows(velocity, facts + 4 * NSVCD__SLICE, NSVCD__SLICE);
-  // an axial vector
-  nsvcd__v3_store_rows(nsvcd__v3_scale(turn, view.side), facts + 7 * NSVCD__SLICE, NSVCD__SLICE);
-  nsvcd__v_store(facts + 10 * NSVCD__SLICE, nsvcd__v_sqrt(speed2));
-  nsvcd__v_store(facts + 11 * NSVCD__SLICE, nsvcd__v3_length(view.w));
+  const nsvcd__v3 mirrored = nsvcd__v3_scale(turn, view.side);  // an axial vector
+
+  float(*facts)[NSVCD__SLICE] = scene->facts;
+  nsvcd__v_store(facts[NSVCD__FACT_DISTANCE], nsvcd__v3_length(view.d));
+  nsvcd__v_store(facts[NSVCD__FACT_RADIUS], nsvcd__v_max(view.k1, view.k2));
+  nsvcd__v_store(facts[NSVCD__FACT_CLOSEST], nsvcd__v3_length(closest));
+  nsvcd__v_store(facts[NSVCD__FACT_TAU], tau);
+  nsvcd__v3_store_rows(velocity, facts[NSVCD__FACT_VELOCITY], NSVCD__SLICE);
+  nsvcd__v3_store_rows(mirrored, facts[NSVCD__FACT_TURN], NSVCD__SLICE);
+  nsvcd__v_store(facts[NSVCD__FACT_SPEED], nsvcd__v_sqrt(speed2));
+  nsvcd__v_store(facts[NSVCD__FACT_SPIN], nsvcd__v3_length(view.w));
 }
 
 // Appendix F: the inputs of the decoder for the first `count` pairs of a slice, x (count,
-// DECODER_IN): vectors of the larger patch and of the other, their scalars, and twelve facts of the
-// geometry.
+// DECODER_IN): vectors of the larger patch and of the other, their scalars, and the facts.
 static NSVCD__APART void nsvcd__invariants(const nsvcd__pairs *pairs, size_t count, float *x) {
   nsvcd__scenes scene;
   float wigner[NSVCD__WIGNER][NSVCD__SLICE];
-  const nsvcd__v step = nsvcd__v_set(1.0f / 127);
+  const nsvcd__v step = nsvcd__v_set(NSVCD__LATENT_STEP);
   nsvcd__scenes_of(pairs, count, &scene);
   nsvcd__wigner(&scene.turn1, nsvcd__v_mul(scene.k1, step), wigner);
   for (size_t l = 0; l < count; l++) {
-    nsvcd__rotate_latent(pairs->z1[l], wigner, l, scene.keep >> l & 1 ? 0 : 1,
-                         x + NSVCD__DECODER_IN * l);
+    const size_t place = scene.keep >> l & 1 ? 0 : 1;
+    nsvcd__rotate_latent(pairs->z1[l], wigner, l, place, x + NSVCD__DECODER_IN * l);
   }
   nsvcd__wigner(&scene.turn2, nsvcd__v_mul(scene.k2, step), wigner);
-  for (size_t l = 0; l < count; l++, x += NSVCD__DECODER_IN) {
-    float *scalars = x + 2 * NSVCD__VECTORS;
-    nsvcd__rotate_latent(pairs->z2[l], wigner, l, scene.keep >> l & 1 ? 1 : 0, x);
+  for (size_t l = 0; l < count; l++) {
+    const size_t place = scene.keep >> l & 1 ? 1 : 0;
+    float *row = x + NSVCD__DECODER_IN * l;
+    float *facts = row + 2 * NSVCD__LATENT;
+    nsvcd__rotate_latent(pairs->z2[l], wigner, l, place, row);
     for (size_t k = 0; k < NSVCD__FACTS; k++)
-      scalars[2 * NSVCD_W_SCALARS + k] = scene.facts[k * NSVCD__SLICE + l];
+      facts[k] = scene.facts[k][l];
     for (size_t k = NSVCD__INPUTS; k < NSVCD__DECODER_IN; k++)
-      x[k] = 0;
+      row[k] = 0;
   }
 }
 
@@ -12382,12 +12413,42 @@ static void nsvcd__inputs_of(const nsvcd_body *moving, const nsvcd_body *fixed,
   }
 }
 
+// ---- layers
+
+// Where a layer's numbers lie: y = w^T x + bias, then ReLU but for the last layer.
+typedef struct nsvcd__layer {
+  size_t inputs, outputs;  // multiples of 4, and of 16
+  size_t weights;          // in nsvcd_w_decoder, (inputs, outputs), and in nsvcd_w_decoder_int8
+  size_t first;            // of its outputs, in nsvcd_w_decoder_bias, _scale and _sum
+  int relu;
+} nsvcd__layer;
+
+// The n-th layer of a decoder.
+static nsvcd__layer nsvcd__layer_of(const nsvcd__decoder *decoder, size_t n) {
+  const size_t *sizes = decoder->sizes;
+  nsvcd__layer out;
+  out.inputs = sizes[n];
+  out.outputs = sizes[n + 1];
+  out.weights = decoder->weights;
+  out.first = decoder->outputs;
+  out.relu = n + 1 < decoder->layers;
+  for (size_t k = 0; k < n; k++) {
+    out.weights += sizes[k] * sizes[k + 1];
+    out.first += sizes[k + 1];
+  }
+  return out;
+}
+
 #ifndef NSVCD_NO_FLOAT
-// `rows` rows of a layer, `tiles` slices of outputs each: y = w^T x + bias. x (rows, from), y
-// (rows, to), w (inputs, outputs). rows * tiles sums must fit into the registers.
-NSVCD__INLINE void nsvcd__layer_tile(const float *w, const float *bias, size_t inputs,
-                                     size_t outputs, const float *x, size_t from, float *y,
-                                     size_t to, int relu, size_t rows, size_t tiles) {
+// Outputs o .. o + tiles * SLICE - 1 of a layer for so many rows: x, of which a row begins every
+// `pitch` floats, and y (rows, WIDEST). rows * tiles sums must fit into the registers.
+NSVCD__INLINE void nsvcd__layer_tile(const nsvcd__layer *layer, size_t o, const float *x,
+                                     size_t pitch, float *y, size_t rows, size_t tiles) {
+  const size_t inputs = layer->inputs;
+  const size_t outputs = layer->outputs;
+  const int relu = layer->relu;
+  const float *w = nsvcd_w_decoder + layer->weights + o;
+  const float *bias = nsvcd_w_decoder_bias + layer->first + o;
   nsvcd__v sum[8][4], column[4];
   NSVCD__UNROLL
   for (size_t p = 0; p < rows; p++) {
@@ -12401,7 +12462,7 @@ NSVCD__INLINE void nsvcd__layer_tile(const float *w, const float *bias, size_t i
       column[t] = nsvcd__v_load(w + NSVCD__SLICE * t);
     NSVCD__UNROLL
     for (size_t p = 0; p < rows; p++) {
-      const nsvcd__v input = nsvcd__v_set(x[from * p + i]);
+      const nsvcd__v input = nsvcd__v_set(x[pitch * p + i]);
       NSVCD__UNROLL
       for (size_t t = 0; t < tiles; t++)
         sum[p][t] = nsvcd__v_fma(input, column[t], sum[p][t]);
@@ -12409,54 +12470,50 @@ NSVCD__INLINE void nsvcd__layer_tile(const float *w, const float *bias, size_t i
   }
   NSVCD__UNROLL
   for (size_t p = 0; p < rows; p++) {
+    float *row = y + NSVCD__WIDEST * p + o;
     NSVCD__UNROLL
     for (size_t t = 0; t < tiles; t++) {
-      nsvcd__v_store(y + to * p + NSVCD__SLICE * t,
-                     relu ? nsvcd__v_max(sum[p][t], nsvcd__v_set(0)) : sum[p][t]);
+      const nsvcd__v value = relu ? nsvcd__v_max(sum[p][t], nsvcd__v_set(0)) : sum[p][t];
+      nsvcd__v_store(row + NSVCD__SLICE * t, value);
     }
   }
 }
 
-// One layer for `rows` pairs, a multiple of 4. outputs: a multiple of 16. The weights of the
-// largest decoder do not fit into the first cache, so the more rows at a time the better: 8 by 2 or
-// 4 by 4 sums in 32 registers, 4 by 16 outputs, or by 4 slices where that is less, in fewer.
+// One layer for `rows` pairs, a multiple of 4: x, of which a row begins every `pitch` floats, and y
+// (rows, WIDEST). The weights of the largest decoder do not fit into the first cache, so the more
+// rows at a time the better: 8 by 2 or 4 by 4 sums in 32 registers, 4 by 16 outputs, or by 4 slices
+// where that is less, in fewer.
 #define NSVCD__TILES (NSVCD__LANES / NSVCD__SLICE < 4 ? NSVCD__LANES / NSVCD__SLICE : 4)
-static void nsvcd__layer(const float *w, const float *bias, size_t inputs, size_t outputs,
-                         size_t rows, const float *x, size_t from, float *y, size_t to, int relu) {
+static void nsvcd__run_layer(const nsvcd__layer *layer, const float *x, size_t pitch, float *y,
+                             size_t rows) {
+  const size_t outputs = layer->outputs;
   size_t p = 0;
   size_t o;
 #if defined(__AVX512F__) && !defined(NSVCD_NO_SIMD)
   for (; p + 8 <= rows; p += 8) {
-    const float *row = x + from * p;
-    for (o = 0; o + 32 <= outputs; o += 32) {
-      nsvcd__layer_tile(w + o, bias + o, inputs, outputs, row, from, y + to * p + o, to, relu, 8,
-                        2);
-    }
+    const float *from = x + pitch * p;
+    float *to = y + NSVCD__WIDEST * p;
+    for (o = 0; o + 32 <= outputs; o += 32)
+      nsvcd__layer_tile(layer, o, from, pitch, to, 8, 2);
     if (o < outputs)
-      nsvcd__layer_tile(w + o, bias + o, inputs, outputs, row, from, y + to * p + o, to, relu, 8,
-                        1);
+      nsvcd__layer_tile(layer, o, from, pitch, to, 8, 1);
   }
   for (; p < rows; p += 4) {
-    const float *row = x + from * p;
-    for (o = 0; o + 64 <= outputs; o += 64) {
-      nsvcd__layer_tile(w + o, bias + o, inputs, outputs, row, from, y + to * p + o, to, relu, 4,
-                        4);
-    }
-    for (; o + 32 <= outputs; o += 32) {
-      nsvcd__layer_tile(w + o, bias + o, inputs, outputs, row, from, y + to * p + o, to, relu, 4,
-                        2);
-    }
+    const float *from = x + pitch * p;
+    float *to = y + NSVCD__WIDEST * p;
+    for (o = 0; o + 64 <= outputs; o += 64)
+      nsvcd__layer_tile(layer, o, from, pitch, to, 4, 4);
+    for (; o + 32 <= outputs; o += 32)
+      nsvcd__layer_tile(layer, o, from, pitch, to, 4, 2);
     if (o < outputs)
-      nsvcd__layer_tile(w + o, bias + o, inputs, outputs, row, from, y + to * p + o, to, relu, 4,
-                        1);
+      nsvcd__layer_tile(layer, o, from, pitch, to, 4, 1);
   }
 #else
   for (; p < rows; p += 4) {
-    const float *row = x + from * p;
-    for (o = 0; o < outputs; o += NSVCD__TILES * NSVCD__SLICE) {
-      nsvcd__layer_tile(w + o, bias + o, inputs, outputs, row, from, y + to * p + o, to, relu, 4,
-                        NSVCD__TILES);
-    }
+    const float *from = x + pitch * p;
+    float *to = y + NSVCD__WIDEST * p;
+    for (o = 0; o < outputs; o += NSVCD__TILES * NSVCD__SLICE)
+      nsvcd__layer_tile(layer, o, from, pitch, to, 4, NSVCD__TILES);
   }
 #endif
 }
@@ -12465,14 +12522,14 @@ static void nsvcd__layer(const float *w, const float *bias, size_t inputs, size_
 #ifndef NSVCD_NO_INT8
 // A layer in integers: its inputs over the largest of them are bytes in [1, 255] about 128, because
 // the processors' instructions multiply unsigned by signed bytes; sums are exact in int32, and 128
-// times the sum of the weights too much.
+// times the sum of the weights too much. BYTE_ROWS rows at a time share the weights that are
+// loaded.
 //   nsvcd__to_bytes   x (inputs) -> bytes (inputs); returns the step
-//   nsvcd__dot_bytes  bytes (BYTE_ROWS, inputs), w (inputs / 4, outputs, 4) -> dot (BYTE_ROWS,
-//                     outputs)
+//   nsvcd__dot_bytes  bytes (BYTE_ROWS, inputs) -> dot (BYTE_ROWS, outputs), by weights of
+//                     (inputs / 4, outputs, 4)
 //   nsvcd__from_dots  dot (outputs) -> y (outputs)
-// Inputs and outputs are multiples of 16.
 #if defined(__AVX512VNNI__) && !defined(NSVCD_NO_SIMD)
-#define NSVCD__BYTE_ROWS 4  // at a time: they share the weights that are loaded
+#define NSVCD__BYTE_ROWS 4
 static float nsvcd__to_bytes(const float *x, size_t inputs, uint8_t *bytes) {
   __m512 most = _mm512_set1_ps(1e-20f);
   for (size_t i = 0; i < inputs; i += 16)
@@ -12481,14 +12538,18 @@ static float nsvcd__to_bytes(const float *x, size_t inputs, uint8_t *bytes) {
   const __m512 inverse = _mm512_set1_ps(127 / largest);
   const __m512 middle = _mm512_set1_ps(128.5f);
   for (size_t i = 0; i < inputs; i += 16) {
-    const __m512i value =
-        _mm512_cvttps_epi32(_mm512_fmadd_ps(_mm512_loadu_ps(x + i), inverse, middle));
+    const __m512 scaled = _mm512_fmadd_ps(_mm512_loadu_ps(x + i), inverse, middle);
+    const __m512i value = _mm512_cvttps_epi32(scaled);
     _mm_storeu_si128((__m128i *)(void *)(bytes + i), _mm512_cvtepi32_epi8(value));
   }
   return largest / 127;
 }
-NSVCD__INLINE void nsvcd__dot_tile(const int8_t *w, size_t inputs, size_t outputs,
-                                   const uint8_t *bytes, int32_t *dot, size_t tiles) {
+// Outputs o .. o + 16 tiles - 1.
+NSVCD__INLINE void nsvcd__dot_tile(const nsvcd__layer *layer, size_t o, const uint8_t *bytes,
+                                   int32_t *dot, size_t tiles) {
+  const size_t inputs = layer->inputs;
+  const size_t outputs = layer->outputs;
+  const int8_t *w = nsvcd_w_decoder_int8 + layer->weights + 4 * o;
   __m512i sum[4][4];
   NSVCD__UNROLL
   for (size_t p = 0; p < 4; p++) {
@@ -12512,28 +12573,32 @@ NSVCD__INLINE void nsvcd__dot_tile(const int8_t *w, size_t inputs, size_t output
   for (size_t p = 0; p < 4; p++) {
     NSVCD__UNROLL
     for (size_t t = 0; t < tiles; t++)
-      _mm512_storeu_si512((void *)(dot + outputs * p + 16 * t), sum[p][t]);
+      _mm512_storeu_si512((void *)(dot + outputs * p + o + 16 * t), sum[p][t]);
   }
 }
-static void nsvcd__dot_bytes(const int8_t *w, size_t inputs, size_t outputs, const uint8_t *bytes,
-                             int32_t *dot) {
+static void nsvcd__dot_bytes(const nsvcd__layer *layer, const uint8_t *bytes, int32_t *dot) {
+  const size_t outputs = layer->outputs;
   size_t o = 0;
   for (; o + 64 <= outputs; o += 64)
-    nsvcd__dot_tile(w + 4 * o, inputs, outputs, bytes, dot + o, 4);
+    nsvcd__dot_tile(layer, o, bytes, dot, 4);
   for (; o + 32 <= outputs; o += 32)
-    nsvcd__dot_tile(w + 4 * o, inputs, outputs, bytes, dot + o, 2);
+    nsvcd__dot_tile(layer, o, bytes, dot, 2);
   if (o < outputs)
-    nsvcd__dot_tile(w + 4 * o, inputs, outputs, bytes, dot + o, 1);
+    nsvcd__dot_tile(layer, o, bytes, dot, 1);
 }
-static void nsvcd__from_dots(const int32_t *dot, const float *sum, const float *scale,
-                             const float *bias, float step, size_t outputs, int relu, float *y) {
-  const __m512 least = _mm512_set1_ps(relu ? 0 : -1e30f);
-  for (size_t o = 0; o < outputs; o += 16) {
+static void nsvcd__from_dots(const nsvcd__layer *layer, const int32_t *dot, float step, float *y) {
+  const float *sum = nsvcd_w_decoder_sum + layer->first;
+  const float *scale = nsvcd_w_decoder_scale + layer->first;
+  const float *bias = nsvcd_w_decoder_bias + layer->first;
+  const __m512 least = _mm512_set1_ps(layer->relu ? 0 : -1e30f);
+  const __m512 steps = _mm512_set1_ps(step);
+  const __m512 middle = _mm512_set1_ps(-128);
+  for (size_t o = 0; o < layer->outputs; o += 16) {
     const __m512 value = _mm512_cvtepi32_ps(_mm512_loadu_si512((const void *)(dot + o)));
-    const __m512 exact = _mm512_fmadd_ps(_mm512_loadu_ps(sum + o), _mm512_set1_ps(-128), value);
-    const __m512 factor = _mm512_mul_ps(_mm512_set1_ps(step), _mm512_loadu_ps(scale + o));
-    _mm512_storeu_ps(
-        y + o, _mm512_max_ps(least, _mm512_fmadd_ps(exact, factor, _mm512_loadu_ps(bias + o))));
+    const __m512 exact = _mm512_fmadd_ps(_mm512_loadu_ps(sum + o), middle, value);
+    const __m512 factor = _mm512_mul_ps(steps, _mm512_loadu_ps(scale + o));
+    const __m512 out = _mm512_fmadd_ps(exact, factor, _mm512_loadu_ps(bias + o));
+    _mm512_storeu_ps(y + o, _mm512_max_ps(least, out));
   }
 }
 #else
@@ -12547,8 +12612,10 @@ static float nsvcd__to_bytes(const float *x, size_t inputs, uint8_t *bytes) {
     bytes[i] = (uint8_t)(int32_t)(x[i] * inverse + 128.5f);
   return most / 127;
 }
-static void nsvcd__dot_bytes(const int8_t *w, size_t inputs, size_t outputs, const uint8_t *bytes,
-                             int32_t *dot) {
+static void nsvcd__dot_bytes(const nsvcd__layer *layer, const uint8_t *bytes, int32_t *dot) {
+  const size_t inputs = layer->inputs;
+  const size_t outputs = layer->outputs;
+  const int8_t *w = nsvcd_w_decoder_int8 + layer->weights;
   memset(dot, 0, outputs * sizeof *dot);
   for (size_t i = 0; i < inputs; i += 4, w += 4 * outputs) {
     const int32_t x0 = bytes[i];
@@ -12560,11 +12627,14 @@ static void nsvcd__dot_bytes(const int8_t *w, size_t inputs, size_t outputs, con
     }
   }
 }
-static void nsvcd__from_dots(const int32_t *dot, const float *sum, const float *scale,
-                             const float *bias, float step, size_t outputs, int relu, float *y) {
-  for (size_t o = 0; o < outputs; o++) {
-    const float value = bias[o] + ((float)dot[o] - 128 * sum[o]) * (step * scale[o]);
-    y[o] = relu && value < 0 ? 0 : value;
+static void nsvcd__from_dots(const nsvcd__layer *layer, const int32_t *dot, float step, float *y) {
+  const float *sum = nsvcd_w_decoder_sum + layer->first;
+  const float *scale = nsvcd_w_decoder_scale + layer->first;
+  const float *bias = nsvcd_w_decoder_bias + layer->first;
+  for (size_t o = 0; o < layer->outputs; o++) {
+    const float exact = (float)dot[o] - 128 * sum[o];
+    const float value = bias[o] + exact * (step * scale[o]);
+    y[o] = layer->relu && value < 0 ? 0 : value;
   }
 }
 #endif
@@ -12573,37 +12643,29 @@ static void nsvcd__from_dots(const int32_t *dot, const float *sum, const float *
 // may take its place.
 static NSVCD__APART void nsvcd__decoder_by_bytes(const nsvcd__decoder *decoder, const float *x,
                                                  size_t count, float *logits) {
-  const float *bias = nsvcd_w_decoder_bias + decoder->outputs;
   float y[NSVCD__ROWS * NSVCD__WIDEST];
-  size_t from = NSVCD__DECODER_IN;
-  size_t weights = decoder->weights;
-  size_t output = decoder->outputs;
-  for (size_t l = 0; l < decoder->layers; l++) {
-    const size_t inputs = decoder->sizes[l];
-    const size_t outputs = decoder->sizes[l + 1];
-    const int relu = l + 1 < decoder->layers;
+  size_t pitch = NSVCD__DECODER_IN;
+  for (size_t n = 0; n < decoder->layers; n++) {
+    const nsvcd__layer layer = nsvcd__layer_of(decoder, n);
     for (size_t first = 0; first < count; first += NSVCD__BYTE_ROWS) {
       uint8_t bytes[NSVCD__BYTE_ROWS * NSVCD__MOST_INPUTS];
       int32_t dot[NSVCD__BYTE_ROWS * NSVCD__WIDEST];
       float step[NSVCD__BYTE_ROWS];
       for (size_t p = 0; p < NSVCD__BYTE_ROWS; p++) {
-        step[p] = nsvcd__to_bytes(x + from * (first + p), inputs, bytes + inputs * p);
+        const float *row = x + pitch * (first + p);
+        step[p] = nsvcd__to_bytes(row, layer.inputs, bytes + layer.inputs * p);
       }
-      nsvcd__dot_bytes(nsvcd_w_decoder_int8 + weights, inputs, outputs, bytes, dot);
+      nsvcd__dot_bytes(&layer, bytes, dot);
       for (size_t p = 0; p < NSVCD__BYTE_ROWS; p++) {
-        nsvcd__from_dots(dot + outputs * p, nsvcd_w_decoder_sum + output,
-                         nsvcd_w_decoder_scale + output, bias, step[p], outputs, relu,
-                         y + NSVCD__WIDEST * (first + p));
+        float *row = y + NSVCD__WIDEST * (first + p);
+        nsvcd__from_dots(&layer, dot + layer.outputs * p, step[p], row);
       }
     }
-    bias += outputs;
-    weights += inputs * outputs;
-    output += outputs;
     x = y;
-    from = NSVCD__WIDEST;
+    pitch = NSVCD__WIDEST;
   }
   for (size_t p = 0; p < count; p++)
-    logits[p] = x[from * p];
+    logits[p] = x[pitch * p];
 }
 #endif  // NSVCD_NO_INT8
 
@@ -12611,27 +12673,20 @@ static NSVCD__APART void nsvcd__decoder_by_bytes(const nsvcd__decoder *decoder, 
 // As nsvcd__decoder_logits, in fp32.
 static NSVCD__APART void nsvcd__decoder_by_floats(const nsvcd__decoder *decoder, const float *x,
                                                   size_t count, float *logits) {
-  const float *bias = nsvcd_w_decoder_bias + decoder->outputs;
+  const size_t rows = nsvcd__round_up(count, NSVCD__ROW_STEP);
   float a[NSVCD__ROWS * NSVCD__WIDEST];
   float b[NSVCD__ROWS * NSVCD__WIDEST];
-  float *to = a;
-  size_t from = NSVCD__DECODER_IN;
-  size_t weights = decoder->weights;
-  for (size_t l = 0; l < decoder->layers; l++) {
-    const size_t inputs = decoder->sizes[l];
-    const size_t outputs = decoder->sizes[l + 1];
-    const size_t rows = nsvcd__round_up(count, NSVCD__ROW_STEP);
-    const int relu = l + 1 < decoder->layers;
-    nsvcd__layer(nsvcd_w_decoder + weights, bias, inputs, outputs, rows, x, from, to, NSVCD__WIDEST,
-                 relu);
-    bias += outputs;
-    weights += inputs * outputs;
-    x = to;
-    from = NSVCD__WIDEST;
-    to = to == a ? b : a;
+  float *y = a;
+  size_t pitch = NSVCD__DECODER_IN;
+  for (size_t n = 0; n < decoder->layers; n++) {
+    const nsvcd__layer layer = nsvcd__layer_of(decoder, n);
+    nsvcd__run_layer(&layer, x, pitch, y, rows);
+    x = y;
+    pitch = NSVCD__WIDEST;
+    y = y == a ? b : a;
   }
   for (size_t p = 0; p < count; p++)
-    logits[p] = x[from * p];
+    logits[p] = x[pitch * p];
 }
 #endif  // NSVCD_NO_FLOAT
 
@@ -12639,17 +12694,17 @@ static NSVCD__APART void nsvcd__decoder_by_floats(const nsvcd__decoder *decoder,
 // arithmetic. Some rows at a time: x must hold numbers up to a multiple of ROW_STEP.
 static void nsvcd__decoder_logits(const nsvcd__decoder *decoder, const float *x, size_t count,
                                   int int8, float *logits) {
+#ifdef NSVCD_NO_INT8
   (void)int8;
-#ifndef NSVCD_NO_INT8
-#ifndef NSVCD_NO_FLOAT
-  if (!int8) {
-    nsvcd__decoder_by_floats(decoder, x, count, logits);
-    return;
-  }
-#endif
+  nsvcd__decoder_by_floats(decoder, x, count, logits);
+#elif defined(NSVCD_NO_FLOAT)
+  (void)int8;
   nsvcd__decoder_by_bytes(decoder, x, count, logits);
 #else
-  nsvcd__decoder_by_floats(decoder, x, count, logits);
+  if (int8)
+    nsvcd__decoder_by_bytes(decoder, x, count, logits);
+  else
+    nsvcd__decoder_by_floats(decoder, x, count, logits);
 #endif
 }
 
@@ -12657,7 +12712,15 @@ static void nsvcd__decoder_logits(const nsvcd__decoder *decoder, const float *x,
 
 // ------------------------------------------------------------------------------------------- query
 // In: two bodies and a motion. Out: an answer, by proof (section *proof*) or by the network
-// (NeuralSVCD, algorithm 1).
+// (NeuralSVCD, algorithm 1). nsvcd_sweep stands at the end. A question goes through these phases:
+//
+//   check       is it in order, which method can answer it, and is the workspace large enough?
+//   lay out     what it needs, and where in the workspace that is
+//   who moves   of its two bodies; all is reckoned in the other's frame and units
+//   answer      by proof, or by the network
+//   write       what was found about moving and fixed, as facts about a and b
+//
+// A batch checks all of its questions before it answers the first one.
 
 NSVCDDEF const char *nsvcd_status_string(nsvcd_status status) {
   switch (status) {
@@ -12686,23 +12749,36 @@ NSVCDDEF const char *nsvcd_status_string(nsvcd_status status) {
 #define NSVCD__LARGEST_MODEL NSVCD_MODEL_TINY
 #endif
 
-#define NSVCD__SHORTLIST 4  // times K: the deepest pairs, from which the tiny decoder chooses
-// a verdict this positive needs no second pair, and one this clear no second decoder
-#define NSVCD__CLEAR_LOGIT 3.0f
-#define NSVCD__PORTION 4  // pairs that the chosen decoder sees at once
-// times the shortlist: pairs to look at before the search is done, at most
-#define NSVCD__LOOKS 2
-// new pairs that are worth a first look before the search is done; later a full batch
+// ---- the network's schedule
+//
+// The search finds pairs of patches whose balls meet. The deepest of them make the shortlist. The
+// ranker, which is the tiny decoder, scores these while the search goes on, and the chosen decoder
+// judges the K most suspicious. K is options.pairs, NSVCD_DEFAULT_PAIRS where nothing is said. That
+// a motion is cut into 16 to 64 segments stands in *broad phase*, what goes through the decoder at
+// once (NSVCD__BATCH, NSVCD__ROWS) in *decoder*, and what a proof may take in *proof*.
+
+// pairs on the shortlist, times K; of the tiny decoder, which needs none, K: nsvcd__settings_of,
+// nsvcd__needs_of
+#define NSVCD__SHORTLIST 4
+// new pairs that are worth the first look by the ranker, before the search is done. Later looks
+// wait for NSVCD__BATCH: nsvcd__search_and_judge
 #define NSVCD__FIRST_LOOK 8
-
-#endif  // NSVCD_NO_NETWORK
-
-#ifndef NSVCD_NO_NETWORK
+// pairs that such looks may take, times the shortlist: nsvcd__search_and_judge
+#define NSVCD__LOOKS 2
+// pairs that the chosen decoder sees at once, until one is clear: nsvcd__judge; and pairs that are
+// kept where the last of a batch collided: nsvcd__collides_again
+#define NSVCD__PORTION 4
+// a logit so far from 0 is clear. A clear collision needs no second pair (nsvcd__judge), and what
+// is clear to the ranker no second decoder (nsvcd__is_clear): 35,000 answers on the validation
+// sets, N = 128 to 512, are the same as with twice this, but for one, which is better
+#define NSVCD__CLEAR_LOGIT 3.0f
+// times that the place where the last of a batch collided may mislead before it is forgotten:
+// nsvcd__answer_by_network
+#define NSVCD__MISLEADS 2
 
 // The threshold to subtract from the logit. weights.h has one per decoder, recall and N = 32, 64,
 // ..., 512; between those, and for two bodies that differ, it is interpolated at the mean of log2
-// N.
-// Returns 0 for any other recall.
+// N. Returns 0 for any other recall.
 static int nsvcd__threshold(size_t model, float recall, size_t points1, size_t points2,
                             float *threshold) {
   if (!nsvcd__is_finite(recall))
@@ -12710,23 +12786,25 @@ static int nsvcd__threshold(size_t model, float recall, size_t points1, size_t p
   for (size_t k = 0; k < NSVCD_W_RECALLS; k++) {
     if (recall < nsvcd_w_recall[k] || recall > nsvcd_w_recall[k])
       continue;
-    float size = 0.5f * (log2f((float)points1) + log2f((float)points2)) - 5;
-    size = size < 0 ? 0 : size > NSVCD_W_SIZES - 1 ? NSVCD_W_SIZES - 1 : size;
-    const size_t row = size < NSVCD_W_SIZES - 1 ? (size_t)size : NSVCD_W_SIZES - 2;
+    const float last = NSVCD_W_SIZES - 1;
+    const float size = 0.5f * (log2f((float)points1) + log2f((float)points2)) - 5;
+    const float at = size < 0 ? 0 : size > last ? last : size;
+    const size_t row = at < last ? (size_t)at : NSVCD_W_SIZES - 2;
     const float low = nsvcd_w_threshold[model][row][k];
     const float high = nsvcd_w_threshold[model][row + 1][k];
-    *threshold = low + (size - (float)row) * (high - low);
+    *threshold = low + (at - (float)row) * (high - low);
     return 1;
   }
   return 0;
 }
 
-// Scores of `count` candidates, 1 to 16, by a decoder.
+// Scores `count` candidates, 1 to 16, by a decoder.
 static void nsvcd__decode(const nsvcd_body *moving, const nsvcd_body *fixed,
                           const nsvcd__motion *motion, nsvcd__candidate *const *candidates,
                           size_t count, const nsvcd__decoder *decoder, int int8) {
   for (size_t first = 0; first < count; first += NSVCD__ROWS) {
-    const size_t rows = count - first < NSVCD__ROWS ? count - first : NSVCD__ROWS;
+    const size_t left = count - first;
+    const size_t rows = left < NSVCD__ROWS ? left : NSVCD__ROWS;
     float x[NSVCD__ROWS * NSVCD__DECODER_IN];
     float logits[NSVCD__ROWS];
     nsvcd__inputs_of(moving, fixed, motion, candidates + first, rows, x);
@@ -12739,12 +12817,13 @@ static void nsvcd__decode(const nsvcd_body *moving, const nsvcd_body *fixed,
   }
 }
 
-// Options with the defaults filled in.
+// The network's options, with the defaults filled in.
 typedef struct nsvcd__settings {
-  size_t pairs, shortlist;
+  size_t pairs;      // K
+  size_t shortlist;  // pairs that are kept
   const nsvcd__decoder *decoder, *ranker;
   int int8;
-  float threshold;
+  float threshold;  // subtracted from the decoder's logit
 } nsvcd__settings;
 
 // The candidate that an answer is about, and the decoder that gave its logit.
@@ -12755,6 +12834,8 @@ typedef struct nsvcd__decisive {
 
 #endif  // NSVCD_NO_NETWORK
 
+// ---- tasks, and their memory
+
 // A question that has been checked.
 typedef struct nsvcd__task {
   const nsvcd_body *moving, *fixed;
@@ -12763,21 +12844,23 @@ typedef struct nsvcd__task {
   float lengths;        // extents of both bodies, in the fixed one's units
   nsvcd_method method;  // PROOF or NETWORK
   size_t work;
-  float tolerance, clearance, measure, skin;  // in the fixed body's units
-  float first;
+  // as options has them, in the fixed body's units
+  float tolerance, clearance, measure, skin;
+  float first;                         // a share of the motion
   const nsvcd_sweep_options *options;  // the caller's
 #ifndef NSVCD_NO_NETWORK
-  nsvcd__settings settings;   // by these
+  nsvcd__settings settings;   // of the network
   nsvcd__decisive *decisive;  // written unless NULL
 #endif
 } nsvcd__task;
 
+// What a workspace holds, at its beginning.
 typedef struct nsvcd__query {
   nsvcd__search broad_phase;
   nsvcd__task task;
-  // In one place, for one method follows the other:
+  // The memory of the network and that of the proof are in one place, for one follows the other.
 #ifndef NSVCD_NO_NETWORK
-  nsvcd__candidate *kept;
+  nsvcd__candidate *kept;  // (shortlist)
 #endif
 #ifndef NSVCD_NO_PROOF
   nsvcd__proof *proof;
@@ -12806,7 +12889,13 @@ typedef char nsvcd__network_constants_hold
 
 // What any question may need.
 static nsvcd__needs nsvcd__needs_most(void) {
-  nsvcd__needs needs = {NSVCD__TILE_SLOTS, NSVCD__TILE_SLOTS, 1, NSVCD__MAX_SEGMENTS, 0, 1};
+  nsvcd__needs needs;
+  needs.moving_groups = NSVCD__TILE_SLOTS;
+  needs.fixed_groups = NSVCD__TILE_SLOTS;
+  needs.large = 1;
+  needs.segments = NSVCD__MAX_SEGMENTS;
+  needs.candidates = 0;
+  needs.proof = 1;
 #ifndef NSVCD_NO_NETWORK
   needs.candidates = NSVCD__SHORTLIST * NSVCD_MAX_PAIRS;
 #endif
@@ -12824,15 +12913,15 @@ static size_t nsvcd__query_layout(const nsvcd__needs *needs, char *base) {
   uint64_t end = used;
 #ifndef NSVCD_NO_NETWORK
   uint64_t network = used;
-  query->kept =
-      (nsvcd__candidate *)nsvcd__take(base, &network, needs->candidates, sizeof(nsvcd__candidate));
+  void *kept = nsvcd__take(base, &network, needs->candidates, sizeof(nsvcd__candidate));
+  query->kept = (nsvcd__candidate *)kept;
   end = network;
 #endif
 #ifndef NSVCD_NO_PROOF
   uint64_t proof = used;
+  const size_t spans = needs->proof ? needs->segments : 0;
   query->proof = (nsvcd__proof *)nsvcd__take(base, &proof, needs->proof != 0, sizeof(nsvcd__proof));
-  query->spans = (nsvcd__span *)nsvcd__take(base, &proof, needs->proof ? needs->segments : 0,
-                                            sizeof(nsvcd__span));
+  query->spans = (nsvcd__span *)nsvcd__take(base, &proof, spans, sizeof(nsvcd__span));
   end = proof > end ? proof : end;
 #endif
   return (size_t)end;
@@ -12847,10 +12936,20 @@ static void nsvcd__answer_free(nsvcd_answer *answer) {
   answer->triangle_b = NSVCD_NO_TRIANGLE;
 }
 
+// Where the last of a batch collided by the network: the next is asked there first. Forgotten when
+// it has misled MISLEADS times, or the bodies change.
+typedef struct nsvcd__hint {
+  int known;
+  int misled;
+  uint32_t moving, fixed;  // patches
+} nsvcd__hint;
+
 // ---- by the network
 
 #ifndef NSVCD_NO_NETWORK
 
+// The settings for two bodies of so many patches. An error where the options ask for what is not
+// there; *settings is then not whole.
 static nsvcd_result nsvcd__settings_of(const nsvcd_sweep_options *options, size_t points1,
                                        size_t points2, nsvcd__settings *settings) {
   const nsvcd_sweep_options *o = options;
@@ -12858,13 +12957,13 @@ static nsvcd_result nsvcd__settings_of(const nsvcd_sweep_options *options, size_
     return NSVCD_ERROR_ARGUMENT;
   if (o->precision != NSVCD_PRECISION_FLOAT && o->precision != NSVCD_PRECISION_INT8)
     return NSVCD_ERROR_ARGUMENT;
-  const size_t model =
-      (size_t)(o->model ? o->model : NSVCD__LARGEST_MODEL) - (size_t)NSVCD_MODEL_TINY;
-  if (!nsvcd_w_decoders[model].layers)
+  const nsvcd_model model = o->model ? o->model : NSVCD__LARGEST_MODEL;
+  const size_t decoder = (size_t)model - (size_t)NSVCD_MODEL_TINY;
+  if (!nsvcd_w_decoders[decoder].layers)
     return NSVCD_ERROR_ARGUMENT;  // compiled out
   settings->pairs = o->pairs ? o->pairs : NSVCD_DEFAULT_PAIRS;
-  settings->shortlist = model == 0 ? settings->pairs : NSVCD__SHORTLIST * settings->pairs;
-  settings->decoder = &nsvcd_w_decoders[model];
+  settings->shortlist = decoder == 0 ? settings->pairs : NSVCD__SHORTLIST * settings->pairs;
+  settings->decoder = &nsvcd_w_decoders[decoder];
   settings->ranker = &nsvcd_w_decoders[0];
 #ifdef NSVCD_NO_FLOAT
   settings->int8 = 1;
@@ -12875,11 +12974,12 @@ static nsvcd_result nsvcd__settings_of(const nsvcd_sweep_options *options, size_
   if (settings->int8)
     return NSVCD_ERROR_ARGUMENT;
 #endif
-  return nsvcd__threshold(model, o->recall, points1, points2, &settings->threshold)
-             ? NSVCD_OK
-             : NSVCD_ERROR_ARGUMENT;
+  if (!nsvcd__threshold(decoder, o->recall, points1, points2, &settings->threshold))
+    return NSVCD_ERROR_ARGUMENT;
+  return NSVCD_OK;
 }
 
+// Is a part of one body inside of the other at the start?
 static NSVCD__APART int nsvcd__starts_inside(const nsvcd__task *ask) {
   const nsvcd__transform pose = nsvcd__motion_pose(&ask->motion, 0);
   return nsvcd__is_contained(ask->moving, ask->fixed, ask->motion.scale, &pose);
@@ -12889,6 +12989,7 @@ static NSVCD__APART int nsvcd__starts_inside(const nsvcd__task *ask) {
 // heap ends with them. Returns 0, and does nothing, if there are fewer than `least`.
 static int nsvcd__score(const nsvcd__task *ask, nsvcd__candidates *kept, size_t least,
                         size_t most) {
+  const nsvcd__settings *settings = &ask->settings;
   nsvcd__candidate *batch[NSVCD__BATCH];
   size_t count = 0;
   size_t left = 0;
@@ -12898,21 +12999,22 @@ static int nsvcd__score(const nsvcd__task *ask, nsvcd__candidates *kept, size_t 
     return 0;
   left = left < most ? left : most;
   for (size_t k = kept->count; left > 0; k--) {
-    if (kept->items[k - 1].score > NSVCD__NO_SCORE)
+    nsvcd__candidate *candidate = &kept->items[k - 1];
+    if (candidate->score > NSVCD__NO_SCORE)
       continue;
-    batch[count++] = &kept->items[k - 1];
+    batch[count++] = candidate;
     if (count < NSVCD__BATCH && count < left)
       continue;
     NSVCD__TALLY(ranked, count);
-    nsvcd__decode(ask->moving, ask->fixed, &ask->motion, batch, count, ask->settings.ranker,
-                  ask->settings.int8);
+    nsvcd__decode(ask->moving, ask->fixed, &ask->motion, batch, count, settings->ranker,
+                  settings->int8);
     left -= count;
     count = 0;
   }
   return 1;
 }
 
-// Puts the `count` candidates of the highest scores first, the highest first of all.
+// Puts the `count` candidates of the highest scores, among `of`, first, in falling order.
 static void nsvcd__best_first(nsvcd__candidate *items, size_t count, size_t of) {
   for (size_t k = 0; k < count; k++) {
     size_t best = k;
@@ -12927,6 +13029,7 @@ static void nsvcd__best_first(nsvcd__candidate *items, size_t count, size_t of) 
   }
 }
 
+// Answers with a candidate, of which a decoder has given the score.
 static void nsvcd__answer_with(const nsvcd__task *ask, const nsvcd__candidate *candidate,
                                const nsvcd__decoder *decoder, nsvcd_answer *answer) {
   answer->logit = candidate->score - ask->settings.threshold;
@@ -12945,8 +13048,7 @@ static int nsvcd__is_harmless(const nsvcd__candidate *candidate, float threshold
 }
 
 // Is the most suspicious of the candidates scored so far clearly a collision, or, where they are
-// all, clearly none? Then no other decoder needs to look: 35,000 answers on the validation sets, N
-// = 128 to 512, are the same as with twice the margin, but for one, which is better.
+// all, clearly none? Then that is the answer, and no other decoder needs to look.
 static int nsvcd__is_clear(const nsvcd__task *ask, const nsvcd__candidates *kept, int all,
                            nsvcd_answer *answer) {
   const float threshold = ask->settings.threshold;
@@ -12960,39 +13062,35 @@ static int nsvcd__is_clear(const nsvcd__task *ask, const nsvcd__candidates *kept
   return yes || no;
 }
 
-// The verdict on the `pairs` most suspicious of the scored candidates, but for the harmless ones, 4
-// at a time, until one is clearly positive.
+// The verdict on the K most suspicious of the scored candidates, but for the harmless ones, a
+// portion at a time, until one is clearly positive.
 static void nsvcd__judge(const nsvcd__task *ask, nsvcd__candidates *kept, nsvcd_answer *answer) {
   const nsvcd__settings *settings = &ask->settings;
+  nsvcd__candidate *items = kept->items;
   size_t count = kept->count < settings->pairs ? kept->count : settings->pairs;
-  nsvcd__best_first(kept->items, count, kept->count);
-  while (count > 1 && nsvcd__is_harmless(&kept->items[count - 1], settings->threshold))
+  nsvcd__best_first(items, count, kept->count);
+  while (count > 1 && nsvcd__is_harmless(&items[count - 1], settings->threshold))
     count--;
-  for (size_t first = 0; first < count && answer->logit < NSVCD__CLEAR_LOGIT;
-       first += NSVCD__PORTION) {
-    nsvcd__candidate *batch[NSVCD__PORTION] = {NULL};
-    const size_t size = count - first < NSVCD__PORTION ? count - first : NSVCD__PORTION;
+  for (size_t first = 0; first < count; first += NSVCD__PORTION) {
+    if (!(answer->logit < NSVCD__CLEAR_LOGIT))
+      break;
+    nsvcd__candidate *portion[NSVCD__PORTION] = {NULL};
+    const size_t left = count - first;
+    const size_t size = left < NSVCD__PORTION ? left : NSVCD__PORTION;
     for (size_t k = 0; k < size; k++)
-      batch[k] = &kept->items[first + k];
+      portion[k] = &items[first + k];
     if (settings->decoder != settings->ranker) {
       NSVCD__TALLY(judged, size);
-      nsvcd__decode(ask->moving, ask->fixed, &ask->motion, batch, size, settings->decoder,
+      nsvcd__decode(ask->moving, ask->fixed, &ask->motion, portion, size, settings->decoder,
                     settings->int8);
     }
     for (size_t k = 0; k < size; k++) {
-      if (first + k > 0 && !(batch[k]->score - settings->threshold > answer->logit))
-        continue;
-      nsvcd__answer_with(ask, batch[k], settings->decoder, answer);
+      const int is_first = first + k == 0;
+      if (is_first || portion[k]->score - settings->threshold > answer->logit)
+        nsvcd__answer_with(ask, portion[k], settings->decoder, answer);
     }
   }
 }
-
-// Where the last of a batch of motions collided: the next is asked there first. Forgotten when it
-// misleads twice.
-typedef struct nsvcd__hint {
-  int known, misled;
-  uint32_t moving, fixed;
-} nsvcd__hint;
 
 // Does this motion, cut already, clearly collide where the hint says?
 static NSVCD__APART int nsvcd__collides_again(const nsvcd__task *ask, const nsvcd__hint *hint,
@@ -13018,14 +13116,14 @@ static NSVCD__APART int nsvcd__collides_again(const nsvcd__task *ask, const nsvc
 // all are known.
 static NSVCD__APART void nsvcd__search_and_judge(nsvcd__task *ask, nsvcd__query *query,
                                                  nsvcd_answer *answer) {
+  const size_t shortlist = ask->settings.shortlist;
   nsvcd__search *search = &query->broad_phase;
   nsvcd__candidates kept;
-  size_t worth =
-      ask->settings.shortlist < NSVCD__FIRST_LOOK ? ask->settings.shortlist : NSVCD__FIRST_LOOK;
-  size_t left = NSVCD__LOOKS * ask->settings.shortlist;
+  size_t worth = shortlist < NSVCD__FIRST_LOOK ? shortlist : NSVCD__FIRST_LOOK;
+  size_t left = NSVCD__LOOKS * shortlist;
   int clear = 0;
   int more = nsvcd__search_begin(ask->moving, ask->fixed, search);
-  nsvcd__candidates_start(&kept, query->kept, ask->settings.shortlist);
+  nsvcd__candidates_start(&kept, query->kept, shortlist);
   while (more && !clear) {
     more = nsvcd__search_step(search, &kept);
     // A deep collision shows early. What is scored now need not be scored later, so that looking
@@ -13037,6 +13135,7 @@ static NSVCD__APART void nsvcd__search_and_judge(nsvcd__task *ask, nsvcd__query 
     if (worth == NSVCD__FIRST_LOOK)
       worth = NSVCD__BATCH;
   }
+
   answer->candidates = kept.total;
   if (kept.total > 0)
     answer->status = kept.total > ask->settings.pairs ? NSVCD_STATUS_LIMIT : NSVCD_STATUS_OK;
@@ -13056,16 +13155,19 @@ static void nsvcd__answer_by_network(nsvcd__task *ask, nsvcd__query *query, nsvc
   if (nsvcd__motion_is_far(&ask->motion, ask->lengths))
     return;
   nsvcd__cut_motion(&ask->motion, ask->lengths, &query->broad_phase);
-  if (!(hint && hint->known && nsvcd__collides_again(ask, hint, query, answer))) {
+
+  const int hinted = hint && hint->known;
+  if (!hinted || !nsvcd__collides_again(ask, hint, query, answer)) {
     nsvcd__answer_free(answer);
-    if (hint && hint->known)
-      hint->known = ++hint->misled < 2;
+    if (hinted)
+      hint->known = ++hint->misled < NSVCD__MISLEADS;
     nsvcd__search_and_judge(ask, query, answer);
   }
   if (hint && answer->logit >= NSVCD__CLEAR_LOGIT) {
     const nsvcd__hint here = {1, 0, answer->patch_a, answer->patch_b};
     *hint = here;
   }
+
   if (nsvcd__starts_inside(ask)) {  // a body inside another need not touch anything
     answer->status = NSVCD_STATUS_INSIDE;
     answer->logit = NSVCD_LOGIT_CERTAIN;
@@ -13100,6 +13202,7 @@ static nsvcd__to_world nsvcd__to_world_at(const nsvcd__motion *motion, double t)
   return out;
 }
 
+// Answers with the contact that a proof has found: when, where, and of what.
 static void nsvcd__answer_with_contact(const nsvcd__proof *p, nsvcd_answer *answer) {
   const nsvcd__contact *found = &p->found;
   const int rests = p->motion->moving.count == 1 && !p->motion->fixed_moves;
@@ -13125,9 +13228,9 @@ static void nsvcd__answer_with_bounds(const nsvcd__proof *p, nsvcd__verdict verd
   const double known = p->lost ? p->settled : NSVCD__NEVER;
   const double until = fmin(fmin(p->end, p->unsure), known) / (double)p->motion->ticks;
   const int is_free = verdict == NSVCD__FREE;
-  const double proven = is_free                                    ? 1
-                        : p->first > 0 && verdict != NSVCD__WITHIN ? fmin(fmax(until, 0), 1)
-                                                                   : 0;
+  double proven = is_free;
+  if (!is_free && p->first > 0 && verdict != NSVCD__WITHIN)
+    proven = fmin(fmax(until, 0), 1);
   const int measured = p->measure > 0 && verdict != NSVCD__WITHIN && verdict != NSVCD__UNDECIDED;
   const double low = measured || is_free ? p->clearance : 0;
   answer->free_until = (float)(proven < 1 ? proven * (1 - 1e-7) : 1);
@@ -13137,7 +13240,8 @@ static void nsvcd__answer_with_bounds(const nsvcd__proof *p, nsvcd__verdict verd
     answer->clearance_high = 0;
   } else if (p->has_contact) {
     const float quanta = nsvcd__quanta_of(p, p->found.moving_patch, p->found.fixed_patch);
-    answer->clearance_high = (float)((p->found.distance + (double)quanta) * unit * (1 + 1e-6));
+    const double distance = p->found.distance + (double)quanta;
+    answer->clearance_high = (float)(distance * unit * (1 + 1e-6));
   }
 }
 
@@ -13168,9 +13272,8 @@ static NSVCD__APART nsvcd__verdict nsvcd__prove_start(nsvcd__proof *p, nsvcd__se
   return verdict;
 }
 
-// Proves a question whose motion has been prepared, if it can; else the answer is UNDECIDED and
-// says yes.
-static void nsvcd__answer_by_proof(nsvcd__task *ask, nsvcd__query *query, nsvcd_answer *answer) {
+// Makes the proof ready for a question whose motion has been prepared.
+static void nsvcd__proof_begin(nsvcd__task *ask, nsvcd__query *query) {
   nsvcd__proof *p = query->proof;
   p->spans = query->spans;
   p->motion = &ask->motion;
@@ -13186,88 +13289,68 @@ static void nsvcd__answer_by_proof(nsvcd__task *ask, nsvcd__query *query, nsvcd_
   p->gathers = 0;
   p->work = 0;
   nsvcd__proof_restart(p);
-  if (p->skin > 0)
-    nsvcd__lift_motion(p, &query->broad_phase);
-  nsvcd__verdict verdict = nsvcd__prove(p, &query->broad_phase);
-  if (verdict == NSVCD__MEETS && p->first > 0 && p->found.tick > 0 && p->end <= 0) {
-    verdict = nsvcd__prove_start(p, &query->broad_phase);
+}
+
+// By what the moving body was lifted, in the world at the start.
+static nsvcd__f3 nsvcd__lift_of(const nsvcd__proof *p) {
+  const nsvcd__to_world start = nsvcd__to_world_at(p->motion, 0);
+  const nsvcd__d3 lift = nsvcd__dmat3_apply(&start.rotation, nsvcd__d3_widen(p->motion->lift));
+  return nsvcd__f3_round(nsvcd__d3_scale(lift, p->skin > 0 ? start.unit : 0));
+}
+
+// What a proof that has measured the least distance says of the clearance that was asked for.
+static nsvcd__verdict nsvcd__verdict_of_distance(const nsvcd__proof *p, double clearance) {
+  const int is_near = p->has_contact && p->found.distance <= clearance;
+  if (is_near)
+    return NSVCD__MEETS;
+  const int is_clear = clearance > 0 ? p->clearance > clearance : 1;
+  return is_clear ? NSVCD__FREE : NSVCD__UNDECIDED;
+}
+
+static nsvcd_status nsvcd__status_of(nsvcd__verdict verdict) {
+  switch (verdict) {
+    case NSVCD__MEETS:
+      return NSVCD_STATUS_WITNESS;
+    case NSVCD__WITHIN:
+      return NSVCD_STATUS_INSIDE;
+    case NSVCD__FREE:
+      return NSVCD_STATUS_CERTIFIED_FREE;
+    default:
+      return NSVCD_STATUS_UNDECIDED;
   }
+}
+
+// Proves a question whose motion has been prepared, if it can; else the answer is UNDECIDED and
+// says yes.
+static void nsvcd__answer_by_proof(nsvcd__task *ask, nsvcd__query *query, nsvcd_answer *answer) {
+  nsvcd__proof *p = query->proof;
+  nsvcd__search *search = &query->broad_phase;
+  nsvcd__proof_begin(ask, query);
+  if (p->skin > 0)
+    nsvcd__lift_motion(p, search);
+  nsvcd__verdict verdict = nsvcd__prove(p, search);
+  if (verdict == NSVCD__MEETS && p->first > 0 && p->found.tick > 0 && p->end <= 0)
+    verdict = nsvcd__prove_start(p, search);
 
   nsvcd__answer_free(answer);
   answer->work = p->work;
   if (p->has_contact || verdict == NSVCD__WITHIN)
     nsvcd__answer_with_contact(p, answer);
   nsvcd__answer_with_bounds(p, verdict, answer);
-  if (p->measure > 0 && verdict != NSVCD__WITHIN && verdict != NSVCD__UNDECIDED) {
-    const double asked = (double)ask->clearance;
-    const int is_near = p->has_contact && p->found.distance <= asked;
-    const int is_clear = asked > 0 ? p->clearance > asked : !is_near;
-    verdict = is_near ? NSVCD__MEETS : is_clear ? NSVCD__FREE : NSVCD__UNDECIDED;
-  }
-  answer->status = verdict == NSVCD__MEETS    ? NSVCD_STATUS_WITNESS
-                   : verdict == NSVCD__WITHIN ? NSVCD_STATUS_INSIDE
-                   : verdict == NSVCD__FREE   ? NSVCD_STATUS_CERTIFIED_FREE
-                                              : NSVCD_STATUS_UNDECIDED;
-  const nsvcd__to_world start = nsvcd__to_world_at(p->motion, 0);
-  const nsvcd__d3 lift = nsvcd__dmat3_apply(&start.rotation, nsvcd__d3_widen(p->motion->lift));
-  const nsvcd__f3 lifted = nsvcd__f3_round(nsvcd__d3_scale(lift, p->skin > 0 ? start.unit : 0));
-  memcpy(answer->lift, &lifted, sizeof answer->lift);
+  if (p->measure > 0 && verdict != NSVCD__WITHIN && verdict != NSVCD__UNDECIDED)
+    verdict = nsvcd__verdict_of_distance(p, (double)ask->clearance);
+  nsvcd__f3_store(nsvcd__lift_of(p), answer->lift);
+  answer->status = nsvcd__status_of(verdict);
   answer->collides = verdict != NSVCD__FREE;
   answer->logit = answer->collides ? NSVCD_LOGIT_CERTAIN : -NSVCD_LOGIT_CERTAIN;
 }
 #endif
 
-// What was found out about moving and fixed, said about a and b.
-static void nsvcd__turn_answer(nsvcd_answer *answer) {
-  const uint32_t patch = answer->patch_a;
-  const uint32_t triangle = answer->triangle_a;
-  answer->patch_a = answer->patch_b;
-  answer->patch_b = patch;
-  answer->triangle_a = answer->triangle_b;
-  answer->triangle_b = triangle;
-  for (size_t k = 0; k < 3; k++)
-    answer->normal[k] = 0 - answer->normal[k];
-  for (size_t k = 0; k < 3; k++)
-    answer->lift[k] = 0 - answer->lift[k];
-}
+// ---- check
 
 // Is something asked that the network knows nothing of?
 static int nsvcd__needs_proof(const nsvcd_sweep_options *options) {
   return options->clearance > 0 || options->measure > 0 || options->first > 0 || options->skin > 0;
-}
-
-// Answers a question that has been checked. hint: NULL, or that of a batch, for the network.
-static void nsvcd__answer_task(nsvcd__task *ask, nsvcd__query *query, void *hint,
-                               nsvcd_answer *answer) {
-  int proven = 0;
-#ifndef NSVCD_NO_PROOF
-  if (ask->method == NSVCD_METHOD_PROOF) {
-    nsvcd__answer_by_proof(ask, query, answer);
-    proven = 1;
-#ifndef NSVCD_NO_NETWORK
-    const nsvcd_sweep_options *options = ask->options;
-    const int is_plain = !(options->clearance > 0 || options->measure > 0 || options->skin > 0);
-    const int has_opinion = ask->moving->weights_id && ask->fixed->weights_id && is_plain;
-    if (answer->status == NSVCD_STATUS_UNDECIDED && has_opinion) {
-      const nsvcd_answer proof = *answer;
-      nsvcd__answer_by_network(ask, query, NULL, answer);
-      answer->status = NSVCD_STATUS_UNDECIDED;
-      answer->work = proof.work;
-      answer->free_until = proof.free_until;
-      answer->clearance_low = proof.clearance_low;
-      answer->clearance_high = proof.clearance_high;
-    }
-#endif
-  }
-#endif
-#ifndef NSVCD_NO_NETWORK
-  if (!proven)
-    nsvcd__answer_by_network(ask, query, (nsvcd__hint *)hint, answer);
-#endif
-  (void)hint;
-  (void)proven;
-  if (ask->swapped)
-    nsvcd__turn_answer(answer);
 }
 
 // The method that answers, or DEFAULT where there is none.
@@ -13290,6 +13373,65 @@ static nsvcd_method nsvcd__method_of(const nsvcd_body *moving, const nsvcd_body 
   return NSVCD_METHOD_DEFAULT;
 }
 
+// Are both sides one and the same body in the same motion? Then something was passed twice.
+static int nsvcd__is_itself(const nsvcd_question *question) {
+  const nsvcd_mover *a = &question->a;
+  const nsvcd_mover *b = &question->b;
+  const int same_size = !(a->scale < b->scale) && !(b->scale < a->scale);
+  return a->body == b->body && a->poses == b->poses && a->count == b->count && same_size;
+}
+
+// Are the options' numbers in their ranges, and do they go together?
+static nsvcd_result nsvcd__options_check(const nsvcd_sweep_options *options) {
+  if ((unsigned)options->method > (unsigned)NSVCD_METHOD_NETWORK)
+    return NSVCD_ERROR_ARGUMENT;
+  if (options->segments > NSVCD__MAX_SEGMENTS || options->segments % NSVCD__LANES)
+    return NSVCD_ERROR_ARGUMENT;
+  const float lengths[4] = {options->tolerance, options->clearance, options->measure,
+                            options->skin};
+  for (size_t k = 0; k < 4; k++) {
+    if (!nsvcd__is_finite(lengths[k]))
+      return NSVCD_ERROR_TOLERANCE;
+    if (lengths[k] < 0 || lengths[k] > NSVCD_MAX_COORDINATE)
+      return NSVCD_ERROR_TOLERANCE;
+  }
+  if (!nsvcd__is_finite(options->first) || options->first < 0 || options->first > 1)
+    return NSVCD_ERROR_TOLERANCE;
+  if (options->first > 0 && options->measure > 0)
+    return NSVCD_ERROR_ARGUMENT;
+  if (nsvcd__needs_proof(options) && options->method == NSVCD_METHOD_NETWORK)
+    return NSVCD_ERROR_ARGUMENT;
+  return NSVCD_OK;
+}
+
+// Is a question in order?
+static nsvcd_result nsvcd__question_check(const nsvcd_question *question) {
+  const nsvcd_body *a = question->a.body;
+  const nsvcd_body *b = question->b.body;
+  const nsvcd_sweep_options *options = &question->options;
+  nsvcd_result result = nsvcd__mover_check(&question->a);
+  if (!result)
+    result = nsvcd__mover_check(&question->b);
+  if (result)
+    return result;
+  if (nsvcd__is_itself(question))
+    return NSVCD_ERROR_SAME;
+  result = nsvcd__options_check(options);
+  if (result)
+    return result;
+  const nsvcd_method wanted = nsvcd__needs_proof(options) ? NSVCD_METHOD_PROOF : options->method;
+  if (nsvcd__method_of(a, b, wanted) == NSVCD_METHOD_DEFAULT)
+    return NSVCD_ERROR_BODY;
+#ifndef NSVCD_NO_NETWORK
+  nsvcd__settings unused;
+  return nsvcd__settings_of(options, a->points, b->points, &unused);
+#else
+  return NSVCD_OK;
+#endif
+}
+
+// ---- who moves
+
 // Is b to be the one that moves, and a the one in whose frame that is seen? The one that rests is
 // that, else the larger one; where they are equal, any rule that does not depend on which is a:
 // then both ways of asking are answered alike.
@@ -13309,52 +13451,6 @@ static int nsvcd__is_swapped(const nsvcd_mover *a, const nsvcd_mover *b) {
   const nsvcd_pose *poses_a = a->poses ? a->poses : &nsvcd__at_origin;
   const nsvcd_pose *poses_b = b->poses ? b->poses : &nsvcd__at_origin;
   return memcmp(poses_b, poses_a, count_a * sizeof *poses_a) < 0;
-}
-
-// Are both sides one and the same body in the same motion? Then something was passed twice.
-static int nsvcd__is_itself(const nsvcd_question *question) {
-  const nsvcd_mover *a = &question->a;
-  const nsvcd_mover *b = &question->b;
-  const int same_size = !(a->scale < b->scale) && !(b->scale < a->scale);
-  return a->body == b->body && a->poses == b->poses && a->count == b->count && same_size;
-}
-
-static nsvcd_result nsvcd__question_check(const nsvcd_question *question) {
-  nsvcd_result result = nsvcd__mover_check(&question->a);
-  if (!result)
-    result = nsvcd__mover_check(&question->b);
-  if (result)
-    return result;
-  if (nsvcd__is_itself(question))
-    return NSVCD_ERROR_SAME;
-  const nsvcd_sweep_options *options = &question->options;
-  if ((unsigned)options->method > (unsigned)NSVCD_METHOD_NETWORK)
-    return NSVCD_ERROR_ARGUMENT;
-  if (options->segments > NSVCD__MAX_SEGMENTS || options->segments % NSVCD__LANES)
-    return NSVCD_ERROR_ARGUMENT;
-  const float lengths[4] = {options->tolerance, options->clearance, options->measure,
-                            options->skin};
-  for (size_t k = 0; k < 4; k++) {
-    const int fits =
-        nsvcd__is_finite(lengths[k]) && lengths[k] >= 0 && lengths[k] <= NSVCD_MAX_COORDINATE;
-    if (!fits)
-      return NSVCD_ERROR_TOLERANCE;
-  }
-  if (!nsvcd__is_finite(options->first) || options->first < 0 || options->first > 1)
-    return NSVCD_ERROR_TOLERANCE;
-  if (options->first > 0 && options->measure > 0)
-    return NSVCD_ERROR_ARGUMENT;
-  if (nsvcd__needs_proof(options) && options->method == NSVCD_METHOD_NETWORK)
-    return NSVCD_ERROR_ARGUMENT;
-  const nsvcd_method wanted = nsvcd__needs_proof(options) ? NSVCD_METHOD_PROOF : options->method;
-  if (nsvcd__method_of(question->a.body, question->b.body, wanted) == NSVCD_METHOD_DEFAULT)
-    return NSVCD_ERROR_BODY;
-#ifndef NSVCD_NO_NETWORK
-  nsvcd__settings unused;
-  return nsvcd__settings_of(options, question->a.body->points, question->b.body->points, &unused);
-#else
-  return NSVCD_OK;
-#endif
 }
 
 // The task of a question that is in order.
@@ -13380,28 +13476,28 @@ static void nsvcd__task_of(const nsvcd_question *question, nsvcd__task *ask) {
 #endif
 }
 
+// ---- lay out
+
+// How many groups of a body are searched together.
 static size_t nsvcd__tile_groups(const nsvcd_body *body) {
   const size_t groups = nsvcd__body_groups(body);
   return groups < NSVCD__TILE_SLOTS ? groups : NSVCD__TILE_SLOTS;
 }
 
 // What a question that is in order needs. Which of its bodies is to be the moving one makes no
-// difference.
+// difference to how much that is.
 static nsvcd__needs nsvcd__needs_of(const nsvcd_question *question) {
   const nsvcd_body *a = question->a.body;
   const nsvcd_body *b = question->b.body;
   const nsvcd_sweep_options *options = &question->options;
+  const int swapped = nsvcd__is_swapped(&question->a, &question->b);
+  const size_t segments = options->segments ? options->segments : NSVCD__MAX_SEGMENTS;
   nsvcd__needs needs;
-  memset(&needs, 0, sizeof needs);
-  needs.moving_groups = nsvcd__tile_groups(a);
-  needs.fixed_groups = nsvcd__tile_groups(b);
-  if (nsvcd__is_swapped(&question->a, &question->b)) {
-    needs.moving_groups = nsvcd__tile_groups(b);
-    needs.fixed_groups = nsvcd__tile_groups(a);
-  }
+  needs.moving_groups = nsvcd__tile_groups(swapped ? b : a);
+  needs.fixed_groups = nsvcd__tile_groups(swapped ? a : b);
   needs.large = nsvcd__is_large(a) || nsvcd__is_large(b);
-  needs.segments =
-      options->segments ? nsvcd__round_up(options->segments, NSVCD__LANES) : NSVCD__MAX_SEGMENTS;
+  needs.segments = nsvcd__round_up(segments, NSVCD__LANES);
+  needs.candidates = 0;
   needs.proof = nsvcd__method_of(a, b, options->method) == NSVCD_METHOD_PROOF;
 #ifndef NSVCD_NO_NETWORK
   const size_t pairs = options->pairs ? options->pairs : NSVCD_DEFAULT_PAIRS;
@@ -13425,13 +13521,14 @@ static NSVCD__APART nsvcd_result nsvcd__check(const nsvcd_question *question, co
   const nsvcd_result result = nsvcd__question_check(question);
   if (result)
     return result;
+  if (!workspace || !nsvcd__is_aligned(workspace))
+    return NSVCD_ERROR_WORKSPACE;
   const nsvcd__needs needs = nsvcd__needs_of(question);
-  const size_t size = nsvcd__query_layout(&needs, NULL);
-  const int fits = workspace && workspace_size >= size && nsvcd__is_aligned(workspace);
-  return fits ? NSVCD_OK : NSVCD_ERROR_WORKSPACE;
+  const size_t size = nsvcd__query_layout(&needs, NULL);  // counts
+  return workspace_size >= size ? NSVCD_OK : NSVCD_ERROR_WORKSPACE;
 }
 
-// Makes a workspace ready for a question that has been checked.
+// Lays a question that has been checked out in the workspace, and chooses who moves.
 static NSVCD__APART nsvcd__query *nsvcd__query_open(const nsvcd_question *question,
                                                     void *workspace) {
   const nsvcd__needs needs = nsvcd__needs_of(question);
@@ -13441,10 +13538,71 @@ static NSVCD__APART nsvcd__query *nsvcd__query_open(const nsvcd_question *questi
   return query;
 }
 
+// ---- answer, and write
+
+// What was found out about moving and fixed, said about a and b.
+static void nsvcd__turn_answer(nsvcd_answer *answer) {
+  const uint32_t patch = answer->patch_a;
+  const uint32_t triangle = answer->triangle_a;
+  answer->patch_a = answer->patch_b;
+  answer->patch_b = patch;
+  answer->triangle_a = answer->triangle_b;
+  answer->triangle_b = triangle;
+  for (size_t k = 0; k < 3; k++)
+    answer->normal[k] = 0 - answer->normal[k];
+  for (size_t k = 0; k < 3; k++)
+    answer->lift[k] = 0 - answer->lift[k];
+}
+
+#if !defined(NSVCD_NO_PROOF) && !defined(NSVCD_NO_NETWORK)
+// Adds the network's opinion, where it has one, to what a proof has left undecided.
+static void nsvcd__add_opinion(nsvcd__task *ask, nsvcd__query *query, nsvcd_answer *answer) {
+  const nsvcd_sweep_options *options = ask->options;
+  if (!ask->moving->weights_id || !ask->fixed->weights_id)
+    return;
+  if (options->clearance > 0 || options->measure > 0 || options->skin > 0)
+    return;
+  const nsvcd_answer proof = *answer;
+  nsvcd__answer_by_network(ask, query, NULL, answer);
+  answer->status = NSVCD_STATUS_UNDECIDED;
+  answer->work = proof.work;
+  answer->free_until = proof.free_until;
+  answer->clearance_low = proof.clearance_low;
+  answer->clearance_high = proof.clearance_high;
+}
+#endif
+
+// Answers a question that has been checked and laid out. hint: NULL, or that of a batch, for the
+// network.
+static void nsvcd__answer_task(nsvcd__task *ask, nsvcd__query *query, nsvcd__hint *hint,
+                               nsvcd_answer *answer) {
+#ifndef NSVCD_NO_PROOF
+  if (ask->method == NSVCD_METHOD_PROOF)
+    nsvcd__answer_by_proof(ask, query, answer);
+#endif
+#if !defined(NSVCD_NO_PROOF) && !defined(NSVCD_NO_NETWORK)
+  if (ask->method == NSVCD_METHOD_PROOF && answer->status == NSVCD_STATUS_UNDECIDED)
+    nsvcd__add_opinion(ask, query, answer);
+#endif
+#ifndef NSVCD_NO_NETWORK
+  if (ask->method == NSVCD_METHOD_NETWORK)
+    nsvcd__answer_by_network(ask, query, hint, answer);
+#endif
+  (void)hint;
+  if (ask->swapped)
+    nsvcd__turn_answer(answer);
+}
+
+// Are two questions about the same bodies, in the same order?
+static int nsvcd__same_bodies(const nsvcd_question *p, const nsvcd_question *q) {
+  return p->a.body == q->a.body && p->b.body == q->b.body;
+}
+
 NSVCDDEF nsvcd_result nsvcd_sweep(const nsvcd_question *question, void *workspace,
                                   size_t workspace_size, nsvcd_answer *answer) {
-  return question ? nsvcd_sweep_batch(question, 1, workspace, workspace_size, answer)
-                  : NSVCD_ERROR_ARGUMENT;
+  if (!question)
+    return NSVCD_ERROR_ARGUMENT;
+  return nsvcd_sweep_batch(question, 1, workspace, workspace_size, answer);
 }
 
 NSVCDDEF nsvcd_result nsvcd_sweep_batch(const nsvcd_question *questions, size_t count,
@@ -13457,20 +13615,18 @@ NSVCDDEF nsvcd_result nsvcd_sweep_batch(const nsvcd_question *questions, size_t 
     if (result)
       return result;
   }
-  void *with = NULL;
-#ifndef NSVCD_NO_NETWORK
-  nsvcd__hint hint = {0, 0, 0, 0};
-  with = &hint;
-#endif
+
+  const nsvcd__hint none = {0, 0, 0, 0};
+  nsvcd__hint hint = none;
+  int swapped = 0;
   for (size_t k = 0; k < count; k++) {
     nsvcd__query *query = nsvcd__query_open(&questions[k], workspace);
-#ifndef NSVCD_NO_NETWORK
-    const int other = k > 0 && (questions[k].a.body != questions[k - 1].a.body ||
-                                questions[k].b.body != questions[k - 1].b.body);
-    if (other)
-      hint.known = hint.misled = 0;
-#endif
-    nsvcd__answer_task(&query->task, query, with, &answers[k]);
+    nsvcd__task *ask = &query->task;
+    // The hint is about patches of the moving body and of the fixed one.
+    if (k > 0 && (!nsvcd__same_bodies(&questions[k], &questions[k - 1]) || ask->swapped != swapped))
+      hint = none;
+    swapped = ask->swapped;
+    nsvcd__answer_task(ask, query, &hint, &answers[k]);
   }
   return NSVCD_OK;
 }
@@ -13527,75 +13683,74 @@ static nsvcd__f3 nsvcd__add_turned(nsvcd__f3 sum, nsvcd__f3 a, nsvcd__f3 n, floa
 
 // ---- decoder
 
-// The weights of a layer from input i to outputs o .. o + SLICE - 1. weights, output: where the
-// layer's begin.
-NSVCD__INLINE nsvcd__v nsvcd__weights_at(size_t weights, size_t output, size_t outputs, size_t i,
-                                         size_t o) {
+// The weights of a layer from input i to outputs o .. o + SLICE - 1.
+NSVCD__INLINE nsvcd__v nsvcd__weights_at(const nsvcd__layer *layer, size_t i, size_t o) {
 #ifndef NSVCD_NO_FLOAT
-  (void)output;
-  return nsvcd__v_load(nsvcd_w_decoder + weights + outputs * i + o);
+  return nsvcd__v_load(nsvcd_w_decoder + layer->weights + layer->outputs * i + o);
 #else
-  const int8_t *w = nsvcd_w_decoder_int8 + weights + 4 * (outputs * (i / 4) + o) + i % 4;
+  const size_t at = 4 * (layer->outputs * (i / 4) + o) + i % 4;
+  const int8_t *w = nsvcd_w_decoder_int8 + layer->weights + at;
+  const float *scale = nsvcd_w_decoder_scale + layer->first + o;
   float lanes[NSVCD__SLICE];
   for (size_t l = 0; l < NSVCD__SLICE; l++)
-    lanes[l] = (float)w[4 * l] * nsvcd_w_decoder_scale[output + o + l];
+    lanes[l] = (float)w[4 * l] * scale[l];
   return nsvcd__v_load(lanes);
 #endif
 }
 
-// The derivative of a decoder's logit by its inputs: x, by_x (DECODER_IN). That of ReLU at 0 is 0.
+// What comes out of a layer, but for the last one: x (inputs) -> y (outputs).
+static void nsvcd__layer_values(const nsvcd__layer *layer, const float *x, float *y) {
+  memcpy(y, nsvcd_w_decoder_bias + layer->first, layer->outputs * sizeof *y);
+  for (size_t i = 0; i < layer->inputs; i++) {
+    if (!(x[i] < 0 || x[i] > 0))
+      continue;  // about half of them
+    const nsvcd__v input = nsvcd__v_set(x[i]);
+    for (size_t o = 0; o < layer->outputs; o += NSVCD__SLICE) {
+      const nsvcd__v w = nsvcd__weights_at(layer, i, o);
+      nsvcd__v_store(y + o, nsvcd__v_fma(input, w, nsvcd__v_load(y + o)));
+    }
+  }
+  for (size_t o = 0; o < layer->outputs; o++)
+    y[o] = y[o] > 0 ? y[o] : 0;
+}
+
+// The derivative by a layer's inputs, by_x (inputs), from that by its outputs, by (outputs). x:
+// the inputs, where they come from a ReLU, or NULL; a ReLU's derivative at 0 is 0.
+static void nsvcd__by_layer(const nsvcd__layer *layer, const float *x, const float *by,
+                            float *by_x) {
+  float lanes[NSVCD__LANES];
+  for (size_t i = 0; i < layer->inputs; i++) {
+    by_x[i] = 0;
+    if (x && !(x[i] > 0))
+      continue;
+    NSVCD__EACH_SLICE(l) {
+      nsvcd__v sum = nsvcd__v_set(0);
+      for (size_t o = l; o < layer->outputs; o += NSVCD__LANES) {
+        const nsvcd__v w = nsvcd__weights_at(layer, i, o);
+        sum = nsvcd__v_fma(w, nsvcd__v_load(by + o), sum);
+      }
+      nsvcd__v_store(lanes + l, sum);
+    }
+    for (size_t k = 0; k < NSVCD__LANES; k++)
+      by_x[i] += lanes[k];
+  }
+}
+
+// The derivative of a decoder's logit by its inputs: x, by_x (DECODER_IN).
 static NSVCD__APART void nsvcd__decoder_gradient(const nsvcd__decoder *decoder, const float *x,
                                                  float *by_x) {
-  float values[5][NSVCD__WIDEST];
+  float values[5][NSVCD__WIDEST];  // of the layers, but for the last
   float by[NSVCD__MOST_INPUTS] = {1};
   float by_inputs[NSVCD__MOST_INPUTS];
-  float lanes[NSVCD__LANES];
-  size_t weights = decoder->weights;
-  size_t output = decoder->outputs;
-  size_t l = 0;
-  for (; l + 1 < decoder->layers; l++) {
-    const size_t inputs = decoder->sizes[l];
-    const size_t outputs = decoder->sizes[l + 1];
-    const float *in = l > 0 ? values[l - 1] : x;
-    float *y = values[l];
-    memcpy(y, nsvcd_w_decoder_bias + output, outputs * sizeof *y);
-    for (size_t i = 0; i < inputs; i++) {
-      if (!(in[i] < 0 || in[i] > 0))
-        continue;  // about half of them
-      const nsvcd__v input = nsvcd__v_set(in[i]);
-      for (size_t o = 0; o < outputs; o += NSVCD__SLICE) {
-        const nsvcd__v w = nsvcd__weights_at(weights, output, outputs, i, o);
-        nsvcd__v_store(y + o, nsvcd__v_fma(input, w, nsvcd__v_load(y + o)));
-      }
-    }
-    for (size_t o = 0; o < outputs; o++)
-      y[o] = y[o] > 0 ? y[o] : 0;
-    weights += inputs * outputs;
-    output += outputs;
+  const size_t last = decoder->layers - 1;
+  for (size_t n = 0; n < last; n++) {
+    const nsvcd__layer layer = nsvcd__layer_of(decoder, n);
+    nsvcd__layer_values(&layer, n > 0 ? values[n - 1] : x, values[n]);
   }
-  for (;; l--) {
-    const size_t inputs = decoder->sizes[l];
-    const size_t outputs = decoder->sizes[l + 1];
-    for (size_t i = 0; i < inputs; i++) {
-      by_inputs[i] = 0;
-      if (l > 0 && !(values[l - 1][i] > 0))
-        continue;
-      NSVCD__EACH_SLICE(s) {
-        nsvcd__v sum = nsvcd__v_set(0);
-        for (size_t o = s; o < outputs; o += NSVCD__LANES) {
-          sum = nsvcd__v_fma(nsvcd__weights_at(weights, output, outputs, i, o),
-                             nsvcd__v_load(by + o), sum);
-        }
-        nsvcd__v_store(lanes + s, sum);
-      }
-      for (size_t k = 0; k < NSVCD__LANES; k++)
-        by_inputs[i] += lanes[k];
-    }
-    memcpy(by, by_inputs, inputs * sizeof *by);
-    if (l == 0)
-      break;
-    weights -= decoder->sizes[l - 1] * inputs;
-    output -= inputs;
+  for (size_t n = last + 1; n-- > 0;) {
+    const nsvcd__layer layer = nsvcd__layer_of(decoder, n);
+    nsvcd__by_layer(&layer, n > 0 ? values[n - 1] : NULL, by, by_inputs);
+    memcpy(by, by_inputs, layer.inputs * sizeof *by);
   }
   memcpy(by_x, by, NSVCD__DECODER_IN * sizeof *by_x);
 }

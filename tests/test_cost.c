@@ -175,6 +175,40 @@ static void cost_batch_agrees_with_single_queries(void) {
   CHECK_GE(otherwise, 100);
 }
 
+// Where the bodies change roles from one question to the next, what the one says of patches is of
+// no use to the other: every answer is nsvcd_sweep's.
+static void cost_batch_follows_who_moves(void) {
+  static cost_batch b;
+  const nsvcd_sweep_options options = query_options(0, NSVCD_MODEL_TINY, 0);
+  nsvcd_question questions[COST_MOTIONS];
+  size_t clear = 0;
+  size_t other = 0;
+  for (uint64_t seed = 1; seed <= 30; seed++) {
+    cost_open(&b, seed);
+    const query_scene *s = &b.scene;
+    for (size_t m = 0; m < COST_MOTIONS; m++) {
+      const nsvcd_pose *path = b.poses + m * QUERY_POSES;
+      questions[m] =
+          m % 2 ? question_of(s->moving, &s->fixed_pose, 1, s->fixed, path, &options)
+                : question_of(s->moving, path, QUERY_POSES, s->fixed, &s->fixed_pose, &options);
+      if (m % 2)
+        questions[m].b.count = QUERY_POSES;
+    }
+    void *w = query_workspace();
+    const size_t size = nsvcd_sweep_workspace_size(NULL);
+    CHECK_EQ(nsvcd_sweep_batch(questions, COST_MOTIONS, w, size, b.batch), NSVCD_OK);
+    for (size_t m = 0; m < COST_MOTIONS; m++) {
+      nsvcd_answer one;
+      CHECK_EQ(nsvcd_sweep(&questions[m], w, size, &one), NSVCD_OK);
+      clear += one.logit >= NSVCD__CLEAR_LOGIT;
+      other += !query_same_answer(&one, &b.batch[m]);
+    }
+    query_scene_close(&b.scene);
+  }
+  CHECK_GE(clear, 300);
+  CHECK_EQ(other, 0);
+}
+
 static void cost_batch_refuses_as_a_query_does(void) {
   static cost_batch b;
   cost_open(&b, 3);
@@ -383,6 +417,7 @@ static void cost_stack_is_bounded(void) {
 void test_cost(void) {
   RUN(cost_is_bounded);
   RUN(cost_batch_agrees_with_single_queries);
+  RUN(cost_batch_follows_who_moves);
   RUN(cost_batch_refuses_as_a_query_does);
   RUN(cost_threads_agree);
   RUN(cost_reads_numbers_once);
