@@ -937,10 +937,6 @@ NSVCDDEF nsvcd_result nsvcd_plan(const nsvcd_plan_problem *problem,
 #define NSVCD__UNROLL
 #endif
 
-static inline float nsvcd__dot3(const float *a, const float *b) {
-  return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
-}
-
 // Finite test on the bits, so that it survives -ffast-math.
 static inline int nsvcd__is_finite(float x) {
   uint32_t bits;
@@ -966,6 +962,10 @@ static inline void nsvcd__f3_store(nsvcd__f3 a, float *p) {
   p[0] = a.x;
   p[1] = a.y;
   p[2] = a.z;
+}
+// Row i of (n, 3).
+static inline nsvcd__f3 nsvcd__f3_row(const float *rows, size_t i) {
+  return nsvcd__f3_load(rows + 3 * i);
 }
 // From, and to, rows of x, y and z, so many numbers apart.
 static inline nsvcd__f3 nsvcd__f3_get(const float *rows, size_t stride) {
@@ -1019,6 +1019,10 @@ static inline nsvcd__d3 nsvcd__d3_of(double x, double y, double z) {
 static inline nsvcd__d3 nsvcd__d3_load(const float *p) {
   return nsvcd__d3_of((double)p[0], (double)p[1], (double)p[2]);
 }
+// Row i of (n, 3).
+static inline nsvcd__d3 nsvcd__d3_row(const float *rows, size_t i) {
+  return nsvcd__d3_load(rows + 3 * i);
+}
 static inline nsvcd__d3 nsvcd__d3_add(nsvcd__d3 a, nsvcd__d3 b) {
   return nsvcd__d3_of(a.x + b.x, a.y + b.y, a.z + b.z);
 }
@@ -1027,6 +1031,20 @@ static inline nsvcd__d3 nsvcd__d3_sub(nsvcd__d3 a, nsvcd__d3 b) {
 }
 static inline nsvcd__d3 nsvcd__d3_scale(nsvcd__d3 a, double s) {
   return nsvcd__d3_of(s * a.x, s * a.y, s * a.z);
+}
+// a + s b.
+static inline nsvcd__d3 nsvcd__d3_add_scaled(nsvcd__d3 a, double s, nsvcd__d3 b) {
+  return nsvcd__d3_of(a.x + s * b.x, a.y + s * b.y, a.z + s * b.z);
+}
+static inline nsvcd__d3 nsvcd__d3_min(nsvcd__d3 a, nsvcd__d3 b) {
+  return nsvcd__d3_of(fmin(a.x, b.x), fmin(a.y, b.y), fmin(a.z, b.z));
+}
+static inline nsvcd__d3 nsvcd__d3_max(nsvcd__d3 a, nsvcd__d3 b) {
+  return nsvcd__d3_of(fmax(a.x, b.x), fmax(a.y, b.y), fmax(a.z, b.z));
+}
+// Component 0, 1 or 2.
+static inline double nsvcd__d3_axis(nsvcd__d3 a, size_t axis) {
+  return axis == 0 ? a.x : axis == 1 ? a.y : a.z;
 }
 static inline nsvcd__d3 nsvcd__d3_over(nsvcd__d3 a, double s) {
   return nsvcd__d3_of(a.x / s, a.y / s, a.z / s);
@@ -1179,6 +1197,33 @@ static inline void nsvcd__sphere_store(nsvcd__sphere sphere, float *first, size_
   first[slots + i] = sphere.centre.y;
   first[2 * slots + i] = sphere.centre.z;
   first[3 * slots + i] = sphere.radius;
+}
+
+// ---- discs
+
+// Points x about a centre have low <= normal.x <= high, and are no farther than `across` from the
+// line along the normal, which is no longer than 1.
+typedef struct nsvcd__disc {
+  nsvcd__f3 normal;
+  float low, high, across;
+} nsvcd__disc;
+
+// Disc i of (6, stride).
+static inline nsvcd__disc nsvcd__disc_at(const float *discs, size_t stride, size_t i) {
+  const float *d = discs + i;
+  nsvcd__disc out;
+  out.normal = nsvcd__f3_get(d, stride);
+  out.low = d[3 * stride];
+  out.high = d[4 * stride];
+  out.across = d[5 * stride];
+  return out;
+}
+static inline void nsvcd__disc_store(nsvcd__disc disc, float *discs, size_t stride, size_t i) {
+  float *d = discs + i;
+  nsvcd__f3_put(disc.normal, d, stride);
+  d[3 * stride] = disc.low;
+  d[4 * stride] = disc.high;
+  d[5 * stride] = disc.across;
 }
 
 // ---- quaternions and rotation matrices, as values
@@ -1903,6 +1948,21 @@ static void nsvcd__free(const nsvcd_allocator *allocator, void *memory) {
 static void *nsvcd__alloc_array(const nsvcd_allocator *allocator, size_t count, size_t size) {
   return count > SIZE_MAX / size ? NULL : nsvcd__alloc(allocator, count * size);
 }
+static inline float *nsvcd__alloc_floats(const nsvcd_allocator *allocator, size_t count) {
+  return (float *)nsvcd__alloc_array(allocator, count, sizeof(float));
+}
+static inline uint32_t *nsvcd__alloc_words(const nsvcd_allocator *allocator, size_t count) {
+  return (uint32_t *)nsvcd__alloc_array(allocator, count, sizeof(uint32_t));
+}
+static inline size_t *nsvcd__alloc_sizes(const nsvcd_allocator *allocator, size_t count) {
+  return (size_t *)nsvcd__alloc_array(allocator, count, sizeof(size_t));
+}
+static inline nsvcd__f3 *nsvcd__alloc_f3s(const nsvcd_allocator *allocator, size_t count) {
+  return (nsvcd__f3 *)nsvcd__alloc_array(allocator, count, sizeof(nsvcd__f3));
+}
+static inline nsvcd__d3 *nsvcd__alloc_d3s(const nsvcd_allocator *allocator, size_t count) {
+  return (nsvcd__d3 *)nsvcd__alloc_array(allocator, count, sizeof(nsvcd__d3));
+}
 #endif
 
 // The next rows of a workspace, or, where base is NULL, only counts their bytes: in 64 bits, for
@@ -2551,174 +2611,198 @@ NSVCDDEF nsvcd_result nsvcd_obj_load(const char *path, const nsvcd_allocator *al
 
 #ifndef NSVCD_NO_ENCODER
 // ----------------------------------------------------------------------------------------- patches
-// In: a checked mesh. Out: its surface as N patches: S oriented points grouped by patch, and one
-// ball per patch such that the balls together contain every triangle. Everything here is
-// deterministic and, up to rounding, scales and moves with the mesh.
+// In: a checked mesh. Out: its surface as N patches: S samples, which are oriented points of the
+// surface, grouped by patch, and one ball for each patch. Together the balls contain every
+// triangle. Everything here is deterministic and, up to rounding, scales and moves with the mesh.
 
-#define NSVCD__SAMPLES_PER_POINT 32  // surface points per patch, on average
+// on average
+#define NSVCD__SAMPLES_PER_PATCH 32
 #define NSVCD__NO_SAMPLE 0xffffffffu
 #define NSVCD__LLOYD_STEPS 3
-#define NSVCD__NEIGHBOURS 16         // per centre, kept for the nearest-centre search
-#define NSVCD__PIECE_SIZE 0.25       // longest edge of a covering piece, in mean sample radii
-#define NSVCD__PIECES_PER_SAMPLE 64  // bounds the number of pieces that subdivision adds
+// of each centre, kept for the search of the nearest centre
+#define NSVCD__NEIGHBOURS 16
+// longest edge of a piece, in mean sample radii
+#define NSVCD__PIECE_SIZE 0.25
+// bounds the number of pieces that halving adds
+#define NSVCD__PIECES_PER_SAMPLE 64
 
-typedef struct nsvcd__patch_sum {  // accumulated in double, then rounded once
-  double vector[3];                // of the positions of the samples, or of area vectors
-  double weight;                   // number of samples, or area
-  double reach;                    // greatest squared distance from the centre
+// Sums over a patch, in double, rounded once at the end.
+typedef struct nsvcd__patch_sum {
+  nsvcd__d3 vector;      // of the positions of samples, or of area vectors
+  double weight;         // number of samples, or area
+  double squared_reach;  // greatest squared distance from the centre
 } nsvcd__patch_sum;
 
 typedef struct nsvcd__patches {
   size_t count;         // N
   size_t sample_count;  // S
-  size_t piece_count;   // pieces of surface that the balls were fitted to
-  float *centres;       // (N, 3) metres: p_i, the mean of the patch's samples
-  // (N) r_i: the ball at p_i with this radius contains every piece of surface of the patch
+  // pieces of surface that the balls were fitted to
+  size_t piece_count;
+  // (N) metres: the mean of the patch's samples
+  nsvcd__f3 *centres;
+  // (N) the ball about the centre with this radius contains every piece of the patch
   float *radii;
-  float *sample_radii;  // (N) the same for the patch's samples
-  float *areas;         // (N) square metres
-  // (N, 3) area times normal, summed over the patch; over all patches it is that of the mesh
-  float *area_vectors;
-  uint32_t *offsets;  // (N + 1) patch i has the samples offsets[i] .. offsets[i + 1] - 1
-  float *points;      // (S, 3) metres
-  float *normals;     // (S, 3) unit
+  // (N) the same for the patch's samples
+  float *sample_radii;
+  // (N) square metres
+  float *areas;
+  // (N) area times normal, summed over the patch; over all patches it is that of the mesh
+  nsvcd__f3 *area_vectors;
+  // (N + 1) patch i has the samples offsets[i] .. offsets[i + 1] - 1
+  uint32_t *offsets;
+  nsvcd__f3 *samples;  // (S) metres
+  nsvcd__f3 *normals;  // (S) unit
 
-  // Working memory: all of this lies in one block.
-  nsvcd__patch_sum *sums;                 // (N)
-  float *centre_x, *centre_y, *centre_z;  // (N)
-  float *x, *y, *z;                       // (S) the samples in the order in which they were drawn
-  float *drawn_normals;                   // (S, 3)
-  uint16_t *owners;                       // (S) the patch of each sample
-  // (S) squared, to the nearest centre so far; where the points will be
-  float *distances;
-  // (S) lists of the samples of each centre, while centres are added; also there
-  uint32_t *next_sample;
-  uint32_t *first_sample;     // (N)
-  uint32_t *farthest_sample;  // (N) of those of the centre,
-  float *reach;               // (N) and its squared distance
-  // (N, NSVCD__NEIGHBOURS) the other centres nearest to each, in order of distance
-  uint32_t *neighbours;
-  float *quarter_gaps;  // (N, NSVCD__NEIGHBOURS) a quarter of their squared distance
+  // Working memory. All of this lies in one block.
   void *memory;
+  nsvcd__patch_sum *sums;  // (N)
+  // (S) the samples in the order in which they were drawn
+  nsvcd__f3 *drawn;
+  nsvcd__f3 *drawn_normals;
+  // (S) the patch of each sample drawn
+  uint16_t *owners;
+  // (S) squared, to the nearest centre so far; it lies where `samples` will be
+  float *distances;
+  // (S) lists of the samples of each centre, while centres are added; it lies there too
+  uint32_t *next_sample;
+  uint32_t *first_sample;  // (N)
+  // (N) of the samples of the centre, and its squared distance
+  uint32_t *farthest_sample;
+  float *squared_reach;
+  // (N, NEIGHBOURS) the other centres nearest to each, in order of distance
+  uint32_t *neighbours;
+  // (N, NEIGHBOURS) a quarter of their squared distance
+  float *quarter_gaps;
 } nsvcd__patches;
 
-// ---- surface points
+// ---- samples
 
-// Corners of triangle t in double: differences of floats are then as good as exact.
-static void nsvcd__triangle(const nsvcd_mesh *mesh, size_t t, double corners[3][3]) {
-  for (int i = 0; i < 3; ++i) {
-    const float *p = mesh->positions + 3 * (size_t)mesh->indices[3 * t + (size_t)i];
-    for (int k = 0; k < 3; ++k)
-      corners[i][k] = (double)p[k];
-  }
+// Differences of floats are as good as exact in double.
+typedef struct nsvcd__triangle {
+  nsvcd__d3 a, b, c;
+} nsvcd__triangle;
+
+static nsvcd__triangle nsvcd__triangle_of(const nsvcd_mesh *mesh, size_t t) {
+  const uint32_t *corners = mesh->indices + 3 * t;
+  nsvcd__triangle out;
+  out.a = nsvcd__d3_row(mesh->positions, corners[0]);
+  out.b = nsvcd__d3_row(mesh->positions, corners[1]);
+  out.c = nsvcd__d3_row(mesh->positions, corners[2]);
+  return out;
 }
 
-// Area times unit normal; returns the area.
-static double nsvcd__area_vector(double corners[3][3], double *vector) {
-  double u[3], v[3];
-  for (int k = 0; k < 3; ++k) {
-    u[k] = corners[1][k] - corners[0][k];
-    v[k] = corners[2][k] - corners[0][k];
-  }
-  for (int k = 0; k < 3; ++k) {
-    int i = (k + 1) % 3;
-    int j = (k + 2) % 3;
-    vector[k] = 0.5 * (u[i] * v[j] - u[j] * v[i]);
-  }
-  return sqrt(vector[0] * vector[0] + vector[1] * vector[1] + vector[2] * vector[2]);
+// Area times unit normal.
+static nsvcd__d3 nsvcd__area_vector(const nsvcd__triangle *t) {
+  const nsvcd__d3 u = nsvcd__d3_sub(t->b, t->a);
+  const nsvcd__d3 v = nsvcd__d3_sub(t->c, t->a);
+  return nsvcd__d3_scale(nsvcd__d3_cross(u, v), 0.5);
+}
+
+static double nsvcd__triangle_area(const nsvcd__triangle *t) {
+  return nsvcd__d3_length(nsvcd__area_vector(t));
 }
 
 static double nsvcd__mesh_area(const nsvcd_mesh *mesh) {
   double area = 0;
-  for (size_t t = 0; t < mesh->triangle_count; ++t) {
-    double corners[3][3], vector[3];
-    nsvcd__triangle(mesh, t, corners);
-    area += nsvcd__area_vector(corners, vector);
+  for (size_t t = 0; t < mesh->triangle_count; t++) {
+    const nsvcd__triangle triangle = nsvcd__triangle_of(mesh, t);
+    area += nsvcd__triangle_area(&triangle);
   }
   return area;
 }
 
-// Stratified by area: sample k lies where the area summed in triangle order passes (k + 1/2) /
-// count of the total. Within its triangle the R2 sequence places it (Roberts 2018: multiples of 1/g
-// and 1/g^2, g^3 = g + 1). points, normals: (count, 3). Where there is no area, triangles count
-// alike, and have no normals.
-static void nsvcd__sample_surface(const nsvcd_mesh *mesh, size_t count, float *points,
-                                  float *normals) {
+// The place of sample k in its triangle, by the R2 sequence (Roberts 2018: multiples of 1/g and
+// 1/g^2, g^3 = g + 1).
+static nsvcd__d3 nsvcd__place_sample(const nsvcd__triangle *t, uint32_t k) {
+  double u = (double)(k * 3242174889u + 0x80000000u) / 4294967296.0;
+  double v = (double)(k * 2447445414u + 0x80000000u) / 4294967296.0;
+  if (u + v > 1) {
+    u = 1 - u;
+    v = 1 - v;
+  }
+  const nsvcd__d3 ab = nsvcd__d3_sub(t->b, t->a);
+  const nsvcd__d3 ac = nsvcd__d3_sub(t->c, t->a);
+  return nsvcd__d3_add_scaled(nsvcd__d3_add_scaled(t->a, u, ab), v, ac);
+}
+
+// Draws samples (count) and their unit normals (count), stratified by area: sample k lies in the
+// triangle where the area summed in triangle order passes (k + 1/2) / count of the total. Where
+// there is no area, triangles count alike, and normals are 0.
+static void nsvcd__sample_surface(const nsvcd_mesh *mesh, size_t count, nsvcd__f3 *samples,
+                                  nsvcd__f3 *normals) {
   const double all = nsvcd__mesh_area(mesh);
   const double total = all > 0 ? all : (double)mesh->triangle_count;
-  double corners[3][3];
-  double vector[3];
+  nsvcd__triangle triangle;
   double area = 0;
-  double passed = 0;  // passed: the area up to and including triangle t
-  size_t t = 0;
-  for (size_t k = 0; k < count; ++k) {
-    double target = total * (((double)k + 0.5) / (double)count);
+  double passed = 0;  // the area up to and including the triangle
+  size_t next = 0;
+  for (size_t k = 0; k < count; k++) {
+    const double target = total * (((double)k + 0.5) / (double)count);
     // never stops at a triangle without area
-    while (passed <= target && t < mesh->triangle_count) {
-      nsvcd__triangle(mesh, t++, corners);
-      area = nsvcd__area_vector(corners, vector);
+    while (passed <= target && next < mesh->triangle_count) {
+      triangle = nsvcd__triangle_of(mesh, next++);
+      area = nsvcd__triangle_area(&triangle);
       passed += all > 0 ? area : 1;
     }
-    double u = (double)((uint32_t)k * 3242174889u + 0x80000000u) / 4294967296.0;
-    double v = (double)((uint32_t)k * 2447445414u + 0x80000000u) / 4294967296.0;
-    if (u + v > 1) {
-      u = 1 - u;
-      v = 1 - v;
-    }
-    for (int i = 0; i < 3; ++i) {
-      double a = corners[0][i];
-      points[3 * k + (size_t)i] = (float)(a + u * (corners[1][i] - a) + v * (corners[2][i] - a));
-      normals[3 * k + (size_t)i] = area > 0 ? (float)(vector[i] / area) : 0;
+    samples[k] = nsvcd__d3_narrow(nsvcd__place_sample(&triangle, (uint32_t)k));
+    normals[k] = nsvcd__f3_of(0, 0, 0);
+    if (area > 0) {
+      const nsvcd__d3 vector = nsvcd__area_vector(&triangle);
+      normals[k] = nsvcd__d3_narrow(nsvcd__d3_over(vector, area));
     }
   }
 }
 
 // ---- memory
 
-// The next `count` numbers of a block.
+// The next `count` numbers, or vectors, of a block.
 static float *nsvcd__next_floats(float **next, size_t count) {
   float *out = *next;
   *next += count;
   return out;
 }
+static nsvcd__f3 *nsvcd__next_f3s(float **next, size_t count) {
+  return (nsvcd__f3 *)(void *)nsvcd__next_floats(next, 3 * count);
+}
+static uint32_t *nsvcd__next_words(float **next, size_t count) {
+  return (uint32_t *)(void *)nsvcd__next_floats(next, count);
+}
 
-// All arrays in one block: the doubles first, then everything of four bytes.
-static nsvcd_result nsvcd__patches_alloc(nsvcd__patches *p, size_t count, size_t samples,
-                                         const nsvcd_allocator *allocator) {
-  // No overflow: count <= NSVCD_SMALL_POINTS.
-  const size_t words = (16 + 2 * NSVCD__NEIGHBOURS) * count + 1 + 12 * samples + (samples + 1) / 2;
+// All arrays in one block: the doubles first, then everything of four bytes. 0 without memory.
+// count: up to NSVCD_SMALL_POINTS, so that nothing overflows.
+static int nsvcd__patches_alloc(nsvcd__patches *p, size_t count, size_t samples,
+                                const nsvcd_allocator *allocator) {
+  const size_t gaps = NSVCD__NEIGHBOURS * count;
+  const size_t words = 13 * count + 2 * gaps + 1 + 12 * samples + (samples + 1) / 2;
+  const size_t sums = count * sizeof(nsvcd__patch_sum);
   memset(p, 0, sizeof *p);
-  p->memory = nsvcd__alloc(allocator, count * sizeof(nsvcd__patch_sum) + words * sizeof(float));
+  p->memory = nsvcd__alloc(allocator, sums + words * sizeof(float));
   if (!p->memory)
-    return NSVCD_ERROR_MEMORY;
+    return 0;
   p->count = count;
   p->sample_count = samples;
   p->sums = (nsvcd__patch_sum *)p->memory;
+
   float *next = (float *)(void *)(p->sums + count);
-  p->centre_x = nsvcd__next_floats(&next, count);
-  p->centre_y = nsvcd__next_floats(&next, count);
-  p->centre_z = nsvcd__next_floats(&next, count);
-  p->centres = nsvcd__next_floats(&next, 3 * count);
+  p->centres = nsvcd__next_f3s(&next, count);
   p->radii = nsvcd__next_floats(&next, count);
   p->sample_radii = nsvcd__next_floats(&next, count);
   p->areas = nsvcd__next_floats(&next, count);
-  p->area_vectors = nsvcd__next_floats(&next, 3 * count);
-  p->x = nsvcd__next_floats(&next, samples);
-  p->y = nsvcd__next_floats(&next, samples);
-  p->z = nsvcd__next_floats(&next, samples);
-  p->drawn_normals = nsvcd__next_floats(&next, 3 * samples);
-  p->points = nsvcd__next_floats(&next, 3 * samples);
-  p->distances = p->points;
-  p->next_sample = (uint32_t *)(void *)(p->points + samples);
-  p->normals = nsvcd__next_floats(&next, 3 * samples);
-  p->quarter_gaps = nsvcd__next_floats(&next, NSVCD__NEIGHBOURS * count);
-  p->reach = nsvcd__next_floats(&next, count);
-  p->first_sample = (uint32_t *)(void *)next;
-  p->farthest_sample = p->first_sample + count;
-  p->neighbours = p->farthest_sample + count;
-  p->offsets = p->neighbours + NSVCD__NEIGHBOURS * count;
-  p->owners = (uint16_t *)(void *)(p->offsets + count + 1);
-  return NSVCD_OK;
+  p->area_vectors = nsvcd__next_f3s(&next, count);
+  p->drawn = nsvcd__next_f3s(&next, samples);
+  p->drawn_normals = nsvcd__next_f3s(&next, samples);
+  p->samples = nsvcd__next_f3s(&next, samples);
+  p->distances = (float *)(void *)p->samples;
+  p->next_sample = (uint32_t *)(void *)(p->distances + samples);
+  p->normals = nsvcd__next_f3s(&next, samples);
+  p->quarter_gaps = nsvcd__next_floats(&next, gaps);
+  p->squared_reach = nsvcd__next_floats(&next, count);
+  p->first_sample = nsvcd__next_words(&next, count);
+  p->farthest_sample = nsvcd__next_words(&next, count);
+  p->neighbours = nsvcd__next_words(&next, gaps);
+  p->offsets = nsvcd__next_words(&next, count + 1);
+  p->owners = (uint16_t *)(void *)next;
+  return 1;
 }
 
 static void nsvcd__patches_free(nsvcd__patches *p, const nsvcd_allocator *allocator) {
@@ -2728,93 +2812,92 @@ static void nsvcd__patches_free(nsvcd__patches *p, const nsvcd_allocator *alloca
 
 // ---- clusters: farthest point sampling, then Lloyd's algorithm
 
-static void nsvcd__set_centre(nsvcd__patches *p, size_t i, float x, float y, float z) {
-  p->centre_x[i] = x;
-  p->centre_y[i] = y;
-  p->centre_z[i] = z;
+// The squared distance of a point from a centre.
+static float nsvcd__centre_distance(const nsvcd__patches *p, uint32_t centre, nsvcd__f3 at) {
+  const nsvcd__f3 offset = nsvcd__f3_sub(p->centres[centre], at);
+  return nsvcd__f3_dot(offset, offset);
 }
 
-// squared
-static float nsvcd__centre_distance(const nsvcd__patches *p, uint32_t centre, float x, float y,
-                                    float z) {
-  float dx = p->centre_x[centre] - x;
-  float dy = p->centre_y[centre] - y;
-  float dz = p->centre_z[centre] - z;
-  return dx * dx + dy * dy + dz * dz;
-}
-
-// Lists the nearest other centres of every centre; a short list ends in gaps of infinity.
-static void nsvcd__link_centres(nsvcd__patches *p) {
-  for (uint32_t i = 0; i < p->count; ++i) {
-    uint32_t *neighbours = p->neighbours + (size_t)i * NSVCD__NEIGHBOURS;
-    float *gaps = p->quarter_gaps + (size_t)i * NSVCD__NEIGHBOURS;
-    for (int k = 0; k < NSVCD__NEIGHBOURS; ++k) {
-      neighbours[k] = i;
-      gaps[k] = HUGE_VALF;
+// Lists the nearest other centres of centre i; a short list ends in gaps of infinity.
+static void nsvcd__link_centre(nsvcd__patches *p, uint32_t i) {
+  const size_t last = NSVCD__NEIGHBOURS - 1;
+  uint32_t *neighbours = p->neighbours + (size_t)i * NSVCD__NEIGHBOURS;
+  float *gaps = p->quarter_gaps + (size_t)i * NSVCD__NEIGHBOURS;
+  for (size_t k = 0; k <= last; k++) {
+    neighbours[k] = i;
+    gaps[k] = HUGE_VALF;
+  }
+  for (uint32_t j = 0; j < p->count; j++) {
+    const float gap = 0.25f * nsvcd__centre_distance(p, j, p->centres[i]);
+    if (j == i || gap >= gaps[last])
+      continue;
+    size_t k = last;
+    for (; k > 0 && gaps[k - 1] > gap; k--) {
+      gaps[k] = gaps[k - 1];
+      neighbours[k] = neighbours[k - 1];
     }
-    for (uint32_t j = 0; j < p->count; ++j) {
-      float gap =
-          0.25f * nsvcd__centre_distance(p, j, p->centre_x[i], p->centre_y[i], p->centre_z[i]);
-      if (j == i || gap >= gaps[NSVCD__NEIGHBOURS - 1])
-        continue;
-      int k = NSVCD__NEIGHBOURS - 1;
-      for (; k > 0 && gaps[k - 1] > gap; --k) {
-        gaps[k] = gaps[k - 1];
-        neighbours[k] = neighbours[k - 1];
-      }
-      gaps[k] = gap;
-      neighbours[k] = j;
-    }
+    gaps[k] = gap;
+    neighbours[k] = j;
   }
 }
+static void nsvcd__link_centres(nsvcd__patches *p) {
+  for (uint32_t i = 0; i < p->count; i++)
+    nsvcd__link_centre(p, i);
+}
 
-// of equals the first
-static int nsvcd__is_nearer(float a, uint32_t a_index, float b, uint32_t b_index) {
-  return a < b || (!(a > b) && a_index < b_index);
+// A centre, and its squared distance from the point in question.
+typedef struct nsvcd__near_centre {
+  uint32_t centre;
+  float distance;
+} nsvcd__near_centre;
+
+// Keeps the nearer one of the nearest so far and centre i; of equals the first.
+static void nsvcd__look_at_centre(const nsvcd__patches *p, uint32_t i, nsvcd__f3 at,
+                                  nsvcd__near_centre *best) {
+  const float distance = nsvcd__centre_distance(p, i, at);
+  const int equal = !(distance < best->distance) && !(distance > best->distance);
+  if (distance > best->distance || (equal && i >= best->centre))
+    return;
+  best->centre = i;
+  best->distance = distance;
 }
 
 // The centre nearest to a point, found from a guess. A centre twice as far from the guess as the
-// point is cannot be nearer to the point (triangle inequality), so the guess's neighbours usually
-// decide; else they give a better guess.
-static uint32_t nsvcd__nearest_centre(const nsvcd__patches *p, uint32_t guess, float x, float y,
-                                      float z) {
-  uint32_t nearest = guess;
-  float best = nsvcd__centre_distance(p, guess, x, y, z);
+// point is cannot be nearer to the point (triangle inequality). So the guess's neighbours usually
+// decide; where they do not, they give a better guess.
+static uint32_t nsvcd__nearest_centre(const nsvcd__patches *p, uint32_t guess, nsvcd__f3 at) {
+  nsvcd__near_centre best = {guess, nsvcd__centre_distance(p, guess, at)};
   for (;;) {
+    const uint32_t *neighbours = p->neighbours + (size_t)guess * NSVCD__NEIGHBOURS;
     const float *gaps = p->quarter_gaps + (size_t)guess * NSVCD__NEIGHBOURS;
-    const float own = best;
-    int k = 0;
-    for (; k < NSVCD__NEIGHBOURS && gaps[k] <= own; ++k) {
-      uint32_t i = p->neighbours[(size_t)guess * NSVCD__NEIGHBOURS + (size_t)k];
-      float distance = nsvcd__centre_distance(p, i, x, y, z);
-      if (nsvcd__is_nearer(distance, i, best, nearest)) {
-        best = distance;
-        nearest = i;
-      }
-    }
+    const float own = best.distance;
+    size_t k = 0;
+    for (; k < NSVCD__NEIGHBOURS && gaps[k] <= own; k++)
+      nsvcd__look_at_centre(p, neighbours[k], at, &best);
     if (k < NSVCD__NEIGHBOURS)
-      return nearest;
-    if (nearest == guess)
+      return best.centre;
+    if (best.centre == guess)
       break;
-    guess = nearest;
+    guess = best.centre;
   }
-  for (uint32_t i = 0; i < p->count; ++i) {
-    float distance = nsvcd__centre_distance(p, i, x, y, z);
-    if (nsvcd__is_nearer(distance, i, best, nearest)) {
-      best = distance;
-      nearest = i;
-    }
-  }
-  return nearest;
+  for (uint32_t i = 0; i < p->count; i++)
+    nsvcd__look_at_centre(p, i, at, &best);
+  return best.centre;
 }
 
+static void nsvcd__forget_samples(nsvcd__patches *p, uint32_t centre) {
+  p->first_sample[centre] = NSVCD__NO_SAMPLE;
+  p->squared_reach[centre] = -1;
+}
+
+// distance: squared.
 static void nsvcd__give_sample(nsvcd__patches *p, uint32_t s, uint32_t owner, float distance) {
   p->owners[s] = (uint16_t)owner;
   p->distances[s] = distance;
   p->next_sample[s] = p->first_sample[owner];
   p->first_sample[owner] = s;
-  if (distance > p->reach[owner]) {
-    p->reach[owner] = distance;
+  if (distance > p->squared_reach[owner]) {
+    p->squared_reach[owner] = distance;
     p->farthest_sample[owner] = s;
   }
 }
@@ -2823,177 +2906,173 @@ static void nsvcd__give_sample(nsvcd__patches *p, uint32_t s, uint32_t owner, fl
 // owner. An owner more than twice as far away as its farthest sample loses none (triangle
 // inequality): most are passed over.
 static void nsvcd__add_centre(nsvcd__patches *p, uint32_t centre, uint32_t from) {
-  float x = p->x[from];
-  float y = p->y[from];
-  float z = p->z[from];
-  nsvcd__set_centre(p, centre, x, y, z);
-  p->first_sample[centre] = NSVCD__NO_SAMPLE;
-  p->reach[centre] = -1;
-  for (uint32_t owner = 0; owner < centre; ++owner) {
-    if (0.25f * nsvcd__centre_distance(p, owner, x, y, z) > p->reach[owner])
+  p->centres[centre] = p->drawn[from];
+  nsvcd__forget_samples(p, centre);
+  for (uint32_t owner = 0; owner < centre; owner++) {
+    const float gap = nsvcd__centre_distance(p, owner, p->drawn[from]);
+    if (0.25f * gap > p->squared_reach[owner])
       continue;
     uint32_t s = p->first_sample[owner];
-    p->first_sample[owner] = NSVCD__NO_SAMPLE;
-    p->reach[owner] = -1;
+    nsvcd__forget_samples(p, owner);
     while (s != NSVCD__NO_SAMPLE) {
-      uint32_t next = p->next_sample[s];
-      float distance = nsvcd__centre_distance(p, centre, p->x[s], p->y[s], p->z[s]);
-      int nearer = distance < p->distances[s];
-      nsvcd__give_sample(p, s, nearer ? centre : owner, nearer ? distance : p->distances[s]);
+      const uint32_t next = p->next_sample[s];
+      const float old = p->distances[s];
+      const float distance = nsvcd__centre_distance(p, centre, p->drawn[s]);
+      const int nearer = distance < old;
+      nsvcd__give_sample(p, s, nearer ? centre : owner, nearer ? distance : old);
       s = next;
     }
   }
 }
 
 static void nsvcd__give_all_samples(nsvcd__patches *p) {  // to centre 0
-  p->first_sample[0] = NSVCD__NO_SAMPLE;
-  p->reach[0] = -1;
-  for (uint32_t s = 0; s < p->sample_count; ++s) {
-    nsvcd__give_sample(p, s, 0, nsvcd__centre_distance(p, 0, p->x[s], p->y[s], p->z[s]));
+  nsvcd__forget_samples(p, 0);
+  for (uint32_t s = 0; s < p->sample_count; s++) {
+    const float distance = nsvcd__centre_distance(p, 0, p->drawn[s]);
+    nsvcd__give_sample(p, s, 0, distance);
   }
 }
 
 // Farthest point sampling (Gonzalez 1985). The first centre is the sample farthest from the mean of
-// all; stops early once every sample is a centre or coincides with one.
+// all. Ends early once every sample is at a centre.
 static void nsvcd__farthest_points(nsvcd__patches *p) {
-  double x = 0;
-  double y = 0;
-  double z = 0;
-  double samples = (double)p->sample_count;
-  for (size_t s = 0; s < p->sample_count; ++s) {
-    x += (double)p->x[s];
-    y += (double)p->y[s];
-    z += (double)p->z[s];
-  }
-  nsvcd__set_centre(p, 0, (float)(x / samples), (float)(y / samples), (float)(z / samples));
+  nsvcd__d3 sum = nsvcd__d3_of(0, 0, 0);
+  for (size_t s = 0; s < p->sample_count; s++)
+    sum = nsvcd__d3_add(sum, nsvcd__d3_widen(p->drawn[s]));
+  p->centres[0] = nsvcd__d3_narrow(nsvcd__d3_over(sum, (double)p->sample_count));
   nsvcd__give_all_samples(p);
-  uint32_t from = p->farthest_sample[0];
-  nsvcd__set_centre(p, 0, p->x[from], p->y[from], p->z[from]);
+  p->centres[0] = p->drawn[p->farthest_sample[0]];
   nsvcd__give_all_samples(p);
+
   uint32_t count = 1;
-  for (; count < p->count; ++count) {
+  for (; count < p->count; count++) {
     uint32_t farthest = 0;
-    for (uint32_t i = 1; i < count; ++i)
-      farthest = p->reach[i] > p->reach[farthest] ? i : farthest;
-    if (!(p->reach[farthest] > 0))
+    for (uint32_t i = 1; i < count; i++)
+      farthest = p->squared_reach[i] > p->squared_reach[farthest] ? i : farthest;
+    if (!(p->squared_reach[farthest] > 0))
       break;
     nsvcd__add_centre(p, count, p->farthest_sample[farthest]);
   }
   p->count = count;
 }
 
-// Moves every centre to the mean of its samples; a centre without samples is dropped and the others
-// close the gap.
+// Moves every centre to the mean of its samples. A centre without samples is dropped, and the
+// others close the gap.
 static void nsvcd__move_centres(nsvcd__patches *p) {
   memset(p->sums, 0, p->count * sizeof *p->sums);
-  for (size_t s = 0; s < p->sample_count; ++s) {
+  for (size_t s = 0; s < p->sample_count; s++) {
     nsvcd__patch_sum *sum = &p->sums[p->owners[s]];
-    sum->vector[0] += (double)p->x[s];
-    sum->vector[1] += (double)p->y[s];
-    sum->vector[2] += (double)p->z[s];
+    sum->vector = nsvcd__d3_add(sum->vector, nsvcd__d3_widen(p->drawn[s]));
     sum->weight += 1;
   }
+
   uint32_t kept = 0;
-  for (size_t i = 0; i < p->count; ++i) {
+  for (size_t i = 0; i < p->count; i++) {
     const nsvcd__patch_sum *sum = &p->sums[i];
     p->offsets[i] = kept;  // for now: the new number of patch i
-    if (!(sum->weight > 0))
-      continue;
-    nsvcd__set_centre(p, kept++, (float)(sum->vector[0] / sum->weight),
-                      (float)(sum->vector[1] / sum->weight), (float)(sum->vector[2] / sum->weight));
+    if (sum->weight > 0)
+      p->centres[kept++] = nsvcd__d3_narrow(nsvcd__d3_over(sum->vector, sum->weight));
   }
-  for (size_t s = 0; s < p->sample_count; ++s)
+  for (size_t s = 0; s < p->sample_count; s++)
     p->owners[s] = (uint16_t)p->offsets[p->owners[s]];
   p->count = kept;
   nsvcd__link_centres(p);
 }
 
-static double nsvcd__squared_distance(const nsvcd__patches *p, size_t centre, double x, double y,
-                                      double z) {
-  double dx = x - (double)p->centre_x[centre];
-  double dy = y - (double)p->centre_y[centre];
-  double dz = z - (double)p->centre_z[centre];
-  return dx * dx + dy * dy + dz * dz;
+// Makes a sum reach to a point.
+static void nsvcd__reach_to(nsvcd__patches *p, size_t patch, nsvcd__d3 at) {
+  nsvcd__patch_sum *sum = &p->sums[patch];
+  const double distance = nsvcd__d3_gap(at, nsvcd__d3_widen(p->centres[patch]));
+  sum->squared_reach = fmax(sum->squared_reach, distance);
 }
 
 // Root, rounded up: a radius may be too large by a rounding, never too small.
 static float nsvcd__radius_above(double squared) { return (float)(sqrt(squared) * (1 + 4e-7)); }
 
-// Writes the samples patch by patch (counting sort, so the order within a patch stays), and the
-// sample radii.
+// Writes the samples patch by patch, in a patch in their order (counting sort), and the sample
+// radii.
 static void nsvcd__group_samples(nsvcd__patches *p) {
   memset(p->offsets, 0, (p->count + 1) * sizeof *p->offsets);
   memset(p->sums, 0, p->count * sizeof *p->sums);
-  for (size_t s = 0; s < p->sample_count; ++s)
+  for (size_t s = 0; s < p->sample_count; s++)
     p->offsets[p->owners[s] + 1]++;
-  for (size_t i = 0; i < p->count; ++i)
+  for (size_t i = 0; i < p->count; i++)
     p->offsets[i + 1] += p->offsets[i];
-  for (size_t s = 0; s < p->sample_count; ++s) {
-    uint32_t owner = p->owners[s];
-    size_t to = p->offsets[owner]++;  // afterwards each offset is the next patch's
-    p->points[3 * to] = p->x[s];
-    p->points[3 * to + 1] = p->y[s];
-    p->points[3 * to + 2] = p->z[s];
-    memcpy(p->normals + 3 * to, p->drawn_normals + 3 * s, 3 * sizeof(float));
-    double distance =
-        nsvcd__squared_distance(p, owner, (double)p->x[s], (double)p->y[s], (double)p->z[s]);
-    if (distance > p->sums[owner].reach)
-      p->sums[owner].reach = distance;
+
+  for (size_t s = 0; s < p->sample_count; s++) {
+    const uint32_t owner = p->owners[s];
+    const size_t to = p->offsets[owner]++;  // afterwards each offset is the next patch's
+    p->samples[to] = p->drawn[s];
+    p->normals[to] = p->drawn_normals[s];
+    nsvcd__reach_to(p, owner, nsvcd__d3_widen(p->drawn[s]));
   }
   memmove(p->offsets + 1, p->offsets, p->count * sizeof *p->offsets);
   p->offsets[0] = 0;
-  for (size_t i = 0; i < p->count; ++i)
-    p->sample_radii[i] = nsvcd__radius_above(p->sums[i].reach);
+  for (size_t i = 0; i < p->count; i++)
+    p->sample_radii[i] = nsvcd__radius_above(p->sums[i].squared_reach);
 }
 
 // ---- covering balls
-// Every triangle is bisected across its longest edge until no edge exceeds `limit`. Each piece goes
-// to the patch whose centre is nearest to the piece's centroid, and that patch's ball grows to hold
-// its three corners, so all of it.
+// Every triangle is halved across its longest edge until no edge exceeds `limit`. Each piece goes
+// to the patch whose centre is nearest to the piece's centroid. That patch's ball grows to hold the
+// piece's three corners, and so all of it.
 
-static double nsvcd__squared_edge(const double *a, const double *b) {
-  double x = a[0] - b[0];
-  double y = a[1] - b[1];
-  double z = a[2] - b[2];
-  return x * x + y * y + z * z;
+// The squared lengths of a triangle's edges.
+typedef struct nsvcd__edge_squares {
+  double ab, bc, ca;
+} nsvcd__edge_squares;
+
+static nsvcd__edge_squares nsvcd__squares_of(const nsvcd__triangle *t) {
+  nsvcd__edge_squares out;
+  out.ab = nsvcd__d3_gap(t->a, t->b);
+  out.bc = nsvcd__d3_gap(t->b, t->c);
+  out.ca = nsvcd__d3_gap(t->c, t->a);
+  return out;
 }
-
-// How many pieces that makes of a triangle, given its squared edges; stops counting beyond `most`.
-// The new edge is the median of the longest one (Apollonius's theorem), so lengths are enough.
-static double nsvcd__count_pieces(double ab, double bc, double ca, double limit, double most) {
-  if (bc > ab && bc >= ca)
-    return nsvcd__count_pieces(bc, ca, ab, limit, most);
-  if (ca > ab)
-    return nsvcd__count_pieces(ca, ab, bc, limit, most);
-  if (ab <= limit * limit)
+// Which edge is the longest: 0 for ab, 1 for bc, 2 for ca. Of equals bc, but ab before all.
+static int nsvcd__longest_of(nsvcd__edge_squares e) {
+  if (e.bc > e.ab && e.bc >= e.ca)
     return 1;
-  double median = 0.5 * (bc + ca) - 0.25 * ab;
-  double pieces = nsvcd__count_pieces(0.25 * ab, median, ca, limit, most);
-  return pieces > most ? pieces
-                       : pieces + nsvcd__count_pieces(0.25 * ab, bc, median, limit, most - pieces);
+  return e.ca > e.ab ? 2 : 0;
 }
 
-// The limit on the edges of pieces, raised from `limit` until a mesh makes at most so many:
-// *pieces.
+// How many pieces a triangle makes; stops counting beyond `most`. The new edge is the median of the
+// longest one (Apollonius's theorem), so lengths are enough.
+static double nsvcd__count_pieces(nsvcd__edge_squares e, double limit, double most) {
+  const int longest = nsvcd__longest_of(e);
+  const nsvcd__edge_squares from_bc = {e.bc, e.ca, e.ab};
+  const nsvcd__edge_squares from_ca = {e.ca, e.ab, e.bc};
+  if (longest > 0)
+    e = longest == 1 ? from_bc : from_ca;
+  if (e.ab <= limit * limit)
+    return 1;
+  const double median = 0.5 * (e.bc + e.ca) - 0.25 * e.ab;
+  const nsvcd__edge_squares near_a = {0.25 * e.ab, median, e.ca};
+  const nsvcd__edge_squares near_b = {0.25 * e.ab, e.bc, median};
+  const double pieces = nsvcd__count_pieces(near_a, limit, most);
+  if (pieces > most)
+    return pieces;
+  return pieces + nsvcd__count_pieces(near_b, limit, most - pieces);
+}
+
+// The limit on the edges of pieces: twice, four times ... the given one, until a mesh makes no more
+// than `most` pieces. Writes how many.
 static double nsvcd__raise_limit(const nsvcd_mesh *mesh, double limit, double most,
                                  double *pieces) {
-  // A triangle makes at least as many pieces as its longest edge has limits: no need to start below
+  // A triangle makes at least as many pieces as its longest edge has limits: no need to begin below
   // that.
   double longest = 0;
-  for (size_t t = 0; t < mesh->triangle_count; ++t) {
-    double c[3][3];
-    nsvcd__triangle(mesh, t, c);
-    for (int k = 0; k < 3; ++k)
-      longest = fmax(longest, nsvcd__squared_edge(c[k], c[(k + 1) % 3]));
+  for (size_t t = 0; t < mesh->triangle_count; t++) {
+    const nsvcd__triangle triangle = nsvcd__triangle_of(mesh, t);
+    const nsvcd__edge_squares e = nsvcd__squares_of(&triangle);
+    longest = fmax(longest, fmax(e.ab, fmax(e.bc, e.ca)));
   }
   for (limit = fmax(limit, sqrt(longest) / most);; limit *= 2) {
     *pieces = 0;
-    for (size_t t = 0; t < mesh->triangle_count && *pieces <= most; ++t) {
-      double c[3][3];
-      nsvcd__triangle(mesh, t, c);
-      *pieces +=
-          nsvcd__count_pieces(nsvcd__squared_edge(c[0], c[1]), nsvcd__squared_edge(c[1], c[2]),
-                              nsvcd__squared_edge(c[2], c[0]), limit, most - *pieces);
+    for (size_t t = 0; t < mesh->triangle_count && *pieces <= most; t++) {
+      const nsvcd__triangle triangle = nsvcd__triangle_of(mesh, t);
+      const nsvcd__edge_squares e = nsvcd__squares_of(&triangle);
+      *pieces += nsvcd__count_pieces(e, limit, most - *pieces);
     }
     if (*pieces <= most)
       return limit;
@@ -3002,10 +3081,11 @@ static double nsvcd__raise_limit(const nsvcd_mesh *mesh, double limit, double mo
 
 // The limit for the pieces of patches: larger ones only make larger balls.
 static double nsvcd__piece_limit(const nsvcd__patches *p, const nsvcd_mesh *mesh) {
+  const double added = NSVCD__PIECES_PER_SAMPLE * (double)p->sample_count;
+  const double most = (double)mesh->triangle_count + added;
   double limit = 0;
-  double most = (double)mesh->triangle_count + NSVCD__PIECES_PER_SAMPLE * (double)p->sample_count;
   double pieces;
-  for (size_t i = 0; i < p->count; ++i)
+  for (size_t i = 0; i < p->count; i++)
     limit += (double)p->sample_radii[i] / (double)p->count;
   limit *= NSVCD__PIECE_SIZE;
   if (!(limit > 0))
@@ -3013,92 +3093,97 @@ static double nsvcd__piece_limit(const nsvcd__patches *p, const nsvcd_mesh *mesh
   return nsvcd__raise_limit(mesh, limit, most, &pieces);
 }
 
-// Returns the patch of the last piece: the guess for the next.
-static uint32_t nsvcd__cover_piece(nsvcd__patches *p, double limit, uint32_t guess, const double *a,
-                                   const double *b, const double *c, const double *area_vector,
-                                   double area) {
-  double ab = nsvcd__squared_edge(a, b);
-  double bc = nsvcd__squared_edge(b, c);
-  double ca = nsvcd__squared_edge(c, a);
-  if (bc > ab && bc >= ca)
-    return nsvcd__cover_piece(p, limit, guess, b, c, a, area_vector, area);
-  if (ca > ab)
-    return nsvcd__cover_piece(p, limit, guess, c, a, b, area_vector, area);
-  if (ab > limit * limit) {
-    double middle[3], half[3];
-    for (int k = 0; k < 3; ++k) {
-      middle[k] = 0.5 * (a[k] + b[k]);
-      half[k] = 0.5 * area_vector[k];
-    }
-    guess = nsvcd__cover_piece(p, limit, guess, a, middle, c, half, 0.5 * area);
-    return nsvcd__cover_piece(p, limit, guess, middle, b, c, half, 0.5 * area);
-  }
-  uint32_t patch =
-      nsvcd__nearest_centre(p, guess, (float)((a[0] + b[0] + c[0]) / 3),
-                            (float)((a[1] + b[1] + c[1]) / 3), (float)((a[2] + b[2] + c[2]) / 3));
-  nsvcd__patch_sum *sum = &p->sums[patch];
-  for (int k = 0; k < 3; ++k)
-    sum->vector[k] += area_vector[k];
-  sum->weight += area;
+// A triangle, or a part of one, that is to be covered.
+typedef struct nsvcd__patch_piece {
+  nsvcd__triangle corners;
+  nsvcd__d3 area_vector;
+  double area;
+} nsvcd__patch_piece;
+
+// Gives a piece to the patch with the nearest centre. Returns that patch.
+static uint32_t nsvcd__give_piece(nsvcd__patches *p, uint32_t guess,
+                                  const nsvcd__patch_piece *piece) {
+  const nsvcd__triangle *t = &piece->corners;
+  const nsvcd__d3 sum = nsvcd__d3_add(nsvcd__d3_add(t->a, t->b), t->c);
+  const nsvcd__f3 centroid = nsvcd__d3_narrow(nsvcd__d3_over(sum, 3));
+  const uint32_t patch = nsvcd__nearest_centre(p, guess, centroid);
+  nsvcd__patch_sum *to = &p->sums[patch];
+  to->vector = nsvcd__d3_add(to->vector, piece->area_vector);
+  to->weight += piece->area;
+  nsvcd__reach_to(p, patch, t->a);
+  nsvcd__reach_to(p, patch, t->b);
+  nsvcd__reach_to(p, patch, t->c);
   p->piece_count++;
-  sum->reach = fmax(sum->reach, nsvcd__squared_distance(p, patch, a[0], a[1], a[2]));
-  sum->reach = fmax(sum->reach, nsvcd__squared_distance(p, patch, b[0], b[1], b[2]));
-  sum->reach = fmax(sum->reach, nsvcd__squared_distance(p, patch, c[0], c[1], c[2]));
   return patch;
 }
 
+// Covers a piece, halved as often as need be. guess: a patch near by. Returns the patch of the last
+// half: the guess for what comes next.
+static uint32_t nsvcd__cover_piece(nsvcd__patches *p, double limit, uint32_t guess,
+                                   const nsvcd__patch_piece *piece) {
+  const nsvcd__edge_squares e = nsvcd__squares_of(&piece->corners);
+  const nsvcd__triangle abc = piece->corners;
+  const nsvcd__triangle bca = {abc.b, abc.c, abc.a};
+  const nsvcd__triangle cab = {abc.c, abc.a, abc.b};
+  const int longest = nsvcd__longest_of(e);
+  const nsvcd__triangle t = longest == 0 ? abc : longest == 1 ? bca : cab;
+  if (nsvcd__d3_gap(t.a, t.b) <= limit * limit) {
+    nsvcd__patch_piece whole = *piece;
+    whole.corners = t;
+    return nsvcd__give_piece(p, guess, &whole);
+  }
+
+  const nsvcd__d3 middle = nsvcd__d3_scale(nsvcd__d3_add(t.a, t.b), 0.5);
+  nsvcd__patch_piece half;
+  half.area_vector = nsvcd__d3_scale(piece->area_vector, 0.5);
+  half.area = 0.5 * piece->area;
+  half.corners = t;
+  half.corners.b = middle;
+  guess = nsvcd__cover_piece(p, limit, guess, &half);
+  half.corners = t;
+  half.corners.a = middle;
+  return nsvcd__cover_piece(p, limit, guess, &half);
+}
+
 static void nsvcd__cover(nsvcd__patches *p, const nsvcd_mesh *mesh) {
-  double limit = nsvcd__piece_limit(p, mesh);
+  const double limit = nsvcd__piece_limit(p, mesh);
   uint32_t guess = 0;
   memset(p->sums, 0, p->count * sizeof *p->sums);
-  for (size_t t = 0; t < mesh->triangle_count; ++t) {
-    double corners[3][3], vector[3];
-    nsvcd__triangle(mesh, t, corners);
-    double area = nsvcd__area_vector(corners, vector);
-    guess = nsvcd__cover_piece(p, limit, guess, corners[0], corners[1], corners[2], vector, area);
+  for (size_t t = 0; t < mesh->triangle_count; t++) {
+    nsvcd__patch_piece piece;
+    piece.corners = nsvcd__triangle_of(mesh, t);
+    piece.area_vector = nsvcd__area_vector(&piece.corners);
+    piece.area = nsvcd__d3_length(piece.area_vector);
+    guess = nsvcd__cover_piece(p, limit, guess, &piece);
   }
-  for (size_t i = 0; i < p->count; ++i) {
+  for (size_t i = 0; i < p->count; i++) {
     const nsvcd__patch_sum *sum = &p->sums[i];
     // A patch may own samples but, its border being finer, only some small piece: its ball holds
     // both.
-    p->radii[i] = fmaxf(nsvcd__radius_above(sum->reach), p->sample_radii[i]);
+    p->radii[i] = fmaxf(nsvcd__radius_above(sum->squared_reach), p->sample_radii[i]);
     p->areas[i] = (float)sum->weight;
-    for (size_t k = 0; k < 3; ++k)
-      p->area_vectors[3 * i + k] = (float)sum->vector[k];
+    p->area_vectors[i] = nsvcd__d3_narrow(sum->vector);
   }
 }
 
 // ---- all of it
 
-// Splits the surface of a checked mesh into at most `points` patches, 1..NSVCD_SMALL_POINTS: fewer
+// Splits the surface of a checked mesh into at most `count` patches, 1..NSVCD_SMALL_POINTS: fewer
 // where samples coincide or a patch loses all of its samples. On success release *patches with
-// nsvcd__patches_free; on failure, MEMORY, it is untouched.
-static nsvcd_result nsvcd__patches_build(const nsvcd_mesh *mesh, size_t points,
+// nsvcd__patches_free. On failure, MEMORY, it is untouched.
+static nsvcd_result nsvcd__patches_build(const nsvcd_mesh *mesh, size_t count,
                                          const nsvcd_allocator *allocator,
                                          nsvcd__patches *patches) {
   nsvcd__patches p;
-  const nsvcd_result result =
-      nsvcd__patches_alloc(&p, points, NSVCD__SAMPLES_PER_POINT * points, allocator);
-  if (result != NSVCD_OK)
-    return result;
-  nsvcd__sample_surface(mesh, p.sample_count, p.points, p.drawn_normals);
-  for (size_t s = 0; s < p.sample_count; ++s) {
-    p.x[s] = p.points[3 * s];
-    p.y[s] = p.points[3 * s + 1];
-    p.z[s] = p.points[3 * s + 2];
-  }
+  if (!nsvcd__patches_alloc(&p, count, NSVCD__SAMPLES_PER_PATCH * count, allocator))
+    return NSVCD_ERROR_MEMORY;
+  nsvcd__sample_surface(mesh, p.sample_count, p.drawn, p.drawn_normals);
   nsvcd__farthest_points(&p);
   nsvcd__move_centres(&p);
-  for (int step = 1; step < NSVCD__LLOYD_STEPS; ++step) {
-    for (size_t s = 0; s < p.sample_count; ++s) {
-      p.owners[s] = (uint16_t)nsvcd__nearest_centre(&p, p.owners[s], p.x[s], p.y[s], p.z[s]);
-    }
+  for (int step = 1; step < NSVCD__LLOYD_STEPS; step++) {
+    for (size_t s = 0; s < p.sample_count; s++)
+      p.owners[s] = (uint16_t)nsvcd__nearest_centre(&p, p.owners[s], p.drawn[s]);
     nsvcd__move_centres(&p);
-  }
-  for (size_t i = 0; i < p.count; ++i) {
-    p.centres[3 * i] = p.centre_x[i];
-    p.centres[3 * i + 1] = p.centre_y[i];
-    p.centres[3 * i + 2] = p.centre_z[i];
   }
   nsvcd__group_samples(&p);
   nsvcd__cover(&p, mesh);
@@ -3110,33 +3195,44 @@ static nsvcd_result nsvcd__patches_build(const nsvcd_mesh *mesh, size_t points,
 #ifndef NSVCD_NO_ENCODER
 // ----------------------------------------------------------------------------------------- regions
 // In: a checked mesh. Out: its triangles, welded, in one region, or in as many as it takes to have
-// no more than 512 patches in each: each region is then made into patches by itself. Large
-// triangles are halved first, until none is large beside the regions. So that nothing is lost,
-// halves share the corner between them and both are kept.
+// no more than 512 patches in each. Each region is then made into patches by itself. Where there
+// are several, large triangles are halved first, until none is large beside the regions. Nothing is
+// lost: halves share the corner between them, and both are kept.
 
-#define NSVCD__REGION_POINTS 256      // patches of a region, where there are several
-#define NSVCD__REGION_EDGE 0.5        // longest edge, in roots of a region's mean area
-#define NSVCD__REGION_BINS 512        // a cut between regions is found to the width of one
-#define NSVCD__HALVES_PER_REGION 256  // bounds the triangles that halving adds
+// patches of a region, where there are several
+#define NSVCD__REGION_PATCHES 256
+// longest edge, in roots of a region's mean area
+#define NSVCD__REGION_EDGE 0.5
+// a cut between regions is found to the width of one
+#define NSVCD__REGION_BINS 512
+// bounds the triangles that halving adds
+#define NSVCD__HALVES_PER_REGION 256
+#define NSVCD__NO_NUMBER 0xffffffffu
 
 // ---- topology: welded vertices, components, which of them are closed
 
-// Working memory and what is learned of the mesh. Vertices at the same place are one: the first of
-// them.
+// What is learned of a mesh. Vertices at the same place are one: the first of them. A component
+// goes by its root, the least of its vertices.
 typedef struct nsvcd__topology {
+  const nsvcd_mesh *mesh;
+  const nsvcd_allocator *allocator;
   size_t component_count;
-  uint32_t *welded;   // (vertices) the first vertex at the same place
-  uint32_t *parents;  // (vertices) of the union-find forest; in the end the root, the least vertex
-  uint8_t *open;      // (vertices) of a root: its component is not closed
-  uint8_t *seen;      // (vertices) of a root: a triangle belongs to it
+  // (vertices) the first vertex at the same place
+  uint32_t *welded;
+  // (vertices) of the union-find forest; in the end the root
+  uint32_t *parents;
+  // (vertices) of a root: its component is not closed
+  uint8_t *open;
+  // (vertices) of a root: a triangle belongs to it
+  uint8_t *seen;
 } nsvcd__topology;
 
-static void nsvcd__topology_free(nsvcd__topology *topology, const nsvcd_allocator *allocator) {
+static void nsvcd__topology_free(nsvcd__topology *topology) {
+  const nsvcd_allocator *allocator = topology->allocator;
   nsvcd__free(allocator, topology->welded);
   nsvcd__free(allocator, topology->parents);
   nsvcd__free(allocator, topology->open);
   nsvcd__free(allocator, topology->seen);
-  memset(topology, 0, sizeof *topology);
 }
 
 static uint32_t nsvcd__place_hash(const float *position) {
@@ -3157,12 +3253,13 @@ static int nsvcd__equal_positions(const float *a, const float *b) {
 }
 
 // Finds the first vertex at each place, in a table of open addresses. 0 without memory.
-static int nsvcd__weld(const nsvcd_mesh *mesh, uint32_t *welded, const nsvcd_allocator *allocator) {
+static int nsvcd__weld(nsvcd__topology *topology) {
+  const nsvcd_mesh *mesh = topology->mesh;
   const uint32_t empty = 0xffffffffu;
   size_t slots = 16;
   while (slots / 2 < mesh->vertex_count)
     slots *= 2;
-  uint32_t *table = (uint32_t *)nsvcd__alloc_array(allocator, slots, sizeof(uint32_t));
+  uint32_t *table = nsvcd__alloc_words(topology->allocator, slots);
   if (!table)
     return 0;
 
@@ -3171,15 +3268,16 @@ static int nsvcd__weld(const nsvcd_mesh *mesh, uint32_t *welded, const nsvcd_all
     const float *position = mesh->positions + 3 * (size_t)v;
     size_t slot = nsvcd__place_hash(position) & (slots - 1);
     while (table[slot] != empty) {
-      if (nsvcd__equal_positions(mesh->positions + 3 * (size_t)table[slot], position))
+      const float *other = mesh->positions + 3 * (size_t)table[slot];
+      if (nsvcd__equal_positions(other, position))
         break;
       slot = (slot + 1) & (slots - 1);
     }
     if (table[slot] == empty)
       table[slot] = v;
-    welded[v] = table[slot];
+    topology->welded[v] = table[slot];
   }
-  nsvcd__free(allocator, table);
+  nsvcd__free(topology->allocator, table);
   return 1;
 }
 
@@ -3200,35 +3298,86 @@ static void nsvcd__join(uint32_t *parents, uint32_t a, uint32_t b) {
     parents[a] = b;
 }
 
-static void nsvcd__find_components(const nsvcd_mesh *mesh, nsvcd__topology *topology) {
+// A triangle, by the numbers of its corners.
+typedef struct nsvcd__face {
+  uint32_t a, b, c;
+} nsvcd__face;
+
+static nsvcd__face nsvcd__face_load(const uint32_t *p) {
+  const nsvcd__face out = {p[0], p[1], p[2]};
+  return out;
+}
+static void nsvcd__face_store(nsvcd__face face, uint32_t *p) {
+  p[0] = face.a;
+  p[1] = face.b;
+  p[2] = face.c;
+}
+
+static nsvcd__face nsvcd__welded_face(const nsvcd__topology *topology, size_t t) {
+  const uint32_t *corners = topology->mesh->indices + 3 * t;
+  nsvcd__face out;
+  out.a = topology->welded[corners[0]];
+  out.b = topology->welded[corners[1]];
+  out.c = topology->welded[corners[2]];
+  return out;
+}
+
+static void nsvcd__find_components(nsvcd__topology *topology) {
+  const nsvcd_mesh *mesh = topology->mesh;
+  uint32_t *parents = topology->parents;
   for (uint32_t v = 0; v < mesh->vertex_count; v++)
-    topology->parents[v] = v;
+    parents[v] = v;
   for (size_t t = 0; t < mesh->triangle_count; t++) {
-    const uint32_t *corners = mesh->indices + 3 * t;
-    const uint32_t a = topology->welded[corners[0]];
-    nsvcd__join(topology->parents, a, topology->welded[corners[1]]);
-    nsvcd__join(topology->parents, a, topology->welded[corners[2]]);
+    const nsvcd__face face = nsvcd__welded_face(topology, t);
+    nsvcd__join(parents, face.a, face.b);
+    nsvcd__join(parents, face.a, face.c);
   }
-  for (uint32_t v = 0; v < mesh->vertex_count; v++) {
-    topology->parents[v] = nsvcd__root(topology->parents, v);
-  }
+  for (uint32_t v = 0; v < mesh->vertex_count; v++)
+    parents[v] = nsvcd__root(parents, v);
 
   memset(topology->seen, 0, mesh->vertex_count);
   topology->component_count = 0;
   for (size_t t = 0; t < mesh->triangle_count; t++) {
-    const uint32_t root = topology->parents[topology->welded[mesh->indices[3 * t]]];
+    const uint32_t root = parents[nsvcd__welded_face(topology, t).a];
     topology->component_count += !topology->seen[root];
     topology->seen[root] = 1;
   }
 }
 
-// The directed edges at each vertex, listed at the lesser end: +1 where they lead away from it, -1
-// where towards it. A component is closed if they cancel.
+// A directed edge: +1 where it leads away from its lesser end, -1 where towards it.
+typedef struct nsvcd__edge {
+  uint32_t low, high;
+  int8_t sign;
+} nsvcd__edge;
+
+static nsvcd__edge nsvcd__edge_of(uint32_t from, uint32_t to) {
+  const nsvcd__edge away = {from, to, 1};
+  const nsvcd__edge towards = {to, from, -1};
+  return from < to ? away : towards;
+}
+
+// The edges of triangle t. Returns how many: 3, or none where two corners are one, for then the
+// edges cancel among themselves.
+static size_t nsvcd__edges_of(const nsvcd__topology *topology, size_t t, nsvcd__edge *edges) {
+  const nsvcd__face face = nsvcd__welded_face(topology, t);
+  if (face.a == face.b || face.b == face.c || face.c == face.a)
+    return 0;
+  edges[0] = nsvcd__edge_of(face.a, face.b);
+  edges[1] = nsvcd__edge_of(face.b, face.c);
+  edges[2] = nsvcd__edge_of(face.c, face.a);
+  return 3;
+}
+
+// All edges, listed at their lesser ends. A component is closed if its edges cancel.
 typedef struct nsvcd__edges {
-  size_t *first;      // (vertices + 1) edges of a vertex
-  uint32_t *ends;     // (3 triangles) the greater end
-  int8_t *signs;      // (3 triangles)
-  int32_t *balances;  // (vertices) sums over the edges of one vertex, by their other end; else zero
+  // (vertices + 1) edges of a vertex
+  size_t *first;
+  // (3 triangles) the greater end
+  uint32_t *ends;
+  // (3 triangles)
+  int8_t *signs;
+  // (vertices) sums over the edges of one vertex, by their other end; else zero
+  int32_t *balances;
 } nsvcd__edges;
 
 static void nsvcd__edges_free(nsvcd__edges *edges, const nsvcd_allocator *allocator) {
@@ -3242,9 +3391,9 @@ static int nsvcd__edges_alloc(nsvcd__edges *edges, const nsvcd_mesh *mesh,
                               const nsvcd_allocator *allocator) {
   const size_t vertices = mesh->vertex_count;
   const size_t count = 3 * mesh->triangle_count;
-  edges->first = (size_t *)nsvcd__alloc_array(allocator, vertices + 2, sizeof(size_t));
-  edges->ends = (uint32_t *)nsvcd__alloc_array(allocator, count, sizeof(uint32_t));
-  edges->signs = (int8_t *)nsvcd__alloc_array(allocator, count, sizeof(int8_t));
+  edges->first = nsvcd__alloc_sizes(allocator, vertices + 2);
+  edges->ends = nsvcd__alloc_words(allocator, count);
+  edges->signs = (int8_t *)nsvcd__alloc(allocator, count);
   edges->balances = (int32_t *)nsvcd__alloc_array(allocator, vertices, sizeof(int32_t));
   if (edges->first && edges->ends && edges->signs && edges->balances)
     return 1;
@@ -3252,224 +3401,236 @@ static int nsvcd__edges_alloc(nsvcd__edges *edges, const nsvcd_mesh *mesh,
   return 0;
 }
 
-// The welded corners of triangle t; 0 if two of them are one, for then its edges cancel among
-// themselves.
-static int nsvcd__welded_corners(const nsvcd_mesh *mesh, const nsvcd__topology *topology, size_t t,
-                                 uint32_t *corners) {
-  for (size_t i = 0; i < 3; i++)
-    corners[i] = topology->welded[mesh->indices[3 * t + i]];
-  return corners[0] != corners[1] && corners[1] != corners[2] && corners[2] != corners[0];
-}
-
 // Counting sort of the edges by their lesser end.
-static void nsvcd__sort_edges(const nsvcd_mesh *mesh, const nsvcd__topology *topology,
-                              nsvcd__edges *edges) {
-  uint32_t corners[3];
+static void nsvcd__sort_edges(const nsvcd__topology *topology, nsvcd__edges *edges) {
+  const nsvcd_mesh *mesh = topology->mesh;
+  nsvcd__edge sides[3];
   memset(edges->first, 0, (mesh->vertex_count + 2) * sizeof *edges->first);
   for (size_t t = 0; t < mesh->triangle_count; t++) {
-    if (!nsvcd__welded_corners(mesh, topology, t, corners))
-      continue;
-    for (size_t i = 0; i < 3; i++) {
-      const uint32_t a = corners[i];
-      const uint32_t b = corners[(i + 1) % 3];
-      edges->first[(a < b ? a : b) + 2]++;
-    }
+    const size_t count = nsvcd__edges_of(topology, t, sides);
+    for (size_t i = 0; i < count; i++)
+      edges->first[sides[i].low + 2]++;
   }
   for (size_t v = 0; v < mesh->vertex_count; v++)
     edges->first[v + 2] += edges->first[v + 1];
 
   for (size_t t = 0; t < mesh->triangle_count; t++) {
-    if (!nsvcd__welded_corners(mesh, topology, t, corners))
-      continue;
-    for (size_t i = 0; i < 3; i++) {
-      const uint32_t a = corners[i];
-      const uint32_t b = corners[(i + 1) % 3];
-      const size_t to = edges->first[(a < b ? a : b) + 1]++;  // afterwards the start of the next
-      edges->ends[to] = a < b ? b : a;
-      edges->signs[to] = a < b ? 1 : -1;
+    const size_t count = nsvcd__edges_of(topology, t, sides);
+    for (size_t i = 0; i < count; i++) {
+      const size_t to = edges->first[sides[i].low + 1]++;  // afterwards the start of the next
+      edges->ends[to] = sides[i].high;
+      edges->signs[to] = sides[i].sign;
     }
   }
 }
 
-// 0 without memory.
-static int nsvcd__find_open(const nsvcd_mesh *mesh, nsvcd__topology *topology,
-                            const nsvcd_allocator *allocator) {
+// Finds the components that are not closed. 0 without memory.
+static int nsvcd__find_open(nsvcd__topology *topology) {
+  const nsvcd_mesh *mesh = topology->mesh;
   nsvcd__edges edges;
-  if (!nsvcd__edges_alloc(&edges, mesh, allocator))
+  if (!nsvcd__edges_alloc(&edges, mesh, topology->allocator))
     return 0;
-  nsvcd__sort_edges(mesh, topology, &edges);
+  nsvcd__sort_edges(topology, &edges);
 
+  int32_t *balances = edges.balances;
   memset(topology->open, 0, mesh->vertex_count);
-  memset(edges.balances, 0, mesh->vertex_count * sizeof *edges.balances);
+  memset(balances, 0, mesh->vertex_count * sizeof *balances);
   for (size_t v = 0; v < mesh->vertex_count; v++) {
     const size_t first = edges.first[v];
-    const size_t last = edges.first[v + 1];
-    for (size_t e = first; e < last; e++)
-      edges.balances[edges.ends[e]] += edges.signs[e];
-    for (size_t e = first; e < last; e++) {
-      if (edges.balances[edges.ends[e]] != 0)
+    const size_t end = edges.first[v + 1];
+    for (size_t e = first; e < end; e++)
+      balances[edges.ends[e]] += edges.signs[e];
+    for (size_t e = first; e < end; e++) {
+      if (balances[edges.ends[e]] != 0)
         topology->open[topology->parents[v]] = 1;
     }
-    for (size_t e = first; e < last; e++)
-      edges.balances[edges.ends[e]] = 0;
+    for (size_t e = first; e < end; e++)
+      balances[edges.ends[e]] = 0;
   }
-  nsvcd__edges_free(&edges, allocator);
+  nsvcd__edges_free(&edges, topology->allocator);
   return 1;
 }
 
-// 0 without memory.
-static int nsvcd__topology_build(const nsvcd_mesh *mesh, nsvcd__topology *topology,
-                                 const nsvcd_allocator *allocator) {
+// On success release with nsvcd__topology_free; 0 without memory.
+static int nsvcd__topology_build(const nsvcd_mesh *mesh, const nsvcd_allocator *allocator,
+                                 nsvcd__topology *topology) {
   const size_t vertices = mesh->vertex_count;
-  memset(topology, 0, sizeof *topology);
-  topology->welded = (uint32_t *)nsvcd__alloc_array(allocator, vertices, sizeof(uint32_t));
-  topology->parents = (uint32_t *)nsvcd__alloc_array(allocator, vertices, sizeof(uint32_t));
-  topology->open = (uint8_t *)nsvcd__alloc_array(allocator, vertices, sizeof(uint8_t));
-  topology->seen = (uint8_t *)nsvcd__alloc_array(allocator, vertices, sizeof(uint8_t));
-  if (topology->welded && topology->parents && topology->open && topology->seen &&
-      nsvcd__weld(mesh, topology->welded, allocator)) {
-    nsvcd__find_components(mesh, topology);
-    if (nsvcd__find_open(mesh, topology, allocator))
-      return 1;
+  topology->mesh = mesh;
+  topology->allocator = allocator;
+  topology->welded = nsvcd__alloc_words(allocator, vertices);
+  topology->parents = nsvcd__alloc_words(allocator, vertices);
+  topology->open = (uint8_t *)nsvcd__alloc(allocator, vertices);
+  topology->seen = (uint8_t *)nsvcd__alloc(allocator, vertices);
+  int ok = topology->welded && topology->parents && topology->open && topology->seen;
+  ok = ok && nsvcd__weld(topology);
+  if (ok) {
+    nsvcd__find_components(topology);
+    ok = nsvcd__find_open(topology);
   }
-  nsvcd__topology_free(topology, allocator);
-  return 0;
+  if (!ok)
+    nsvcd__topology_free(topology);
+  return ok;
 }
 
 // ---- a region at a time
 
+// Points are numbered: the vertices of the caller's mesh, then the cuts, which halving has made.
 typedef struct nsvcd__regions {
   const nsvcd_mesh *mesh;
-  double greatest;         // coordinate, of all
+  const nsvcd_allocator *allocator;
+  // of all coordinates
+  double greatest;
   size_t component_count;  // C
   // (vertices) 1: of its component the least vertex, which no patch has been given yet
   uint8_t *seeds;
   size_t count;           // R
   size_t triangle_count;  // T, halves and all
-  uint32_t *corners;      // (T, 3) numbers of welded vertices, then of cuts
+  // (T, 3) points
+  uint32_t *corners;
   // (T) in the caller's mesh, with NSVCD__ENCLOSES where it belongs to a closed component
   uint32_t *ids;
   size_t cut_count;
-  nsvcd__d3 *cuts;  // the corners that halving has made
+  size_t most_cuts;
+  // (most_cuts)
+  nsvcd__d3 *cuts;
+  // metres: a triangle with a longer edge is halved
+  double longest_edge;
+
   // Of several regions:
-  uint32_t *order;    // (T) triangles, region by region
-  uint32_t *spare;    // (T) working memory
-  uint32_t *numbers;  // (vertices and cuts) those in the region at hand
-  size_t *first;      // (R + 1) places in `order`
+  // what a triangle counts for its area and for being one, when regions are made alike
+  double per_area, per_triangle;
+  // (T) triangles, region by region
+  uint32_t *order;
+  // (T) working memory
+  uint32_t *spare;
+  // (vertices and cuts) the numbers of points in the region at hand
+  uint32_t *numbers;
+  // (R + 1) places in `order`
+  size_t *first;
 } nsvcd__regions;
 
 // A part of a mesh. Its last vertices are cuts.
 typedef struct nsvcd__region {
-  nsvcd_mesh mesh;        // welded
-  double greatest;        // coordinate, of the whole mesh
-  const uint32_t *ids;    // (triangles)
-  const nsvcd__d3 *cuts;  // (cut_count) where they are; the mesh has them rounded
+  nsvcd_mesh mesh;  // welded
+  // coordinate, of the whole mesh
+  double greatest;
+  // (triangles)
+  const uint32_t *ids;
+  // (cut_count) where the cuts are; the mesh has them rounded
+  const nsvcd__d3 *cuts;
   size_t cut_count;
-  uint8_t *seeds;      // (vertices)
-  uint32_t *vertices;  // (vertices) their numbers among those of all regions; NULL: the same
-  void *memory;        // of the rest, but for a single region
+  // (vertices)
+  uint8_t *seeds;
+  // (vertices) their numbers among the points of all regions; NULL: the same
+  uint32_t *vertices;
+  // holds the rest, but for a single region
+  void *memory;
 } nsvcd__region;
 
-static void nsvcd__regions_free(nsvcd__regions *r, const nsvcd_allocator *allocator) {
-  nsvcd__free(allocator, r->seeds);
-  nsvcd__free(allocator, r->corners);
-  nsvcd__free(allocator, r->ids);
-  nsvcd__free(allocator, r->cuts);
-  nsvcd__free(allocator, r->order);
-  nsvcd__free(allocator, r->spare);
-  nsvcd__free(allocator, r->numbers);
-  nsvcd__free(allocator, r->first);
-  memset(r, 0, sizeof *r);
+static void nsvcd__regions_free(nsvcd__regions *r) {
+  nsvcd__free(r->allocator, r->seeds);
+  nsvcd__free(r->allocator, r->corners);
+  nsvcd__free(r->allocator, r->ids);
+  nsvcd__free(r->allocator, r->cuts);
+  nsvcd__free(r->allocator, r->order);
+  nsvcd__free(r->allocator, r->spare);
+  nsvcd__free(r->allocator, r->numbers);
+  nsvcd__free(r->allocator, r->first);
 }
 
 static nsvcd__d3 nsvcd__regions_point(const nsvcd__regions *r, uint32_t number) {
   const size_t vertices = r->mesh->vertex_count;
-  return number < vertices ? nsvcd__d3_load(r->mesh->positions + 3 * (size_t)number)
-                           : r->cuts[number - vertices];
+  if (number < vertices)
+    return nsvcd__d3_row(r->mesh->positions, number);
+  return r->cuts[number - vertices];
 }
 
-// The longest edge that triangles may keep, and how many triangles, and corners made by halving,
-// there are then.
-static double nsvcd__regions_limit(const nsvcd__regions *r, size_t *triangles, size_t *cuts) {
-  const nsvcd_mesh *mesh = r->mesh;
-  const double most = (double)mesh->triangle_count + NSVCD__HALVES_PER_REGION * (double)r->count;
-  const double least = NSVCD__REGION_EDGE * sqrt(nsvcd__mesh_area(mesh) / (double)r->count);
+static nsvcd__triangle nsvcd__regions_place(const nsvcd__regions *r, nsvcd__face face) {
+  nsvcd__triangle out;
+  out.a = nsvcd__regions_point(r, face.a);
+  out.b = nsvcd__regions_point(r, face.b);
+  out.c = nsvcd__regions_point(r, face.c);
+  return out;
+}
+
+static nsvcd__triangle nsvcd__regions_triangle(const nsvcd__regions *r, uint32_t t) {
+  const uint32_t *corners = r->corners + 3 * (size_t)t;
+  return nsvcd__regions_place(r, nsvcd__face_load(corners));
+}
+
+// Finds the longest edge that triangles may keep, and how many cuts there may be then.
+static void nsvcd__regions_limit(nsvcd__regions *r) {
+  const double triangles = (double)r->mesh->triangle_count;
+  const double area = nsvcd__mesh_area(r->mesh) / (double)r->count;
+  const double most = triangles + NSVCD__HALVES_PER_REGION * (double)r->count;
   double pieces;
-  const double limit = nsvcd__raise_limit(mesh, least, most, &pieces);
-  // Lengths of halves are found here by formulas and there from their corners: roundings may part
-  // one more or less.
-  *cuts = (size_t)(pieces - (double)mesh->triangle_count) + NSVCD__HALVES_PER_REGION;
-  *triangles = mesh->triangle_count + *cuts;
-  return limit;
+  r->longest_edge = nsvcd__raise_limit(r->mesh, NSVCD__REGION_EDGE * sqrt(area), most, &pieces);
+  // Lengths of halves are found there by formulas and later from their corners: roundings may
+  // divide one more or less.
+  r->most_cuts = (size_t)(pieces - triangles) + NSVCD__HALVES_PER_REGION;
 }
 
-// Adds a triangle, or its halves where an edge is longer than the limit, as long as there is room
-// for these.
-static void nsvcd__regions_add(nsvcd__regions *r, double limit, size_t most_cuts, uint32_t a,
-                               uint32_t b, uint32_t c, uint32_t id) {
-  const nsvcd__d3 pa = nsvcd__regions_point(r, a);
-  const nsvcd__d3 pb = nsvcd__regions_point(r, b);
-  const nsvcd__d3 pc = nsvcd__regions_point(r, c);
-  const double ab = nsvcd__d3_gap(pa, pb);
-  const double bc = nsvcd__d3_gap(pb, pc);
-  const double ca = nsvcd__d3_gap(pc, pa);
-  if (fmax(ab, fmax(bc, ca)) <= limit * limit || r->cut_count == most_cuts) {
-    uint32_t *corners = r->corners + 3 * r->triangle_count;
-    corners[0] = a;
-    corners[1] = b;
-    corners[2] = c;
+// Adds a triangle, or its halves where an edge is too long, as long as there is room for these.
+static void nsvcd__regions_add(nsvcd__regions *r, nsvcd__face face, uint32_t id) {
+  const double limit = r->longest_edge * r->longest_edge;
+  const nsvcd__triangle triangle = nsvcd__regions_place(r, face);
+  const nsvcd__edge_squares e = nsvcd__squares_of(&triangle);
+  if (fmax(e.ab, fmax(e.bc, e.ca)) <= limit || r->cut_count == r->most_cuts) {
+    nsvcd__face_store(face, r->corners + 3 * r->triangle_count);
     r->ids[r->triangle_count++] = id;
     return;
   }
-  if (bc > ab && bc >= ca) {
-    nsvcd__regions_add(r, limit, most_cuts, b, c, a, id);
-    return;
-  }
-  if (ca > ab) {
-    nsvcd__regions_add(r, limit, most_cuts, c, a, b, id);
-    return;
-  }
+
+  const nsvcd__face from_bc = {face.b, face.c, face.a};
+  const nsvcd__face from_ca = {face.c, face.a, face.b};
+  const int longest = nsvcd__longest_of(e);
+  if (longest > 0)
+    face = longest == 1 ? from_bc : from_ca;
   const uint32_t middle = (uint32_t)(r->mesh->vertex_count + r->cut_count);
-  r->cuts[r->cut_count++] = nsvcd__d3_scale(nsvcd__d3_add(pa, pb), 0.5);
-  nsvcd__regions_add(r, limit, most_cuts, a, middle, c, id);
-  nsvcd__regions_add(r, limit, most_cuts, middle, b, c, id);
+  const nsvcd__d3 a = nsvcd__regions_point(r, face.a);
+  const nsvcd__d3 b = nsvcd__regions_point(r, face.b);
+  r->cuts[r->cut_count++] = nsvcd__d3_scale(nsvcd__d3_add(a, b), 0.5);
+  const nsvcd__face near_a = {face.a, middle, face.c};
+  const nsvcd__face near_b = {middle, face.b, face.c};
+  nsvcd__regions_add(r, near_a, id);
+  nsvcd__regions_add(r, near_b, id);
 }
 
-// Room for so many triangles and cuts, and for the rest of several regions. 0 without memory; the
+// Room for all triangles and cuts, and for the rest of several regions. 0 without memory; the
 // caller frees.
-static int nsvcd__regions_alloc(nsvcd__regions *r, size_t triangles, size_t cuts,
-                                const nsvcd_allocator *allocator) {
-  const size_t word = sizeof(uint32_t);
-  r->corners = (uint32_t *)nsvcd__alloc_array(allocator, triangles, 3 * word);
-  r->ids = (uint32_t *)nsvcd__alloc_array(allocator, triangles, word);
+static int nsvcd__regions_alloc(nsvcd__regions *r) {
+  const size_t triangles = r->mesh->triangle_count + r->most_cuts;
+  const size_t points = r->mesh->vertex_count + r->most_cuts;
+  r->corners = nsvcd__alloc_words(r->allocator, 3 * triangles);
+  r->ids = nsvcd__alloc_words(r->allocator, triangles);
   if (!r->corners || !r->ids)
     return 0;
   if (r->count == 1)
     return 1;
-  r->cuts = (nsvcd__d3 *)nsvcd__alloc_array(allocator, cuts, sizeof(nsvcd__d3));
-  r->order = (uint32_t *)nsvcd__alloc_array(allocator, triangles, word);
-  r->spare = (uint32_t *)nsvcd__alloc_array(allocator, triangles, word);
-  r->numbers = (uint32_t *)nsvcd__alloc_array(allocator, r->mesh->vertex_count + cuts, word);
-  r->first = (size_t *)nsvcd__alloc_array(allocator, r->count + 1, sizeof(size_t));
+  r->cuts = nsvcd__alloc_d3s(r->allocator, r->most_cuts);
+  r->order = nsvcd__alloc_words(r->allocator, triangles);
+  r->spare = nsvcd__alloc_words(r->allocator, triangles);
+  r->numbers = nsvcd__alloc_words(r->allocator, points);
+  r->first = nsvcd__alloc_sizes(r->allocator, r->count + 1);
   return r->cuts && r->order && r->spare && r->numbers && r->first;
 }
 
 static nsvcd__d3 nsvcd__regions_centroid(const nsvcd__regions *r, uint32_t t) {
-  const uint32_t *corners = r->corners + 3 * (size_t)t;
-  const nsvcd__d3 sum =
-      nsvcd__d3_add(nsvcd__regions_point(r, corners[0]), nsvcd__regions_point(r, corners[1]));
-  return nsvcd__d3_scale(nsvcd__d3_add(sum, nsvcd__regions_point(r, corners[2])), 1.0 / 3);
+  const nsvcd__triangle at = nsvcd__regions_triangle(r, t);
+  const nsvcd__d3 sum = nsvcd__d3_add(nsvcd__d3_add(at.a, at.b), at.c);
+  return nsvcd__d3_scale(sum, 1.0 / 3);
 }
 
 // What a triangle counts when regions are made alike: half of it is its area, half that it is one.
-static double nsvcd__regions_weight(const nsvcd__regions *r, uint32_t t, double per_area,
-                                    double per_triangle) {
-  const uint32_t *corners = r->corners + 3 * (size_t)t;
-  const nsvcd__d3 a = nsvcd__regions_point(r, corners[0]);
-  const nsvcd__d3 u = nsvcd__d3_sub(nsvcd__regions_point(r, corners[1]), a);
-  const nsvcd__d3 v = nsvcd__d3_sub(nsvcd__regions_point(r, corners[2]), a);
-  return per_area * 0.5 * nsvcd__d3_length(nsvcd__d3_cross(u, v)) + per_triangle;
+static double nsvcd__regions_weight(const nsvcd__regions *r, uint32_t t) {
+  const nsvcd__triangle at = nsvcd__regions_triangle(r, t);
+  return r->per_area * nsvcd__triangle_area(&at) + r->per_triangle;
 }
+
+// Some of the triangles, by their places in `order`.
+typedef struct nsvcd__run {
+  size_t first, end;
+} nsvcd__run;
 
 // Where a run of triangles is cut in two.
 typedef struct nsvcd__split {
@@ -3479,129 +3640,141 @@ typedef struct nsvcd__split {
   size_t last_bin;  // of the first part
 } nsvcd__split;
 
-static double nsvcd__d3_axis(nsvcd__d3 a, size_t axis) {
-  return axis == 0 ? a.x : axis == 1 ? a.y : a.z;
-}
-
 static size_t nsvcd__split_bin(const nsvcd__split *split, nsvcd__d3 at) {
-  const double bin =
-      (nsvcd__d3_axis(at, split->axis) - nsvcd__d3_axis(split->low, split->axis)) * split->per_bin;
+  const nsvcd__d3 from_low = nsvcd__d3_sub(at, split->low);
+  const double bin = nsvcd__d3_axis(from_low, split->axis) * split->per_bin;
   return bin < NSVCD__REGION_BINS - 1 ? (size_t)bin : NSVCD__REGION_BINS - 1;
 }
 
-// Chooses it such that the first part has about this share of the weight.
-static nsvcd__split nsvcd__regions_split(const nsvcd__regions *r, size_t first, size_t end,
-                                         double share, double per_area, double per_triangle) {
-  double weights[NSVCD__REGION_BINS] = {0};
-  double all = 0;
+// The bins of a run: across the longest axis of its box.
+static nsvcd__split nsvcd__split_across(const nsvcd__regions *r, nsvcd__run run) {
   nsvcd__split split = {{HUGE_VAL, HUGE_VAL, HUGE_VAL}, 0, 0, 0};
   nsvcd__d3 high = {-HUGE_VAL, -HUGE_VAL, -HUGE_VAL};
-  for (size_t i = first; i < end; i++) {
+  for (size_t i = run.first; i < run.end; i++) {
     const nsvcd__d3 at = nsvcd__regions_centroid(r, r->order[i]);
-    split.low =
-        nsvcd__d3_of(fmin(split.low.x, at.x), fmin(split.low.y, at.y), fmin(split.low.z, at.z));
-    high = nsvcd__d3_of(fmax(high.x, at.x), fmax(high.y, at.y), fmax(high.z, at.z));
+    split.low = nsvcd__d3_min(split.low, at);
+    high = nsvcd__d3_max(high, at);
   }
   const nsvcd__d3 size = nsvcd__d3_sub(high, split.low);
-  if (size.y > nsvcd__d3_axis(size, split.axis))
+  if (size.y > size.x)
     split.axis = 1;
   if (size.z > nsvcd__d3_axis(size, split.axis))
     split.axis = 2;
   const double longest = nsvcd__d3_axis(size, split.axis);
   split.per_bin = longest > 1e-30 ? NSVCD__REGION_BINS / longest : 0;
-  for (size_t i = first; i < end; i++) {
-    const double weight = nsvcd__regions_weight(r, r->order[i], per_area, per_triangle);
-    weights[nsvcd__split_bin(&split, nsvcd__regions_centroid(r, r->order[i]))] += weight;
+  return split;
+}
+
+// Chooses the split such that the first part has about this share of the weight.
+static nsvcd__split nsvcd__regions_split(const nsvcd__regions *r, nsvcd__run run, double share) {
+  double weights[NSVCD__REGION_BINS] = {0};
+  double all = 0;
+  nsvcd__split split = nsvcd__split_across(r, run);
+  for (size_t i = run.first; i < run.end; i++) {
+    const uint32_t t = r->order[i];
+    const double weight = nsvcd__regions_weight(r, t);
+    weights[nsvcd__split_bin(&split, nsvcd__regions_centroid(r, t))] += weight;
     all += weight;
   }
   double sum = weights[0];
-  while (split.last_bin + 2 < NSVCD__REGION_BINS &&
-         sum + 0.5 * weights[split.last_bin + 1] < share * all) {
-    sum += weights[++split.last_bin];
+  while (split.last_bin + 2 < NSVCD__REGION_BINS) {
+    const double next = weights[split.last_bin + 1];
+    if (!(sum + 0.5 * next < share * all))
+      break;
+    sum += next;
+    split.last_bin++;
   }
   return split;
 }
 
-// Makes `parts` regions, the next ones, of a run of triangles. In a region they keep their order.
-static void nsvcd__regions_part(nsvcd__regions *r, size_t first, size_t end, size_t parts,
-                                size_t *made, double per_area, double per_triangle) {
+// Makes `parts` regions, from number n on, of a run of triangles. In a region they keep their
+// order.
+static void nsvcd__regions_part(nsvcd__regions *r, nsvcd__run run, size_t parts, size_t n) {
   if (parts == 1) {
-    r->first[(*made)++] = first;
+    r->first[n] = run.first;
     return;
   }
   const size_t left_parts = parts / 2;
   const double share = (double)left_parts / (double)parts;
-  const nsvcd__split split = nsvcd__regions_split(r, first, end, share, per_area, per_triangle);
-  size_t middle = first;
+  const nsvcd__split split = nsvcd__regions_split(r, run, share);
+  nsvcd__run left = {run.first, run.first};
   size_t others = 0;
-  for (size_t i = first; i < end; i++) {
+  for (size_t i = run.first; i < run.end; i++) {
     const uint32_t t = r->order[i];
-    if (nsvcd__split_bin(&split, nsvcd__regions_centroid(r, t)) <= split.last_bin) {
-      r->order[middle++] = t;
+    const size_t bin = nsvcd__split_bin(&split, nsvcd__regions_centroid(r, t));
+    if (bin <= split.last_bin) {
+      r->order[left.end++] = t;
     } else {
       r->spare[others++] = t;
     }
   }
-  memcpy(r->order + middle, r->spare, others * sizeof *r->spare);
-  nsvcd__regions_part(r, first, middle, left_parts, made, per_area, per_triangle);
-  nsvcd__regions_part(r, middle, end, parts - left_parts, made, per_area, per_triangle);
+  const nsvcd__run right = {left.end, run.end};
+  memcpy(r->order + right.first, r->spare, others * sizeof *r->spare);
+  nsvcd__regions_part(r, left, left_parts, n);
+  nsvcd__regions_part(r, right, parts - left_parts, n + left_parts);
 }
 
-// Welds the mesh, and parts it where it is to have more than a region's patches. points: N. On
-// success release with nsvcd__regions_free; 0 without memory, and nothing stays allocated.
-static int nsvcd__regions_build(const nsvcd_mesh *mesh, size_t points,
+// Parts the triangles, which are all there, into several regions.
+static void nsvcd__regions_part_all(nsvcd__regions *r) {
+  const size_t points = r->mesh->vertex_count + r->cut_count;
+  const nsvcd__run all = {0, r->triangle_count};
+  r->per_area = 0.5 / nsvcd__mesh_area(r->mesh);
+  r->per_triangle = 0.5 / (double)r->triangle_count;
+  for (uint32_t t = 0; t < r->triangle_count; t++)
+    r->order[t] = t;
+  for (size_t v = 0; v < points; v++)
+    r->numbers[v] = NSVCD__NO_NUMBER;
+  nsvcd__regions_part(r, all, r->count, 0);
+  r->first[r->count] = r->triangle_count;
+}
+
+// Welds the mesh, and parts it where it is to have more than a region's patches. patches: N, of the
+// whole. On success release with nsvcd__regions_free; 0 without memory, and nothing stays
+// allocated.
+static int nsvcd__regions_build(const nsvcd_mesh *mesh, size_t patches,
                                 const nsvcd_allocator *allocator, nsvcd__regions *r) {
   nsvcd__topology topology;
-  size_t triangles = mesh->triangle_count;
-  size_t cuts = 0;
-  memset(r, 0, sizeof *r);
-  if (!nsvcd__topology_build(mesh, &topology, allocator))
+  if (!nsvcd__topology_build(mesh, allocator, &topology))
     return 0;
+  memset(r, 0, sizeof *r);
   r->mesh = mesh;
+  r->allocator = allocator;
   r->component_count = topology.component_count;
   r->seeds = topology.seen;
   topology.seen = NULL;
-  r->count =
-      points <= NSVCD_SMALL_POINTS ? 1 : (points + NSVCD__REGION_POINTS - 1) / NSVCD__REGION_POINTS;
-  for (size_t i = 0; i < 3 * mesh->vertex_count; i++) {
+  r->count = 1;
+  if (patches > NSVCD_SMALL_POINTS)
+    r->count = (patches + NSVCD__REGION_PATCHES - 1) / NSVCD__REGION_PATCHES;
+  for (size_t i = 0; i < 3 * mesh->vertex_count; i++)
     r->greatest = fmax(r->greatest, fabs((double)mesh->positions[i]));
-  }
-  const double limit = r->count > 1 ? nsvcd__regions_limit(r, &triangles, &cuts) : HUGE_VAL;
-  if (!nsvcd__regions_alloc(r, triangles, cuts, allocator)) {
-    nsvcd__topology_free(&topology, allocator);
-    nsvcd__regions_free(r, allocator);
-    return 0;
-  }
+  r->longest_edge = HUGE_VAL;
+  if (r->count > 1)
+    nsvcd__regions_limit(r);
 
-  for (size_t t = 0; t < mesh->triangle_count; t++) {
-    uint32_t corners[3];
-    nsvcd__welded_corners(mesh, &topology, t, corners);
-    const uint32_t flag = topology.open[topology.parents[corners[0]]] ? 0 : NSVCD__ENCLOSES;
-    nsvcd__regions_add(r, limit, cuts, corners[0], corners[1], corners[2], (uint32_t)t | flag);
+  const int ok = nsvcd__regions_alloc(r);
+  for (size_t t = 0; ok && t < mesh->triangle_count; t++) {
+    const nsvcd__face face = nsvcd__welded_face(&topology, t);
+    const int open = topology.open[topology.parents[face.a]];
+    nsvcd__regions_add(r, face, (uint32_t)t | (open ? 0 : NSVCD__ENCLOSES));
   }
-  nsvcd__topology_free(&topology, allocator);
-  if (r->count == 1)
-    return 1;
-  const size_t vertices = mesh->vertex_count + r->cut_count;
-  size_t made = 0;
-  for (uint32_t t = 0; t < r->triangle_count; t++)
-    r->order[t] = t;
-  for (size_t v = 0; v < vertices; v++)
-    r->numbers[v] = NSVCD__NO_SAMPLE;
-  nsvcd__regions_part(r, 0, r->triangle_count, r->count, &made, 0.5 / nsvcd__mesh_area(mesh),
-                      0.5 / (double)r->triangle_count);
-  r->first[r->count] = r->triangle_count;
-  return 1;
+  nsvcd__topology_free(&topology);
+  if (ok && r->count > 1)
+    nsvcd__regions_part_all(r);
+  if (!ok)
+    nsvcd__regions_free(r);
+  return ok;
 }
 
-// Gives the vertices of a run of triangles that are cuts, or those that are not, their numbers
-// within a region. Returns how many vertices there are now.
-static size_t nsvcd__region_number(nsvcd__regions *r, size_t first, size_t end, int cuts,
-                                   size_t count, uint32_t *vertices) {
-  for (size_t i = first; i < end; i++) {
+// Gives the points of a run of triangles their numbers within a region: those that are cuts, or
+// those that are not. count: of numbers given so far. Returns how many there are now.
+static size_t nsvcd__region_number(nsvcd__regions *r, nsvcd__run run, int cuts, size_t count,
+                                   uint32_t *vertices) {
+  for (size_t i = run.first; i < run.end; i++) {
+    const uint32_t *corners = r->corners + 3 * (size_t)r->order[i];
     for (size_t k = 0; k < 3; k++) {
-      const uint32_t v = r->corners[3 * (size_t)r->order[i] + k];
-      if ((v >= r->mesh->vertex_count) != cuts || r->numbers[v] != NSVCD__NO_SAMPLE)
+      const uint32_t v = corners[k];
+      const int is_cut = v >= r->mesh->vertex_count;
+      if (is_cut != cuts || r->numbers[v] != NSVCD__NO_NUMBER)
         continue;
       r->numbers[v] = (uint32_t)count;
       vertices[count++] = v;
@@ -3610,10 +3783,47 @@ static size_t nsvcd__region_number(nsvcd__regions *r, size_t first, size_t end, 
   return count;
 }
 
-// One of the regions; NSVCD_ERROR_EMPTY where it has no triangle. On success release with
+// Fills a region, whose memory is there, from a run of triangles.
+static void nsvcd__region_fill(nsvcd__regions *r, nsvcd__run run, nsvcd__region *out) {
+  const size_t count = run.end - run.first;
+  nsvcd__d3 *cuts = (nsvcd__d3 *)out->memory;
+  uint32_t *corners = (uint32_t *)(void *)(cuts + 3 * count);
+  uint32_t *ids = corners + 3 * count;
+  uint32_t *vertices = ids + count;
+  float *positions = (float *)(void *)(vertices + 3 * count);
+  uint8_t *seeds = (uint8_t *)(positions + 9 * count);
+  const size_t firm = nsvcd__region_number(r, run, 0, 0, vertices);
+  const size_t all = nsvcd__region_number(r, run, 1, firm, vertices);
+  for (size_t v = 0; v < all; v++) {
+    const nsvcd__d3 at = nsvcd__regions_point(r, vertices[v]);
+    nsvcd__f3_store(nsvcd__f3_round(at), positions + 3 * v);
+    if (v >= firm)
+      cuts[v - firm] = at;
+    seeds[v] = v < firm && r->seeds[vertices[v]];
+  }
+  for (size_t i = 0; i < count; i++) {
+    const uint32_t t = r->order[run.first + i];
+    ids[i] = r->ids[t];
+    for (size_t k = 0; k < 3; k++)
+      corners[3 * i + k] = r->numbers[r->corners[3 * (size_t)t + k]];
+  }
+  for (size_t v = 0; v < all; v++)
+    r->numbers[vertices[v]] = NSVCD__NO_NUMBER;
+
+  out->vertices = vertices;
+  out->cuts = cuts;
+  out->cut_count = all - firm;
+  out->ids = ids;
+  out->seeds = seeds;
+  out->mesh.positions = positions;
+  out->mesh.indices = corners;
+  out->mesh.vertex_count = all;
+  out->mesh.triangle_count = count;
+}
+
+// One of the regions. EMPTY where it has no triangle; MEMORY. On success release with
 // nsvcd__region_end.
-static nsvcd_result nsvcd__region_begin(nsvcd__regions *r, size_t n,
-                                        const nsvcd_allocator *allocator, nsvcd__region *out) {
+static nsvcd_result nsvcd__region_begin(nsvcd__regions *r, size_t n, nsvcd__region *out) {
   memset(out, 0, sizeof *out);
   out->greatest = r->greatest;
   if (r->count == 1) {
@@ -3623,63 +3833,25 @@ static nsvcd_result nsvcd__region_begin(nsvcd__regions *r, size_t n,
     out->seeds = r->seeds;
     return NSVCD_OK;
   }
-  const size_t first = r->first[n];
-  const size_t end = r->first[n + 1];
-  const size_t count = end - first;
-  const size_t word = sizeof(uint32_t);
-  if (count == 0)
+  const nsvcd__run run = {r->first[n], r->first[n + 1]};
+  if (run.first == run.end)
     return NSVCD_ERROR_EMPTY;
-  // Exact places, then what takes four bytes: corners, ids and up to three vertices for each
-  // triangle; then the seeds.
-  char *memory =
-      (char *)nsvcd__alloc_array(allocator, count, 3 * sizeof(nsvcd__d3) + 16 * word + 3);
-  if (!memory)
+  // For each triangle: up to three places of cuts; 16 numbers of four bytes, which are its corners,
+  // its id, and up to three vertices with their positions; up to three seeds.
+  const size_t size = 3 * sizeof(nsvcd__d3) + 16 * sizeof(uint32_t) + 3;
+  out->memory = nsvcd__alloc_array(r->allocator, run.end - run.first, size);
+  if (!out->memory)
     return NSVCD_ERROR_MEMORY;
-  nsvcd__d3 *cuts = (nsvcd__d3 *)(void *)memory;
-  uint32_t *corners = (uint32_t *)(void *)(cuts + 3 * count);
-  uint32_t *ids = corners + 3 * count;
-  uint32_t *vertices = ids + count;
-  float *positions = (float *)(void *)(vertices + 3 * count);
-  const size_t firm = nsvcd__region_number(r, first, end, 0, 0, vertices);
-  const size_t all = nsvcd__region_number(r, first, end, 1, firm, vertices);
-  out->memory = memory;
-  out->vertices = vertices;
-  out->cuts = cuts;
-  out->cut_count = all - firm;
-  out->ids = ids;
-  out->seeds = (uint8_t *)(positions + 9 * count);
-  for (size_t v = 0; v < all; v++) {
-    const nsvcd__d3 at = nsvcd__regions_point(r, vertices[v]);
-    const nsvcd__f3 rounded = nsvcd__f3_round(at);
-    positions[3 * v] = rounded.x;
-    positions[3 * v + 1] = rounded.y;
-    positions[3 * v + 2] = rounded.z;
-    if (v >= firm)
-      cuts[v - firm] = at;
-    out->seeds[v] = v < firm && r->seeds[vertices[v]];
-  }
-  for (size_t i = 0; i < count; i++) {
-    const uint32_t t = r->order[first + i];
-    ids[i] = r->ids[t];
-    for (size_t k = 0; k < 3; k++)
-      corners[3 * i + k] = r->numbers[r->corners[3 * (size_t)t + k]];
-  }
-  for (size_t v = 0; v < all; v++)
-    r->numbers[vertices[v]] = NSVCD__NO_SAMPLE;
-  out->mesh.positions = positions;
-  out->mesh.indices = corners;
-  out->mesh.vertex_count = all;
-  out->mesh.triangle_count = count;
+  nsvcd__region_fill(r, run, out);
   return NSVCD_OK;
 }
 
 // Keeps in mind which seeds patches have been given.
-static void nsvcd__region_end(nsvcd__regions *r, nsvcd__region *region,
-                              const nsvcd_allocator *allocator) {
+static void nsvcd__region_end(nsvcd__regions *r, nsvcd__region *region) {
   const size_t firm = region->mesh.vertex_count - region->cut_count;
   for (size_t v = 0; region->memory && v < firm; v++)
     r->seeds[region->vertices[v]] = region->seeds[v];
-  nsvcd__free(allocator, region->memory);
+  nsvcd__free(r->allocator, region->memory);
 }
 
 #endif  // NSVCD_NO_ENCODER
@@ -3702,85 +3874,116 @@ static void nsvcd__region_end(nsvcd__regions *r, nsvcd__region *region,
 // ball, disc and swollen hull convex: what contains the corners contains the piece. The corners
 // themselves are off by roundings of double: all bounds are wider by NSVCD__SURFACE_MARGIN.
 
-// mean sample radii: so far a piece may reach into another cell
+// mean sample radii: so far a piece may extend into another cell
 #define NSVCD__SURFACE_OVERLAP 0.5
-#define NSVCD__SURFACE_WHOLE 16.0    // the same: with a longer edge a triangle is listed in parts
-#define NSVCD__SURFACE_MARGIN 1e-13  // of the mesh's greatest coordinate
-#define NSVCD__SURFACE_TINY 1e-30    // metres, added to that: keeps off what float cannot hold
+// mean sample radii: with a longer edge a triangle is listed in parts
+#define NSVCD__SURFACE_WHOLE 16.0
+// of the mesh's greatest coordinate
+#define NSVCD__SURFACE_MARGIN 1e-13
+// metres, added to that: keeps off what float cannot hold
+#define NSVCD__SURFACE_TINY 1e-30
 // of the radius: a hull as near as this to all corners is good
 #define NSVCD__HULL_SHARE 1e-4
-#define NSVCD__FACET_CORNERS 16       // corners of a piece, at most
-#define NSVCD__FACET_STACK 64         // parts that wait for their turn (12 at most were seen)
-#define NSVCD__CUTS_PER_TRIANGLE 8    // these two bound the cuts: a fine mesh needs less than one,
-#define NSVCD__CUTS_PER_PATCH 64      // a large face some three for each of its patches
-#define NSVCD__MAX_CUTS (1u << 29)    // vertices and new corners together have numbers of 32 bits
-#define NSVCD__PATCH_VERTICES 65536u  // as many as corners of 16 bits can name
+// corners of a piece, at most
+#define NSVCD__PIECE_CORNERS 16
+// polygons that wait for their turn (12 at most were seen)
+#define NSVCD__WAITING 64
+// These two bound the cuts. A fine mesh needs less than one for each triangle, a large face some
+// three for each of its patches.
+#define NSVCD__CUTS_PER_TRIANGLE 8
+#define NSVCD__CUTS_PER_PATCH 64
+// vertices and new corners together have numbers of 32 bits
+#define NSVCD__MAX_CUTS (1u << 29)
+// as many as corners of 16 bits can name
+#define NSVCD__PATCH_VERTICES 65536u
 
 // ---- lists that grow
 
 typedef struct nsvcd__list {
+  const nsvcd_allocator *allocator;
   void *items;
+  size_t item_size;
   size_t count, capacity;
 } nsvcd__list;
 
-// Room for `more` items of `size` bytes; 0 without memory, and the list is as it was.
-static int nsvcd__list_reserve(nsvcd__list *list, size_t more, size_t size,
-                               const nsvcd_allocator *allocator) {
+static nsvcd__list nsvcd__list_of(size_t item_size, const nsvcd_allocator *allocator) {
+  const nsvcd__list out = {allocator, NULL, item_size, 0, 0};
+  return out;
+}
+static void nsvcd__list_free(nsvcd__list *list) { nsvcd__free(list->allocator, list->items); }
+
+// Room for `more` items; 0 without memory, and the list is as it was.
+static int nsvcd__list_reserve(nsvcd__list *list, size_t more) {
   if (list->capacity - list->count >= more)
     return 1;
   if (list->count > SIZE_MAX / 2 - more)
     return 0;
   const size_t capacity = list->count + more + list->count / 2;
-  void *items = nsvcd__alloc_array(allocator, capacity, size);
+  void *items = nsvcd__alloc_array(list->allocator, capacity, list->item_size);
   if (!items)
     return 0;
 
   if (list->count > 0)
-    memcpy(items, list->items, list->count * size);
-  nsvcd__free(allocator, list->items);
+    memcpy(items, list->items, list->count * list->item_size);
+  nsvcd__free(list->allocator, list->items);
   list->items = items;
   list->capacity = capacity;
   return 1;
 }
 
 typedef struct nsvcd__surface {
-  size_t count;              // N, of which
-  size_t done;               // so many are described by now
-  size_t listed;             // L, triangles listed, over all patches
-  size_t vertex_count;       // V, vertices stored, over all patches
-  size_t component_count;    // C, connected components (vertices at the same place are one vertex)
-  float *balls;              // (N, 4) centre c and radius. An empty patch has radius NSVCD__NOWHERE
-  float *discs;              // (N, 6) normal n (|n| <= 1), low, high, across: points x of pieces
-                             // have low <= n.(x - c) <= high and are within `across` of the line
-                             // through c along n
-  float *steps;              // (N) metres per integer: a stored vertex is c + step * (x, y, z)
-  float *slacks;             // (N) metres: every point of a piece is within this of the convex hull
-                             // of the first hull_counts[i] stored vertices
-  float *quanta;             // (N) metres: every corner listed is within this of its stored vertex
-  uint8_t *hull_counts;      // (N) 1..NSVCD__HULL; 0 where empty
+  const nsvcd_allocator *allocator;
+  size_t count;  // N, of which
+  size_t done;   // so many are described by now
+  // L, triangles listed, over all patches
+  size_t listed;
+  // V, vertices stored, over all patches
+  size_t vertex_count;
+  // C, connected components (vertices at the same place are one vertex)
+  size_t component_count;
+  // (N) about c; an empty patch has radius NSVCD__NOWHERE
+  nsvcd__sphere *balls;
+  // (N) about c
+  nsvcd__disc *discs;
+  // (N) metres per integer: a stored vertex is c + step * (x, y, z)
+  float *steps;
+  // (N) metres: every point of a piece is within this of the convex hull of the first
+  // hull_counts[i] stored vertices
+  float *slacks;
+  // (N) metres: every corner listed is within this of its stored vertex
+  float *quanta;
+  // (N) 1..NSVCD__HULL; 0 where empty
+  uint8_t *hull_counts;
   uint32_t *first_vertex;    // (N + 1)
   uint32_t *first_triangle;  // (N + 1)
-  int16_t *vertices;         // patch i: x of its vertices, then y, then z, at 3 * first_vertex[i]
-  uint16_t *corners;         // (L, 3) numbers of vertices within the patch
-  uint32_t *ids;             // (L) triangle of the mesh. With NSVCD__ENCLOSES where it belongs to a
-                             // closed component
-  size_t seed_count;         // so many of the C components are known by now
-  float *seeds;              // (C, 3) a vertex of each component
-  uint32_t *seed_patches;    // (C) a patch with a piece that has it for a corner
-  nsvcd__list vertex_list, corner_list, id_list;  // where vertices, corners and ids are
+  // patch i: x of its vertices, then y, then z, at 3 * first_vertex[i]
+  int16_t *vertices;
+  // (L, 3) numbers of vertices within the patch
+  uint16_t *corners;
+  // (L) triangle of the mesh. With NSVCD__ENCLOSES where it belongs to a closed component
+  uint32_t *ids;
+  // so many of the C components are known by now
+  size_t seed_count;
+  // (C) a vertex of each component
+  nsvcd__f3 *seeds;
+  // (C) a patch with a piece that has it for a corner
+  uint32_t *seed_patches;
+  // where vertices, corners and ids are
+  nsvcd__list vertex_list, corner_list, id_list;
 } nsvcd__surface;
 
 // ---- pieces: triangles cut by the cells of the centres
 
 // A convex part of one triangle that is being cut. Its corners are points by number: the mesh's
 // welded vertices, then those that cuts have made.
-typedef struct nsvcd__facet {
-  uint32_t points[NSVCD__FACET_CORNERS];
+typedef struct nsvcd__convex {
+  uint32_t points[NSVCD__PIECE_CORNERS];
   size_t count;
-} nsvcd__facet;
+} nsvcd__convex;
 
 typedef struct nsvcd__piece {
-  uint32_t first;  // of its corners; NSVCD__WHOLE: they are the triangle's
+  // of its corners; NSVCD__WHOLE: they are the triangle's
+  uint32_t first;
   uint32_t triangle;
   uint16_t patch;
   uint8_t count;   // of its corners
@@ -3790,34 +3993,41 @@ typedef struct nsvcd__piece {
 #define NSVCD__WHOLE 0xffffffffu
 
 typedef struct nsvcd__pieces {
+  const nsvcd_allocator *allocator;
   const nsvcd__region *region;
   const nsvcd__patches *patches;
-  nsvcd__list list;       // of nsvcd__piece, triangle by triangle
-  nsvcd__list corners;    // of uint32_t, numbers of points
-  nsvcd__list points;     // of nsvcd__d3: the points that cuts have made
-  nsvcd__facet *waiting;  // (NSVCD__FACET_STACK)
+  nsvcd__list list;        // of nsvcd__piece, triangle by triangle
+  nsvcd__list corners;     // of uint32_t, numbers of points
+  nsvcd__list points;      // of nsvcd__d3: the points that cuts have made
+  nsvcd__convex *waiting;  // (NSVCD__WAITING)
   size_t waiting_count;
   size_t cuts_left;
-  double overlap;  // metres
-  double whole;    // metres: a triangle with a longer edge is listed in parts
-  double margin;   // metres, added to all bounds
+  // metres: so far a piece may extend beyond its cell
+  double overlap;
+  // metres: a triangle with a longer edge is listed in parts
+  double longest_edge;
+  // metres, added to all bounds
+  double margin;
 } nsvcd__pieces;
 
-static void nsvcd__pieces_free(nsvcd__pieces *pieces, const nsvcd_allocator *allocator) {
-  nsvcd__free(allocator, pieces->list.items);
-  nsvcd__free(allocator, pieces->corners.items);
-  nsvcd__free(allocator, pieces->points.items);
-  nsvcd__free(allocator, pieces->waiting);
+static void nsvcd__pieces_free(nsvcd__pieces *pieces) {
+  nsvcd__list_free(&pieces->list);
+  nsvcd__list_free(&pieces->corners);
+  nsvcd__list_free(&pieces->points);
+  nsvcd__free(pieces->allocator, pieces->waiting);
 }
 
 static const nsvcd__piece *nsvcd__piece_at(const nsvcd__pieces *pieces, size_t i) {
   return (const nsvcd__piece *)pieces->list.items + i;
 }
 
+static const uint32_t *nsvcd__triangle_corners(const nsvcd__pieces *pieces, uint32_t triangle) {
+  return pieces->region->mesh.indices + 3 * (size_t)triangle;
+}
 static const uint32_t *nsvcd__piece_corners(const nsvcd__pieces *pieces,
                                             const nsvcd__piece *piece) {
   if (piece->first == NSVCD__WHOLE)
-    return pieces->region->mesh.indices + 3 * (size_t)piece->triangle;
+    return nsvcd__triangle_corners(pieces, piece->triangle);
   return (const uint32_t *)pieces->corners.items + piece->first;
 }
 
@@ -3827,188 +4037,207 @@ static size_t nsvcd__point_count(const nsvcd__pieces *pieces) {
 
 static nsvcd__d3 nsvcd__point_at(const nsvcd__pieces *pieces, uint32_t number) {
   const nsvcd__region *region = pieces->region;
+  const nsvcd__d3 *made = (const nsvcd__d3 *)pieces->points.items;
   const size_t vertices = region->mesh.vertex_count;
   const size_t firm = vertices - region->cut_count;
   if (number < firm)
-    return nsvcd__d3_load(region->mesh.positions + 3 * (size_t)number);
+    return nsvcd__d3_row(region->mesh.positions, number);
   if (number < vertices)
     return region->cuts[number - firm];
-  return ((const nsvcd__d3 *)pieces->points.items)[number - vertices];
+  return made[number - vertices];
 }
 
 static nsvcd__d3 nsvcd__centre_at(const nsvcd__patches *patches, uint32_t i) {
-  return nsvcd__d3_of((double)patches->centre_x[i], (double)patches->centre_y[i],
-                      (double)patches->centre_z[i]);
+  return nsvcd__d3_widen(patches->centres[i]);
 }
 
-// Divides `from` where `beyond`, a value at each of its corners, changes its sign: `near_part` is
-// where it is negative. 0 if one of the parts has less than three corners, which roundings can do,
-// or too many.
-static int nsvcd__divide(nsvcd__pieces *pieces, const nsvcd__facet *from, const double *beyond,
-                         nsvcd__facet *near_part, nsvcd__facet *far_part) {
+// The corners of one of the parts that a polygon is divided in.
+typedef struct nsvcd__part {
+  uint32_t points[2 * NSVCD__PIECE_CORNERS];
+  size_t count;
+} nsvcd__part;
+
+static void nsvcd__part_add(nsvcd__part *part, uint32_t point) {
+  part->points[part->count++] = point;
+}
+static int nsvcd__part_is_good(const nsvcd__part *part) {
+  return part->count >= 3 && part->count <= NSVCD__PIECE_CORNERS;
+}
+static void nsvcd__part_store(const nsvcd__part *part, nsvcd__convex *out) {
+  memcpy(out->points, part->points, part->count * sizeof *part->points);
+  out->count = part->count;
+}
+
+// Divides a polygon where `beyond`, a value at each of its corners, changes its sign: near_part is
+// where it is negative. There is room for the points that this makes. 0 if one of the parts has
+// less than three corners, which roundings can do, or too many.
+static int nsvcd__divide(nsvcd__pieces *pieces, const nsvcd__convex *from, const double *beyond,
+                         nsvcd__convex *near_part, nsvcd__convex *far_part) {
   const uint32_t vertices = (uint32_t)pieces->region->mesh.vertex_count;
   const size_t made = pieces->points.count;
-  nsvcd__d3 *points = (nsvcd__d3 *)pieces->points.items;  // room for two per corner is there
-  uint32_t near_points[3 * NSVCD__FACET_CORNERS];
-  uint32_t far_points[3 * NSVCD__FACET_CORNERS];
-  size_t near_count = 0;
-  size_t far_count = 0;
+  nsvcd__d3 *points = (nsvcd__d3 *)pieces->points.items;
+  nsvcd__part near_by;
+  nsvcd__part far_off;
+  near_by.count = 0;
+  far_off.count = 0;
   for (size_t i = 0; i < from->count; i++) {
     const size_t j = (i + 1) % from->count;
     if (beyond[i] <= 0)
-      near_points[near_count++] = from->points[i];
+      nsvcd__part_add(&near_by, from->points[i]);
     if (beyond[i] >= 0)
-      far_points[far_count++] = from->points[i];
-    if (!((beyond[i] < 0 && beyond[j] > 0) || (beyond[i] > 0 && beyond[j] < 0)))
+      nsvcd__part_add(&far_off, from->points[i]);
+    const int leaves = beyond[i] < 0 && beyond[j] > 0;
+    const int enters = beyond[i] > 0 && beyond[j] < 0;
+    if (!leaves && !enters)
       continue;
     const nsvcd__d3 a = nsvcd__point_at(pieces, from->points[i]);
     const nsvcd__d3 b = nsvcd__point_at(pieces, from->points[j]);
     const uint32_t number = vertices + (uint32_t)pieces->points.count;
-    points[pieces->points.count++] = nsvcd__d3_mix(a, b, beyond[i] / (beyond[i] - beyond[j]));
-    near_points[near_count++] = number;
-    far_points[far_count++] = number;
+    const double share = beyond[i] / (beyond[i] - beyond[j]);
+    points[pieces->points.count++] = nsvcd__d3_mix(a, b, share);
+    nsvcd__part_add(&near_by, number);
+    nsvcd__part_add(&far_off, number);
   }
 
-  const size_t most = NSVCD__FACET_CORNERS;
-  if (near_count < 3 || far_count < 3 || near_count > most || far_count > most) {
+  if (!nsvcd__part_is_good(&near_by) || !nsvcd__part_is_good(&far_off)) {
     pieces->points.count = made;
     return 0;
   }
-  memcpy(near_part->points, near_points, near_count * sizeof *near_points);
-  memcpy(far_part->points, far_points, far_count * sizeof *far_points);
-  near_part->count = near_count;
-  far_part->count = far_count;
+  nsvcd__part_store(&near_by, near_part);
+  nsvcd__part_store(&far_off, far_part);
   return 1;
 }
 
-// How far each corner is beyond the plane midway between two centres, and the greatest of that.
-static double nsvcd__beyond(const nsvcd__pieces *pieces, const nsvcd__facet *facet, nsvcd__d3 own,
+// How far each corner is beyond the plane midway between two centres. Returns the greatest of that.
+static double nsvcd__beyond(const nsvcd__pieces *pieces, const nsvcd__convex *convex, nsvcd__d3 own,
                             nsvcd__d3 other, double *beyond) {
   const nsvcd__d3 across = nsvcd__d3_sub(other, own);
   const nsvcd__d3 middle = nsvcd__d3_mix(own, other, 0.5);
   const double length = nsvcd__d3_length(across);
   double most = -HUGE_VAL;
-  for (size_t i = 0; i < facet->count; i++) {
-    const nsvcd__d3 from_middle = nsvcd__d3_sub(nsvcd__point_at(pieces, facet->points[i]), middle);
-    beyond[i] = length > 0 ? nsvcd__d3_dot(from_middle, across) / length : -1;
+  for (size_t i = 0; i < convex->count; i++) {
+    const nsvcd__d3 at = nsvcd__point_at(pieces, convex->points[i]);
+    const double height = nsvcd__d3_dot(nsvcd__d3_sub(at, middle), across);
+    beyond[i] = length > 0 ? height / length : -1;
     most = fmax(most, beyond[i]);
   }
   return most;
 }
 
-// Distance of the facet's farthest corner.
-static double nsvcd__facet_reach(const nsvcd__pieces *pieces, const nsvcd__facet *facet,
-                                 nsvcd__d3 from) {
-  double reach = 0;
-  for (size_t i = 0; i < facet->count; i++) {
-    const nsvcd__d3 offset = nsvcd__d3_sub(nsvcd__point_at(pieces, facet->points[i]), from);
-    reach = fmax(reach, nsvcd__d3_dot(offset, offset));
+// Distance of the polygon's farthest corner.
+static double nsvcd__convex_reach(const nsvcd__pieces *pieces, const nsvcd__convex *convex,
+                                  nsvcd__d3 from) {
+  double squared = 0;
+  for (size_t i = 0; i < convex->count; i++) {
+    const nsvcd__d3 at = nsvcd__point_at(pieces, convex->points[i]);
+    squared = fmax(squared, nsvcd__d3_gap(at, from));
   }
-  return sqrt(reach);
+  return sqrt(squared);
 }
 
-// Cuts from the facet what lies too far beyond its patch's cell; that waits for its turn. 0 without
-// memory.
-static int nsvcd__trim(nsvcd__pieces *pieces, uint32_t patch, nsvcd__facet *facet,
-                       const nsvcd_allocator *allocator) {
+// Cuts from the polygon what lies too far beyond its patch's cell; that waits for its turn. 0
+// without memory.
+static int nsvcd__trim(nsvcd__pieces *pieces, uint32_t patch, nsvcd__convex *convex) {
   const nsvcd__patches *patches = pieces->patches;
   const nsvcd__d3 own = nsvcd__centre_at(patches, patch);
-  const uint32_t *neighbours = patches->neighbours + (size_t)patch * NSVCD__NEIGHBOURS;
-  const float *quarter_gaps = patches->quarter_gaps + (size_t)patch * NSVCD__NEIGHBOURS;
-  double reach = nsvcd__facet_reach(pieces, facet, own);
-  for (size_t k = 0; k < NSVCD__NEIGHBOURS; k++) {
+  const size_t first = (size_t)patch * NSVCD__NEIGHBOURS;
+  double reach = nsvcd__convex_reach(pieces, convex, own);
+  for (size_t k = first; k < first + NSVCD__NEIGHBOURS; k++) {
     // The plane is half the gap away, and the planes of all that follow are farther.
-    if (reach <= sqrt((double)quarter_gaps[k]) + pieces->overlap)
+    const double plane = sqrt((double)patches->quarter_gaps[k]);
+    if (reach <= plane + pieces->overlap)
       break;
-    if (pieces->cuts_left == 0 || pieces->waiting_count == NSVCD__FACET_STACK)
+    if (pieces->cuts_left == 0 || pieces->waiting_count == NSVCD__WAITING)
       break;
-    double beyond[NSVCD__FACET_CORNERS];
-    const nsvcd__d3 other = nsvcd__centre_at(patches, neighbours[k]);
-    if (nsvcd__beyond(pieces, facet, own, other, beyond) <= pieces->overlap)
+    double beyond[NSVCD__PIECE_CORNERS];
+    const nsvcd__d3 other = nsvcd__centre_at(patches, patches->neighbours[k]);
+    if (nsvcd__beyond(pieces, convex, own, other, beyond) <= pieces->overlap)
       continue;
-    if (!nsvcd__list_reserve(&pieces->points, facet->count, sizeof(nsvcd__d3), allocator))
+    if (!nsvcd__list_reserve(&pieces->points, convex->count))
       return 0;
-    nsvcd__facet near_part;
-    nsvcd__facet *far_part = &pieces->waiting[pieces->waiting_count];
-    if (!nsvcd__divide(pieces, facet, beyond, &near_part, far_part))
+    nsvcd__convex near_part;
+    nsvcd__convex *far_part = &pieces->waiting[pieces->waiting_count];
+    if (!nsvcd__divide(pieces, convex, beyond, &near_part, far_part))
       continue;
-    *facet = near_part;
+    *convex = near_part;
     pieces->waiting_count++;
     pieces->cuts_left--;
-    reach = nsvcd__facet_reach(pieces, facet, own);
+    reach = nsvcd__convex_reach(pieces, convex, own);
   }
   return 1;
 }
 
-// 0 without memory. piece: all but its corners.
-static int nsvcd__add_piece(nsvcd__pieces *pieces, const nsvcd__facet *facet, nsvcd__piece piece,
-                            const nsvcd_allocator *allocator) {
-  const uint32_t *triangle = pieces->region->mesh.indices + 3 * (size_t)piece.triangle;
-  const int whole = facet->count == 3 && memcmp(facet->points, triangle, 3 * sizeof *triangle) == 0;
-  piece.count = (uint8_t)facet->count;
+// Keeps a polygon. piece: what is known of it but its corners. 0 without memory.
+static int nsvcd__add_piece(nsvcd__pieces *pieces, const nsvcd__convex *convex,
+                            nsvcd__piece piece) {
+  const uint32_t *triangle = nsvcd__triangle_corners(pieces, piece.triangle);
+  const int same = memcmp(convex->points, triangle, 3 * sizeof *triangle) == 0;
+  piece.count = (uint8_t)convex->count;
   piece.first = NSVCD__WHOLE;
-  if (!whole) {
-    nsvcd__list *corners = &pieces->corners;
-    if (corners->count >= NSVCD__WHOLE - NSVCD__FACET_CORNERS)
+  if (convex->count != 3 || !same) {
+    nsvcd__list *list = &pieces->corners;
+    if (list->count >= NSVCD__WHOLE - NSVCD__PIECE_CORNERS)
       return 0;
-    if (!nsvcd__list_reserve(corners, facet->count, sizeof(uint32_t), allocator))
+    if (!nsvcd__list_reserve(list, convex->count))
       return 0;
-    memcpy((uint32_t *)corners->items + corners->count, facet->points,
-           facet->count * sizeof(uint32_t));
-    piece.first = (uint32_t)corners->count;
-    corners->count += facet->count;
+    uint32_t *corners = (uint32_t *)list->items + list->count;
+    memcpy(corners, convex->points, convex->count * sizeof *corners);
+    piece.first = (uint32_t)list->count;
+    list->count += convex->count;
   }
-  if (!nsvcd__list_reserve(&pieces->list, 1, sizeof(nsvcd__piece), allocator))
+  if (!nsvcd__list_reserve(&pieces->list, 1))
     return 0;
-  ((nsvcd__piece *)pieces->list.items)[pieces->list.count++] = piece;
+  nsvcd__piece *items = (nsvcd__piece *)pieces->list.items;
+  items[pieces->list.count++] = piece;
   return 1;
 }
 
-static uint32_t nsvcd__facet_patch(const nsvcd__pieces *pieces, const nsvcd__facet *facet,
-                                   uint32_t guess) {
+// The patch whose centre is nearest to the mean of the corners.
+static uint32_t nsvcd__convex_patch(const nsvcd__pieces *pieces, const nsvcd__convex *convex,
+                                    uint32_t guess) {
   nsvcd__d3 sum = nsvcd__d3_of(0, 0, 0);
-  for (size_t i = 0; i < facet->count; i++) {
-    sum = nsvcd__d3_add(sum, nsvcd__point_at(pieces, facet->points[i]));
-  }
-  sum = nsvcd__d3_scale(sum, 1 / (double)facet->count);
-  return nsvcd__nearest_centre(pieces->patches, guess, (float)sum.x, (float)sum.y, (float)sum.z);
+  for (size_t i = 0; i < convex->count; i++)
+    sum = nsvcd__d3_add(sum, nsvcd__point_at(pieces, convex->points[i]));
+  const nsvcd__d3 mean = nsvcd__d3_scale(sum, 1 / (double)convex->count);
+  return nsvcd__nearest_centre(pieces->patches, guess, nsvcd__d3_narrow(mean));
 }
 
-static double nsvcd__longest_edge(const nsvcd__pieces *pieces, const nsvcd__facet *facet) {
-  double longest = 0;
-  nsvcd__d3 a = nsvcd__point_at(pieces, facet->points[facet->count - 1]);
-  for (size_t i = 0; i < facet->count; i++) {
-    const nsvcd__d3 b = nsvcd__point_at(pieces, facet->points[i]);
-    longest = fmax(longest, nsvcd__d3_gap(a, b));
+static double nsvcd__longest_edge(const nsvcd__pieces *pieces, const nsvcd__convex *convex) {
+  double squared = 0;
+  nsvcd__d3 a = nsvcd__point_at(pieces, convex->points[convex->count - 1]);
+  for (size_t i = 0; i < convex->count; i++) {
+    const nsvcd__d3 b = nsvcd__point_at(pieces, convex->points[i]);
+    squared = fmax(squared, nsvcd__d3_gap(a, b));
     a = b;
   }
-  return sqrt(longest);
+  return sqrt(squared);
 }
 
-// 0 without memory. guess: the patch of the piece before.
-static int nsvcd__cut_up(nsvcd__pieces *pieces, uint32_t triangle, uint32_t *guess,
-                         const nsvcd_allocator *allocator) {
+// Cuts one triangle into pieces. guess: the patch of the piece before. 0 without memory.
+static int nsvcd__cut_up(nsvcd__pieces *pieces, uint32_t triangle, uint32_t *guess) {
+  const uint32_t *corners = nsvcd__triangle_corners(pieces, triangle);
   nsvcd__piece piece = {NSVCD__WHOLE, triangle, 0, 0, 0};
-  nsvcd__facet *whole = &pieces->waiting[0];
-  memcpy(whole->points, pieces->region->mesh.indices + 3 * (size_t)triangle,
-         3 * sizeof *whole->points);
+  nsvcd__convex *whole = &pieces->waiting[0];
+  memcpy(whole->points, corners, 3 * sizeof *corners);
   whole->count = 3;
-  piece.parted = nsvcd__longest_edge(pieces, whole) > pieces->whole;
+  piece.parted = nsvcd__longest_edge(pieces, whole) > pieces->longest_edge;
   pieces->waiting_count = 1;
   while (pieces->waiting_count > 0) {
-    nsvcd__facet facet = pieces->waiting[--pieces->waiting_count];
-    *guess = nsvcd__facet_patch(pieces, &facet, *guess);
+    nsvcd__convex convex = pieces->waiting[--pieces->waiting_count];
+    *guess = nsvcd__convex_patch(pieces, &convex, *guess);
     piece.patch = (uint16_t)*guess;
-    if (!nsvcd__trim(pieces, piece.patch, &facet, allocator))
+    if (!nsvcd__trim(pieces, piece.patch, &convex))
       return 0;
-    if (!nsvcd__add_piece(pieces, &facet, piece, allocator))
+    if (!nsvcd__add_piece(pieces, &convex, piece))
       return 0;
   }
   return 1;
 }
 
+// Sets the lengths and the number of cuts that bound the cutting.
 static void nsvcd__pieces_measure(nsvcd__pieces *pieces) {
   const size_t patches = pieces->patches->count;
+  const size_t triangles = pieces->region->mesh.triangle_count;
   double size = 0;
   for (size_t i = 0; i < patches; i++)
     size += (double)pieces->patches->sample_radii[i];
@@ -4016,34 +4245,36 @@ static void nsvcd__pieces_measure(nsvcd__pieces *pieces) {
 
   pieces->margin = NSVCD__SURFACE_MARGIN * pieces->region->greatest + NSVCD__SURFACE_TINY;
   pieces->overlap = NSVCD__SURFACE_OVERLAP * size + pieces->margin;
-  pieces->whole = NSVCD__SURFACE_WHOLE * size;
+  pieces->longest_edge = NSVCD__SURFACE_WHOLE * size;
   pieces->cuts_left = NSVCD__CUTS_PER_PATCH * patches;
   const size_t room = NSVCD__MAX_CUTS - pieces->cuts_left;
-  const size_t triangles = pieces->region->mesh.triangle_count;
   const int many = triangles > room / NSVCD__CUTS_PER_TRIANGLE;
   pieces->cuts_left += many ? room : NSVCD__CUTS_PER_TRIANGLE * triangles;
 }
 
-// Cuts the whole region. 0 without memory.
+// Cuts the whole region. On success release with nsvcd__pieces_free; 0 without memory.
 static int nsvcd__pieces_build(const nsvcd__region *region, const nsvcd__patches *patches,
                                const nsvcd_allocator *allocator, nsvcd__pieces *pieces) {
+  const size_t triangles = region->mesh.triangle_count;
   memset(pieces, 0, sizeof *pieces);
+  pieces->allocator = allocator;
   pieces->region = region;
   pieces->patches = patches;
+  pieces->list = nsvcd__list_of(sizeof(nsvcd__piece), allocator);
+  pieces->corners = nsvcd__list_of(sizeof(uint32_t), allocator);
+  pieces->points = nsvcd__list_of(sizeof(nsvcd__d3), allocator);
   nsvcd__pieces_measure(pieces);
-  const size_t facet = sizeof(nsvcd__facet);
-  pieces->waiting = (nsvcd__facet *)nsvcd__alloc_array(allocator, NSVCD__FACET_STACK, facet);
+  const size_t bytes = NSVCD__WAITING * sizeof(nsvcd__convex);
+  pieces->waiting = (nsvcd__convex *)nsvcd__alloc(allocator, bytes);
   int ok = pieces->waiting != NULL;
-  // Most triangles are one piece: as many, and an eighth more, then seldom need the list to grow,
-  // which takes it twice.
-  const size_t likely = region->mesh.triangle_count + region->mesh.triangle_count / 8;
-  ok = ok && nsvcd__list_reserve(&pieces->list, likely, sizeof(nsvcd__piece), allocator);
+  // Most triangles are one piece: with room for an eighth more the list seldom needs to grow, which
+  // takes it twice.
+  ok = ok && nsvcd__list_reserve(&pieces->list, triangles + triangles / 8);
   uint32_t guess = 0;
-  for (uint32_t t = 0; ok && t < region->mesh.triangle_count; t++) {
-    ok = nsvcd__cut_up(pieces, t, &guess, allocator);
-  }
+  for (uint32_t t = 0; ok && t < triangles; t++)
+    ok = nsvcd__cut_up(pieces, t, &guess);
   if (!ok)
-    nsvcd__pieces_free(pieces, allocator);
+    nsvcd__pieces_free(pieces);
   return ok;
 }
 
@@ -4081,7 +4312,23 @@ static int nsvcd__solve(double a[3][3], double *b, size_t n) {
   return 1;
 }
 
+// Finds shares of up to 3 edges whose sum has the given products with the edges; the shares replace
+// the products. 0 if the edges are too much in line, or in a plane.
+static int nsvcd__solve_shares(const nsvcd__d3 *edges, double *shares, size_t count) {
+  double matrix[3][3];
+  for (size_t i = 0; i < count; i++) {
+    for (size_t j = 0; j < count; j++)
+      matrix[i][j] = nsvcd__d3_dot(edges[i], edges[j]);
+  }
+  return nsvcd__solve(matrix, shares, count);
+}
+
 // ---- balls: the least one that holds all points
+
+typedef struct nsvcd__points {
+  const nsvcd__d3 *at;  // (count)
+  size_t count;
+} nsvcd__points;
 
 typedef struct nsvcd__ball {
   nsvcd__d3 centre;
@@ -4090,86 +4337,93 @@ typedef struct nsvcd__ball {
 
 // The least ball with all these 1 to 4 points on its border. 0 if there is none.
 static int nsvcd__ball_through(const nsvcd__d3 *points, size_t count, nsvcd__ball *ball) {
+  const size_t edge_count = count - 1;
   nsvcd__d3 edges[3];
-  double matrix[3][3];
   double shares[3];
-  for (size_t i = 0; i + 1 < count; i++)
+  for (size_t i = 0; i < edge_count; i++) {
     edges[i] = nsvcd__d3_sub(points[i + 1], points[0]);
-  for (size_t i = 0; i + 1 < count; i++) {
-    for (size_t j = 0; j + 1 < count; j++)
-      matrix[i][j] = nsvcd__d3_dot(edges[i], edges[j]);
-    shares[i] = 0.5 * matrix[i][i];
+    shares[i] = 0.5 * nsvcd__d3_dot(edges[i], edges[i]);
   }
-  if (!nsvcd__solve(matrix, shares, count - 1))
+  if (!nsvcd__solve_shares(edges, shares, edge_count))
     return 0;
   nsvcd__d3 offset = nsvcd__d3_of(0, 0, 0);
-  for (size_t i = 0; i + 1 < count; i++) {
-    offset = nsvcd__d3_add(offset, nsvcd__d3_scale(edges[i], shares[i]));
-  }
+  for (size_t i = 0; i < edge_count; i++)
+    offset = nsvcd__d3_add_scaled(offset, shares[i], edges[i]);
   ball->centre = nsvcd__d3_add(points[0], offset);
   ball->squared = nsvcd__d3_dot(offset, offset);
   return 1;
 }
 
-// The least ball that holds `border` (1 to 5 points) among those through the last of them and up to
-// three others. Keeps in `border` only the points that it goes through. 0 if there is none.
-static int nsvcd__ball_of_few(nsvcd__d3 *border, size_t *count, nsvcd__ball *ball) {
-  const unsigned last = 1u << (*count - 1);
+// Up to five points that a ball may go through.
+typedef struct nsvcd__border {
+  nsvcd__d3 points[5];
+  size_t count;
+} nsvcd__border;
+
+// The points in a set of bits.
+static nsvcd__border nsvcd__border_of(const nsvcd__border *border, unsigned set) {
+  nsvcd__border out;
+  out.count = 0;
+  for (size_t i = 0; i < border->count; i++) {
+    if (set >> i & 1)
+      out.points[out.count++] = border->points[i];
+  }
+  return out;
+}
+
+static int nsvcd__ball_holds(const nsvcd__ball *ball, const nsvcd__border *border) {
+  const double most = ball->squared * (1 + 1e-9);
+  int holds = 1;
+  for (size_t i = 0; i < border->count; i++)
+    holds &= nsvcd__d3_gap(border->points[i], ball->centre) <= most;
+  return holds;
+}
+
+// The least ball that holds the border (1 to 5 points) among those through the last of them and up
+// to three others. Keeps in the border only the points that it goes through. 0 if there is none.
+static int nsvcd__ball_of_few(nsvcd__border *border, nsvcd__ball *ball) {
+  const unsigned last = 1u << (border->count - 1);
   unsigned best = 0;
   for (unsigned set = last; set < 2 * last; set++) {
-    nsvcd__d3 chosen[5];
+    const nsvcd__border chosen = nsvcd__border_of(border, set);
     nsvcd__ball trial;
-    size_t picked = 0;
-    for (size_t i = 0; i < *count; i++) {
-      if (set >> i & 1)
-        chosen[picked++] = border[i];
-    }
-    if (picked > 4 || !nsvcd__ball_through(chosen, picked, &trial))
+    if (chosen.count > 4 || !nsvcd__ball_through(chosen.points, chosen.count, &trial))
       continue;
     if (best != 0 && trial.squared >= ball->squared)
       continue;
-    int holds = 1;
-    for (size_t i = 0; i < *count; i++) {
-      holds &= nsvcd__d3_gap(border[i], trial.centre) <= trial.squared * (1 + 1e-9);
-    }
-    if (!holds)
+    if (!nsvcd__ball_holds(&trial, border))
       continue;
     best = set;
     *ball = trial;
   }
-
-  size_t kept = 0;
-  for (size_t i = 0; i < *count; i++) {
-    if (best >> i & 1)
-      border[kept++] = border[i];
-  }
   if (best != 0)
-    *count = kept;
+    *border = nsvcd__border_of(border, best);
   return best != 0;
 }
 
-// The least enclosing ball: the point farthest outside joins the border, until there is none (after
-// Gaertner, "Fast and robust smallest enclosing balls", 1999). It grows with every step. Roundings
-// can end it early: then it is a little too large, for the radius is taken from the points by the
-// caller.
-static nsvcd__d3 nsvcd__ball_centre(const nsvcd__d3 *points, size_t count) {
-  nsvcd__ball ball = {points[0], 0};
-  nsvcd__d3 border[5] = {points[0]};
-  size_t border_count = 1;
+// The centre of the least enclosing ball: the point farthest outside joins the border, until there
+// is none (after Gaertner, "Fast and robust smallest enclosing balls", 1999). The ball grows with
+// every step. Roundings can end it early: then it is a little too large, for the caller takes the
+// radius from the points.
+static nsvcd__d3 nsvcd__ball_centre(nsvcd__points points) {
+  nsvcd__ball ball = {points.at[0], 0};
+  nsvcd__border border;
+  border.points[0] = points.at[0];
+  border.count = 1;
   for (size_t step = 0; step < 64; step++) {
     double most = -1;
     size_t farthest = 0;
-    for (size_t i = 0; i < count; i++) {
-      const double gap = nsvcd__d3_gap(points[i], ball.centre);
+    for (size_t i = 0; i < points.count; i++) {
+      const double gap = nsvcd__d3_gap(points.at[i], ball.centre);
       if (gap > most)
         farthest = i;
       most = fmax(most, gap);
     }
     if (most <= ball.squared * (1 + 1e-9))
       break;
-    border[border_count++] = points[farthest];
+    border.points[border.count++] = points.at[farthest];
     nsvcd__ball larger = ball;
-    if (!nsvcd__ball_of_few(border, &border_count, &larger))
+    if (!nsvcd__ball_of_few(&border, &larger))
       break;
     if (larger.squared <= ball.squared)
       break;
@@ -4180,94 +4434,105 @@ static nsvcd__d3 nsvcd__ball_centre(const nsvcd__d3 *points, size_t count) {
 
 // ---- discs: a direction in which the points are thin
 
-// What the points of one patch extend to along a direction.
+// What points extend to along a direction.
 typedef struct nsvcd__range {
   double low, high;
 } nsvcd__range;
 
-static nsvcd__range nsvcd__range_along(const nsvcd__d3 *points, size_t count, nsvcd__d3 direction) {
+static nsvcd__range nsvcd__range_along(nsvcd__points points, nsvcd__d3 direction) {
   nsvcd__range range = {HUGE_VAL, -HUGE_VAL};
-  for (size_t i = 0; i < count; i++) {
-    const double at = nsvcd__d3_dot(points[i], direction);
+  for (size_t i = 0; i < points.count; i++) {
+    const double at = nsvcd__d3_dot(points.at[i], direction);
     range.low = at < range.low ? at : range.low;
     range.high = at > range.high ? at : range.high;
   }
   return range;
 }
 
-static double nsvcd__thickness(const nsvcd__d3 *points, size_t count, nsvcd__d3 direction) {
-  const nsvcd__range range = nsvcd__range_along(points, count, direction);
+static double nsvcd__thickness(nsvcd__points points, nsvcd__d3 direction) {
+  const nsvcd__range range = nsvcd__range_along(points, direction);
   return range.high - range.low;
 }
 
 // Some direction across a unit vector.
 static nsvcd__d3 nsvcd__any_across(nsvcd__d3 n) {
   const int x_least = fabs(n.x) <= fabs(n.y) && fabs(n.x) <= fabs(n.z);
-  const nsvcd__d3 axis = x_least                  ? nsvcd__d3_of(1, 0, 0)
-                         : fabs(n.y) <= fabs(n.z) ? nsvcd__d3_of(0, 1, 0)
-                                                  : nsvcd__d3_of(0, 0, 1);
+  const int y_least = fabs(n.y) <= fabs(n.z);
+  nsvcd__d3 axis = nsvcd__d3_of(0, 0, 1);
+  if (y_least)
+    axis = nsvcd__d3_of(0, 1, 0);
+  if (x_least)
+    axis = nsvcd__d3_of(1, 0, 0);
   return nsvcd__d3_unit(nsvcd__d3_cross(n, axis), n);
 }
 
-// A symmetric matrix of 3 rows, by columns.
-typedef struct nsvcd__matrix {
+// A symmetric matrix of 3 rows.
+typedef struct nsvcd__symmetric {
   nsvcd__d3 x, y, z;
-} nsvcd__matrix;
+} nsvcd__symmetric;
 
-static nsvcd__d3 nsvcd__longest(nsvcd__matrix m) {
-  const double x = nsvcd__d3_dot(m.x, m.x);
-  const double y = nsvcd__d3_dot(m.y, m.y);
-  const double z = nsvcd__d3_dot(m.z, m.z);
-  return x >= y && x >= z ? m.x : y >= z ? m.y : m.z;
+static double nsvcd__trace(const nsvcd__symmetric *m) { return m->x.x + m->y.y + m->z.z; }
+
+static nsvcd__d3 nsvcd__longest_row(const nsvcd__symmetric *m) {
+  const double x = nsvcd__d3_dot(m->x, m->x);
+  const double y = nsvcd__d3_dot(m->y, m->y);
+  const double z = nsvcd__d3_dot(m->z, m->z);
+  if (x >= y && x >= z)
+    return m->x;
+  return y >= z ? m->y : m->z;
 }
 
-static nsvcd__matrix nsvcd__square(nsvcd__matrix m) {
-  const double trace = m.x.x + m.y.y + m.z.z;
+// The square of m, over the square of its trace.
+static nsvcd__symmetric nsvcd__square(const nsvcd__symmetric *m) {
+  const double trace = nsvcd__trace(m);
   const double s = trace > 0 ? 1 / (trace * trace) : 0;
-  nsvcd__matrix out;
-  out.x = nsvcd__d3_of(s * nsvcd__d3_dot(m.x, m.x), s * nsvcd__d3_dot(m.x, m.y),
-                       s * nsvcd__d3_dot(m.x, m.z));
-  out.y = nsvcd__d3_of(out.x.y, s * nsvcd__d3_dot(m.y, m.y), s * nsvcd__d3_dot(m.y, m.z));
-  out.z = nsvcd__d3_of(out.x.z, out.y.z, s * nsvcd__d3_dot(m.z, m.z));
+  const double xy = s * nsvcd__d3_dot(m->x, m->y);
+  const double xz = s * nsvcd__d3_dot(m->x, m->z);
+  const double yz = s * nsvcd__d3_dot(m->y, m->z);
+  nsvcd__symmetric out;
+  out.x = nsvcd__d3_of(s * nsvcd__d3_dot(m->x, m->x), xy, xz);
+  out.y = nsvcd__d3_of(xy, s * nsvcd__d3_dot(m->y, m->y), yz);
+  out.z = nsvcd__d3_of(xz, yz, s * nsvcd__d3_dot(m->z, m->z));
   return out;
 }
 
-static nsvcd__matrix nsvcd__covariance(const nsvcd__d3 *points, size_t count) {
+static nsvcd__symmetric nsvcd__covariance(nsvcd__points points) {
   const nsvcd__d3 zero = nsvcd__d3_of(0, 0, 0);
-  nsvcd__matrix out = {zero, zero, zero};
+  nsvcd__symmetric out = {zero, zero, zero};
   nsvcd__d3 mean = zero;
-  for (size_t i = 0; i < count; i++)
-    mean = nsvcd__d3_add(mean, points[i]);
-  mean = nsvcd__d3_scale(mean, 1 / (double)count);
-  for (size_t i = 0; i < count; i++) {
-    const nsvcd__d3 d = nsvcd__d3_sub(points[i], mean);
-    out.x = nsvcd__d3_add(out.x, nsvcd__d3_scale(d, d.x));
-    out.y = nsvcd__d3_add(out.y, nsvcd__d3_scale(d, d.y));
-    out.z = nsvcd__d3_add(out.z, nsvcd__d3_scale(d, d.z));
+  for (size_t i = 0; i < points.count; i++)
+    mean = nsvcd__d3_add(mean, points.at[i]);
+  mean = nsvcd__d3_scale(mean, 1 / (double)points.count);
+  for (size_t i = 0; i < points.count; i++) {
+    const nsvcd__d3 d = nsvcd__d3_sub(points.at[i], mean);
+    out.x = nsvcd__d3_add_scaled(out.x, d.x, d);
+    out.y = nsvcd__d3_add_scaled(out.y, d.y, d);
+    out.z = nsvcd__d3_add_scaled(out.z, d.z, d);
   }
   return out;
 }
 
 // Near the direction in which the points vary least. The adjugate of the covariance has the same
 // axes, and the least becomes the largest: squaring that a few times leaves nothing else.
-static nsvcd__d3 nsvcd__least_axis(const nsvcd__d3 *points, size_t count) {
-  const nsvcd__matrix c = nsvcd__covariance(points, count);
-  const nsvcd__d3 along = nsvcd__d3_unit(nsvcd__longest(c), nsvcd__d3_of(0, 0, 1));
-  const double trace = c.x.x + c.y.y + c.z.z;
-  nsvcd__matrix m;
+static nsvcd__d3 nsvcd__least_axis(nsvcd__points points) {
+  const nsvcd__symmetric c = nsvcd__covariance(points);
+  const nsvcd__d3 z = nsvcd__d3_of(0, 0, 1);
+  const nsvcd__d3 along = nsvcd__d3_unit(nsvcd__longest_row(&c), z);
+  const double trace = nsvcd__trace(&c);
+  nsvcd__symmetric m;
   m.x = nsvcd__d3_cross(c.y, c.z);
   m.y = nsvcd__d3_cross(c.z, c.x);
   m.z = nsvcd__d3_cross(c.x, c.y);
-  if (!(m.x.x + m.y.y + m.z.z > 1e-14 * trace * trace))
+  if (!(nsvcd__trace(&m) > 1e-14 * trace * trace))
     return nsvcd__any_across(along);  // a line
   for (size_t step = 0; step < 6; step++)
-    m = nsvcd__square(m);
-  return nsvcd__d3_unit(nsvcd__longest(m), nsvcd__any_across(along));
+    m = nsvcd__square(&m);
+  return nsvcd__d3_unit(nsvcd__longest_row(&m), nsvcd__any_across(along));
 }
 
 // Turns a direction step by step to where the points are thinner.
-static nsvcd__d3 nsvcd__thinner(const nsvcd__d3 *points, size_t count, nsvcd__d3 direction) {
-  double best = nsvcd__thickness(points, count, direction);
+static nsvcd__d3 nsvcd__thinner(nsvcd__points points, nsvcd__d3 direction) {
+  double best = nsvcd__thickness(points, direction);
   for (double turn = 0.16; turn > 0.005 && best > 0; turn *= 0.5) {
     const nsvcd__d3 u = nsvcd__any_across(direction);
     const nsvcd__d3 v = nsvcd__d3_cross(direction, u);
@@ -4275,7 +4540,7 @@ static nsvcd__d3 nsvcd__thinner(const nsvcd__d3 *points, size_t count, nsvcd__d3
     for (size_t k = 0; k < 4; k++) {
       const nsvcd__d3 step = nsvcd__d3_scale(k < 2 ? u : v, k % 2 ? -turn : turn);
       const nsvcd__d3 trial = nsvcd__d3_unit(nsvcd__d3_add(middle, step), middle);
-      const double thickness = nsvcd__thickness(points, count, trial);
+      const double thickness = nsvcd__thickness(points, trial);
       if (thickness >= best)
         continue;
       best = thickness;
@@ -4286,32 +4551,31 @@ static nsvcd__d3 nsvcd__thinner(const nsvcd__d3 *points, size_t count, nsvcd__d3
 }
 
 // points: about the centre of the patch's ball. normal: the mean one of its pieces, of any length.
-static void nsvcd__fit_disc(const nsvcd__d3 *points, size_t count, nsvcd__d3 normal, double margin,
-                            float *disc) {
-  nsvcd__d3 best = nsvcd__least_axis(points, count);
+static nsvcd__disc nsvcd__fit_disc(nsvcd__points points, nsvcd__d3 normal, double margin) {
+  nsvcd__d3 best = nsvcd__least_axis(points);
   const nsvcd__d3 mean = nsvcd__d3_unit(normal, best);
-  if (nsvcd__thickness(points, count, mean) < nsvcd__thickness(points, count, best))
+  if (nsvcd__thickness(points, mean) < nsvcd__thickness(points, best))
     best = mean;
-  best = nsvcd__thinner(points, count, best);
+  best = nsvcd__thinner(points, best);
   if (nsvcd__d3_dot(best, normal) < 0)
     best = nsvcd__d3_scale(best, -1);
 
   // Shorter than 1 by more than the roundings: |n| <= 1 holds for what is stored.
   const nsvcd__f3 n = nsvcd__f3_round(nsvcd__d3_scale(best, 1 - 1.5e-7));
   const nsvcd__d3 stored = nsvcd__d3_widen(n);
-  const nsvcd__range range = nsvcd__range_along(points, count, stored);
-  double across = 0;
-  for (size_t i = 0; i < count; i++) {
-    const nsvcd__d3 moment = nsvcd__d3_cross(points[i], stored);
-    across = fmax(across, nsvcd__d3_dot(moment, moment));
+  const nsvcd__range range = nsvcd__range_along(points, stored);
+  double squared = 0;
+  for (size_t i = 0; i < points.count; i++) {
+    const nsvcd__d3 moment = nsvcd__d3_cross(points.at[i], stored);
+    squared = fmax(squared, nsvcd__d3_dot(moment, moment));
   }
-  across = sqrt(across / nsvcd__d3_dot(stored, stored));
-  disc[0] = n.x;
-  disc[1] = n.y;
-  disc[2] = n.z;
-  disc[3] = nsvcd__float_below(range.low - margin);
-  disc[4] = nsvcd__float_above(range.high + margin);
-  disc[5] = nsvcd__float_above(across * (1 + 1e-6) + margin);
+  const double across = sqrt(squared / nsvcd__d3_dot(stored, stored));
+  nsvcd__disc disc;
+  disc.normal = n;
+  disc.low = nsvcd__float_below(range.low - margin);
+  disc.high = nsvcd__float_above(range.high + margin);
+  disc.across = nsvcd__float_above(across * (1 + 1e-6) + margin);
+  return disc;
 }
 
 // ---- hulls
@@ -4325,30 +4589,25 @@ typedef struct nsvcd__simplex {
 
 static nsvcd__d3 nsvcd__simplex_point(const nsvcd__simplex *s) {
   nsvcd__d3 sum = nsvcd__d3_scale(s->points[0], s->weights[0]);
-  for (size_t i = 1; i < s->count; i++) {
-    sum = nsvcd__d3_add(sum, nsvcd__d3_scale(s->points[i], s->weights[i]));
-  }
+  for (size_t i = 1; i < s->count; i++)
+    sum = nsvcd__d3_add_scaled(sum, s->weights[i], s->points[i]);
   return sum;
 }
 
 // Weights, of any sign, of the point nearest to the origin in the plane (line, point) through the
 // simplex. 0 if that is not known, for the points are too much in line.
 static int nsvcd__plane_weights(const nsvcd__simplex *s, double *weights) {
+  const size_t edge_count = s->count - 1;
   nsvcd__d3 edges[3];
-  double matrix[3][3];
   double shares[3];
-  for (size_t i = 0; i + 1 < s->count; i++) {
+  for (size_t i = 0; i < edge_count; i++) {
     edges[i] = nsvcd__d3_sub(s->points[i + 1], s->points[0]);
-  }
-  for (size_t i = 0; i + 1 < s->count; i++) {
-    for (size_t j = 0; j + 1 < s->count; j++)
-      matrix[i][j] = nsvcd__d3_dot(edges[i], edges[j]);
     shares[i] = -nsvcd__d3_dot(edges[i], s->points[0]);
   }
-  if (!nsvcd__solve(matrix, shares, s->count - 1))
+  if (!nsvcd__solve_shares(edges, shares, edge_count))
     return 0;
   weights[0] = 1;
-  for (size_t i = 0; i + 1 < s->count; i++) {
+  for (size_t i = 0; i < edge_count; i++) {
     weights[i + 1] = shares[i];
     weights[0] -= shares[i];
   }
@@ -4366,12 +4625,13 @@ static int nsvcd__simplex_settle(nsvcd__simplex *s) {
     double way = 1;
     size_t blocks = s->count;
     for (size_t i = 0; i < s->count; i++) {
+      const double weight = s->weights[i];
       if (target[i] > 0)
         continue;
-      const double reach = s->weights[i] > 0 ? s->weights[i] / (s->weights[i] - target[i]) : 0;
-      if (reach > way)
+      const double to_zero = weight > 0 ? weight / (weight - target[i]) : 0;
+      if (to_zero > way)
         continue;
-      way = reach;
+      way = to_zero;
       blocks = i;
     }
     for (size_t i = 0; i < s->count; i++)
@@ -4384,29 +4644,28 @@ static int nsvcd__simplex_settle(nsvcd__simplex *s) {
   }
 }
 
-// A bound on the distance of a point from the convex hull of some vertices: that of a point of the
-// hull. It is within a thousandth of the distance, unless it is below `enough`.
-static double nsvcd__hull_distance(const nsvcd__d3 *hull, size_t count, nsvcd__d3 point,
-                                   double enough) {
+// The distance of a point from a point of the convex hull of some vertices: a bound on that from
+// the hull. It is no more than a thousandth above that, unless it is below `enough`.
+static double nsvcd__hull_distance(nsvcd__points hull, nsvcd__d3 point, double enough) {
   nsvcd__simplex s;
-  s.points[0] = nsvcd__d3_sub(hull[count - 1], point);
+  s.points[0] = nsvcd__d3_sub(hull.at[hull.count - 1], point);
   s.weights[0] = 1;
   s.count = 1;
-  double best = nsvcd__d3_dot(s.points[0], s.points[0]);
   nsvcd__d3 nearest = s.points[0];
+  double best = nsvcd__d3_dot(nearest, nearest);
   while (best > enough * enough && s.count < 4) {
     const double offset = nsvcd__d3_dot(point, nearest);
     double least = HUGE_VAL;
     size_t support = 0;
-    for (size_t i = 0; i < count; i++) {
-      const double at = nsvcd__d3_dot(hull[i], nearest) - offset;
+    for (size_t i = 0; i < hull.count; i++) {
+      const double at = nsvcd__d3_dot(hull.at[i], nearest) - offset;
       if (at < least)
         support = i;
       least = at < least ? at : least;
     }
     if (least >= 0.998 * best)
       break;
-    s.points[s.count] = nsvcd__d3_sub(hull[support], point);
+    s.points[s.count] = nsvcd__d3_sub(hull.at[support], point);
     s.weights[s.count++] = 0;
     const int settled = nsvcd__simplex_settle(&s);
     nearest = nsvcd__simplex_point(&s);
@@ -4418,45 +4677,59 @@ static double nsvcd__hull_distance(const nsvcd__d3 *hull, size_t count, nsvcd__d
   return sqrt(best);
 }
 
-// Chooses up to NSVCD__HULL of the points such that all are near to the hull of those: always the
-// one that is farthest from it. Returns how far the farthest is at most; chosen: numbers within
-// points. bounds: working memory, one a point.
-static double nsvcd__choose_hull(const nsvcd__d3 *points, size_t count, double enough,
-                                 double *bounds, size_t *chosen, size_t *chosen_count) {
-  nsvcd__d3 hull[NSVCD__HULL];
-  size_t next = 0;
-  for (size_t i = 0; i < count; i++) {
-    bounds[i] = nsvcd__d3_length(points[i]);  // from the ball's centre, to begin with
-    if (bounds[i] > bounds[next])
-      next = i;
-  }
-  for (size_t i = 0; i < count; i++)
-    bounds[i] = HUGE_VAL;
+// The vertices of a hull.
+typedef struct nsvcd__hull {
+  nsvcd__d3 at[NSVCD__HULL];
+  // numbers of the points that they are
+  size_t chosen[NSVCD__HULL];
+  size_t count;
+  // the point farthest from the hull, and a bound on its distance
+  size_t next;
+  double farthest;
+} nsvcd__hull;
 
-  double farthest = HUGE_VAL;
-  *chosen_count = 0;
-  while (*chosen_count < NSVCD__HULL && farthest > enough) {
-    hull[*chosen_count] = points[next];
-    chosen[(*chosen_count)++] = next;
-    bounds[next] = 0;
-    // A point that was near enough stays so, for the hull only grows: distances found before are
-    // bounds.
-    farthest = 0;
-    size_t first = 0;
-    for (size_t i = 1; i < count; i++)
-      first = bounds[i] > bounds[first] ? i : first;
-    for (size_t k = 0; k < count; k++) {
-      const size_t i = (first + k) % count;
-      if (bounds[i] <= farthest)
-        continue;
-      bounds[i] = fmin(bounds[i], nsvcd__hull_distance(hull, *chosen_count, points[i], farthest));
-      if (bounds[i] <= farthest)
-        continue;
-      farthest = bounds[i];
-      next = i;
-    }
+// Finds the point farthest from the hull. bounds: the points' distances found before. A point that
+// was near enough stays so, for the hull only grows.
+static void nsvcd__hull_look(nsvcd__points points, double *bounds, nsvcd__hull *hull) {
+  const nsvcd__points vertices = {hull->at, hull->count};
+  size_t first = 0;
+  for (size_t i = 1; i < points.count; i++)
+    first = bounds[i] > bounds[first] ? i : first;
+  hull->farthest = 0;
+  for (size_t k = 0; k < points.count; k++) {
+    const size_t i = (first + k) % points.count;
+    if (bounds[i] <= hull->farthest)
+      continue;
+    const double distance = nsvcd__hull_distance(vertices, points.at[i], hull->farthest);
+    bounds[i] = fmin(bounds[i], distance);
+    if (bounds[i] <= hull->farthest)
+      continue;
+    hull->farthest = bounds[i];
+    hull->next = i;
   }
-  return farthest;
+}
+
+// Chooses up to NSVCD__HULL of the points such that all are near to the hull of those: always the
+// one that is farthest from it. points: about the ball's centre. bounds: working memory, one a
+// point.
+static void nsvcd__choose_hull(nsvcd__points points, double enough, double *bounds,
+                               nsvcd__hull *hull) {
+  hull->count = 0;
+  hull->next = 0;
+  hull->farthest = HUGE_VAL;
+  for (size_t i = 0; i < points.count; i++) {
+    bounds[i] = nsvcd__d3_length(points.at[i]);  // from the centre, to begin with
+    if (bounds[i] > bounds[hull->next])
+      hull->next = i;
+  }
+  for (size_t i = 0; i < points.count; i++)
+    bounds[i] = HUGE_VAL;
+  while (hull->count < NSVCD__HULL && hull->farthest > enough) {
+    hull->at[hull->count] = points.at[hull->next];
+    hull->chosen[hull->count++] = hull->next;
+    bounds[hull->next] = 0;
+    nsvcd__hull_look(points, bounds, hull);
+  }
 }
 
 // ---- patch by patch
@@ -4464,19 +4737,27 @@ static double nsvcd__choose_hull(const nsvcd__d3 *points, size_t count, double e
 // The pieces by patch, and working memory for one patch at a time. A pass numbers points as it sees
 // them: the hull's first, when vertices are stored.
 typedef struct nsvcd__sorted {
-  size_t *first;      // (N + 1) pieces of a patch
-  uint32_t *order;    // (pieces) numbers of pieces, patch by patch, in a patch as they were made
-  size_t most;        // corners of the pieces of one patch, at most
-  uint32_t *stamps;   // (points) the last pass that met a point; passes count from 1
-  uint32_t *numbers;  // (points) its number in that pass
-  uint32_t *met;      // (most) the points of the pass
+  const nsvcd__pieces *pieces;
+  size_t *first;  // (N + 1) pieces of a patch
+  // (pieces) numbers of pieces, patch by patch, in a patch as they were made
+  uint32_t *order;
+  // corners of the pieces of one patch, at most
+  size_t most;
+  uint32_t pass;  // from 1
+  // (points) the last pass that met a point, and its number in that pass
+  uint32_t *stamps;
+  uint32_t *numbers;
+  // (most) the points of the pass
+  uint32_t *met;
+  size_t met_count;
   nsvcd__d3 *places;  // (most) the points about the centre
   double *bounds;     // (most)
-  uint32_t *hulls;    // (N, NSVCD__HULL) points that the hulls consist of
-  uint32_t pass;
+  // (N, NSVCD__HULL) points that the hulls consist of
+  uint32_t *hulls;
 } nsvcd__sorted;
 
-static void nsvcd__sorted_free(nsvcd__sorted *sorted, const nsvcd_allocator *allocator) {
+static void nsvcd__sorted_free(nsvcd__sorted *sorted) {
+  const nsvcd_allocator *allocator = sorted->pieces->allocator;
   nsvcd__free(allocator, sorted->first);
   nsvcd__free(allocator, sorted->order);
   nsvcd__free(allocator, sorted->stamps);
@@ -4487,86 +4768,97 @@ static void nsvcd__sorted_free(nsvcd__sorted *sorted, const nsvcd_allocator *all
   nsvcd__free(allocator, sorted->hulls);
 }
 
-static int nsvcd__sorted_alloc(nsvcd__sorted *sorted, const nsvcd__pieces *pieces,
-                               const nsvcd_allocator *allocator) {
+// All but `first`. 0 without memory; the caller frees.
+static int nsvcd__sorted_alloc(nsvcd__sorted *sorted) {
+  const nsvcd__pieces *pieces = sorted->pieces;
+  const nsvcd_allocator *allocator = pieces->allocator;
   const size_t patches = pieces->patches->count;
   const size_t points = nsvcd__point_count(pieces);
-  const size_t words = sizeof(uint32_t);
   const size_t most = sorted->most;
-  sorted->order = (uint32_t *)nsvcd__alloc_array(allocator, pieces->list.count, words);
-  sorted->stamps = (uint32_t *)nsvcd__alloc_array(allocator, points, words);
-  sorted->numbers = (uint32_t *)nsvcd__alloc_array(allocator, points, words);
-  sorted->met = (uint32_t *)nsvcd__alloc_array(allocator, most, words);
-  sorted->places = (nsvcd__d3 *)nsvcd__alloc_array(allocator, most, sizeof(nsvcd__d3));
+  sorted->order = nsvcd__alloc_words(allocator, pieces->list.count);
+  sorted->stamps = nsvcd__alloc_words(allocator, points);
+  sorted->numbers = nsvcd__alloc_words(allocator, points);
+  sorted->met = nsvcd__alloc_words(allocator, most);
+  sorted->places = nsvcd__alloc_d3s(allocator, most);
   sorted->bounds = (double *)nsvcd__alloc_array(allocator, most, sizeof(double));
-  sorted->hulls = (uint32_t *)nsvcd__alloc_array(allocator, NSVCD__HULL * patches, words);
+  sorted->hulls = nsvcd__alloc_words(allocator, NSVCD__HULL * patches);
   return sorted->order && sorted->stamps && sorted->numbers && sorted->met && sorted->places &&
          sorted->bounds && sorted->hulls;
 }
 
-// Sorts the pieces by patch (counting sort). 0 without memory.
-static int nsvcd__sort_pieces(const nsvcd__pieces *pieces, const nsvcd_allocator *allocator,
-                              nsvcd__sorted *sorted) {
+// Fills `first` and `order` (counting sort).
+static void nsvcd__sort_pieces(nsvcd__sorted *sorted) {
+  const nsvcd__pieces *pieces = sorted->pieces;
+  const size_t patches = pieces->patches->count;
+  const size_t count = pieces->list.count;
+  size_t *first = sorted->first;
+  memset(first, 0, (patches + 1) * sizeof *first);
+  for (size_t k = 0; k < count; k++)
+    first[nsvcd__piece_at(pieces, k)->patch + 1]++;
+  for (size_t i = 0; i < patches; i++)
+    first[i + 1] += first[i];
+  for (size_t k = count; k-- > 0;) {
+    const uint32_t patch = nsvcd__piece_at(pieces, k)->patch;
+    sorted->order[--first[patch + 1]] = (uint32_t)k;
+  }
+  // Now first[i + 1] is the start of patch i.
+  memmove(first, first + 1, patches * sizeof *first);
+  first[patches] = count;
+}
+
+// Sorts the pieces by patch. On success release with nsvcd__sorted_free; 0 without memory.
+static int nsvcd__sorted_build(const nsvcd__pieces *pieces, nsvcd__sorted *sorted) {
   const size_t patches = pieces->patches->count;
   memset(sorted, 0, sizeof *sorted);
-  sorted->first = (size_t *)nsvcd__alloc_array(allocator, patches + 1, sizeof(size_t));
+  sorted->pieces = pieces;
+  sorted->first = nsvcd__alloc_sizes(pieces->allocator, patches + 1);
   if (!sorted->first)
     return 0;
 
-  memset(sorted->first, 0, (patches + 1) * sizeof *sorted->first);
+  size_t *corners = sorted->first;  // of each patch, for now
+  memset(corners, 0, patches * sizeof *corners);
   for (size_t k = 0; k < pieces->list.count; k++) {
     const nsvcd__piece *piece = nsvcd__piece_at(pieces, k);
-    sorted->first[piece->patch] += piece->count;  // corners, for now
-  }
-  for (size_t i = 0; i < patches; i++) {
-    if (sorted->first[i] > sorted->most)
-      sorted->most = sorted->first[i];
-    sorted->first[i] = 0;
-  }
-  sorted->most += NSVCD__HULL;  // a hull's vertices need not be corners of what is listed
-  if (!nsvcd__sorted_alloc(sorted, pieces, allocator)) {
-    nsvcd__sorted_free(sorted, allocator);
-    return 0;
-  }
-
-  memset(sorted->stamps, 0, nsvcd__point_count(pieces) * sizeof *sorted->stamps);
-  for (size_t k = 0; k < pieces->list.count; k++) {
-    sorted->first[nsvcd__piece_at(pieces, k)->patch + 1]++;
+    corners[piece->patch] += piece->count;
   }
   for (size_t i = 0; i < patches; i++)
-    sorted->first[i + 1] += sorted->first[i];
-  for (size_t k = pieces->list.count; k-- > 0;) {
-    const uint32_t patch = nsvcd__piece_at(pieces, k)->patch;
-    sorted->order[--sorted->first[patch + 1]] = (uint32_t)k;
+    sorted->most = corners[i] > sorted->most ? corners[i] : sorted->most;
+  sorted->most += NSVCD__HULL;  // a hull's vertices need not be corners of what is listed
+  if (!nsvcd__sorted_alloc(sorted)) {
+    nsvcd__sorted_free(sorted);
+    return 0;
   }
-  // Now first[i + 1] is the start of patch i.
-  memmove(sorted->first, sorted->first + 1, patches * sizeof *sorted->first);
-  sorted->first[patches] = pieces->list.count;
+  memset(sorted->stamps, 0, nsvcd__point_count(pieces) * sizeof *sorted->stamps);
+  nsvcd__sort_pieces(sorted);
   return 1;
 }
 
-// The number of a point in this pass: a new one if it is met for the first time. Returns how many
-// there are now.
-static size_t nsvcd__number_point(nsvcd__sorted *sorted, size_t met, uint32_t point) {
+static void nsvcd__begin_pass(nsvcd__sorted *sorted) {
+  sorted->pass++;
+  sorted->met_count = 0;
+}
+
+// Gives a point a number in this pass, if it is met for the first time.
+static void nsvcd__number_point(nsvcd__sorted *sorted, uint32_t point) {
   if (sorted->stamps[point] == sorted->pass)
-    return met;
+    return;
   sorted->stamps[point] = sorted->pass;
-  sorted->numbers[point] = (uint32_t)met;
-  sorted->met[met] = point;
-  return met + 1;
+  sorted->numbers[point] = (uint32_t)sorted->met_count;
+  sorted->met[sorted->met_count++] = point;
 }
 
-static const nsvcd__piece *nsvcd__sorted_piece(const nsvcd__pieces *pieces,
-                                               const nsvcd__sorted *sorted, size_t k) {
-  return nsvcd__piece_at(pieces, sorted->order[k]);
+static const nsvcd__piece *nsvcd__sorted_piece(const nsvcd__sorted *sorted, size_t k) {
+  return nsvcd__piece_at(sorted->pieces, sorted->order[k]);
 }
 
-// Puts the points of the pass where they are about the centre.
-static void nsvcd__place_points(const nsvcd__pieces *pieces, nsvcd__sorted *sorted, size_t met,
-                                nsvcd__d3 centre) {
-  for (size_t j = 0; j < met; j++) {
-    sorted->places[j] = nsvcd__d3_sub(nsvcd__point_at(pieces, sorted->met[j]), centre);
+// The points of the pass, about a centre.
+static nsvcd__points nsvcd__place_points(nsvcd__sorted *sorted, nsvcd__d3 centre) {
+  const nsvcd__points out = {sorted->places, sorted->met_count};
+  for (size_t j = 0; j < sorted->met_count; j++) {
+    const nsvcd__d3 at = nsvcd__point_at(sorted->pieces, sorted->met[j]);
+    sorted->places[j] = nsvcd__d3_sub(at, centre);
   }
+  return out;
 }
 
 // Twice the area times the normal.
@@ -4582,110 +4874,102 @@ static nsvcd__d3 nsvcd__piece_normal(const nsvcd__pieces *pieces, const nsvcd__p
   return sum;
 }
 
-// The least ball of the points of the pass, about whose centre they are placed. ball: centre and
-// radius.
-static void nsvcd__fit_ball(const nsvcd__pieces *pieces, nsvcd__sorted *sorted, size_t met,
-                            float *ball) {
+// The least ball of the points of the pass, and the points about its centre.
+static nsvcd__sphere nsvcd__fit_ball(nsvcd__sorted *sorted, nsvcd__points *about) {
   // From near by the centre is found without the roundings of what is far away.
-  const nsvcd__d3 from = nsvcd__point_at(pieces, sorted->met[0]);
-  nsvcd__place_points(pieces, sorted, met, from);
-  const nsvcd__d3 best = nsvcd__d3_add(from, nsvcd__ball_centre(sorted->places, met));
-  const nsvcd__f3 centre = nsvcd__f3_round(best);
-  nsvcd__place_points(pieces, sorted, met, nsvcd__d3_widen(centre));
+  const nsvcd__d3 from = nsvcd__point_at(sorted->pieces, sorted->met[0]);
+  const nsvcd__points near_by = nsvcd__place_points(sorted, from);
+  nsvcd__sphere ball;
+  ball.centre = nsvcd__f3_round(nsvcd__d3_add(from, nsvcd__ball_centre(near_by)));
+  *about = nsvcd__place_points(sorted, nsvcd__d3_widen(ball.centre));
   double radius = 0;
-  for (size_t j = 0; j < met; j++)
-    radius = fmax(radius, nsvcd__d3_length(sorted->places[j]));
-  ball[0] = centre.x;
-  ball[1] = centre.y;
-  ball[2] = centre.z;
-  ball[3] = nsvcd__float_above(radius + pieces->margin);
+  for (size_t j = 0; j < about->count; j++)
+    radius = fmax(radius, nsvcd__d3_length(about->at[j]));
+  ball.radius = nsvcd__float_above(radius + sorted->pieces->margin);
+  return ball;
 }
 
-// Is the point the seed of a component that no patch has been given yet? It is given to patch `to`.
+// Gives a point to patch `to`, if it is the seed of a component that no patch has been given yet.
 static void nsvcd__take_seed(const nsvcd__region *region, uint32_t point, size_t to,
                              nsvcd__surface *surface) {
   if (point >= region->mesh.vertex_count || !region->seeds[point])
     return;
   region->seeds[point] = 0;
-  memcpy(surface->seeds + 3 * surface->seed_count, region->mesh.positions + 3 * (size_t)point,
-         3 * sizeof(float));
+  surface->seeds[surface->seed_count] = nsvcd__f3_row(region->mesh.positions, point);
   surface->seed_patches[surface->seed_count++] = (uint32_t)to;
 }
 
 // Ball, disc and hull of patch i of the region, which is `to` of all. The slack does not know of
 // the integers yet.
-static void nsvcd__describe_patch(const nsvcd__pieces *pieces, nsvcd__sorted *sorted, size_t i,
-                                  nsvcd__surface *surface) {
+static void nsvcd__describe_patch(nsvcd__sorted *sorted, size_t i, nsvcd__surface *surface) {
+  const nsvcd__pieces *pieces = sorted->pieces;
   const size_t to = surface->done + i;
-  float *ball = surface->balls + 4 * to;
-  size_t met = 0;
+  nsvcd__sphere *ball = &surface->balls[to];
   nsvcd__d3 normal = nsvcd__d3_of(0, 0, 0);
-  sorted->pass++;
+  nsvcd__begin_pass(sorted);
   for (size_t k = sorted->first[i]; k < sorted->first[i + 1]; k++) {
-    const nsvcd__piece *piece = nsvcd__sorted_piece(pieces, sorted, k);
+    const nsvcd__piece *piece = nsvcd__sorted_piece(sorted, k);
     const uint32_t *corners = nsvcd__piece_corners(pieces, piece);
     for (size_t j = 0; j < piece->count; j++) {
       nsvcd__take_seed(pieces->region, corners[j], to, surface);
-      met = nsvcd__number_point(sorted, met, corners[j]);
+      nsvcd__number_point(sorted, corners[j]);
     }
     normal = nsvcd__d3_add(normal, nsvcd__piece_normal(pieces, piece));
   }
-  if (met == 0) {
-    for (size_t k = 0; k < 3; k++)
-      ball[k] = pieces->patches->centres[3 * i + k];
-    ball[3] = NSVCD__NOWHERE;
+  if (sorted->met_count == 0) {
+    ball->centre = pieces->patches->centres[i];
+    ball->radius = NSVCD__NOWHERE;
     return;
   }
 
-  size_t chosen[NSVCD__HULL];
-  size_t chosen_count;
-  nsvcd__fit_ball(pieces, sorted, met, ball);
-  nsvcd__fit_disc(sorted->places, met, normal, pieces->margin, surface->discs + 6 * to);
-  const double enough = NSVCD__HULL_SHARE * (double)ball[3];
-  const double slack =
-      nsvcd__choose_hull(sorted->places, met, enough, sorted->bounds, chosen, &chosen_count);
-  surface->slacks[to] = nsvcd__float_above(slack + pieces->margin);
-  surface->hull_counts[to] = (uint8_t)chosen_count;
-  for (size_t k = 0; k < chosen_count; k++) {
-    sorted->hulls[NSVCD__HULL * i + k] = sorted->met[chosen[k]];
-  }
+  nsvcd__points about;
+  nsvcd__hull hull;
+  *ball = nsvcd__fit_ball(sorted, &about);
+  surface->discs[to] = nsvcd__fit_disc(about, normal, pieces->margin);
+  const double enough = NSVCD__HULL_SHARE * (double)ball->radius;
+  nsvcd__choose_hull(about, enough, sorted->bounds, &hull);
+  surface->slacks[to] = nsvcd__float_above(hull.farthest + pieces->margin);
+  surface->hull_counts[to] = (uint8_t)hull.count;
+  for (size_t k = 0; k < hull.count; k++)
+    sorted->hulls[NSVCD__HULL * i + k] = sorted->met[hull.chosen[k]];
 }
 
 // Pieces of one triangle follow each other in a patch: a whole triangle is listed with the first of
 // them.
-static int nsvcd__is_listed_already(const nsvcd__pieces *pieces, const nsvcd__sorted *sorted,
-                                    size_t i, size_t k) {
+static int nsvcd__is_listed_already(const nsvcd__sorted *sorted, size_t i, size_t k) {
   if (k == sorted->first[i])
     return 0;
-  const nsvcd__piece *piece = nsvcd__sorted_piece(pieces, sorted, k);
-  return nsvcd__sorted_piece(pieces, sorted, k - 1)->triangle == piece->triangle;
+  const nsvcd__piece *piece = nsvcd__sorted_piece(sorted, k);
+  return nsvcd__sorted_piece(sorted, k - 1)->triangle == piece->triangle;
 }
 
-// Numbers the vertices of patch i: the hull's, then others of what it lists. Returns how many;
-// listed: triangles.
-static size_t nsvcd__number_vertices(const nsvcd__pieces *pieces, nsvcd__sorted *sorted, size_t i,
-                                     size_t hull_count, size_t *listed) {
-  size_t met = 0;
-  sorted->pass++;
-  for (size_t k = 0; k < hull_count; k++) {
-    met = nsvcd__number_point(sorted, met, sorted->hulls[NSVCD__HULL * i + k]);
-  }
-  *listed = 0;
+// What patch i lists for its k-th piece: the piece's corners where its triangle is parted, else the
+// triangle's. Returns how many corners; 0: nothing more.
+static size_t nsvcd__listed_corners(const nsvcd__sorted *sorted, size_t i, size_t k,
+                                    const uint32_t **corners) {
+  const nsvcd__piece *piece = nsvcd__sorted_piece(sorted, k);
+  *corners = nsvcd__piece_corners(sorted->pieces, piece);
+  if (piece->parted)
+    return piece->count;
+  *corners = nsvcd__triangle_corners(sorted->pieces, piece->triangle);
+  return nsvcd__is_listed_already(sorted, i, k) ? 0 : 3;
+}
+
+// Numbers the vertices of patch i: the hull's, then others of what it lists. Returns how many
+// triangles it lists.
+static size_t nsvcd__number_vertices(nsvcd__sorted *sorted, size_t i, size_t hull_count) {
+  size_t listed = 0;
+  nsvcd__begin_pass(sorted);
+  for (size_t k = 0; k < hull_count; k++)
+    nsvcd__number_point(sorted, sorted->hulls[NSVCD__HULL * i + k]);
   for (size_t k = sorted->first[i]; k < sorted->first[i + 1]; k++) {
-    const nsvcd__piece *piece = nsvcd__sorted_piece(pieces, sorted, k);
-    const uint32_t *corners = nsvcd__piece_corners(pieces, piece);
-    size_t count = piece->count;
-    if (!piece->parted) {
-      if (nsvcd__is_listed_already(pieces, sorted, i, k))
-        continue;
-      corners = pieces->region->mesh.indices + 3 * (size_t)piece->triangle;
-      count = 3;
-    }
+    const uint32_t *corners;
+    const size_t count = nsvcd__listed_corners(sorted, i, k, &corners);
     for (size_t j = 0; j < count; j++)
-      met = nsvcd__number_point(sorted, met, corners[j]);
-    *listed += count - 2;
+      nsvcd__number_point(sorted, corners[j]);
+    listed += count ? count - 2 : 0;
   }
-  return met;
+  return listed;
 }
 
 static int16_t nsvcd__to_integer(double x) {
@@ -4693,26 +4977,30 @@ static int16_t nsvcd__to_integer(double x) {
   return (int16_t)fmin(fmax(nearest, -32767), 32767);
 }
 
-// Writes the vertices of patch i, which the pass has numbered, as integers.
-static void nsvcd__store_vertices(const nsvcd__pieces *pieces, nsvcd__sorted *sorted, size_t i,
-                                  size_t met, nsvcd__surface *surface) {
-  const size_t to = surface->done + i;
-  nsvcd__place_points(pieces, sorted, met, nsvcd__d3_load(surface->balls + 4 * to));
-  double reach = NSVCD__SURFACE_TINY;
-  for (size_t j = 0; j < met; j++) {
-    const nsvcd__d3 p = sorted->places[j];
-    reach = fmax(reach, fmax(fabs(p.x), fmax(fabs(p.y), fabs(p.z))));
+// Metres per integer, for the points to be within 16 bits.
+static float nsvcd__step_for(nsvcd__points points) {
+  double greatest = NSVCD__SURFACE_TINY;
+  for (size_t j = 0; j < points.count; j++) {
+    const nsvcd__d3 p = points.at[j];
+    greatest = fmax(greatest, fmax(fabs(p.x), fmax(fabs(p.y), fabs(p.z))));
   }
-  const float step = nsvcd__float_above(reach / 32767);
-  const double metres = (double)step;
+  return nsvcd__float_above(greatest / 32767);
+}
 
+// Writes the vertices of patch i, which the pass has numbered, as integers.
+static void nsvcd__store_vertices(nsvcd__sorted *sorted, size_t i, nsvcd__surface *surface) {
+  const size_t to = surface->done + i;
+  const nsvcd__d3 centre = nsvcd__d3_widen(surface->balls[to].centre);
+  const nsvcd__points points = nsvcd__place_points(sorted, centre);
+  const float step = nsvcd__step_for(points);
+  const double metres = (double)step;
   int16_t *x = surface->vertices + 3 * (size_t)surface->first_vertex[to];
-  int16_t *y = x + met;
-  int16_t *z = y + met;
+  int16_t *y = x + points.count;
+  int16_t *z = y + points.count;
   double worst = 0;
   double worst_of_hull = 0;
-  for (size_t j = 0; j < met; j++) {
-    const nsvcd__d3 p = sorted->places[j];
+  for (size_t j = 0; j < points.count; j++) {
+    const nsvcd__d3 p = points.at[j];
     x[j] = nsvcd__to_integer(p.x / metres);
     y[j] = nsvcd__to_integer(p.y / metres);
     z[j] = nsvcd__to_integer(p.z / metres);
@@ -4722,43 +5010,33 @@ static void nsvcd__store_vertices(const nsvcd__pieces *pieces, nsvcd__sorted *so
       worst_of_hull = worst;
   }
   surface->steps[to] = step;
-  surface->quanta[to] = nsvcd__float_above(worst + pieces->margin);
+  surface->quanta[to] = nsvcd__float_above(worst + sorted->pieces->margin);
   // Each point of the hull is off by no more than its vertices are.
-  surface->slacks[to] = nsvcd__float_above((double)surface->slacks[to] + worst_of_hull);
+  const double slack = (double)surface->slacks[to] + worst_of_hull;
+  surface->slacks[to] = nsvcd__float_above(slack);
 }
 
-// Lists the triangle of three points that the pass has numbered.
-static void nsvcd__store_triangle(const nsvcd__sorted *sorted, nsvcd__surface *surface, uint32_t a,
-                                  uint32_t b, uint32_t c, uint32_t id) {
-  uint16_t *corners = surface->corners + 3 * surface->listed;
-  corners[0] = (uint16_t)sorted->numbers[a];
-  corners[1] = (uint16_t)sorted->numbers[b];
-  corners[2] = (uint16_t)sorted->numbers[c];
-  surface->ids[surface->listed++] = id;
-}
-
-static void nsvcd__store_triangles(const nsvcd__pieces *pieces, const nsvcd__sorted *sorted,
-                                   size_t i, nsvcd__surface *surface) {
+// Lists the triangles of patch i, whose points the pass has numbered.
+static void nsvcd__store_triangles(const nsvcd__sorted *sorted, size_t i, nsvcd__surface *surface) {
+  const uint32_t *numbers = sorted->numbers;
   for (size_t k = sorted->first[i]; k < sorted->first[i + 1]; k++) {
-    const nsvcd__piece *piece = nsvcd__sorted_piece(pieces, sorted, k);
-    const uint32_t *corners = nsvcd__piece_corners(pieces, piece);
-    const uint32_t id = pieces->region->ids[piece->triangle];
-    if (piece->parted) {
-      for (size_t j = 2; j < piece->count; j++) {
-        nsvcd__store_triangle(sorted, surface, corners[0], corners[j - 1], corners[j], id);
-      }
-      continue;
-    }
-    if (!nsvcd__is_listed_already(pieces, sorted, i, k)) {
-      const uint32_t *whole = pieces->region->mesh.indices + 3 * (size_t)piece->triangle;
-      nsvcd__store_triangle(sorted, surface, whole[0], whole[1], whole[2], id);
+    const nsvcd__piece *piece = nsvcd__sorted_piece(sorted, k);
+    const uint32_t *corners;
+    const size_t count = nsvcd__listed_corners(sorted, i, k, &corners);
+    for (size_t j = 2; j < count; j++) {
+      uint16_t *to = surface->corners + 3 * surface->listed;
+      to[0] = (uint16_t)numbers[corners[0]];
+      to[1] = (uint16_t)numbers[corners[j - 1]];
+      to[2] = (uint16_t)numbers[corners[j]];
+      surface->ids[surface->listed++] = sorted->pieces->region->ids[piece->triangle];
     }
   }
 }
 
 // ---- all of it
 
-static void nsvcd__surface_free(nsvcd__surface *surface, const nsvcd_allocator *allocator) {
+static void nsvcd__surface_free(nsvcd__surface *surface) {
+  const nsvcd_allocator *allocator = surface->allocator;
   nsvcd__free(allocator, surface->balls);
   nsvcd__free(allocator, surface->discs);
   nsvcd__free(allocator, surface->steps);
@@ -4767,36 +5045,40 @@ static void nsvcd__surface_free(nsvcd__surface *surface, const nsvcd_allocator *
   nsvcd__free(allocator, surface->hull_counts);
   nsvcd__free(allocator, surface->first_vertex);
   nsvcd__free(allocator, surface->first_triangle);
-  nsvcd__free(allocator, surface->vertex_list.items);
-  nsvcd__free(allocator, surface->corner_list.items);
-  nsvcd__free(allocator, surface->id_list.items);
+  nsvcd__list_free(&surface->vertex_list);
+  nsvcd__list_free(&surface->corner_list);
+  nsvcd__list_free(&surface->id_list);
   nsvcd__free(allocator, surface->seeds);
   nsvcd__free(allocator, surface->seed_patches);
-  memset(surface, 0, sizeof *surface);
 }
 
 // A surface of up to n patches, none of which is described yet. On success release it with
-// nsvcd__surface_free, with the same allocator; 0 without memory.
+// nsvcd__surface_free; 0 without memory.
 static int nsvcd__surface_begin(size_t n, size_t components, const nsvcd_allocator *allocator,
                                 nsvcd__surface *s) {
   memset(s, 0, sizeof *s);
+  s->allocator = allocator;
   s->component_count = components;
-  s->balls = (float *)nsvcd__alloc_array(allocator, 4 * n, sizeof(float));
-  s->discs = (float *)nsvcd__alloc_array(allocator, 6 * n, sizeof(float));
-  s->steps = (float *)nsvcd__alloc_array(allocator, n, sizeof(float));
-  s->slacks = (float *)nsvcd__alloc_array(allocator, n, sizeof(float));
-  s->quanta = (float *)nsvcd__alloc_array(allocator, n, sizeof(float));
-  s->hull_counts = (uint8_t *)nsvcd__alloc_array(allocator, n, sizeof(uint8_t));
-  s->first_vertex = (uint32_t *)nsvcd__alloc_array(allocator, n + 1, sizeof(uint32_t));
-  s->first_triangle = (uint32_t *)nsvcd__alloc_array(allocator, n + 1, sizeof(uint32_t));
-  s->seeds = (float *)nsvcd__alloc_array(allocator, 3 * components, sizeof(float));
-  s->seed_patches = (uint32_t *)nsvcd__alloc_array(allocator, components, sizeof(uint32_t));
-  if (!s->balls || !s->discs || !s->steps || !s->slacks || !s->quanta || !s->hull_counts ||
-      !s->first_vertex || !s->first_triangle || !s->seeds || !s->seed_patches) {
-    nsvcd__surface_free(s, allocator);
+  s->vertex_list = nsvcd__list_of(3 * sizeof(int16_t), allocator);
+  s->corner_list = nsvcd__list_of(3 * sizeof(uint16_t), allocator);
+  s->id_list = nsvcd__list_of(sizeof(uint32_t), allocator);
+  s->balls = (nsvcd__sphere *)nsvcd__alloc_array(allocator, n, sizeof(nsvcd__sphere));
+  s->discs = (nsvcd__disc *)nsvcd__alloc_array(allocator, n, sizeof(nsvcd__disc));
+  s->steps = nsvcd__alloc_floats(allocator, n);
+  s->slacks = nsvcd__alloc_floats(allocator, n);
+  s->quanta = nsvcd__alloc_floats(allocator, n);
+  s->hull_counts = (uint8_t *)nsvcd__alloc(allocator, n);
+  s->first_vertex = nsvcd__alloc_words(allocator, n + 1);
+  s->first_triangle = nsvcd__alloc_words(allocator, n + 1);
+  s->seeds = nsvcd__alloc_f3s(allocator, components);
+  s->seed_patches = nsvcd__alloc_words(allocator, components);
+  int ok = s->balls && s->discs && s->steps && s->slacks && s->quanta && s->hull_counts;
+  ok = ok && s->first_vertex && s->first_triangle && s->seeds && s->seed_patches;
+  if (!ok) {
+    nsvcd__surface_free(s);
     return 0;
   }
-  memset(s->discs, 0, 6 * n * sizeof *s->discs);
+  memset(s->discs, 0, n * sizeof *s->discs);
   memset(s->steps, 0, n * sizeof *s->steps);
   memset(s->slacks, 0, n * sizeof *s->slacks);
   memset(s->quanta, 0, n * sizeof *s->quanta);
@@ -4804,85 +5086,82 @@ static int nsvcd__surface_begin(size_t n, size_t components, const nsvcd_allocat
   return 1;
 }
 
-// Counts vertices and triangles of each patch of a region, and makes room for them.
-static nsvcd_result nsvcd__surface_count(const nsvcd__pieces *pieces, nsvcd__sorted *sorted,
-                                         const nsvcd_allocator *allocator,
-                                         nsvcd__surface *surface) {
+// Makes room for so many vertices and triangles in all. 0 without memory.
+static int nsvcd__surface_reserve(nsvcd__surface *surface, size_t vertices, size_t triangles) {
+  nsvcd__list *v = &surface->vertex_list;
+  nsvcd__list *c = &surface->corner_list;
+  nsvcd__list *ids = &surface->id_list;
+  const size_t listed = triangles - surface->listed;
+  if (!nsvcd__list_reserve(v, vertices - surface->vertex_count))
+    return 0;
+  if (!nsvcd__list_reserve(c, listed) || !nsvcd__list_reserve(ids, listed))
+    return 0;
+  v->count = vertices;
+  c->count = triangles;
+  ids->count = triangles;
+  surface->vertices = (int16_t *)v->items;
+  surface->corners = (uint16_t *)c->items;
+  surface->ids = (uint32_t *)ids->items;
+  surface->vertex_count = vertices;
+  return 1;
+}
+
+// Counts vertices and triangles of each patch of a region, and makes room for them. MEMORY,
+// TOO_LARGE.
+static nsvcd_result nsvcd__surface_count(nsvcd__sorted *sorted, nsvcd__surface *surface) {
   size_t vertices = surface->vertex_count;
   size_t triangles = surface->listed;
-  for (size_t i = 0; i < pieces->patches->count; i++) {
-    size_t listed;
-    const size_t to = surface->done + i;
-    const size_t hull_count = surface->hull_counts[to];
-    surface->first_vertex[to] = (uint32_t)vertices;
-    surface->first_triangle[to] = (uint32_t)triangles;
-    const size_t met = nsvcd__number_vertices(pieces, sorted, i, hull_count, &listed);
-    if (met > NSVCD__PATCH_VERTICES)
+  for (size_t i = surface->done; i < surface->count; i++) {
+    surface->first_vertex[i] = (uint32_t)vertices;
+    surface->first_triangle[i] = (uint32_t)triangles;
+    triangles += nsvcd__number_vertices(sorted, i - surface->done, surface->hull_counts[i]);
+    vertices += sorted->met_count;
+    if (sorted->met_count > NSVCD__PATCH_VERTICES)
       return NSVCD_ERROR_TOO_LARGE;
-    vertices += met;
-    triangles += listed;
     if (vertices > NSVCD__MAX_COUNT || triangles > NSVCD__MAX_COUNT)
       return NSVCD_ERROR_TOO_LARGE;
   }
   surface->first_vertex[surface->count] = (uint32_t)vertices;
   surface->first_triangle[surface->count] = (uint32_t)triangles;
-
-  const size_t more = vertices - surface->vertex_count;
-  const size_t listed = triangles - surface->listed;
-  nsvcd__list *v = &surface->vertex_list;
-  nsvcd__list *c = &surface->corner_list;
-  nsvcd__list *ids = &surface->id_list;
-  if (!nsvcd__list_reserve(v, more, 3 * sizeof(int16_t), allocator) ||
-      !nsvcd__list_reserve(c, listed, 3 * sizeof(uint16_t), allocator) ||
-      !nsvcd__list_reserve(ids, listed, sizeof(uint32_t), allocator)) {
-    return NSVCD_ERROR_MEMORY;
-  }
-  v->count = vertices;
-  c->count = ids->count = triangles;
-  surface->vertices = (int16_t *)v->items;
-  surface->corners = (uint16_t *)c->items;
-  surface->ids = (uint32_t *)ids->items;
-  surface->vertex_count = vertices;
-  return NSVCD_OK;
+  const int ok = nsvcd__surface_reserve(surface, vertices, triangles);
+  return ok ? NSVCD_OK : NSVCD_ERROR_MEMORY;
 }
 
-static nsvcd_result nsvcd__surface_fill(const nsvcd__pieces *pieces, nsvcd__sorted *sorted,
-                                        const nsvcd_allocator *allocator, nsvcd__surface *surface) {
-  const size_t count = pieces->patches->count;
+static nsvcd_result nsvcd__surface_fill(nsvcd__sorted *sorted, nsvcd__surface *surface) {
+  const size_t count = sorted->pieces->patches->count;
   surface->count = surface->done + count;
   for (size_t i = 0; i < count; i++)
-    nsvcd__describe_patch(pieces, sorted, i, surface);
-  const nsvcd_result result = nsvcd__surface_count(pieces, sorted, allocator, surface);
+    nsvcd__describe_patch(sorted, i, surface);
+  const nsvcd_result result = nsvcd__surface_count(sorted, surface);
   if (result)
     return result;
   for (size_t i = 0; i < count; i++) {
     const size_t hull_count = surface->hull_counts[surface->done + i];
     if (hull_count == 0)
       continue;
-    size_t listed;
-    const size_t met = nsvcd__number_vertices(pieces, sorted, i, hull_count, &listed);
-    nsvcd__store_vertices(pieces, sorted, i, met, surface);
-    nsvcd__store_triangles(pieces, sorted, i, surface);
+    (void)nsvcd__number_vertices(sorted, i, hull_count);
+    nsvcd__store_vertices(sorted, i, surface);
+    nsvcd__store_triangles(sorted, i, surface);
   }
   surface->done = surface->count;
   return NSVCD_OK;
 }
 
 // Adds a region's patches, of which the surface has room for all. MEMORY; TOO_LARGE if a patch has
-// more than NSVCD__PATCH_VERTICES vertices: then the surface is only fit to be freed.
+// more than NSVCD__PATCH_VERTICES vertices, or all have too many: then the surface is only fit to
+// be freed.
 static nsvcd_result nsvcd__surface_add(const nsvcd__region *region, const nsvcd__patches *patches,
-                                       const nsvcd_allocator *allocator, nsvcd__surface *surface) {
+                                       nsvcd__surface *surface) {
   nsvcd__pieces pieces;
   nsvcd__sorted sorted;
-  if (!nsvcd__pieces_build(region, patches, allocator, &pieces))
+  if (!nsvcd__pieces_build(region, patches, surface->allocator, &pieces))
     return NSVCD_ERROR_MEMORY;
-  if (!nsvcd__sort_pieces(&pieces, allocator, &sorted)) {
-    nsvcd__pieces_free(&pieces, allocator);
-    return NSVCD_ERROR_MEMORY;
+  nsvcd_result result = NSVCD_ERROR_MEMORY;
+  if (nsvcd__sorted_build(&pieces, &sorted)) {
+    result = nsvcd__surface_fill(&sorted, surface);
+    nsvcd__sorted_free(&sorted);
   }
-  const nsvcd_result result = nsvcd__surface_fill(&pieces, &sorted, allocator, surface);
-  nsvcd__sorted_free(&sorted, allocator);
-  nsvcd__pieces_free(&pieces, allocator);
+  nsvcd__pieces_free(&pieces);
   return result;
 }
 #endif  // NSVCD_NO_ENCODER, NSVCD_NO_PROOF
@@ -4910,30 +5189,39 @@ typedef struct nsvcd__decoder {
 
 #ifndef NSVCD_NO_ENCODER
 // ----------------------------------------------------------------------------------------- encoder
-// In: the oriented surface points of one patch, its centre and covering radius. Out: its latent
+// In: the samples of one patch, its centre and the radius of its ball. Out: its latent
 // (NSVCD__LATENT floats in (-1,1)): NSVCD_W_CHANNELS vectors of degree 1, as many of degree 2,
 // NSVCD_W_SCALARS invariants.
 //
 // A Vector-Neuron encoder (Deng et al. 2021) on features of degrees 1 and 2 (FER-VN, Son et al.
 // 2024): channels are mixed by matrices shared by all components, and the only nonlinearities are
-// gates computed from invariants, so turning the points by R turns the latent by D(R). Dividing by
-// the radius makes it independent of scale. Weights are stored (input, output): a layer is then a
-// sum of rows, which compilers vectorise.
+// gates computed from invariants, so turning the samples by R turns the latent by D(R). Dividing by
+// the radius makes it independent of scale.
 
-#define NSVCD__WIDE (NSVCD_W_POOLED + NSVCD_W_CONTEXT)  // channels after pooling
-#define NSVCD__INVARIANTS (2 + 5 * NSVCD_W_CONTEXT)     // per point
+// channels after pooling
+#define NSVCD__WIDE (NSVCD_W_POOLED + NSVCD_W_CONTEXT)
+// of each sample
+#define NSVCD__INVARIANTS (2 + 5 * NSVCD_W_CONTEXT)
 #define NSVCD__GATES (5 * NSVCD_W_POOLED + NSVCD_W_POOLED_SCALARS)
 #define NSVCD__PATCH_IN (2 * NSVCD__WIDE + NSVCD_W_POOLED_SCALARS)
 #define NSVCD__PATCH_OUT (2 * NSVCD_W_HIDDEN + NSVCD_W_SCALARS)
 
-// y = w^T x + bias; w (inputs, outputs), x (inputs), y (outputs), bias may be NULL. y aliases
-// neither.
-static void nsvcd__linear(const float *w, const float *bias, size_t inputs, size_t outputs,
-                          const float *x, float *y) {
+// A linear layer. It is a sum of rows, which compilers vectorise.
+typedef struct nsvcd__encoder_layer {
+  const float *w;     // (inputs, outputs)
+  const float *bias;  // (outputs) or NULL
+  size_t inputs, outputs;
+} nsvcd__encoder_layer;
+
+// y = w^T x + bias; x (inputs), y (outputs), apart from each other.
+static void nsvcd__linear(nsvcd__encoder_layer layer, const float *x, float *y) {
+  const size_t outputs = layer.outputs;
+  const float *w = layer.w;
+  size_t left = layer.inputs;
   for (size_t o = 0; o < outputs; o++)
-    y[o] = bias ? bias[o] : 0;
+    y[o] = layer.bias ? layer.bias[o] : 0;
   // four rows at a time: y is the traffic
-  for (; inputs >= 4; inputs -= 4, w += 4 * outputs, x += 4) {
+  for (; left >= 4; left -= 4) {
     const float *r1 = w + outputs;
     const float *r2 = r1 + outputs;
     const float *r3 = r2 + outputs;
@@ -4943,10 +5231,14 @@ static void nsvcd__linear(const float *w, const float *bias, size_t inputs, size
     const float x3 = x[3];
     for (size_t o = 0; o < outputs; o++)
       y[o] += (w[o] * x0 + r1[o] * x1) + (r2[o] * x2 + r3[o] * x3);
+    w += 4 * outputs;
+    x += 4;
   }
-  for (; inputs > 0; inputs--, w += outputs, x++) {
+  for (; left > 0; left--) {
     for (size_t o = 0; o < outputs; o++)
       y[o] += w[o] * x[0];
+    w += outputs;
+    x++;
   }
 }
 
@@ -4955,172 +5247,221 @@ static void nsvcd__relu(size_t count, float *x) {
     x[i] = x[i] > 0 ? x[i] : 0;
 }
 
-// Symmetric traceless part of a b^T in the basis of the real spherical harmonics xy, yz, zz, xz,
-// xx-yy, scaled so that the square of a vector has its squared length.
-static void nsvcd__degree2(const float *a, const float *b, float *q) {
+// A vector of degree 2, in the basis of the real spherical harmonics xy, yz, zz, xz, xx-yy.
+typedef struct nsvcd__f5 {
+  float v[5];
+} nsvcd__f5;
+
+static nsvcd__f5 nsvcd__f5_scale(nsvcd__f5 a, float s) {
+  for (size_t k = 0; k < 5; k++)
+    a.v[k] = s * a.v[k];
+  return a;
+}
+static nsvcd__f5 nsvcd__f5_add(nsvcd__f5 a, nsvcd__f5 b) {
+  for (size_t k = 0; k < 5; k++)
+    a.v[k] += b.v[k];
+  return a;
+}
+static float nsvcd__f5_dot(nsvcd__f5 a, nsvcd__f5 b) {
+  return a.v[0] * b.v[0] + a.v[1] * b.v[1] + a.v[2] * b.v[2] + a.v[3] * b.v[3] + a.v[4] * b.v[4];
+}
+
+// The symmetric traceless part of a b^T, scaled so that the square of a vector has its squared
+// length.
+static nsvcd__f5 nsvcd__degree2(nsvcd__f3 a, nsvcd__f3 b) {
   const float half_root3 = 0.8660254037844386f;
-  q[0] = half_root3 * (a[0] * b[1] + a[1] * b[0]);
-  q[1] = half_root3 * (a[1] * b[2] + a[2] * b[1]);
-  q[2] = a[2] * b[2] - 0.5f * (a[0] * b[0] + a[1] * b[1]);
-  q[3] = half_root3 * (a[0] * b[2] + a[2] * b[0]);
-  q[4] = half_root3 * (a[0] * b[0] - a[1] * b[1]);
+  nsvcd__f5 q;
+  q.v[0] = half_root3 * (a.x * b.y + a.y * b.x);
+  q.v[1] = half_root3 * (a.y * b.z + a.z * b.y);
+  q.v[2] = a.z * b.z - 0.5f * (a.x * b.x + a.y * b.y);
+  q.v[3] = half_root3 * (a.x * b.z + a.z * b.x);
+  q.v[4] = half_root3 * (a.x * b.x - a.y * b.y);
+  return q;
 }
 
-static float nsvcd__dot5(const float *a, const float *b) {
-  return a[0] * b[0] + a[1] * b[1] + a[2] * b[2] + a[3] * b[3] + a[4] * b[4];
-}
+// The samples of a patch, in its frame.
+typedef struct nsvcd__encoded {
+  const nsvcd__f3 *samples;  // (count)
+  const nsvcd__f3 *normals;  // (count)
+  size_t count;
+  nsvcd__f3 centre;
+  float inverse_radius;
+} nsvcd__encoded;
 
-// One surface point in the patch's frame: its vectors of degree 1 and 2.
+// One sample: its vectors of degree 1 and 2.
 typedef struct nsvcd__feature {
-  float u[3], n[3];              // place over the radius; unit normal
-  float uu, un;                  // |u|^2, u.n
-  float quu[5], qun[5], qnn[5];  // degree2 of each pair
+  nsvcd__f3 u, n;           // place over the radius; unit normal
+  float uu, un;             // |u|^2, u.n
+  nsvcd__f5 quu, qun, qnn;  // degree2 of both
 } nsvcd__feature;
 
-static void nsvcd__feature_of(const float *point, const float *normal, const float *centre,
-                              float inverse_radius, nsvcd__feature *f) {
-  for (size_t k = 0; k < 3; k++) {
-    f->u[k] = (point[k] - centre[k]) * inverse_radius;
-    f->n[k] = normal[k];
-  }
-  f->uu = nsvcd__dot3(f->u, f->u);
-  f->un = nsvcd__dot3(f->u, f->n);
-  nsvcd__degree2(f->u, f->u, f->quu);
-  nsvcd__degree2(f->u, f->n, f->qun);
-  nsvcd__degree2(f->n, f->n, f->qnn);
+static nsvcd__feature nsvcd__feature_of(const nsvcd__encoded *patch, size_t i) {
+  const nsvcd__f3 offset = nsvcd__f3_sub(patch->samples[i], patch->centre);
+  nsvcd__feature f;
+  f.u = nsvcd__f3_scale(offset, patch->inverse_radius);
+  f.n = patch->normals[i];
+  f.uu = nsvcd__f3_dot(f.u, f.u);
+  f.un = nsvcd__f3_dot(f.u, f.n);
+  f.quu = nsvcd__degree2(f.u, f.u);
+  f.qun = nsvcd__degree2(f.u, f.n);
+  f.qnn = nsvcd__degree2(f.n, f.n);
+  return f;
 }
 
-// First pass: four moments of each degree, mixed into context vectors. c1 (CONTEXT, 3), c2
-// (CONTEXT, 5).
-static void nsvcd__context(const float *points, const float *normals, size_t count,
-                           const float *centre, float inverse_radius, float *c1, float *c2) {
-  float m1[4][3] = {{0, 0, 0}};
-  float m2[4][5] = {{0, 0, 0, 0, 0}};
-  for (size_t i = 0; i < count; i++) {
-    nsvcd__feature f;
-    nsvcd__feature_of(points + 3 * i, normals + 3 * i, centre, inverse_radius, &f);
-    for (size_t k = 0; k < 3; k++) {
-      m1[0][k] += f.n[k];
-      m1[1][k] += f.uu * f.n[k];
-      m1[2][k] += f.un * f.u[k];
-      m1[3][k] += f.uu * f.u[k];
-    }
-    for (size_t k = 0; k < 5; k++) {
-      m2[0][k] += f.quu[k];
-      m2[1][k] += f.qun[k];
-      m2[2][k] += f.qnn[k];
-      m2[3][k] += f.un * f.qun[k];
-    }
+// The channels of a patch: what is pooled, then the context.
+typedef struct nsvcd__channels {
+  nsvcd__f3 degree1[NSVCD__WIDE];
+  nsvcd__f5 degree2[NSVCD__WIDE];
+  float scalars[NSVCD_W_POOLED_SCALARS];
+} nsvcd__channels;
+
+// First pass: four moments of each degree, mixed into the context.
+static void nsvcd__context(const nsvcd__encoded *patch, nsvcd__channels *out) {
+  nsvcd__f3 m1[4] = {{0, 0, 0}};
+  nsvcd__f5 m2[4] = {{{0, 0, 0, 0, 0}}};
+  for (size_t i = 0; i < patch->count; i++) {
+    const nsvcd__feature f = nsvcd__feature_of(patch, i);
+    m1[0] = nsvcd__f3_add(m1[0], f.n);
+    m1[1] = nsvcd__f3_add_scaled(m1[1], f.uu, f.n);
+    m1[2] = nsvcd__f3_add_scaled(m1[2], f.un, f.u);
+    m1[3] = nsvcd__f3_add_scaled(m1[3], f.uu, f.u);
+    m2[0] = nsvcd__f5_add(m2[0], f.quu);
+    m2[1] = nsvcd__f5_add(m2[1], f.qun);
+    m2[2] = nsvcd__f5_add(m2[2], f.qnn);
+    m2[3] = nsvcd__f5_add(m2[3], nsvcd__f5_scale(f.qun, f.un));
   }
-  const float share = 1 / (float)count;
+  const float share = 1 / (float)patch->count;
   for (size_t c = 0; c < NSVCD_W_CONTEXT; c++) {
-    for (size_t k = 0; k < 3; k++) {
-      c1[3 * c + k] = 0;
-      for (size_t m = 0; m < 4; m++)
-        c1[3 * c + k] += nsvcd_w_context1[m * NSVCD_W_CONTEXT + c] * m1[m][k] * share;
+    nsvcd__f3 c1 = {0, 0, 0};
+    nsvcd__f5 c2 = {{0, 0, 0, 0, 0}};
+    for (size_t m = 0; m < 4; m++) {
+      const float w1 = nsvcd_w_context1[m * NSVCD_W_CONTEXT + c];
+      const float w2 = nsvcd_w_context2[m * NSVCD_W_CONTEXT + c];
+      c1 = nsvcd__f3_add_scaled(c1, share, nsvcd__f3_scale(m1[m], w1));
+      c2 = nsvcd__f5_add(c2, nsvcd__f5_scale(nsvcd__f5_scale(m2[m], w2), share));
     }
-    for (size_t k = 0; k < 5; k++) {
-      c2[5 * c + k] = 0;
-      for (size_t m = 0; m < 4; m++)
-        c2[5 * c + k] += nsvcd_w_context2[m * NSVCD_W_CONTEXT + c] * m2[m][k] * share;
-    }
+    out->degree1[NSVCD_W_POOLED + c] = c1;
+    out->degree2[NSVCD_W_POOLED + c] = c2;
   }
 }
 
-// The point network: invariants of one point -> its gates, (5 POOLED + POOLED_SCALARS).
-static void nsvcd__gates(const nsvcd__feature *f, const float *c1, const float *c2, float *gates) {
+// The sample network: invariants of one sample -> its gates, (5 POOLED + POOLED_SCALARS).
+static void nsvcd__gates(const nsvcd__feature *f, const nsvcd__channels *context, float *gates) {
+  const size_t hidden = NSVCD_W_POINT_HIDDEN;
+  const nsvcd__f3 *c1 = context->degree1 + NSVCD_W_POOLED;
+  const nsvcd__f5 *c2 = context->degree2 + NSVCD_W_POOLED;
   float x[NSVCD__INVARIANTS], h1[NSVCD_W_POINT_HIDDEN], h2[NSVCD_W_POINT_HIDDEN];
   x[0] = f->uu;
   x[1] = f->un;
-  float *xu = x + 2;
-  float *xn = xu + NSVCD_W_CONTEXT;
-  float *xq = xn + NSVCD_W_CONTEXT;
   for (size_t c = 0; c < NSVCD_W_CONTEXT; c++) {
-    xu[c] = nsvcd__dot3(f->u, c1 + 3 * c);
-    xn[c] = nsvcd__dot3(f->n, c1 + 3 * c);
-    xq[c] = nsvcd__dot5(f->quu, c2 + 5 * c);
-    xq[NSVCD_W_CONTEXT + c] = nsvcd__dot5(f->qun, c2 + 5 * c);
-    xq[2 * NSVCD_W_CONTEXT + c] = nsvcd__dot5(f->qnn, c2 + 5 * c);
+    float *to = x + 2 + c;
+    to[0] = nsvcd__f3_dot(f->u, c1[c]);
+    to[NSVCD_W_CONTEXT] = nsvcd__f3_dot(f->n, c1[c]);
+    to[2 * NSVCD_W_CONTEXT] = nsvcd__f5_dot(f->quu, c2[c]);
+    to[3 * NSVCD_W_CONTEXT] = nsvcd__f5_dot(f->qun, c2[c]);
+    to[4 * NSVCD_W_CONTEXT] = nsvcd__f5_dot(f->qnn, c2[c]);
   }
-  nsvcd__linear(nsvcd_w_point0, nsvcd_w_point0_bias, NSVCD__INVARIANTS, NSVCD_W_POINT_HIDDEN, x,
-                h1);
-  nsvcd__relu(NSVCD_W_POINT_HIDDEN, h1);
-  nsvcd__linear(nsvcd_w_point1, nsvcd_w_point1_bias, NSVCD_W_POINT_HIDDEN, NSVCD_W_POINT_HIDDEN, h1,
-                h2);
-  nsvcd__relu(NSVCD_W_POINT_HIDDEN, h2);
-  nsvcd__linear(nsvcd_w_point2, nsvcd_w_point2_bias, NSVCD_W_POINT_HIDDEN, NSVCD__GATES, h2, gates);
+  const nsvcd__encoder_layer first = {nsvcd_w_point0, nsvcd_w_point0_bias, NSVCD__INVARIANTS,
+                                      hidden};
+  const nsvcd__encoder_layer second = {nsvcd_w_point1, nsvcd_w_point1_bias, hidden, hidden};
+  const nsvcd__encoder_layer last = {nsvcd_w_point2, nsvcd_w_point2_bias, hidden, NSVCD__GATES};
+  nsvcd__linear(first, x, h1);
+  nsvcd__relu(hidden, h1);
+  nsvcd__linear(second, h1, h2);
+  nsvcd__relu(hidden, h2);
+  nsvcd__linear(last, h2, gates);
 }
 
-// One degree of the last layer: a (WIDE, size) is mixed into HIDDEN channels, gated, and mixed into
-// z (size, CHANNELS).
-static void nsvcd__mix(const float *mix, const float *gate, const float *out, size_t size,
-                       const float *a, float *z) {
-  for (size_t k = 0; k < size; k++) {
+// Adds a share of a sample to what is pooled.
+static void nsvcd__pool(const nsvcd__feature *f, const float *gates, float share,
+                        nsvcd__channels *out) {
+  const size_t pooled = NSVCD_W_POOLED;
+  for (size_t c = 0; c < pooled; c++) {
+    const float *gate = gates + c;
+    nsvcd__f3 a1 = nsvcd__f3_scale(f->u, gate[0]);
+    a1 = nsvcd__f3_add(a1, nsvcd__f3_scale(f->n, gate[pooled]));
+    nsvcd__f5 a2 = nsvcd__f5_scale(f->quu, gate[2 * pooled]);
+    a2 = nsvcd__f5_add(a2, nsvcd__f5_scale(f->qun, gate[3 * pooled]));
+    a2 = nsvcd__f5_add(a2, nsvcd__f5_scale(f->qnn, gate[4 * pooled]));
+    out->degree1[c] = nsvcd__f3_add_scaled(out->degree1[c], share, a1);
+    out->degree2[c] = nsvcd__f5_add(out->degree2[c], nsvcd__f5_scale(a2, share));
+  }
+  for (size_t c = 0; c < NSVCD_W_POOLED_SCALARS; c++)
+    out->scalars[c] += gates[5 * pooled + c] * share;
+}
+
+// The last layer, for one degree.
+typedef struct nsvcd__mixer {
+  const float *mix;   // (WIDE, HIDDEN)
+  const float *gate;  // (HIDDEN)
+  const float *out;   // (HIDDEN, CHANNELS)
+  size_t size;        // 3 or 5, components
+} nsvcd__mixer;
+
+// a (WIDE, size) is mixed into HIDDEN channels, gated, and mixed into z (size, CHANNELS).
+static void nsvcd__mix(nsvcd__mixer by, const float *a, float *z) {
+  const nsvcd__encoder_layer mix = {by.mix, NULL, NSVCD__WIDE, NSVCD_W_HIDDEN};
+  const nsvcd__encoder_layer out = {by.out, NULL, NSVCD_W_HIDDEN, NSVCD_W_CHANNELS};
+  for (size_t k = 0; k < by.size; k++) {
     float x[NSVCD__WIDE], h[NSVCD_W_HIDDEN];
     for (size_t c = 0; c < NSVCD__WIDE; c++)
-      x[c] = a[c * size + k];
-    nsvcd__linear(mix, NULL, NSVCD__WIDE, NSVCD_W_HIDDEN, x, h);
+      x[c] = a[c * by.size + k];
+    nsvcd__linear(mix, x, h);
     for (size_t c = 0; c < NSVCD_W_HIDDEN; c++)
-      h[c] *= gate[c];
-    nsvcd__linear(out, NULL, NSVCD_W_HIDDEN, NSVCD_W_CHANNELS, h, z + NSVCD_W_CHANNELS * k);
+      h[c] *= by.gate[c];
+    nsvcd__linear(out, h, z + NSVCD_W_CHANNELS * k);
   }
   // shortened to less than 1, so that int8 holds it
   for (size_t c = 0; c < NSVCD_W_CHANNELS; c++) {
     float square = 0;
-    for (size_t k = 0; k < size; k++)
+    for (size_t k = 0; k < by.size; k++)
       square += z[NSVCD_W_CHANNELS * k + c] * z[NSVCD_W_CHANNELS * k + c];
     const float scale = 1 / sqrtf(1 + square);
-    for (size_t k = 0; k < size; k++)
+    for (size_t k = 0; k < by.size; k++)
       z[NSVCD_W_CHANNELS * k + c] *= scale;
   }
 }
 
-// points, normals (count, 3), count >= 1 -> latent (LATENT): degree 1 (3, CHANNELS), degree 2 (5,
-// CHANNELS), scalars.
-static void nsvcd__encode_patch(const float *points, const float *normals, size_t count,
-                                const float *centre, float radius, float *latent) {
-  const float inverse = radius > 0 ? 1 / radius : 0;
-  const float share = 1 / (float)count;
-  float a1[3 * NSVCD__WIDE] = {0};
-  float a2[5 * NSVCD__WIDE] = {0};
-  float scalars[NSVCD_W_POOLED_SCALARS] = {0};
-  float *c1 = a1 + 3 * NSVCD_W_POOLED;
-  float *c2 = a2 + 5 * NSVCD_W_POOLED;  // the context stands behind what is pooled
-  nsvcd__context(points, normals, count, centre, inverse, c1, c2);
-  for (size_t i = 0; i < count; i++) {
-    nsvcd__feature f;
-    float gates[NSVCD__GATES];
-    nsvcd__feature_of(points + 3 * i, normals + 3 * i, centre, inverse, &f);
-    nsvcd__gates(&f, c1, c2, gates);
-    const float *gu = gates;
-    const float *gn = gu + NSVCD_W_POOLED;
-    const float *guu = gn + NSVCD_W_POOLED;
-    const float *gun = guu + NSVCD_W_POOLED;
-    const float *gnn = gun + NSVCD_W_POOLED;
-    const float *gs = gnn + NSVCD_W_POOLED;
-    for (size_t c = 0; c < NSVCD_W_POOLED; c++) {
-      for (size_t k = 0; k < 3; k++)
-        a1[3 * c + k] += (gu[c] * f.u[k] + gn[c] * f.n[k]) * share;
-      for (size_t k = 0; k < 5; k++)
-        a2[5 * c + k] += (guu[c] * f.quu[k] + gun[c] * f.qun[k] + gnn[c] * f.qnn[k]) * share;
-    }
-    for (size_t c = 0; c < NSVCD_W_POOLED_SCALARS; c++)
-      scalars[c] += gs[c] * share;
-  }
-
+// The patch network: the channels -> the latent.
+static void nsvcd__finish_latent(const nsvcd__channels *a, float *latent) {
+  const size_t hidden = NSVCD_W_PATCH_HIDDEN;
   float x[NSVCD__PATCH_IN], h[NSVCD_W_PATCH_HIDDEN], y[NSVCD__PATCH_OUT];
   for (size_t c = 0; c < NSVCD__WIDE; c++) {
-    x[c] = nsvcd__dot3(a1 + 3 * c, a1 + 3 * c);
-    x[NSVCD__WIDE + c] = nsvcd__dot5(a2 + 5 * c, a2 + 5 * c);
+    x[c] = nsvcd__f3_dot(a->degree1[c], a->degree1[c]);
+    x[NSVCD__WIDE + c] = nsvcd__f5_dot(a->degree2[c], a->degree2[c]);
   }
-  memcpy(x + 2 * NSVCD__WIDE, scalars, sizeof scalars);
-  nsvcd__linear(nsvcd_w_patch0, nsvcd_w_patch0_bias, NSVCD__PATCH_IN, NSVCD_W_PATCH_HIDDEN, x, h);
-  nsvcd__relu(NSVCD_W_PATCH_HIDDEN, h);
-  nsvcd__linear(nsvcd_w_patch1, nsvcd_w_patch1_bias, NSVCD_W_PATCH_HIDDEN, NSVCD__PATCH_OUT, h, y);
-  nsvcd__mix(nsvcd_w_mix1, y, nsvcd_w_out1, 3, a1, latent);
-  nsvcd__mix(nsvcd_w_mix2, y + NSVCD_W_HIDDEN, nsvcd_w_out2, 5, a2, latent + 3 * NSVCD_W_CHANNELS);
+  memcpy(x + 2 * NSVCD__WIDE, a->scalars, sizeof a->scalars);
+  const nsvcd__encoder_layer first = {nsvcd_w_patch0, nsvcd_w_patch0_bias, NSVCD__PATCH_IN, hidden};
+  const nsvcd__encoder_layer last = {nsvcd_w_patch1, nsvcd_w_patch1_bias, hidden, NSVCD__PATCH_OUT};
+  nsvcd__linear(first, x, h);
+  nsvcd__relu(hidden, h);
+  nsvcd__linear(last, h, y);
+
+  const nsvcd__mixer mixer1 = {nsvcd_w_mix1, y, nsvcd_w_out1, 3};
+  const nsvcd__mixer mixer2 = {nsvcd_w_mix2, y + NSVCD_W_HIDDEN, nsvcd_w_out2, 5};
+  const float *scalars = y + 2 * NSVCD_W_HIDDEN;
+  nsvcd__mix(mixer1, (const float *)(const void *)a->degree1, latent);
+  latent += 3 * NSVCD_W_CHANNELS;
+  nsvcd__mix(mixer2, (const float *)(const void *)a->degree2, latent);
+  latent += 5 * NSVCD_W_CHANNELS;
   for (size_t c = 0; c < NSVCD_W_SCALARS; c++)
-    latent[8 * NSVCD_W_CHANNELS + c] = tanhf(y[2 * NSVCD_W_HIDDEN + c]);
+    latent[c] = tanhf(scalars[c]);
+}
+
+// The latent (LATENT) of a patch of one sample or more: degree 1 (3, CHANNELS), degree 2 (5,
+// CHANNELS), scalars.
+static void nsvcd__encode_patch(const nsvcd__encoded *patch, float *latent) {
+  const float share = 1 / (float)patch->count;
+  nsvcd__channels channels;
+  memset(&channels, 0, sizeof channels);
+  nsvcd__context(patch, &channels);
+  for (size_t i = 0; i < patch->count; i++) {
+    const nsvcd__feature f = nsvcd__feature_of(patch, i);
+    float gates[NSVCD__GATES];
+    nsvcd__gates(&f, &channels, gates);
+    nsvcd__pool(&f, gates, share, &channels);
+  }
+  nsvcd__finish_latent(&channels, latent);
 }
 #endif  // NSVCD_NO_ENCODER
 
@@ -5219,32 +5560,35 @@ static void nsvcd__rotate_latent(const int8_t *z, float (*turn)[NSVCD__SLICE], s
 
 // -------------------------------------------------------------------------------------------- body
 // In: N patches. Out: one relocatable, checksummed blob. Patches are stored in groups of 16
-// neighbours, each group with a sphere over its members: the broad phase's tree. There are two
-// kinds of bodies, which begin alike:
+// neighbours, each group with a sphere over its members. Where there are many groups, there are
+// levels of spheres above them: the broad phase's tree. There are two kinds of bodies, which begin
+// alike:
 //
-//   struct nsvcd_body            64 bytes
-//   x, y, z, r     (4, P)  float body frame, metres; P = N rounded up to 16, padding has r =
-//                  NSVCD__NOWHERE
-//   x, y, z, r     (4, G)  float group spheres; G = P / 16 rounded up to 16, padding as above
-//   x, y, z, r     (4, H)  float spheres over 16 groups each, if there are more than 32 groups; H
-//                  as above,
-//   x, y, z, r     (4, I)  float spheres over 16 of these each, if they are more than 16
+//   struct nsvcd_body    64 bytes
+//   x, y, z, r   (4, P)  float: spheres of the patches, body frame, metres; P = N rounded up to 16;
+//                        padding has r = NSVCD__NOWHERE
+//   x, y, z, r   (4, G)  float: spheres of the groups; G = P / 16 rounded up to 16, padding as
+//                        above
+//   x, y, z, r   (4, H)  float: if there are more than 32 groups, spheres over 16 groups each;
+//                        H as G
+//   x, y, z, r   (4, I)  float: if these are more than 16, spheres over 16 of them each
 //
 // A body of latents, for the network, goes on with
-//   x, y, z        (3, P)  float area vectors, square metres, along the outward normal; padding is
-//                  zero
-//   x, y, z        (3, G), (3, H), (3, I): their sums over the members of the spheres above, if
-//                  there are more than 32 groups
-//   latents        (N, NSVCD__LATENT) int8, free of scale
+//   x, y, z      (3, P)  float: area vectors, square metres, along the outward normal; padding is
+//                        zero
+//   x, y, z      (3, G), (3, H), (3, I)  float: if there are more than 32 groups, their sums over
+//                        the members of the spheres above
+//   latents      (N, NSVCD__LATENT)  int8, free of scale
 // and a body of triangles, for the proof, with what section *facets* says. A body that has both is
-// one of latents which holds one of triangles behind them, at `inner`: each part has spheres that
-// suit it, and the same numbers of patches. Each part ends in zeros up to a multiple of
+// one of latents with one of triangles behind it, at `inner`: each part has spheres that suit it,
+// and patches have the same numbers in both. Each part ends in zeros up to a multiple of
 // NSVCD_ALIGNMENT.
 
-#define NSVCD__GROUP NSVCD__LANES  // patches per group, and groups or the like per sphere above
-// groups of a body that are searched at once; with more there are levels above
+// patches of a group, and groups or the like of a sphere above
+#define NSVCD__GROUP NSVCD__LANES
+// Groups of a body that are searched at once; with more there are levels above. (Fewer for a test,
+// in which small bodies then make several tiles.)
 #ifndef NSVCD__TILE
-// (fewer for a test, in which small bodies then make several tiles)
 #define NSVCD__TILE 32
 #endif
 #define NSVCD__TILE_SLOTS 32
@@ -5256,16 +5600,24 @@ static void nsvcd__rotate_latent(const int8_t *z, float (*turn)[NSVCD__SLICE], s
 
 struct nsvcd_body {
   uint32_t magic, version;
-  uint64_t checksum;        // over everything that follows
-  uint32_t size;            // bytes, the whole blob
-  uint32_t weights_id;      // of the weights that made the latents; 0: a body of triangles
-  uint32_t points;          // N
-  uint32_t padded;          // P
-  float centre[3], radius;  // bounding sphere
-  float extent;             // max |p_i| + r_i: no part is farther from the body's origin
-  uint32_t open;            // 1: nothing can be inside
-  uint32_t triangles;       // of the mesh; 0: none are stored
-  uint32_t inner;           // bytes from here to the body of triangles within; 0: there is none
+  // over everything that follows
+  uint64_t checksum;
+  // bytes, of the whole blob
+  uint32_t size;
+  // of the weights that made the latents; 0: a body of triangles
+  uint32_t weights_id;
+  uint32_t points;  // N, patches
+  uint32_t padded;  // P
+  // a sphere over all
+  float centre[3], radius;
+  // max |p_i| + r_i: no part is farther from the body's origin
+  float extent;
+  // 1: nothing can be inside
+  uint32_t open;
+  // of the mesh; 0: none are stored
+  uint32_t triangles;
+  // bytes from here to the body of triangles within; 0: there is none
+  uint32_t inner;
 };
 
 static size_t nsvcd__group_slots(size_t padded) {
@@ -5299,7 +5651,7 @@ static size_t nsvcd__level_count(size_t padded) {
   return levels;
 }
 
-// Accessors. Arrays are (P) for patches and (G) for groups.
+// Accessors: x, y, z and r are (P), of the patches.
 static size_t nsvcd__body_groups(const nsvcd_body *body) { return body->padded / NSVCD__GROUP; }
 static const float *nsvcd__body_floats(const nsvcd_body *body, size_t first) {
   return (const float *)(body + 1) + first;
@@ -5324,8 +5676,7 @@ static nsvcd__spheres nsvcd__group_spheres(const nsvcd_body *body) {
   return nsvcd__level_spheres(body, nsvcd__level_of(body->padded, 0));
 }
 static nsvcd__sphere nsvcd__body_sphere(const nsvcd_body *body) {
-  const nsvcd__f3 centre = nsvcd__f3_of(body->centre[0], body->centre[1], body->centre[2]);
-  const nsvcd__sphere out = {centre, body->radius};
+  const nsvcd__sphere out = {nsvcd__f3_load(body->centre), body->radius};
   return out;
 }
 
@@ -5365,8 +5716,9 @@ NSVCDDEF size_t nsvcd_body_size(size_t points) {
     return 0;
   const size_t padded = nsvcd__round_up(points, NSVCD__GROUP);
   const size_t areas = 12 * nsvcd__area_slots(padded);
-  return nsvcd__round_up(nsvcd__spheres_size(padded) + areas + points * NSVCD__LATENT,
-                         NSVCD_ALIGNMENT);
+  const size_t latents = points * NSVCD__LATENT;
+  const size_t size = nsvcd__spheres_size(padded) + areas + latents;
+  return nsvcd__round_up(size, NSVCD_ALIGNMENT);
 }
 #endif
 
@@ -5384,68 +5736,103 @@ static uint64_t nsvcd__body_checksum(const nsvcd_body *body) {
 }
 
 #ifndef NSVCD_NO_ENCODER
-// Sorts patches by a coordinate of their centres; equal ones keep their order, so that the result
-// is the same everywhere. spare: room for as many. Merges ever longer runs.
-static void nsvcd__sort_along(size_t count, const float *centres, size_t axis, uint16_t *order,
-                              uint16_t *spare) {
-  for (size_t run = 1; run < count; run *= 2) {
-    for (size_t first = 0; first < count; first += 2 * run) {
-      const size_t middle = first + run < count ? first + run : count;
-      const size_t end = first + 2 * run < count ? first + 2 * run : count;
-      size_t left = first;
-      size_t right = middle;
-      for (size_t to = first; to < end; to++) {
-        int from_right = left == middle;
-        if (left < middle && right < end) {
-          from_right =
-              centres[3 * (size_t)order[right] + axis] < centres[3 * (size_t)order[left] + axis];
-        }
-        spare[to] = from_right ? order[right++] : order[left++];
-      }
+// Numbers of patches that are being sorted.
+typedef struct nsvcd__ordering {
+  const nsvcd__f3 *centres;  // of all patches
+  uint16_t *order;           // (count)
+  uint16_t *spare;           // (count), working memory
+  size_t count;
+} nsvcd__ordering;
+
+static float nsvcd__f3_axis(nsvcd__f3 a, size_t axis) {
+  return axis == 0 ? a.x : axis == 1 ? a.y : a.z;
+}
+
+// Merges two runs that are sorted along an axis; of equal ones the left run's come first.
+static void nsvcd__merge_runs(nsvcd__ordering all, size_t axis, size_t first, size_t run) {
+  const size_t middle = first + run < all.count ? first + run : all.count;
+  const size_t end = first + 2 * run < all.count ? first + 2 * run : all.count;
+  size_t left = first;
+  size_t right = middle;
+  for (size_t to = first; to < end; to++) {
+    int from_right = left == middle;
+    if (left < middle && right < end) {
+      const nsvcd__f3 a = all.centres[all.order[left]];
+      const nsvcd__f3 b = all.centres[all.order[right]];
+      from_right = nsvcd__f3_axis(b, axis) < nsvcd__f3_axis(a, axis);
     }
-    memcpy(order, spare, count * sizeof *order);
+    all.spare[to] = from_right ? all.order[right++] : all.order[left++];
   }
 }
 
-// Orders N patches so that each run of 16 is compact, and each run of 16 of those: median splits
-// across the longest axis, the left part a multiple of 16, or of 256 and so on where there are more
-// than a tile's. centres (N, 3), order and spare (count).
-static void nsvcd__body_order(size_t count, const float *centres, uint16_t *order,
-                              uint16_t *spare) {
-  if (count <= NSVCD__GROUP)
-    return;
-  size_t axis = 0;
-  float longest = -1;
-  for (size_t k = 0; k < 3; k++) {
-    float low = centres[3 * (size_t)order[0] + k];
-    float high = low;
-    for (size_t i = 1; i < count; i++) {
-      const float x = centres[3 * (size_t)order[i] + k];
-      low = x < low ? x : low;
-      high = x > high ? x : high;
-    }
-    if (high - low > longest) {
-      longest = high - low;
-      axis = k;
-    }
+// Sorts patches by a coordinate of their centres. Equal ones keep their order, so that the result
+// is the same everywhere.
+static void nsvcd__sort_along(nsvcd__ordering all, size_t axis) {
+  for (size_t run = 1; run < all.count; run *= 2) {
+    for (size_t first = 0; first < all.count; first += 2 * run)
+      nsvcd__merge_runs(all, axis, first, run);
+    memcpy(all.order, all.spare, all.count * sizeof *all.order);
   }
-  nsvcd__sort_along(count, centres, axis, order, spare);
+}
+
+// The longest axis of the box of the centres.
+static size_t nsvcd__longest_axis(nsvcd__ordering all) {
+  nsvcd__f3 low = all.centres[all.order[0]];
+  nsvcd__f3 high = low;
+  for (size_t i = 1; i < all.count; i++) {
+    low = nsvcd__f3_min(low, all.centres[all.order[i]]);
+    high = nsvcd__f3_max(high, all.centres[all.order[i]]);
+  }
+  const nsvcd__f3 size = nsvcd__f3_sub(high, low);
+  const size_t axis = size.y > size.x ? 1 : 0;
+  return size.z > nsvcd__f3_axis(size, axis) ? 2 : axis;
+}
+
+// Orders patches so that each run of 16 is compact, and each run of 16 of those: median splits
+// across the longest axis, the left part a multiple of 16, or of 256 and so on where there are more
+// than a tile's.
+static void nsvcd__body_order(nsvcd__ordering all) {
+  if (all.count <= NSVCD__GROUP)
+    return;
+  nsvcd__sort_along(all, nsvcd__longest_axis(all));
   size_t unit = NSVCD__GROUP;
-  while (2 * NSVCD__GROUP * unit < count)
+  while (2 * NSVCD__GROUP * unit < all.count)
     unit *= NSVCD__GROUP;
-  const size_t left = nsvcd__round_up(count / 2, unit);
-  nsvcd__body_order(left, centres, order, spare);
-  nsvcd__body_order(count - left, centres, order + left, spare);
+  nsvcd__ordering left = all;
+  nsvcd__ordering right = all;
+  left.count = nsvcd__round_up(all.count / 2, unit);
+  right.count = all.count - left.count;
+  right.order += left.count;
+  nsvcd__body_order(left);
+  nsvcd__body_order(right);
+}
+
+// Begins a body of so many patches in `memory`: zeros, the header, and the padding of the patches'
+// spheres.
+static nsvcd_body *nsvcd__body_begin(void *memory, size_t size, size_t patches, int open) {
+  nsvcd_body *b = (nsvcd_body *)memory;
+  memset(memory, 0, size);
+  b->magic = NSVCD__BODY_MAGIC;
+  b->version = NSVCD__BODY_VERSION;
+  b->size = (uint32_t)size;
+  b->points = (uint32_t)patches;
+  b->padded = (uint32_t)nsvcd__round_up(patches, NSVCD__GROUP);
+  b->open = open != 0;
+  float *radii = (float *)(b + 1) + 3 * b->padded;
+  for (size_t i = patches; i < b->padded; i++)
+    radii[i] = NSVCD__NOWHERE;
+  return b;
 }
 #endif
 
-// The largest |p_i - centre| + r_i of `count` spheres; *farthest is the i.
+// The distance of the farthest point of `count` spheres from a place; *farthest is the sphere that
+// has it, if it is above 0.
 static float nsvcd__reach_of_spheres(nsvcd__spheres all, size_t count, nsvcd__f3 centre,
                                      size_t *farthest) {
   float reach = 0;
   for (size_t i = 0; i < count; i++) {
-    const nsvcd__f3 d = nsvcd__f3_sub(nsvcd__centre_of(all, i), centre);
-    const float end = nsvcd__f3_length(d) + all.r[i];
+    const nsvcd__f3 offset = nsvcd__f3_sub(nsvcd__centre_of(all, i), centre);
+    const float end = nsvcd__f3_length(offset) + all.r[i];
     if (end > reach) {
       reach = end;
       *farthest = i;
@@ -5466,7 +5853,9 @@ static nsvcd__sphere nsvcd__cover_spheres(nsvcd__spheres all, size_t count) {
     low = nsvcd__f3_min(low, nsvcd__f3_sub(centre, r));
     high = nsvcd__f3_max(high, nsvcd__f3_add(centre, r));
   }
-  nsvcd__f3 centre = nsvcd__f3_add(nsvcd__f3_scale(low, 0.5f), nsvcd__f3_scale(high, 0.5f));
+  low = nsvcd__f3_scale(low, 0.5f);
+  high = nsvcd__f3_scale(high, 0.5f);
+  nsvcd__f3 centre = nsvcd__f3_add(low, high);
   nsvcd__sphere best = {centre, HUGE_VALF};
   for (int step = 0; step < 32; step++) {
     size_t farthest = 0;
@@ -5475,19 +5864,22 @@ static nsvcd__sphere nsvcd__cover_spheres(nsvcd__spheres all, size_t count) {
       best.centre = centre;
       best.radius = reach;
     }
-    const nsvcd__f3 d = nsvcd__f3_sub(nsvcd__centre_of(all, farthest), centre);
+    const nsvcd__f3 way = nsvcd__f3_sub(nsvcd__centre_of(all, farthest), centre);
     const float steps = (float)(step + 3);
-    centre = nsvcd__f3_add(centre, nsvcd__f3_of(d.x / steps, d.y / steps, d.z / steps));
+    centre.x += way.x / steps;
+    centre.y += way.y / steps;
+    centre.z += way.z / steps;
   }
   best.radius *= 1.000002f;
   return best;
 }
 
-// Fills the spheres of a level from those that they are over: 16 each, of which `members` exist.
+// Fills the spheres of a level, (4, slots), from those that they are over: 16 each, of which
+// `members` exist.
 static void nsvcd__level_finish(nsvcd__spheres below, size_t members, nsvcd__level level,
                                 float *out) {
   for (size_t g = 0; g < level.slots; g++) {
-    nsvcd__sphere sphere = {nsvcd__f3_of(0, 0, 0), NSVCD__NOWHERE};
+    nsvcd__sphere sphere = {{0, 0, 0}, NSVCD__NOWHERE};
     const size_t i = g * NSVCD__GROUP;
     const size_t left = i >= members ? 0 : members - i;
     const size_t count = left < NSVCD__GROUP ? left : NSVCD__GROUP;
@@ -5513,9 +5905,7 @@ static void nsvcd__body_finish(nsvcd_body *body) {
   const nsvcd__f3 origin = nsvcd__f3_of(0, 0, 0);
   const nsvcd__sphere sphere = nsvcd__cover_spheres(patches, body->points);
   const float extent = nsvcd__reach_of_spheres(patches, body->points, origin, &farthest);
-  body->centre[0] = sphere.centre.x;
-  body->centre[1] = sphere.centre.y;
-  body->centre[2] = sphere.centre.z;
+  nsvcd__f3_store(sphere.centre, body->centre);
   body->radius = sphere.radius;
   body->extent = extent * 1.000002f;
   body->checksum = nsvcd__body_checksum(body);
@@ -5532,10 +5922,13 @@ typedef struct nsvcd__walk {
   nsvcd__filter *filter;
   const void *what;
   size_t levels, level;
-  uint32_t first[NSVCD__LEVELS];  // of the spheres looked at, on each level,
-  uint32_t left[NSVCD__LEVELS];   // and those that passed, and are still to be visited
+  // on each level, the first of the spheres looked at
+  uint32_t first[NSVCD__LEVELS];
+  // and those of them that passed, and are still to be visited
+  uint32_t left[NSVCD__LEVELS];
 } nsvcd__walk;
 
+// Which of 16 spheres of a level pass? Bits of lanes.
 static uint32_t nsvcd__walk_look(const nsvcd__walk *walk, size_t level, size_t first) {
   const nsvcd__level at = nsvcd__level_of(walk->body->padded, level);
   const nsvcd__spheres all = nsvcd__level_spheres(walk->body, at);
@@ -5581,10 +5974,11 @@ static int nsvcd__is_aligned(const void *memory) {
   return ((uintptr_t)memory & (NSVCD_ALIGNMENT - 1)) == 0;
 }
 
-// Bit tests, so that they hold under -ffast-math too.
-static int nsvcd__all_within(const float *values, size_t count, float cap) {
+// Are numbers finite, and their absolute values no greater than `most`? By their bits, so that it
+// holds under -ffast-math too.
+static int nsvcd__all_within(const float *values, size_t count, float most) {
   for (size_t i = 0; i < count; i++) {
-    if (!nsvcd__is_finite(values[i]) || fabsf(values[i]) > cap)
+    if (!nsvcd__is_finite(values[i]) || fabsf(values[i]) > most)
       return 0;
   }
   return 1;
@@ -5620,55 +6014,61 @@ static void nsvcd__sum_areas(nsvcd_body *body) {
   }
 }
 
-// Builds a body of latents in `memory` from N patches in the given order (N): centres (N, 3), radii
-// (N), areas (N, 3), latents (N, LATENT).
-static nsvcd_result nsvcd__body_build(size_t points, const float *centres, const float *radii,
-                                      const float *areas, const int8_t *latents,
-                                      const uint16_t *order, uint32_t weights_id, int open,
-                                      void *memory, size_t capacity, const nsvcd_body **body) {
-  size_t size = nsvcd_body_size(points);
+// What a body of latents is built of.
+typedef struct nsvcd__latents_source {
+  size_t count;              // N
+  const nsvcd__f3 *centres;  // (N)
+  const float *radii;        // (N)
+  const nsvcd__f3 *areas;    // (N)
+  const int8_t *latents;     // (N, LATENT)
+  const uint16_t *order;     // (N) of the patches
+  uint32_t weights_id;
+  int open;
+} nsvcd__latents_source;
+
+// Are all numbers within the bounds of a body?
+static int nsvcd__source_is_sound(const nsvcd__latents_source *source) {
+  const float *centres = (const float *)(const void *)source->centres;
+  const float *areas = (const float *)(const void *)source->areas;
+  const size_t count = source->count;
+  if (!nsvcd__all_within(centres, 3 * count, NSVCD_MAX_COORDINATE))
+    return 0;
+  if (!nsvcd__all_within(source->radii, count, 4 * NSVCD_MAX_COORDINATE))
+    return 0;
+  if (!nsvcd__all_within(areas, 3 * count, NSVCD__MAX_LENGTH * NSVCD__MAX_LENGTH))
+    return 0;
+  for (size_t i = 0; i < count; i++) {
+    if (source->radii[i] < 0)
+      return 0;
+  }
+  return 1;
+}
+
+// Builds a body of latents in `memory`. On success it is *body. NUMBER if something is out of
+// bounds.
+static nsvcd_result nsvcd__body_build(const nsvcd__latents_source *source, void *memory,
+                                      size_t capacity, const nsvcd_body **body) {
+  const size_t size = nsvcd_body_size(source->count);
   if (size == 0)
     return NSVCD_ERROR_ARGUMENT;
   if (capacity < size || !nsvcd__is_aligned(memory))
     return NSVCD_ERROR_WORKSPACE;
-  if (!nsvcd__all_within(centres, 3 * points, NSVCD_MAX_COORDINATE))
+  if (!nsvcd__source_is_sound(source))
     return NSVCD_ERROR_NUMBER;
-  if (!nsvcd__all_within(radii, points, 4 * NSVCD_MAX_COORDINATE))
-    return NSVCD_ERROR_NUMBER;
-  if (!nsvcd__all_within(areas, 3 * points, NSVCD__MAX_LENGTH * NSVCD__MAX_LENGTH))
-    return NSVCD_ERROR_NUMBER;
-  for (size_t i = 0; i < points; i++) {
-    if (radii[i] < 0)
-      return NSVCD_ERROR_NUMBER;
-  }
 
-  memset(memory, 0, size);
-  nsvcd_body *b = (nsvcd_body *)memory;
-  b->magic = NSVCD__BODY_MAGIC;
-  b->version = NSVCD__BODY_VERSION;
-  b->size = (uint32_t)size;
-  b->weights_id = weights_id;
-  b->open = open != 0;
-  b->points = (uint32_t)points;
-  b->padded = (uint32_t)nsvcd__round_up(points, NSVCD__GROUP);
-  float *x = (float *)(b + 1);
-  float *y = x + b->padded;
-  float *z = y + b->padded;
-  float *r = z + b->padded;
-  float *area = (float *)(void *)((char *)memory + nsvcd__spheres_size(b->padded));
-  int8_t *latent = (int8_t *)(area + 3 * nsvcd__area_slots(b->padded));
-  for (size_t i = 0; i < points; i++) {
-    size_t from = order[i];
-    x[i] = centres[3 * from];
-    y[i] = centres[3 * from + 1];
-    z[i] = centres[3 * from + 2];
-    r[i] = radii[from];
-    for (size_t k = 0; k < 3; k++)
-      area[k * b->padded + i] = areas[3 * from + k];
-    memcpy(latent + NSVCD__LATENT * i, latents + NSVCD__LATENT * from, NSVCD__LATENT);
+  nsvcd_body *b = nsvcd__body_begin(memory, size, source->count, source->open);
+  const size_t padded = b->padded;
+  b->weights_id = source->weights_id;
+  float *areas = (float *)(void *)((char *)memory + nsvcd__spheres_size(padded));
+  int8_t *latents = (int8_t *)(areas + 3 * nsvcd__area_slots(padded));
+  for (size_t i = 0; i < source->count; i++) {
+    const size_t from = source->order[i];
+    const nsvcd__sphere sphere = {source->centres[from], source->radii[from]};
+    nsvcd__sphere_store(sphere, (float *)(b + 1), padded, i);
+    nsvcd__f3_put(source->areas[from], areas + i, padded);
+    memcpy(latents, source->latents + NSVCD__LATENT * from, NSVCD__LATENT);
+    latents += NSVCD__LATENT;
   }
-  for (size_t i = points; i < b->padded; i++)
-    r[i] = NSVCD__NOWHERE;
   nsvcd__sum_areas(b);
   if (!nsvcd__areas_are_sound(b))
     return NSVCD_ERROR_NUMBER;
@@ -5680,13 +6080,13 @@ static nsvcd_result nsvcd__body_build(size_t points, const float *centres, const
 }
 #endif
 
-// 1 if the sphere contains `count` spheres.
+// Does a sphere contain `count` spheres?
 static int nsvcd__covers(nsvcd__sphere sphere, nsvcd__spheres all, size_t count) {
   size_t farthest = 0;
   return nsvcd__reach_of_spheres(all, count, sphere.centre, &farthest) <= sphere.radius;
 }
 
-// 1 if padding entries [from, to) are exactly what nsvcd__body_finish writes.
+// Are spheres from .. to - 1 exactly what padding is?
 static int nsvcd__is_padding(nsvcd__spheres all, size_t from, size_t to) {
   for (size_t i = from; i < to; i++) {
     if (all.x[i] != 0 || all.y[i] != 0 || all.z[i] != 0)
@@ -5697,23 +6097,23 @@ static int nsvcd__is_padding(nsvcd__spheres all, size_t from, size_t to) {
   return 1;
 }
 
-// Are `count` spheres of so many slots, 1 to `stride`, finite and within bounds, their radii not
-// negative, the others padding?
-static int nsvcd__are_spheres(nsvcd__spheres all, size_t count, size_t stride, float cap) {
-  if (!nsvcd__all_within(all.x, 3 * stride, cap))
+// Are the first `count` of (4, slots) spheres, finite and within bounds, their radii not negative,
+// and the others padding? most: of the coordinates.
+static int nsvcd__are_spheres(nsvcd__spheres all, size_t count, size_t slots, float most) {
+  if (!nsvcd__all_within(all.x, 3 * slots, most))
     return 0;
   if (!nsvcd__all_within(all.r, count, NSVCD__MAX_LENGTH))
     return 0;
-  if (!nsvcd__all_within(all.r, stride, -NSVCD__NOWHERE))
+  if (!nsvcd__all_within(all.r, slots, -NSVCD__NOWHERE))
     return 0;
   for (size_t i = 0; i < count; i++) {
     if (all.r[i] < 0)
       return 0;
   }
-  return nsvcd__is_padding(all, count, stride);
+  return nsvcd__is_padding(all, count, slots);
 }
 
-// Does each sphere of a level cover its 16, of which `members` exist?
+// Does each sphere of a level contain its 16, of which `members` exist?
 static int nsvcd__level_covers(nsvcd__spheres above, size_t count, nsvcd__spheres below,
                                size_t members) {
   for (size_t g = 0; g < count; g++) {
@@ -5784,38 +6184,41 @@ static int nsvcd__spheres_fit(const nsvcd_body *body, float scale) {
 
 #ifndef NSVCD_NO_PROOF
 // ------------------------------------------------------------------------------------------ facets
-// The body of triangles: behind the spheres, which are the least about each patch's pieces of the
-// surface, stand
+// The body of triangles. Its spheres are the least about each patch's pieces of the surface. Behind
+// them stand
 //
-//   counts          (8)      uint32 listed triangles, vertices V, components C, bytes of listings
-//                   B, zeros
-//   box             (2, 3)   float least and greatest coordinates of the surface
-//   widest          (2)      float the greatest of the quanta, and zero
-//   discs           (6, P)   float unit normal n, low, high, across: a piece's points x have low <=
-//                   n.(x - c) <= high,
-//                            and are no farther than `across` from the line along n; c: centre of
-//                            the patch's sphere
-//   group discs     (6, G)   float the same over the members of each group; c: centre of the
-//                   group's sphere
-//   steps           (P)      float metres per integer: a stored vertex is c + step (x, y, z)
-//   slacks          (P)      float pieces are within this of the hull of the patch's first vertices
-//   quanta          (P)      float corners of triangles are within this of their stored vertices
-//   first_vertex, first_triangle, first_byte (3, N + 1) uint32: where a patch's vertices, triangles
-//   and listings begin
+//   counts          (8)      uint32: triangles listed L, vertices V, components C, bytes of
+//                            listings B, and zeros
+//   box             (2, 3)   float: least and greatest coordinates of the surface
+//   widest          (2)      float: the greatest of the quanta, and zero
+//   discs           (6, P)   float: normal n, low, high, across: points x of a piece have
+//                            low <= n.(x - c) <= high, and are no farther than `across` from the
+//                            line along n; c: centre of the patch's sphere
+//   group discs     (6, G)   float: the same over the members of each group; c: centre of the
+//                            group's sphere
+//   steps           (P)      float: metres per integer: a stored vertex is c + step (x, y, z)
+//   slacks          (P)      float: pieces are within this of the hull of the first vertices
+//   quanta          (P)      float: corners of triangles are within this of the stored vertices
+//   first_vertex, first_triangle, first_byte
+//                   (3, N + 1) uint32: where a patch's vertices, triangles and listings begin
 //   first_seed      (G' + 1) uint32: where the seeds of a group begin; G': groups, without the
-//                   padding
-//   seeds           (C, 3)   float a point of each component, group by group, within its sphere
-//   vertices        (3 V)    int16 patch by patch x, y, z; the hull's first
-//   listings        (B)      bytes patch by patch, of its T triangles
+//                            padding
+//   seeds           (C, 3)   float: a point of each component, group by group, within its sphere
+//   vertices        (3 V)    int16: patch by patch x, y, z; the hull's first
+//                   (16)     int16: so that 16 can be read from any vertex on
+//   listings        (B)      bytes: patch by patch, of its T triangles
 //     corners       (T, 3)   uint8, or uint16 in patches of more than 256 vertices: vertices within
-//                   the patch
+//                            the patch
 //     numbers       (T)      each in 1 to 5 bytes: see nsvcd__read_code
-//   hull_counts     (N)      uint8 vertices of the hull, 16 at most; 0: the patch has no surface
-//
-// behind the vertices there are 16 more numbers, so that 16 can be read from any.
+//   hull_counts     (N)      uint8: vertices of the hull, 16 at most; 0: the patch has no surface
 
 #define NSVCD__FACET_COUNTS 8
 #define NSVCD__FACET_BOX 8  // with the greatest quantum
+
+typedef struct nsvcd__facet_counts {
+  uint32_t listed, vertices, components, listings_size;
+  uint32_t zeros[NSVCD__FACET_COUNTS - 4];
+} nsvcd__facet_counts;
 
 typedef struct nsvcd__facets {
   const nsvcd_body *body;  // of triangles
@@ -5832,6 +6235,14 @@ typedef struct nsvcd__facets {
 static void *nsvcd__writable(nsvcd_body *body, const void *place) {
   return (char *)body + ((const char *)place - (const char *)body);
 }
+static float *nsvcd__writable_floats(nsvcd_body *body, const float *place) {
+  return (float *)nsvcd__writable(body, place);
+}
+#ifndef NSVCD_NO_ENCODER
+static uint32_t *nsvcd__writable_words(nsvcd_body *body, const uint32_t *place) {
+  return (uint32_t *)nsvcd__writable(body, place);
+}
+#endif
 
 // The body of triangles in a body, or NULL.
 static const nsvcd_body *nsvcd__triangles_of(const nsvcd_body *body) {
@@ -5840,31 +6251,38 @@ static const nsvcd_body *nsvcd__triangles_of(const nsvcd_body *body) {
   return (const nsvcd_body *)(const void *)((const char *)body + body->inner);
 }
 
-// Bytes of a body of triangles; 0 if they cannot be counted in 32 bits.
-static size_t nsvcd__facets_size(size_t points, const uint32_t *counts) {
-  const size_t padded = nsvcd__round_up(points, NSVCD__GROUP);
-  uint64_t size = nsvcd__spheres_size(padded) + 4 * (NSVCD__FACET_COUNTS + NSVCD__FACET_BOX) +
-                  12 * (points + 1);
-  size += 36 * padded + 24 * nsvcd__group_slots(padded);
-  size += 4 * (padded / NSVCD__GROUP + 1) + (uint64_t)12 * counts[2];
-  size += 2 * ((uint64_t)3 * counts[1] + NSVCD__LANES);
-  size += counts[3];
-  size += points + NSVCD_ALIGNMENT;
+// Bytes of a body of triangles; 0 if they cannot be counted in 32 bits. patches: N.
+static size_t nsvcd__facets_size(size_t patches, const nsvcd__facet_counts *counts) {
+  const size_t padded = nsvcd__round_up(patches, NSVCD__GROUP);
+  uint64_t size = nsvcd__spheres_size(padded);
+  size += sizeof *counts + 4 * NSVCD__FACET_BOX;
+  size += 36 * padded;                        // discs, steps, slacks, quanta
+  size += 24 * nsvcd__group_slots(padded);    // group discs
+  size += 12 * (patches + 1);                 // first_vertex, first_triangle, first_byte
+  size += 4 * (padded / NSVCD__GROUP + 1);    // first_seed
+  size += (uint64_t)12 * counts->components;  // seeds
+  size += 2 * ((uint64_t)3 * counts->vertices + NSVCD__LANES);
+  size += counts->listings_size;
+  size += patches + NSVCD_ALIGNMENT;  // hull_counts, zeros
   size -= size % NSVCD_ALIGNMENT;
   return size > 0xffffffffu ? 0 : (size_t)size;
 }
 
+static const nsvcd__facet_counts *nsvcd__facet_counts_of(const nsvcd_body *body) {
+  const char *at = (const char *)body + nsvcd__spheres_size(body->padded);
+  return (const nsvcd__facet_counts *)(const void *)at;
+}
+
 static nsvcd__facets nsvcd__facets_of(const nsvcd_body *body) {
   const size_t padded = body->padded;
-  const uint32_t *counts =
-      (const uint32_t *)(const void *)((const char *)body + nsvcd__spheres_size(padded));
+  const nsvcd__facet_counts *counts = nsvcd__facet_counts_of(body);
   nsvcd__facets f;
   f.body = body;
-  f.listed = counts[0];
-  f.vertex_count = counts[1];
-  f.components = counts[2];
-  f.listings_size = counts[3];
-  f.box = (const float *)(const void *)(counts + NSVCD__FACET_COUNTS);
+  f.listed = counts->listed;
+  f.vertex_count = counts->vertices;
+  f.components = counts->components;
+  f.listings_size = counts->listings_size;
+  f.box = (const float *)(const void *)(counts + 1);
   f.discs = f.box + NSVCD__FACET_BOX;
   f.group_discs = f.discs + 6 * padded;
   f.steps = f.group_discs + 6 * nsvcd__group_slots(padded);
@@ -5883,14 +6301,46 @@ static nsvcd__facets nsvcd__facets_of(const nsvcd_body *body) {
 
 static float nsvcd__widest_quantum(const nsvcd__facets *f) { return f->box[6]; }
 
+// ---- one patch
+
+// The vertices of a patch: integers, in steps from its centre.
+typedef struct nsvcd__vertices {
+  const int16_t *x, *y, *z;  // (count) each
+  size_t count;
+} nsvcd__vertices;
+
+NSVCD__INLINE nsvcd__vertices nsvcd__vertices_of(const nsvcd__facets *f, size_t patch) {
+  const size_t first = f->first_vertex[patch];
+  nsvcd__vertices out;
+  out.count = f->first_vertex[patch + 1] - first;
+  out.x = f->vertices + 3 * first;
+  out.y = out.x + out.count;
+  out.z = out.y + out.count;
+  return out;
+}
+static nsvcd__d3 nsvcd__vertex_at(const nsvcd__vertices *vertices, size_t i) {
+  return nsvcd__d3_of(vertices->x[i], vertices->y[i], vertices->z[i]);
+}
+
+// How many listings a patch has.
+static size_t nsvcd__listing_count(const nsvcd__facets *f, size_t patch) {
+  return f->first_triangle[patch + 1] - f->first_triangle[patch];
+}
+
 // Bytes of a corner in a patch of so many vertices.
 static size_t nsvcd__corner_bytes(size_t vertices) { return vertices <= 256 ? 1 : 2; }
+
+// Bytes of the corners of a patch.
+static size_t nsvcd__corners_size(const nsvcd__facets *f, size_t patch) {
+  const size_t bytes = nsvcd__corner_bytes(nsvcd__vertices_of(f, patch).count);
+  return 3 * nsvcd__listing_count(f, patch) * bytes;
+}
 
 // The vertex, of its patch, of corner k (0..2) of listing n.
 static size_t nsvcd__facet_corner(const nsvcd__facets *f, size_t patch, size_t n, size_t k) {
   const unsigned char *corners = f->listings + f->first_byte[patch];
   const size_t at = 3 * (n - f->first_triangle[patch]) + k;
-  if (nsvcd__corner_bytes(f->first_vertex[patch + 1] - f->first_vertex[patch]) == 1)
+  if (nsvcd__corner_bytes(nsvcd__vertices_of(f, patch).count) == 1)
     return corners[at];
   uint16_t corner;
   memcpy(&corner, corners + 2 * at, sizeof corner);
@@ -5921,10 +6371,8 @@ typedef struct nsvcd__numbers {
 } nsvcd__numbers;
 
 static nsvcd__numbers nsvcd__numbers_of(const nsvcd__facets *f, size_t patch) {
-  const size_t vertices = f->first_vertex[patch + 1] - f->first_vertex[patch];
-  const size_t triangles = f->first_triangle[patch + 1] - f->first_triangle[patch];
   nsvcd__numbers out;
-  out.at = f->listings + f->first_byte[patch] + 3 * triangles * nsvcd__corner_bytes(vertices);
+  out.at = f->listings + f->first_byte[patch] + nsvcd__corners_size(f, patch);
   out.next = f->first_triangle[patch];
   out.number = 0;
   out.encloses = 0;
@@ -5941,6 +6389,7 @@ static void nsvcd__read_number(nsvcd__numbers *numbers, size_t n) {
   }
 }
 
+// The triangle, in the caller's mesh, of listing n.
 static uint32_t nsvcd__facet_number(const nsvcd__facets *f, size_t patch, size_t n) {
   nsvcd__numbers numbers = nsvcd__numbers_of(f, patch);
   nsvcd__read_number(&numbers, n);
@@ -5948,50 +6397,53 @@ static uint32_t nsvcd__facet_number(const nsvcd__facets *f, size_t patch, size_t
 }
 
 static nsvcd__f3 nsvcd__facet_centre(const nsvcd__facets *f, size_t patch) {
-  const nsvcd_body *b = f->body;
-  return nsvcd__centre_of(nsvcd__body_patches(b), patch);
+  return nsvcd__centre_of(nsvcd__body_patches(f->body), patch);
 }
 
-// Vertices first .. first + 15 of a patch, the last one repeated: the slice of them that begins
-// with lane l.
+// Vertices first .. first + 15 of a patch, of which `count` are wanted: the slice of them that
+// begins with lane l. The last one wanted is repeated in the lanes that are left.
 NSVCD__INLINE nsvcd__v3 nsvcd__facet_vertices(const nsvcd__facets *f, size_t patch, size_t first,
                                               size_t count, size_t l) {
   static const float lane[NSVCD__LANES] = {0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15};
-  const size_t all = f->first_vertex[patch + 1] - f->first_vertex[patch];
-  const int16_t *x = f->vertices + 3 * (size_t)f->first_vertex[patch] + first;
-  const nsvcd__v step = nsvcd__v_set(f->steps[patch]);
-  const nsvcd__v last = nsvcd__v_set((float)(count - 1));
-  const nsvcd__v index = nsvcd__v_load(lane + l);
-  nsvcd__v3 q = nsvcd__v3_of(nsvcd__v_load_int16(x + l), nsvcd__v_load_int16(x + all + l),
-                             nsvcd__v_load_int16(x + 2 * all + l));
+  const nsvcd__vertices all = nsvcd__vertices_of(f, patch);
+  const int16_t *x = all.x + first;
+  const int16_t *y = all.y + first;
+  const int16_t *z = all.z + first;
+  nsvcd__v3 q;
+  q.x = nsvcd__v_load_int16(x + l);
+  q.y = nsvcd__v_load_int16(y + l);
+  q.z = nsvcd__v_load_int16(z + l);
   if (count < l + NSVCD__SLICE) {
-    q.x = nsvcd__v_pick(index, last, q.x, nsvcd__v_set((float)x[count - 1]));
-    q.y = nsvcd__v_pick(index, last, q.y, nsvcd__v_set((float)x[all + count - 1]));
-    q.z = nsvcd__v_pick(index, last, q.z, nsvcd__v_set((float)x[2 * all + count - 1]));
+    const size_t last = count - 1;
+    const nsvcd__v end = nsvcd__v_set((float)last);
+    const nsvcd__v index = nsvcd__v_load(lane + l);
+    q.x = nsvcd__v_pick(index, end, q.x, nsvcd__v_set((float)x[last]));
+    q.y = nsvcd__v_pick(index, end, q.y, nsvcd__v_set((float)y[last]));
+    q.z = nsvcd__v_pick(index, end, q.z, nsvcd__v_set((float)z[last]));
   }
+  const nsvcd__v step = nsvcd__v_set(f->steps[patch]);
   return nsvcd__v3_fma(step, q, nsvcd__v3_set(nsvcd__facet_centre(f, patch)));
 }
 
-// The corners of a listed triangle of a patch, exactly.
+// The corners (3) of listing n of a patch, exactly.
 static void nsvcd__facet_triangle(const nsvcd__facets *f, size_t patch, size_t n,
                                   nsvcd__d3 *corners) {
-  const size_t all = f->first_vertex[patch + 1] - f->first_vertex[patch];
-  const int16_t *x = f->vertices + 3 * (size_t)f->first_vertex[patch];
-  const nsvcd__f3 centre = nsvcd__facet_centre(f, patch);
+  const nsvcd__vertices vertices = nsvcd__vertices_of(f, patch);
+  const nsvcd__d3 centre = nsvcd__d3_widen(nsvcd__facet_centre(f, patch));
   const double step = (double)f->steps[patch];
   for (size_t k = 0; k < 3; k++) {
     const size_t i = nsvcd__facet_corner(f, patch, n, k);
-    corners[k].x = (double)centre.x + step * x[i];
-    corners[k].y = (double)centre.y + step * x[all + i];
-    corners[k].z = (double)centre.z + step * x[2 * all + i];
+    corners[k] = nsvcd__d3_add_scaled(centre, step, nsvcd__vertex_at(&vertices, i));
   }
 }
+
+// ---- what follows from the patches
 
 // A float not less than x, which is not negative.
 static float nsvcd__round_outward(double x) { return (float)(x * (1 + 2e-7)) + 1e-37f; }
 
-// What the members of a group reach along a direction and across it, from the centre of the group's
-// sphere.
+// What the members of a group extend to along a direction and across it, from the centre of the
+// group's sphere.
 typedef struct nsvcd__slab {
   double low, high, across;
 } nsvcd__slab;
@@ -6001,14 +6453,12 @@ static nsvcd__slab nsvcd__slab_of_group(const nsvcd__facets *f, size_t g, nsvcd_
   const nsvcd__d3 centre = nsvcd__d3_widen(nsvcd__centre_of(nsvcd__group_spheres(f->body), g));
   nsvcd__slab slab = {HUGE_VAL, -HUGE_VAL, 0};
   for (size_t i = first; i < first + NSVCD__GROUP && i < f->body->points; i++) {
-    const size_t all = f->first_vertex[i + 1] - f->first_vertex[i];
-    const int16_t *x = f->vertices + 3 * (size_t)f->first_vertex[i];
+    const nsvcd__vertices vertices = nsvcd__vertices_of(f, i);
     const nsvcd__d3 own = nsvcd__d3_sub(nsvcd__d3_widen(nsvcd__facet_centre(f, i)), centre);
     const double step = (double)f->steps[i];
     const double slack = (double)f->slacks[i];
     for (size_t k = 0; k < f->hull_counts[i]; k++) {
-      const nsvcd__d3 offset = nsvcd__d3_of(step * x[k], step * x[all + k], step * x[2 * all + k]);
-      const nsvcd__d3 v = nsvcd__d3_add(own, offset);
+      const nsvcd__d3 v = nsvcd__d3_add_scaled(own, step, nsvcd__vertex_at(&vertices, k));
       const double height = nsvcd__d3_dot(normal, v);
       const double square = nsvcd__d3_dot(v, v) - height * height;
       slab.low = fmin(slab.low, height - slack);
@@ -6019,32 +6469,34 @@ static nsvcd__slab nsvcd__slab_of_group(const nsvcd__facets *f, size_t g, nsvcd_
   return slab;
 }
 
-// Writes a group's disc: its normal is the mean of the members', or that of the member in which the
-// group is thinnest.
+// Directions in which a group may be thin: the mean of its members' normals, then these.
+static void nsvcd__group_normals(const nsvcd__facets *f, size_t g, nsvcd__d3 *normals) {
+  nsvcd__d3 sum = nsvcd__d3_of(0, 0, 0);
+  for (size_t k = 0; k < NSVCD__GROUP; k++) {
+    const float *n = f->discs + NSVCD__GROUP * g + k;
+    const nsvcd__d3 normal = nsvcd__d3_widen(nsvcd__f3_get(n, f->body->padded));
+    normals[1 + k] = normal;
+    const double sign = nsvcd__d3_dot(normal, normals[1]) < 0 ? -1 : 1;
+    sum = nsvcd__d3_add_scaled(sum, sign, normal);
+  }
+  normals[0] = sum;
+}
+
+// Writes a group's disc. Its normal is the mean of the members', or that of every fourth member:
+// the one in which the group is thinnest.
 static void nsvcd__finish_group(nsvcd_body *body, size_t g) {
   const nsvcd__facets f = nsvcd__facets_of(body);
-  const size_t padded = body->padded;
-  const size_t slots = nsvcd__group_slots(padded);
-  const size_t first = NSVCD__GROUP * g;
-  float *disc = (float *)nsvcd__writable(body, f.group_discs) + g;
   nsvcd__d3 normals[1 + NSVCD__GROUP];
   nsvcd__d3 best = {0, 0, 1};
   nsvcd__slab thinnest = {0, HUGE_VAL, 0};
-  normals[0] = nsvcd__d3_of(0, 0, 0);
-  for (size_t k = 0; k < NSVCD__GROUP; k++) {
-    const float *n = f.discs + first + k;
-    const nsvcd__d3 normal = nsvcd__d3_of((double)n[0], (double)n[padded], (double)n[2 * padded]);
-    normals[1 + k] = normal;
-    normals[0] = nsvcd__d3_add(
-        normals[0], nsvcd__d3_scale(normal, nsvcd__d3_dot(normal, normals[1]) < 0 ? -1 : 1));
-  }
+  nsvcd__group_normals(&f, g, normals);
   for (size_t k = 0; k < 1 + NSVCD__GROUP; k += k == 0 ? 1 : 4) {
     const double length = nsvcd__d3_length(normals[k]);
     if (!(length > 1e-3))
       continue;
     // As it is stored, and no longer than 1.
-    const nsvcd__d3 unit =
-        nsvcd__d3_widen(nsvcd__f3_round(nsvcd__d3_scale(normals[k], 0.9999998 / length)));
+    const nsvcd__f3 stored = nsvcd__f3_round(nsvcd__d3_scale(normals[k], 0.9999998 / length));
+    const nsvcd__d3 unit = nsvcd__d3_widen(stored);
     const nsvcd__slab slab = nsvcd__slab_of_group(&f, g, unit);
     if (!(slab.high - slab.low < thinnest.high - thinnest.low))
       continue;
@@ -6053,40 +6505,41 @@ static void nsvcd__finish_group(nsvcd_body *body, size_t g) {
   }
   // float rounding, and that `across` takes |n| to be 1
   const double margin = 1e-6 * (double)body->extent;
-  const nsvcd__f3 normal = nsvcd__f3_round(best);
-  disc[0] = normal.x;
-  disc[slots] = normal.y;
-  disc[2 * slots] = normal.z;
-  disc[3 * slots] = (float)(thinnest.low - margin);
-  disc[4 * slots] = thinnest.high < HUGE_VAL ? (float)(thinnest.high + margin) : 0;
-  disc[5 * slots] = nsvcd__round_outward(thinnest.across + margin);
+  nsvcd__disc disc;
+  disc.normal = nsvcd__f3_round(best);
+  disc.low = (float)(thinnest.low - margin);
+  disc.high = thinnest.high < HUGE_VAL ? (float)(thinnest.high + margin) : 0;
+  disc.across = nsvcd__round_outward(thinnest.across + margin);
+  float *discs = nsvcd__writable_floats(body, f.group_discs);
+  nsvcd__disc_store(disc, discs, nsvcd__group_slots(body->padded), g);
 }
 
+static nsvcd__d3 nsvcd__d3_all(double x) { return nsvcd__d3_of(x, x, x); }
+
+// Writes the box, and the greatest of the quanta.
 static void nsvcd__finish_box(nsvcd_body *body) {
   const nsvcd__facets f = nsvcd__facets_of(body);
-  float *box = (float *)nsvcd__writable(body, f.box);
-  double low[3] = {HUGE_VAL, HUGE_VAL, HUGE_VAL};
-  double high[3] = {-HUGE_VAL, -HUGE_VAL, -HUGE_VAL};
+  float *box = nsvcd__writable_floats(body, f.box);
+  nsvcd__d3 low = nsvcd__d3_all(HUGE_VAL);
+  nsvcd__d3 high = nsvcd__d3_all(-HUGE_VAL);
+  float widest = 0;
   for (size_t i = 0; i < body->points; i++) {
-    const size_t count = f.first_vertex[i + 1] - f.first_vertex[i];
-    const int16_t *coordinates = f.vertices + 3 * (size_t)f.first_vertex[i];
-    const nsvcd__f3 centre = nsvcd__facet_centre(&f, i);
-    const double centres[3] = {(double)centre.x, (double)centre.y, (double)centre.z};
-    for (size_t n = 0; n < 3 * count; n++) {
-      const size_t k = n / count;
-      const double at = centres[k] + (double)f.steps[i] * coordinates[n];
-      low[k] = fmin(low[k], at - (double)f.quanta[i]);
-      high[k] = fmax(high[k], at + (double)f.quanta[i]);
+    const nsvcd__vertices vertices = nsvcd__vertices_of(&f, i);
+    const nsvcd__d3 centre = nsvcd__d3_widen(nsvcd__facet_centre(&f, i));
+    const nsvcd__d3 quantum = nsvcd__d3_all((double)f.quanta[i]);
+    const double step = (double)f.steps[i];
+    for (size_t k = 0; k < vertices.count; k++) {
+      const nsvcd__d3 at = nsvcd__d3_add_scaled(centre, step, nsvcd__vertex_at(&vertices, k));
+      low = nsvcd__d3_min(low, nsvcd__d3_sub(at, quantum));
+      high = nsvcd__d3_max(high, nsvcd__d3_add(at, quantum));
     }
+    widest = f.quanta[i] > widest ? f.quanta[i] : widest;
   }
-  const double margin = 1e-6 * (double)body->extent;  // float rounding
-  for (size_t k = 0; k < 3; k++) {
-    box[k] = (float)(low[k] - margin);
-    box[3 + k] = (float)(high[k] + margin);
-  }
-  box[6] = box[7] = 0;
-  for (size_t i = 0; i < body->points; i++)
-    box[6] = f.quanta[i] > box[6] ? f.quanta[i] : box[6];
+  const nsvcd__d3 margin = nsvcd__d3_all(1e-6 * (double)body->extent);  // float rounding
+  nsvcd__f3_store(nsvcd__d3_narrow(nsvcd__d3_sub(low, margin)), box);
+  nsvcd__f3_store(nsvcd__d3_narrow(nsvcd__d3_add(high, margin)), box + 3);
+  box[6] = widest;
+  box[7] = 0;
 }
 
 // What is computed from the patches of a body of triangles, when these are in place.
@@ -6099,6 +6552,8 @@ static void nsvcd__facets_finish(nsvcd_body *body) {
 }
 
 #ifndef NSVCD_NO_ENCODER
+// ---- writing
+
 // The code of a triangle (an id of a surface) after another, and the bytes that it takes.
 static uint32_t nsvcd__code_of(uint32_t id, uint32_t last) {
   const uint32_t more = (id - last) & ~NSVCD__ENCLOSES;
@@ -6109,6 +6564,13 @@ static size_t nsvcd__code_bytes(uint32_t code) {
   for (; code > 0x7f; code >>= 7)
     bytes++;
   return bytes;
+}
+// Writes a code; returns the byte behind it.
+static unsigned char *nsvcd__write_code(uint32_t code, unsigned char *to) {
+  for (; code > 0x7f; code >>= 7)
+    *to++ = (unsigned char)(code | 0x80);
+  *to++ = (unsigned char)code;
+  return to;
 }
 
 // Bytes of the numbers of patch i.
@@ -6123,91 +6585,100 @@ static size_t nsvcd__numbers_size(const nsvcd__surface *surface, size_t i) {
 }
 
 // The counts of the body of triangles that a surface makes.
-static void nsvcd__facets_count(const nsvcd__surface *surface, uint32_t *counts) {
-  memset(counts, 0, NSVCD__FACET_COUNTS * sizeof *counts);
-  counts[0] = (uint32_t)surface->listed;
-  counts[1] = (uint32_t)surface->vertex_count;
-  counts[2] = (uint32_t)surface->seed_count;
+static nsvcd__facet_counts nsvcd__facets_count(const nsvcd__surface *surface) {
+  nsvcd__facet_counts counts;
+  memset(&counts, 0, sizeof counts);
+  counts.listed = (uint32_t)surface->listed;
+  counts.vertices = (uint32_t)surface->vertex_count;
+  counts.components = (uint32_t)surface->seed_count;
   uint64_t bytes = 0;
   for (size_t i = 0; i < surface->count; i++) {
-    const uint32_t vertices = surface->first_vertex[i + 1] - surface->first_vertex[i];
-    const uint32_t triangles = surface->first_triangle[i + 1] - surface->first_triangle[i];
-    bytes +=
-        (uint64_t)3 * triangles * nsvcd__corner_bytes(vertices) + nsvcd__numbers_size(surface, i);
+    const size_t vertices = surface->first_vertex[i + 1] - surface->first_vertex[i];
+    const size_t triangles = surface->first_triangle[i + 1] - surface->first_triangle[i];
+    const uint64_t corners = (uint64_t)3 * triangles;
+    bytes += corners * nsvcd__corner_bytes(vertices) + nsvcd__numbers_size(surface, i);
   }
   // then the body is refused as too large
-  counts[3] = bytes < 0xffffffffu ? (uint32_t)bytes : 0xffffffffu;
+  counts.listings_size = bytes < 0xffffffffu ? (uint32_t)bytes : 0xffffffffu;
+  return counts;
 }
 
-// Writes patch `to` of a body of triangles from patch `from` of a surface.
-static void nsvcd__facets_write(const nsvcd__surface *surface, size_t from, nsvcd_body *body,
-                                size_t to, const float *centre) {
+// Writes sphere, disc, step, slack, quantum and the hull's count of patch `to`, from patch `from`
+// of a surface. centre: for a patch without surface.
+static void nsvcd__shape_write(const nsvcd__surface *surface, size_t from, nsvcd__f3 centre,
+                               nsvcd_body *body, size_t to) {
   const nsvcd__facets f = nsvcd__facets_of(body);
-  float *spheres = (float *)(body + 1);
-  float *discs = (float *)nsvcd__writable(body, f.discs);
-  float *shares = (float *)nsvcd__writable(body, f.steps);
-  uint8_t *hull_counts = (uint8_t *)nsvcd__writable(body, f.hull_counts);
+  const nsvcd__disc none = {{0, 0, 0}, 0, 0, 0};
   const size_t padded = body->padded;
   const int empty = surface->hull_counts[from] == 0;
-  for (size_t k = 0; k < 3; k++)
-    spheres[k * padded + to] = empty ? centre[k] : surface->balls[4 * from + k];
-  spheres[3 * padded + to] = empty ? 0 : surface->balls[4 * from + 3];
-  for (size_t k = 0; k < 6; k++)
-    discs[k * padded + to] = empty ? 0 : surface->discs[6 * from + k];
-  shares[to] = empty ? 0 : surface->steps[from];
-  shares[padded + to] = empty ? 0 : surface->slacks[from];
-  shares[2 * padded + to] = empty ? 0 : surface->quanta[from];
-  hull_counts[to] = surface->hull_counts[from];
-
-  const size_t vertex = surface->first_vertex[from];
-  const size_t vertices = surface->first_vertex[from + 1] - vertex;
-  const size_t triangle = surface->first_triangle[from];
-  const size_t triangles = surface->first_triangle[from + 1] - triangle;
-  uint32_t *first_vertex = (uint32_t *)nsvcd__writable(body, f.first_vertex);
-  uint32_t *first_triangle = (uint32_t *)nsvcd__writable(body, f.first_triangle);
-  int16_t *coordinates = (int16_t *)nsvcd__writable(body, f.vertices);
-  uint32_t *first_byte = (uint32_t *)nsvcd__writable(body, f.first_byte);
-  unsigned char *corners = (unsigned char *)nsvcd__writable(body, f.listings) + first_byte[to];
-  const size_t bytes = nsvcd__corner_bytes(vertices);
-  unsigned char *numbers = corners + 3 * triangles * bytes;
-  first_vertex[to + 1] = first_vertex[to] + (uint32_t)vertices;
-  first_triangle[to + 1] = first_triangle[to] + (uint32_t)triangles;
-  memcpy(coordinates + 3 * (size_t)first_vertex[to], surface->vertices + 3 * vertex, 6 * vertices);
-  for (size_t n = 0; n < 3 * triangles; n++) {
-    const uint16_t corner = surface->corners[3 * triangle + n];
-    if (bytes == 1)
-      corners[n] = (unsigned char)corner;
-    if (bytes == 2)
-      memcpy(corners + 2 * n, &corner, 2);
-  }
-  for (size_t n = triangle; n < triangle + triangles; n++) {
-    uint32_t code = nsvcd__code_of(surface->ids[n], n > triangle ? surface->ids[n - 1] : 0);
-    for (; code > 0x7f; code >>= 7)
-      *numbers++ = (unsigned char)(code | 0x80);
-    *numbers++ = (unsigned char)code;
-  }
-  first_byte[to + 1] = first_byte[to] + (uint32_t)(numbers - corners);
+  const nsvcd__sphere at_centre = {centre, 0};
+  const nsvcd__sphere ball = empty ? at_centre : surface->balls[from];
+  const nsvcd__disc disc = empty ? none : surface->discs[from];
+  nsvcd__sphere_store(ball, (float *)(body + 1), padded, to);
+  nsvcd__disc_store(disc, nsvcd__writable_floats(body, f.discs), padded, to);
+  *nsvcd__writable_floats(body, f.steps + to) = empty ? 0 : surface->steps[from];
+  *nsvcd__writable_floats(body, f.slacks + to) = empty ? 0 : surface->slacks[from];
+  *nsvcd__writable_floats(body, f.quanta + to) = empty ? 0 : surface->quanta[from];
+  uint8_t *hull_count = (uint8_t *)nsvcd__writable(body, f.hull_counts + to);
+  *hull_count = surface->hull_counts[from];
 }
 
-// Writes the seeds of a body of triangles, group by group. order: of the patches.
+// Writes vertices and listings of patch `to`, from patch `from` of a surface.
+static void nsvcd__listings_write(const nsvcd__surface *surface, size_t from, nsvcd_body *body,
+                                  size_t to) {
+  const nsvcd__facets f = nsvcd__facets_of(body);
+  const size_t vertex = surface->first_vertex[from];
+  const size_t vertices = surface->first_vertex[from + 1] - vertex;
+  const size_t first = surface->first_triangle[from];
+  const size_t end = surface->first_triangle[from + 1];
+  uint32_t *first_vertex = nsvcd__writable_words(body, f.first_vertex + to);
+  uint32_t *first_triangle = nsvcd__writable_words(body, f.first_triangle + to);
+  uint32_t *first_byte = nsvcd__writable_words(body, f.first_byte + to);
+  first_vertex[1] = first_vertex[0] + (uint32_t)vertices;
+  first_triangle[1] = first_triangle[0] + (uint32_t)(end - first);
+
+  void *integers = nsvcd__writable(body, f.vertices + 3 * (size_t)first_vertex[0]);
+  memcpy(integers, surface->vertices + 3 * vertex, 6 * vertices);
+  unsigned char *begin = (unsigned char *)nsvcd__writable(body, f.listings + first_byte[0]);
+  unsigned char *at = begin;
+  const size_t bytes = nsvcd__corner_bytes(vertices);
+  for (size_t n = 3 * first; n < 3 * end; n++) {
+    const uint16_t corner = surface->corners[n];
+    if (bytes == 1)
+      at[0] = (unsigned char)corner;
+    if (bytes == 2)
+      memcpy(at, &corner, 2);
+    at += bytes;
+  }
+  uint32_t last = 0;
+  for (size_t n = first; n < end; n++) {
+    at = nsvcd__write_code(nsvcd__code_of(surface->ids[n], last), at);
+    last = surface->ids[n];
+  }
+  first_byte[1] = first_byte[0] + (uint32_t)(at - begin);
+}
+
+// Writes the seeds of a body of triangles, group by group (counting sort). order: of the patches.
 static void nsvcd__seeds_write(const nsvcd__surface *surface, const uint16_t *order,
                                nsvcd_body *body) {
   const nsvcd__facets f = nsvcd__facets_of(body);
-  uint32_t *first_seed = (uint32_t *)nsvcd__writable(body, f.first_seed);
-  float *seeds = (float *)nsvcd__writable(body, f.seeds);
+  uint32_t *first_seed = nsvcd__writable_words(body, f.first_seed);
+  float *seeds = nsvcd__writable_floats(body, f.seeds);
   // Until the body is whole, the places of patches are kept where their first vertices will be.
-  uint32_t *places = (uint32_t *)nsvcd__writable(body, f.first_vertex);
+  uint32_t *places = nsvcd__writable_words(body, f.first_vertex);
   const size_t groups = nsvcd__body_groups(body);
   for (size_t i = 0; i < body->points; i++)
     places[order[i]] = (uint32_t)i;
   for (size_t n = 0; n < surface->seed_count; n++) {
-    first_seed[places[surface->seed_patches[n]] / NSVCD__GROUP + 1]++;
+    const size_t g = places[surface->seed_patches[n]] / NSVCD__GROUP;
+    first_seed[g + 1]++;
   }
   for (size_t g = 0; g < groups; g++)
     first_seed[g + 1] += first_seed[g];
   for (size_t n = surface->seed_count; n-- > 0;) {
     const size_t g = places[surface->seed_patches[n]] / NSVCD__GROUP;
-    memcpy(seeds + 3 * --first_seed[g + 1], surface->seeds + 3 * n, 3 * sizeof *seeds);
+    const size_t to = --first_seed[g + 1];
+    nsvcd__f3_store(surface->seeds[n], seeds + 3 * to);
   }
   // Now first_seed[g + 1] is where group g begins.
   memmove(first_seed, first_seed + 1, groups * sizeof *first_seed);
@@ -6215,37 +6686,40 @@ static void nsvcd__seeds_write(const nsvcd__surface *surface, const uint16_t *or
   memset(places, 0, body->points * sizeof *places);
 }
 
-// Builds a body of triangles of `size` bytes in `memory`, its patches in the given order. centres
-// (N, 3): for patches without surface.
-static nsvcd_result nsvcd__facets_build(const nsvcd_mesh *mesh, const nsvcd__surface *surface,
-                                        const uint32_t *counts, const float *centres,
-                                        const uint16_t *order, int open, void *memory,
-                                        size_t size) {
-  nsvcd_body *b = (nsvcd_body *)memory;
-  memset(memory, 0, size);
-  b->magic = NSVCD__BODY_MAGIC;
-  b->version = NSVCD__BODY_VERSION;
-  b->size = (uint32_t)size;
-  b->points = (uint32_t)surface->count;
-  b->padded = (uint32_t)nsvcd__round_up(surface->count, NSVCD__GROUP);
-  b->open = open != 0;
-  b->triangles = (uint32_t)mesh->triangle_count;
-  memcpy((char *)memory + nsvcd__spheres_size(b->padded), counts,
-         NSVCD__FACET_COUNTS * sizeof *counts);
+// What a body of triangles is built of.
+typedef struct nsvcd__facets_source {
+  const nsvcd__surface *surface;
+  nsvcd__facet_counts counts;  // of the surface
+  size_t triangles;            // of the mesh
+  const nsvcd__f3 *centres;    // (N) for patches without surface
+  const uint16_t *order;       // (N) of the patches
+  int open;
+} nsvcd__facets_source;
 
-  nsvcd__seeds_write(surface, order, b);
+// Builds a body of triangles of `size` bytes in `memory`. NUMBER if it would be too large or too
+// small.
+static nsvcd_result nsvcd__facets_build(const nsvcd__facets_source *source, void *memory,
+                                        size_t size) {
+  const nsvcd__surface *surface = source->surface;
+  nsvcd_body *b = nsvcd__body_begin(memory, size, surface->count, source->open);
+  b->triangles = (uint32_t)source->triangles;
+  char *counts = (char *)memory + nsvcd__spheres_size(b->padded);
+  memcpy(counts, &source->counts, sizeof source->counts);
+
+  nsvcd__seeds_write(surface, source->order, b);
   for (size_t i = 0; i < surface->count; i++) {
-    nsvcd__facets_write(surface, order[i], b, i, centres + 3 * (size_t)order[i]);
+    const size_t from = source->order[i];
+    nsvcd__shape_write(surface, from, source->centres[from], b, i);
+    nsvcd__listings_write(surface, from, b, i);
   }
-  float *r = (float *)(b + 1) + 3 * b->padded;
-  for (size_t i = b->points; i < b->padded; i++)
-    r[i] = NSVCD__NOWHERE;
-  if (!nsvcd__all_within(r, b->points, 4 * NSVCD_MAX_COORDINATE))
+  if (!nsvcd__all_within(nsvcd__body_r(b), b->points, 4 * NSVCD_MAX_COORDINATE))
     return NSVCD_ERROR_NUMBER;
   nsvcd__facets_finish(b);
   return b->radius < NSVCD_MIN_RADIUS ? NSVCD_ERROR_NUMBER : NSVCD_OK;
 }
 #endif
+
+// ---- checking
 
 // Are there just as many codes from one byte of the listings to another, and all of triangles that
 // there are?
@@ -6254,8 +6728,9 @@ static int nsvcd__numbers_are_sound(const nsvcd__facets *f, size_t from, size_t 
   const unsigned char *end = f->listings + to;
   uint32_t number = 0;
   for (size_t n = 0; n < count; n++) {
+    const size_t left = (size_t)(end - at);
     size_t bytes = 1;
-    while (bytes < 5 && bytes < (size_t)(end - at) && at[bytes - 1] & 0x80)
+    while (bytes < 5 && bytes < left && at[bytes - 1] & 0x80)
       bytes++;
     if (at >= end || at[bytes - 1] & 0x80)
       return 0;
@@ -6266,53 +6741,71 @@ static int nsvcd__numbers_are_sound(const nsvcd__facets *f, size_t from, size_t 
   return at == end;
 }
 
+// Are counts and indices of a patch right? What stands before it is.
+static int nsvcd__patch_is_laid_out(const nsvcd__facets *f, size_t i) {
+  if (f->first_vertex[i + 1] < f->first_vertex[i] || f->first_vertex[i + 1] > f->vertex_count)
+    return 0;
+  if (f->first_triangle[i + 1] < f->first_triangle[i] || f->first_triangle[i + 1] > f->listed)
+    return 0;
+  const size_t vertices = nsvcd__vertices_of(f, i).count;
+  const size_t triangles = nsvcd__listing_count(f, i);
+  const size_t hull_count = f->hull_counts[i];
+  if (hull_count > NSVCD__HULL || hull_count > vertices)
+    return 0;
+  if ((hull_count == 0) != (vertices == 0) || (vertices == 0) != (triangles == 0))
+    return 0;
+
+  const size_t end = f->first_byte[i + 1];
+  const uint64_t corners = (uint64_t)3 * triangles * nsvcd__corner_bytes(vertices);
+  const uint64_t corners_end = f->first_byte[i] + corners;
+  if (corners_end > end || end > f->listings_size)
+    return 0;
+  if (!nsvcd__numbers_are_sound(f, (size_t)corners_end, end, triangles))
+    return 0;
+  for (size_t n = 0; n < 3 * triangles; n++) {
+    if (nsvcd__facet_corner(f, i, f->first_triangle[i] + n / 3, n % 3) >= vertices)
+      return 0;
+  }
+  return 1;
+}
+
 // Is the layout right: sizes, counts, indices? A body of triangles of at most `size` bytes, at
 // least a header.
 static int nsvcd__facets_are_laid_out(const nsvcd_body *body, size_t size) {
-  if (nsvcd__spheres_size(body->padded) + 4 * NSVCD__FACET_COUNTS > size)
+  const nsvcd__facet_counts *counts = nsvcd__facet_counts_of(body);
+  if (nsvcd__spheres_size(body->padded) + sizeof *counts > size)
     return 0;
-  const void *at = (const char *)body + nsvcd__spheres_size(body->padded);
-  const uint32_t *counts = (const uint32_t *)at;
-  if (counts[4] || counts[5] || counts[6] || counts[7] || body->triangles == 0)
+  const uint32_t *zeros = counts->zeros;
+  if (zeros[0] || zeros[1] || zeros[2] || zeros[3] || body->triangles == 0)
     return 0;
   if (body->size != nsvcd__facets_size(body->points, counts) || body->size > size)
     return 0;
 
   const nsvcd__facets f = nsvcd__facets_of(body);
-  if (f.first_vertex[0] != 0 || f.first_triangle[0] != 0 || f.first_byte[0] != 0)
+  const size_t patches = body->points;
+  const size_t groups = nsvcd__body_groups(body);
+  if (f.first_vertex[0] != 0 || f.first_triangle[0] != 0)
     return 0;
-  for (size_t i = 0; i < body->points; i++) {
-    if (f.first_vertex[i + 1] < f.first_vertex[i] || f.first_triangle[i + 1] < f.first_triangle[i])
+  if (f.first_byte[0] != 0 || f.first_seed[0] != 0)
+    return 0;
+  for (size_t i = 0; i < patches; i++) {
+    if (!nsvcd__patch_is_laid_out(&f, i))
       return 0;
-    if (f.first_vertex[i + 1] > f.vertex_count || f.first_triangle[i + 1] > f.listed)
-      return 0;
-    const size_t vertices = f.first_vertex[i + 1] - f.first_vertex[i];
-    const size_t triangles = f.first_triangle[i + 1] - f.first_triangle[i];
-    if (f.hull_counts[i] > NSVCD__HULL || f.hull_counts[i] > vertices)
-      return 0;
-    if ((f.hull_counts[i] == 0) != (vertices == 0) || (vertices == 0) != (triangles == 0))
-      return 0;
-    const uint64_t corners_end =
-        f.first_byte[i] + (uint64_t)3 * triangles * nsvcd__corner_bytes(vertices);
-    if (corners_end > f.first_byte[i + 1] || f.first_byte[i + 1] > f.listings_size)
-      return 0;
-    if (!nsvcd__numbers_are_sound(&f, (size_t)corners_end, f.first_byte[i + 1], triangles))
-      return 0;
-    for (size_t n = 0; n < 3 * triangles; n++) {
-      if (nsvcd__facet_corner(&f, i, f.first_triangle[i] + n / 3, n % 3) >= vertices)
-        return 0;
-    }
   }
-  if (f.first_byte[body->points] != f.listings_size || f.first_seed[0] != 0)
-    return 0;
-  for (size_t g = 0; g < nsvcd__body_groups(body); g++) {
+  for (size_t g = 0; g < groups; g++) {
     if (f.first_seed[g + 1] < f.first_seed[g])
       return 0;
   }
-  if (f.first_seed[nsvcd__body_groups(body)] != f.components)
+  if (f.first_byte[patches] != f.listings_size || f.first_seed[groups] != f.components)
     return 0;
-  return f.first_vertex[body->points] == f.vertex_count &&
-         f.first_triangle[body->points] == f.listed;
+  return f.first_vertex[patches] == f.vertex_count && f.first_triangle[patches] == f.listed;
+}
+
+// Are discs in range? Of (6, stride).
+static int nsvcd__discs_are_sound(const float *discs, size_t stride) {
+  const float *extents = discs + 3 * stride;
+  return nsvcd__all_within(discs, 3 * stride, 1.000001f) &&
+         nsvcd__all_within(extents, 3 * stride, NSVCD__MAX_LENGTH);
 }
 
 // Are the numbers in range? They may lie about the surface, but nothing that is computed from them
@@ -6320,25 +6813,23 @@ static int nsvcd__facets_are_laid_out(const nsvcd_body *body, size_t size) {
 static int nsvcd__facets_are_sound(const nsvcd_body *body) {
   const nsvcd__facets f = nsvcd__facets_of(body);
   const size_t padded = body->padded;
-  const size_t slots = nsvcd__group_slots(padded);
   if (!nsvcd__all_within(f.box, NSVCD__FACET_BOX, NSVCD__MAX_LENGTH))
     return 0;
-  if (!nsvcd__all_within(f.discs, 3 * padded, 1.000001f))
+  if (!nsvcd__discs_are_sound(f.discs, padded))
     return 0;
-  if (!nsvcd__all_within(f.discs + 3 * padded, 3 * padded, NSVCD__MAX_LENGTH))
-    return 0;
-  if (!nsvcd__all_within(f.group_discs, 3 * slots, 1.000001f))
-    return 0;
-  if (!nsvcd__all_within(f.group_discs + 3 * slots, 3 * slots, NSVCD__MAX_LENGTH))
+  if (!nsvcd__discs_are_sound(f.group_discs, nsvcd__group_slots(padded)))
     return 0;
   if (!nsvcd__all_within(f.steps, padded, NSVCD__MAX_LENGTH / 32768))
     return 0;
-  if (!nsvcd__all_within(f.slacks, 2 * padded, NSVCD__MAX_LENGTH))
+  if (!nsvcd__all_within(f.slacks, padded, NSVCD__MAX_LENGTH))
+    return 0;
+  if (!nsvcd__all_within(f.quanta, padded, NSVCD__MAX_LENGTH))
     return 0;
   if (!nsvcd__all_within(f.seeds, 3 * f.components, NSVCD_MAX_COORDINATE))
     return 0;
   for (size_t i = 0; i < padded; i++) {
-    if (f.discs[5 * padded + i] < 0 || f.steps[i] < 0 || f.slacks[i] < 0 || f.quanta[i] < 0)
+    const nsvcd__disc disc = nsvcd__disc_at(f.discs, padded, i);
+    if (disc.across < 0 || f.steps[i] < 0 || f.slacks[i] < 0 || f.quanta[i] < 0)
       return 0;
     if (f.quanta[i] > nsvcd__widest_quantum(&f))
       return 0;
@@ -6351,22 +6842,23 @@ static int nsvcd__facets_are_sound(const nsvcd_body *body) {
 static void nsvcd__scale_facets(nsvcd_body *body, float scale) {
   const nsvcd__facets f = nsvcd__facets_of(body);
   const size_t padded = body->padded;
-  float *low = (float *)nsvcd__writable(body, f.discs) + 3 * padded;
-  float *high = low + padded;
-  float *across = high + padded;
-  float *seeds = (float *)nsvcd__writable(body, f.seeds);
+  const double by = (double)scale;
+  float *discs = nsvcd__writable_floats(body, f.discs);
+  float *steps = nsvcd__writable_floats(body, f.steps);
+  float *slacks = nsvcd__writable_floats(body, f.slacks);
+  float *quanta = nsvcd__writable_floats(body, f.quanta);
+  float *seeds = nsvcd__writable_floats(body, f.seeds);
   for (size_t i = 0; i < body->points; i++) {
-    const nsvcd__f3 centre = nsvcd__facet_centre(&f, i);
-    float *step = (float *)nsvcd__writable(body, f.steps + i);
-    float *slack = step + padded;
-    float *quantum = slack + padded;
-    *step *= scale;
-    const double rounding = 2e-7 * ((double)nsvcd__f3_length(centre) + 6e4 * (double)*step);
-    *slack = nsvcd__round_outward((double)*slack * (double)scale + rounding);
-    *quantum = nsvcd__round_outward((double)*quantum * (double)scale + rounding);
-    low[i] = (float)((double)low[i] * (double)scale - rounding);
-    high[i] = (float)((double)high[i] * (double)scale + rounding);
-    across[i] = nsvcd__round_outward((double)across[i] * (double)scale + rounding);
+    const double distance = (double)nsvcd__f3_length(nsvcd__facet_centre(&f, i));
+    nsvcd__disc disc = nsvcd__disc_at(f.discs, padded, i);
+    steps[i] *= scale;
+    const double rounding = 2e-7 * (distance + 6e4 * (double)steps[i]);
+    slacks[i] = nsvcd__round_outward((double)slacks[i] * by + rounding);
+    quanta[i] = nsvcd__round_outward((double)quanta[i] * by + rounding);
+    disc.low = (float)((double)disc.low * by - rounding);
+    disc.high = (float)((double)disc.high * by + rounding);
+    disc.across = nsvcd__round_outward((double)disc.across * by + rounding);
+    nsvcd__disc_store(disc, discs, padded, i);
   }
   for (size_t i = 0; i < 3 * f.components; i++)
     seeds[i] *= scale;
@@ -6386,17 +6878,41 @@ static int nsvcd__header_is_sound(const nsvcd_body *b, size_t size) {
   return b->size >= nsvcd__spheres_size(b->padded) && b->size % NSVCD_ALIGNMENT == 0;
 }
 
+// All of a body of triangles, of at most `size` bytes, its header known to be sound.
+static int nsvcd__triangles_are_sound(const nsvcd_body *b, size_t size) {
+#ifndef NSVCD_NO_PROOF
+  return b->inner == 0 && nsvcd__spheres_are_sound(b) && nsvcd__facets_are_laid_out(b, size) &&
+         nsvcd__facets_are_sound(b);
+#else
+  (void)b;
+  (void)size;
+  return 1;  // never looked at
+#endif
+}
+
+// The body of triangles within a body of latents.
+static int nsvcd__inner_is_sound(const nsvcd_body *b) {
+  const char *at = (const char *)b + b->inner;
+  const nsvcd_body *within = (const nsvcd_body *)(const void *)at;
+  const size_t left = b->size - b->inner;
+  if (!nsvcd__header_is_sound(within, left) || within->size != left || within->weights_id != 0)
+    return 0;
+  if (within->points != b->points || within->triangles != b->triangles || within->open != b->open)
+    return 0;
+  return nsvcd__triangles_are_sound(within, left);
+}
+
 // All of a body, its header known to be sound, but for the checksum.
 static int nsvcd__body_is_sound(const nsvcd_body *b) {
-  if (!nsvcd__spheres_are_sound(b))
-    return 0;
   if (b->weights_id == 0) {
 #ifndef NSVCD_NO_PROOF
-    return b->inner == 0 && nsvcd__facets_are_laid_out(b, b->size) && nsvcd__facets_are_sound(b);
+    return nsvcd__triangles_are_sound(b, b->size);
 #else
     return 0;
 #endif
   }
+  if (!nsvcd__spheres_are_sound(b))
+    return 0;
 #ifndef NSVCD_NO_NETWORK
   if (b->weights_id != NSVCD_WEIGHTS_ID)
     return 0;
@@ -6408,22 +6924,12 @@ static int nsvcd__body_is_sound(const nsvcd_body *b) {
   if (b->inner != latents)
     return 0;
 #else
-  if (b->inner % NSVCD_ALIGNMENT || b->inner < nsvcd__spheres_size(b->padded) ||
-      b->inner >= b->size)
+  if (b->inner % NSVCD_ALIGNMENT || b->inner >= b->size)
+    return 0;
+  if (b->inner < nsvcd__spheres_size(b->padded))
     return 0;
 #endif
-  const nsvcd_body *within = (const nsvcd_body *)(const void *)((const char *)b + b->inner);
-  const size_t left = b->size - b->inner;
-  if (!nsvcd__header_is_sound(within, left) || within->size != left || within->weights_id != 0)
-    return 0;
-  if (within->points != b->points || within->triangles != b->triangles || within->open != b->open)
-    return 0;
-#ifndef NSVCD_NO_PROOF
-  return within->inner == 0 && nsvcd__spheres_are_sound(within) &&
-         nsvcd__facets_are_laid_out(within, left) && nsvcd__facets_are_sound(within);
-#else
-  return 1;  // never looked at
-#endif
+  return nsvcd__inner_is_sound(b);
 }
 
 NSVCDDEF nsvcd_result nsvcd_body_load(const void *memory, size_t size, const nsvcd_body **body) {
@@ -6452,52 +6958,60 @@ NSVCDDEF nsvcd_result nsvcd_body_trust(const void *memory, size_t size, const ns
   return NSVCD_OK;
 }
 
+// Would a body, multiplied, still be within the limits of nsvcd_body_load?
+static int nsvcd__body_fits(const nsvcd_body *body, float scale) {
+  if (!nsvcd__spheres_fit(body, scale))
+    return 0;
+#ifndef NSVCD_NO_NETWORK
+  const double most = (double)NSVCD__MAX_LENGTH / (double)scale;
+  for (size_t i = 0; body->weights_id && i < nsvcd__area_numbers(body); i++) {
+    if (fabs((double)nsvcd__body_areas(body)[i]) > most * most)
+      return 0;
+  }
+#endif
+#ifndef NSVCD_NO_PROOF
+  const nsvcd_body *triangles = nsvcd__triangles_of(body);
+  if (triangles && !nsvcd__spheres_fit(triangles, scale))
+    return 0;
+#endif
+  return 1;
+}
+
+// Multiplies a body of triangles; one of latents without what is within it.
+static void nsvcd__scale_part(nsvcd_body *b, float scale) {
+  nsvcd__scale_spheres(b, scale);
+  if (b->weights_id == 0) {
+#ifndef NSVCD_NO_PROOF
+    nsvcd__scale_facets(b, scale);
+    nsvcd__facets_finish(b);
+#endif
+    return;
+  }
+#ifndef NSVCD_NO_NETWORK
+  float *areas = (float *)(void *)((char *)b + nsvcd__spheres_size(b->padded));
+  for (size_t i = 0; i < nsvcd__area_numbers(b); i++) {
+    areas[i] *= scale;
+    areas[i] *= scale;
+  }
+#endif
+  nsvcd__body_finish(b);
+}
+
 NSVCDDEF nsvcd_result nsvcd_body_scale(const nsvcd_body *body, float scale, void *memory,
                                        size_t capacity, const nsvcd_body **scaled) {
   if (!body || !memory || !scaled || !nsvcd__is_finite(scale) || scale <= 0)
     return NSVCD_ERROR_ARGUMENT;
   if (capacity < body->size || !nsvcd__is_aligned(memory))
     return NSVCD_ERROR_WORKSPACE;
-  if (!nsvcd__spheres_fit(body, scale))
+  if (!nsvcd__body_fits(body, scale))
     return NSVCD_ERROR_ARGUMENT;
-#ifndef NSVCD_NO_NETWORK
-  const double cap = (double)NSVCD__MAX_LENGTH / (double)scale;
-  for (size_t i = 0; body->weights_id && i < nsvcd__area_numbers(body); i++) {
-    if (fabs((double)nsvcd__body_areas(body)[i]) > cap * cap)
-      return NSVCD_ERROR_ARGUMENT;
-  }
-#endif
-#ifndef NSVCD_NO_PROOF
-  const nsvcd_body *triangles = nsvcd__triangles_of(body);
-  if (triangles && !nsvcd__spheres_fit(triangles, scale))
-    return NSVCD_ERROR_ARGUMENT;
-#endif
   memmove(memory, body, body->size);  // in place is allowed
   nsvcd_body *b = (nsvcd_body *)memory;
 #ifndef NSVCD_NO_PROOF
-  if (b->inner) {
-    nsvcd_body *within = (nsvcd_body *)(void *)((char *)memory + b->inner);
-    nsvcd__scale_spheres(within, scale);
-    nsvcd__scale_facets(within, scale);
-    nsvcd__facets_finish(within);
-  }
+  if (b->inner)
+    nsvcd__scale_part((nsvcd_body *)(void *)((char *)memory + b->inner), scale);
 #endif
-  nsvcd__scale_spheres(b, scale);
-#ifndef NSVCD_NO_PROOF
-  if (b->weights_id == 0) {
-    nsvcd__scale_facets(b, scale);
-    nsvcd__facets_finish(b);
-  }
-#endif
-#ifndef NSVCD_NO_NETWORK
-  float *area = (float *)(void *)((char *)memory + nsvcd__spheres_size(b->padded));
-  for (size_t i = 0; b->weights_id && i < nsvcd__area_numbers(b); i++) {
-    area[i] *= scale;
-    area[i] *= scale;
-  }
-#endif
-  if (b->weights_id)
-    nsvcd__body_finish(b);
+  nsvcd__scale_part(b, scale);
   *scaled = b;
   return NSVCD_OK;
 }
@@ -6528,10 +7042,9 @@ NSVCDDEF int nsvcd_body_patch(const nsvcd_body *body, uint32_t patch, float cent
                               float *radius) {
   if (!body || patch >= body->points)
     return 0;
-  centre[0] = nsvcd__body_x(body)[patch];
-  centre[1] = nsvcd__body_y(body)[patch];
-  centre[2] = nsvcd__body_z(body)[patch];
-  *radius = nsvcd__body_r(body)[patch];
+  const nsvcd__sphere sphere = nsvcd__sphere_of(nsvcd__body_patches(body), patch);
+  nsvcd__f3_store(sphere.centre, centre);
+  *radius = sphere.radius;
   return 1;
 }
 
@@ -6540,68 +7053,71 @@ NSVCDDEF int nsvcd_body_patch(const nsvcd_body *body, uint32_t patch, float cent
 // triangles; then all of them one blob, neighbours side by side.
 
 #ifndef NSVCD_NO_ENCODER
+// What is to be encoded, and how, with the defaults filled in.
+typedef struct nsvcd__plan {
+  const nsvcd_mesh *mesh;
+  const nsvcd_allocator *allocator;
+  size_t patches;  // N
+  int open, latents, triangles;
+  nsvcd_progress *progress;
+  void *user;
+} nsvcd__plan;
+
 // What a body is built of.
 typedef struct nsvcd__parts {
-  const nsvcd_mesh *mesh;
-  int open;
-  size_t count;                      // N
-  float *centres;                    // (N, 3)
-  size_t latents_size, facets_size;  // bytes; 0: without
+  const nsvcd__plan *plan;
+  size_t count;        // N
+  nsvcd__f3 *centres;  // (N)
+  // bytes; 0: without
+  size_t latents_size, facets_size;
 #ifndef NSVCD_NO_NETWORK
   // Of a body with latents, else NULL:
-  float *radii;     // (N)
-  float *areas;     // (N, 3)
-  int8_t *latents;  // (N, LATENT)
+  float *radii;      // (N)
+  nsvcd__f3 *areas;  // (N)
+  int8_t *latents;   // (N, LATENT)
 #endif
 #ifndef NSVCD_NO_PROOF
   nsvcd__surface surface;
-  uint32_t counts[NSVCD__FACET_COUNTS];
+  nsvcd__facet_counts counts;
 #endif
 } nsvcd__parts;
 
-static void nsvcd__parts_free(nsvcd__parts *parts, const nsvcd_allocator *allocator) {
+static void nsvcd__parts_free(nsvcd__parts *parts) {
+  const nsvcd_allocator *allocator = parts->plan->allocator;
 #ifndef NSVCD_NO_NETWORK
   nsvcd__free(allocator, parts->radii);
   nsvcd__free(allocator, parts->areas);
   nsvcd__free(allocator, parts->latents);
 #endif
 #ifndef NSVCD_NO_PROOF
-  nsvcd__surface_free(&parts->surface, allocator);
+  nsvcd__surface_free(&parts->surface);
 #endif
   nsvcd__free(allocator, parts->centres);
 }
-
-// What encoding does, with the defaults filled in.
-typedef struct nsvcd__plan {
-  size_t points;  // N
-  int open, latents, triangles;
-  nsvcd_progress *progress;
-  void *user;
-} nsvcd__plan;
 
 static int nsvcd__is_cancelled(const nsvcd__plan *plan, double done) {
   return plan->progress && plan->progress((float)done, plan->user);
 }
 
 // Room for all patches; 0 without memory, and the caller frees.
-static int nsvcd__parts_alloc(const nsvcd__plan *plan, size_t components,
-                              const nsvcd_allocator *allocator, nsvcd__parts *parts) {
-  parts->centres = (float *)nsvcd__alloc_array(allocator, plan->points, 3 * sizeof(float));
+static int nsvcd__parts_alloc(nsvcd__parts *parts, size_t components) {
+  const nsvcd__plan *plan = parts->plan;
+  const nsvcd_allocator *allocator = plan->allocator;
+  parts->centres = nsvcd__alloc_f3s(allocator, plan->patches);
   if (!parts->centres)
     return 0;
 #ifndef NSVCD_NO_NETWORK
   if (plan->latents) {
-    parts->radii = (float *)nsvcd__alloc_array(allocator, plan->points, sizeof(float));
-    parts->areas = (float *)nsvcd__alloc_array(allocator, plan->points, 3 * sizeof(float));
-    parts->latents = (int8_t *)nsvcd__alloc_array(allocator, plan->points, NSVCD__LATENT);
+    parts->radii = nsvcd__alloc_floats(allocator, plan->patches);
+    parts->areas = nsvcd__alloc_f3s(allocator, plan->patches);
+    parts->latents = (int8_t *)nsvcd__alloc_array(allocator, plan->patches, NSVCD__LATENT);
     if (!parts->radii || !parts->areas || !parts->latents)
       return 0;
   }
 #endif
 #ifndef NSVCD_NO_PROOF
-  if (plan->triangles &&
-      !nsvcd__surface_begin(plan->points, components, allocator, &parts->surface))
-    return 0;
+  if (plan->triangles)
+    return nsvcd__surface_begin(plan->patches, components, allocator, &parts->surface);
 #endif
   (void)components;
   return 1;
@@ -6613,62 +7129,70 @@ static int nsvcd__parts_alloc(const nsvcd__plan *plan, size_t components,
 static void nsvcd__parts_add_latents(const nsvcd__patches *patches, double margin,
                                      nsvcd__parts *parts) {
   float *radii = parts->radii + parts->count;
-  float *areas = parts->areas + 3 * parts->count;
+  nsvcd__f3 *areas = parts->areas + parts->count;
   int8_t *latents = parts->latents + NSVCD__LATENT * parts->count;
-  memcpy(areas, patches->area_vectors, 3 * patches->count * sizeof *areas);
+  memcpy(areas, patches->area_vectors, patches->count * sizeof *areas);
   for (size_t i = 0; i < patches->count; i++) {
+    const float radius = patches->radii[i];
     const size_t first = patches->offsets[i];
-    const size_t count = patches->offsets[i + 1] - first;
+    nsvcd__encoded patch;
+    patch.samples = patches->samples + first;
+    patch.normals = patches->normals + first;
+    patch.count = patches->offsets[i + 1] - first;
+    patch.centre = patches->centres[i];
+    patch.inverse_radius = radius > 0 ? 1 / radius : 0;
     float latent[NSVCD__LATENT];
-    nsvcd__encode_patch(patches->points + 3 * first, patches->normals + 3 * first, count,
-                        patches->centres + 3 * i, patches->radii[i], latent);
+    nsvcd__encode_patch(&patch, latent);
     for (size_t k = 0; k < NSVCD__LATENT; k++)
       latents[NSVCD__LATENT * i + k] = (int8_t)lrintf(127 * latent[k]);
-    radii[i] =
-        margin > 0 ? (float)(((double)patches->radii[i] + margin) * (1 + 1e-7)) : patches->radii[i];
+    radii[i] = radius;
+    if (margin > 0)
+      radii[i] = (float)(((double)radius + margin) * (1 + 1e-7));
   }
 }
 #endif
 
-// Adds one region's patches.
-static nsvcd_result nsvcd__parts_add(nsvcd__regions *regions, size_t n, size_t points,
-                                     const nsvcd_allocator *allocator, nsvcd__parts *parts) {
+// Adds the patches of region n, at most so many.
+static nsvcd_result nsvcd__parts_add(nsvcd__parts *parts, nsvcd__regions *regions, size_t n,
+                                     size_t most) {
   nsvcd__region region;
   nsvcd__patches patches;
-  nsvcd_result result = nsvcd__region_begin(regions, n, allocator, &region);
+  nsvcd_result result = nsvcd__region_begin(regions, n, &region);
   if (result)
     return result == NSVCD_ERROR_EMPTY ? NSVCD_OK : result;
-  result = nsvcd__patches_build(&region.mesh, points, allocator, &patches);
+  result = nsvcd__patches_build(&region.mesh, most, regions->allocator, &patches);
   if (!result) {
-    memcpy(parts->centres + 3 * parts->count, patches.centres, 3 * patches.count * sizeof(float));
+    nsvcd__f3 *centres = parts->centres + parts->count;
+    memcpy(centres, patches.centres, patches.count * sizeof *centres);
 #ifndef NSVCD_NO_PROOF
-    if (parts->surface.balls)
-      result = nsvcd__surface_add(&region, &patches, allocator, &parts->surface);
+    if (parts->plan->triangles)
+      result = nsvcd__surface_add(&region, &patches, &parts->surface);
 #endif
 #ifndef NSVCD_NO_NETWORK
     // The mesh has the cuts rounded: each coordinate by half a unit in the last place, at most.
     const double margin = region.cut_count > 0 ? 1.1e-7 * region.greatest : 0;
-    if (parts->latents)
+    if (parts->plan->latents)
       nsvcd__parts_add_latents(&patches, margin, parts);
 #endif
     parts->count += patches.count;
-    nsvcd__patches_free(&patches, allocator);
+    nsvcd__patches_free(&patches, regions->allocator);
   }
-  nsvcd__region_end(regions, &region, allocator);
+  nsvcd__region_end(regions, &region);
   return result;
 }
 
 // Everything but the blob, region by region.
-static nsvcd_result nsvcd__parts_describe(const nsvcd__plan *plan, nsvcd__regions *regions,
-                                          const nsvcd_allocator *allocator, nsvcd__parts *parts) {
-  if (!nsvcd__parts_alloc(plan, regions->component_count, allocator, parts))
+static nsvcd_result nsvcd__parts_describe(nsvcd__parts *parts, nsvcd__regions *regions) {
+  const nsvcd__plan *plan = parts->plan;
+  const size_t count = regions->count;
+  if (!nsvcd__parts_alloc(parts, regions->component_count))
     return NSVCD_ERROR_MEMORY;
-  for (size_t n = 0; n < regions->count; n++) {
-    if (nsvcd__is_cancelled(plan, (double)(n + 1) / (double)(regions->count + 2)))
+  for (size_t n = 0; n < count; n++) {
+    if (nsvcd__is_cancelled(plan, (double)(n + 1) / (double)(count + 2)))
       return NSVCD_ERROR_CANCELLED;
-    const size_t points =
-        plan->points * (n + 1) / regions->count - plan->points * n / regions->count;
-    const nsvcd_result result = nsvcd__parts_add(regions, n, points, allocator, parts);
+    const size_t before = plan->patches * n / count;
+    const size_t most = plan->patches * (n + 1) / count - before;
+    const nsvcd_result result = nsvcd__parts_add(parts, regions, n, most);
     if (result)
       return result;
   }
@@ -6679,56 +7203,81 @@ static nsvcd_result nsvcd__parts_describe(const nsvcd__plan *plan, nsvcd__region
 #ifndef NSVCD_NO_PROOF
   if (!plan->triangles)
     return NSVCD_OK;
-  nsvcd__facets_count(&parts->surface, parts->counts);
-  parts->facets_size = nsvcd__facets_size(parts->count, parts->counts);
+  parts->counts = nsvcd__facets_count(&parts->surface);
+  parts->facets_size = nsvcd__facets_size(parts->count, &parts->counts);
   if (!parts->facets_size)
     return NSVCD_ERROR_TOO_LARGE;
 #endif
   return NSVCD_OK;
 }
 
-// On success release with nsvcd__parts_free.
-static nsvcd_result nsvcd__parts_build(const nsvcd_mesh *mesh, const nsvcd__plan *plan,
-                                       const nsvcd_allocator *allocator, nsvcd__parts *parts) {
+// On success release with nsvcd__parts_free. MEMORY, CANCELLED, TOO_LARGE.
+static nsvcd_result nsvcd__parts_build(const nsvcd__plan *plan, nsvcd__parts *parts) {
   nsvcd__regions regions;
   memset(parts, 0, sizeof *parts);
-  parts->mesh = mesh;
-  parts->open = plan->open;
+  parts->plan = plan;
   if (nsvcd__is_cancelled(plan, 0))
     return NSVCD_ERROR_CANCELLED;
-  if (!nsvcd__regions_build(mesh, plan->points, allocator, &regions))
+  if (!nsvcd__regions_build(plan->mesh, plan->patches, plan->allocator, &regions))
     return NSVCD_ERROR_MEMORY;
-  const nsvcd_result result = nsvcd__parts_describe(plan, &regions, allocator, parts);
-  nsvcd__regions_free(&regions, allocator);
+  const nsvcd_result result = nsvcd__parts_describe(parts, &regions);
+  nsvcd__regions_free(&regions);
   if (result)
-    nsvcd__parts_free(parts, allocator);
+    nsvcd__parts_free(parts);
   return result;
 }
 
-// Writes the blob, (latents_size + facets_size) bytes, its patches in the given order (N).
+#ifndef NSVCD_NO_NETWORK
+// Writes the body of latents to the begin of the blob, its patches in the given order (N).
+static nsvcd_result nsvcd__parts_write_latents(const nsvcd__parts *parts, const uint16_t *order,
+                                               void *memory) {
+  nsvcd__latents_source source;
+  const nsvcd_body *built;
+  source.count = parts->count;
+  source.centres = parts->centres;
+  source.radii = parts->radii;
+  source.areas = parts->areas;
+  source.latents = parts->latents;
+  source.order = order;
+  source.weights_id = NSVCD_WEIGHTS_ID;
+  source.open = parts->plan->open;
+  return nsvcd__body_build(&source, memory, parts->latents_size, &built);
+}
+#endif
+
+#ifndef NSVCD_NO_PROOF
+// Writes the body of triangles behind that.
+static nsvcd_result nsvcd__parts_write_facets(const nsvcd__parts *parts, const uint16_t *order,
+                                              void *memory) {
+  nsvcd__facets_source source;
+  source.surface = &parts->surface;
+  source.counts = parts->counts;
+  source.triangles = parts->plan->mesh->triangle_count;
+  source.centres = parts->centres;
+  source.order = order;
+  source.open = parts->plan->open;
+  void *to = (char *)memory + parts->latents_size;
+  return nsvcd__facets_build(&source, to, parts->facets_size);
+}
+#endif
+
+// Writes the blob, (latents_size + facets_size) bytes.
 static nsvcd_result nsvcd__parts_write(const nsvcd__parts *parts, const uint16_t *order,
                                        void *memory, const nsvcd_body **body) {
   nsvcd_body *b = (nsvcd_body *)memory;
   nsvcd_result result = NSVCD_OK;
 #ifndef NSVCD_NO_NETWORK
-  const nsvcd_body *built;
-  if (parts->latents_size) {
-    result = nsvcd__body_build(parts->count, parts->centres, parts->radii, parts->areas,
-                               parts->latents, order, NSVCD_WEIGHTS_ID, parts->open, memory,
-                               parts->latents_size, &built);
-  }
+  if (parts->latents_size)
+    result = nsvcd__parts_write_latents(parts, order, memory);
 #endif
 #ifndef NSVCD_NO_PROOF
-  if (!result && parts->facets_size) {
-    result =
-        nsvcd__facets_build(parts->mesh, &parts->surface, parts->counts, parts->centres, order,
-                            parts->open, (char *)memory + parts->latents_size, parts->facets_size);
-  }
+  if (!result && parts->facets_size)
+    result = nsvcd__parts_write_facets(parts, order, memory);
 #endif
   if (result)
     return result;
   if (parts->latents_size && parts->facets_size) {
-    b->triangles = (uint32_t)parts->mesh->triangle_count;
+    b->triangles = (uint32_t)parts->plan->mesh->triangle_count;
     b->inner = (uint32_t)parts->latents_size;
     b->size = (uint32_t)(parts->latents_size + parts->facets_size);
     b->checksum = nsvcd__body_checksum(b);
@@ -6738,28 +7287,31 @@ static nsvcd_result nsvcd__parts_write(const nsvcd__parts *parts, const uint16_t
 }
 
 // Puts the patches in order and writes the blob. MEMORY if there is none for that.
-static nsvcd_result nsvcd__parts_order_and_write(const nsvcd__parts *parts,
-                                                 const nsvcd_allocator *allocator, void *memory,
+static nsvcd_result nsvcd__parts_order_and_write(const nsvcd__parts *parts, void *memory,
                                                  const nsvcd_body **body) {
-  uint16_t *order = (uint16_t *)nsvcd__alloc_array(allocator, 2 * parts->count, sizeof(uint16_t));
+  const nsvcd_allocator *allocator = parts->plan->allocator;
+  const size_t count = parts->count;
+  uint16_t *order = (uint16_t *)nsvcd__alloc_array(allocator, 2 * count, sizeof(uint16_t));
   if (!order)
     return NSVCD_ERROR_MEMORY;
-  for (size_t i = 0; i < parts->count; i++)
+  for (size_t i = 0; i < count; i++)
     order[i] = (uint16_t)i;
-  nsvcd__body_order(parts->count, parts->centres, order, order + parts->count);
+  const nsvcd__ordering all = {parts->centres, order, order + count, count};
+  nsvcd__body_order(all);
   const nsvcd_result result = nsvcd__parts_write(parts, order, memory, body);
   nsvcd__free(allocator, order);
   return result;
 }
 
-// How many patches, where the options do not say.
-static size_t nsvcd__points_for(const nsvcd_mesh *mesh, const nsvcd_encode_options *o, double area,
-                                int triangles) {
+// How many patches, where the options do not say. area: of the mesh, square metres.
+static size_t nsvcd__patches_for(const nsvcd_mesh *mesh, float patch_radius, double area,
+                                 int triangles) {
   const double most = NSVCD_MAX_POINTS;
-  if (o->patch_radius > 0) {
+  if (patch_radius > 0) {
     // N balls of radius r cover about N r^2 / 0.45 of surface: measured, on the real meshes, for N
     // = 32 to 512.
-    const double count = ceil(0.45 * area / ((double)o->patch_radius * (double)o->patch_radius));
+    const double square = (double)patch_radius * (double)patch_radius;
+    const double count = ceil(0.45 * area / square);
     return (size_t)fmin(fmax(count, 1), most);
   }
   if (!triangles)
@@ -6772,27 +7324,29 @@ static size_t nsvcd__points_for(const nsvcd_mesh *mesh, const nsvcd_encode_optio
   return fine < NSVCD_MAX_POINTS ? fine : NSVCD_MAX_POINTS;
 }
 
-// Options with the defaults filled in. mesh: checked.
+// Checks mesh and options (NULL: none), and fills in the defaults; all but the allocator.
 static nsvcd_result nsvcd__plan_of(const nsvcd_mesh *mesh, const nsvcd_encode_options *options,
                                    nsvcd__plan *plan) {
-  nsvcd_encode_options none;
-  const nsvcd_encode_options *o = options ? options : &none;
-  memset(&none, 0, sizeof none);
+  nsvcd_encode_options o;
+  memset(&o, 0, sizeof o);
+  if (options)
+    o = *options;
   memset(plan, 0, sizeof *plan);
-  plan->open = o->open;
-  plan->progress = o->progress;
-  plan->user = o->user;
+  plan->mesh = mesh;
+  plan->open = o.open;
+  plan->progress = o.progress;
+  plan->user = o.user;
 #ifndef NSVCD_NO_PROOF
-  plan->triangles = !o->no_triangles;
+  plan->triangles = !o.no_triangles;
 #endif
 #ifndef NSVCD_NO_NETWORK
-  plan->latents = !o->no_latents;
+  plan->latents = !o.no_latents;
 #endif
   if (!plan->triangles && !plan->latents)
     return NSVCD_ERROR_ARGUMENT;  // nothing would be left
-  if (!nsvcd__is_finite(o->patch_radius) || o->patch_radius < 0 || o->points > NSVCD_MAX_POINTS)
+  if (!nsvcd__is_finite(o.patch_radius) || o.patch_radius < 0)
     return NSVCD_ERROR_ARGUMENT;
-  if (o->latents && o->no_latents)
+  if (o.points > NSVCD_MAX_POINTS || (o.latents && o.no_latents))
     return NSVCD_ERROR_ARGUMENT;
   const nsvcd_result checked = nsvcd__mesh_check(mesh);
   if (checked)
@@ -6800,9 +7354,11 @@ static nsvcd_result nsvcd__plan_of(const nsvcd_mesh *mesh, const nsvcd_encode_op
   const double area = nsvcd__mesh_area(mesh);
   if (!(area > 0))
     return NSVCD_ERROR_EMPTY;
-  plan->points = o->points ? o->points : nsvcd__points_for(mesh, o, area, plan->triangles);
-  if (plan->triangles && plan->points > NSVCD_SMALL_POINTS)
-    plan->latents = plan->latents && o->latents;
+  plan->patches = o.points;
+  if (plan->patches == 0)
+    plan->patches = nsvcd__patches_for(mesh, o.patch_radius, area, plan->triangles);
+  if (plan->triangles && plan->patches > NSVCD_SMALL_POINTS)
+    plan->latents = plan->latents && o.latents;
   return NSVCD_OK;
 }
 
@@ -6816,10 +7372,12 @@ NSVCDDEF nsvcd_result nsvcd_encode(const nsvcd_mesh *mesh, const nsvcd_encode_op
   nsvcd__plan plan;
   nsvcd__parts parts;
   nsvcd_result result = nsvcd__plan_of(mesh, options, &plan);
+  plan.allocator = allocator;
   if (!result)
-    result = nsvcd__parts_build(mesh, &plan, allocator, &parts);
+    result = nsvcd__parts_build(&plan, &parts);
   if (result)
     return result;
+
   const int fits = parts.facets_size <= 0xffffffffu - parts.latents_size;
   const size_t size = parts.latents_size + parts.facets_size;
   void *to = memory || !fits ? memory : nsvcd__alloc(allocator, size);
@@ -6830,11 +7388,11 @@ NSVCDDEF nsvcd_result nsvcd_encode(const nsvcd_mesh *mesh, const nsvcd_encode_op
   } else if ((memory && capacity < size) || !nsvcd__is_aligned(to)) {
     result = NSVCD_ERROR_WORKSPACE;
   } else {
-    result = nsvcd__parts_order_and_write(&parts, allocator, to, body);
+    result = nsvcd__parts_order_and_write(&parts, to, body);
   }
   if (result && !memory)
     nsvcd__free(allocator, to);
-  nsvcd__parts_free(&parts, allocator);
+  nsvcd__parts_free(&parts);
   return result;
 }
 
@@ -9132,28 +9690,11 @@ static float nsvcd__patch_reach(const nsvcd__facets *f, size_t patch) {
 
 // ---- discs
 
-// A disc's numbers: its normal, what it reaches along that, and across it.
-typedef struct nsvcd__disc {
-  nsvcd__f3 normal;
-  float low, high, across;
-} nsvcd__disc;
-
-// A slice of them.
+// A slice of discs.
 typedef struct nsvcd__v_disc {
   nsvcd__v3 normal;
   nsvcd__v low, high, across;
 } nsvcd__v_disc;
-
-// Disc i of (6, stride).
-static nsvcd__disc nsvcd__disc_at(const float *discs, size_t stride, size_t i) {
-  const float *d = discs + i;
-  nsvcd__disc out;
-  out.normal = nsvcd__f3_get(d, stride);
-  out.low = d[3 * stride];
-  out.high = d[4 * stride];
-  out.across = d[5 * stride];
-  return out;
-}
 
 NSVCD__INLINE nsvcd__v_disc nsvcd__v_disc_set(const nsvcd__disc *disc) {
   nsvcd__v_disc out;

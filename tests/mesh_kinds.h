@@ -26,12 +26,25 @@ static double vector_length(const double *v) {
   return sqrt(v[0] * v[0] + v[1] * v[1] + v[2] * v[2]);
 }
 
+// The corners of triangle t, its area vector and its area.
+static double mesh_triangle(const nsvcd_mesh *mesh, size_t t, double corners[3][3],
+                            double *vector) {
+  const nsvcd__triangle triangle = nsvcd__triangle_of(mesh, t);
+  const nsvcd__d3 v = nsvcd__area_vector(&triangle);
+  const double out[3] = {v.x, v.y, v.z};
+  memcpy(corners, &triangle, sizeof triangle);
+  memcpy(vector, out, sizeof out);
+  return nsvcd__triangle_area(&triangle);
+}
+
+// As vectors.
+static nsvcd__f3 *mesh_f3s(float *numbers) { return (nsvcd__f3 *)(void *)numbers; }
+
 static void mesh_area_vector(const nsvcd_mesh *mesh, double *sum) {
   sum[0] = sum[1] = sum[2] = 0;
   for (size_t t = 0; t < mesh->triangle_count; ++t) {
     double corners[3][3], v[3];
-    nsvcd__triangle(mesh, t, corners);
-    nsvcd__area_vector(corners, v);
+    mesh_triangle(mesh, t, corners, v);
     for (int k = 0; k < 3; ++k)
       sum[k] += v[k];
   }

@@ -22,16 +22,30 @@ static float centres[3 * NSVCD_SMALL_POINTS], radii[NSVCD_SMALL_POINTS],
 
 static int8_t latents[NSVCD_SMALL_POINTS * NSVCD__LATENT];
 
-static const nsvcd_body *build(size_t points, blob *memory) {
-  const nsvcd_body *body = NULL;
-  uint16_t order[NSVCD_SMALL_POINTS], spare[NSVCD_SMALL_POINTS];
+// Puts the patches of `centres` in order (points).
+static void put_in_order(size_t points, uint16_t *order) {
+  uint16_t spare[NSVCD_SMALL_POINTS];
+  const nsvcd__f3 *at = (const nsvcd__f3 *)(const void *)centres;
+  const nsvcd__ordering all = {at, order, spare, points};
   for (size_t i = 0; i < points; i++)
     order[i] = (uint16_t)i;
-  nsvcd__body_order(points, centres, order, spare);
-  nsvcd_result result =
-      nsvcd__body_build(points, centres, radii, areas, latents, order, NSVCD_WEIGHTS_ID, 0,
-                        aligned(memory), blob_capacity, &body);
-  CHECK_EQ(result, NSVCD_OK);
+  nsvcd__body_order(all);
+}
+
+static const nsvcd_body *build(size_t points, blob *memory) {
+  const nsvcd_body *body = NULL;
+  uint16_t order[NSVCD_SMALL_POINTS];
+  nsvcd__latents_source source;
+  put_in_order(points, order);
+  source.count = points;
+  source.centres = (const nsvcd__f3 *)(const void *)centres;
+  source.radii = radii;
+  source.areas = (const nsvcd__f3 *)(const void *)areas;
+  source.latents = latents;
+  source.order = order;
+  source.weights_id = NSVCD_WEIGHTS_ID;
+  source.open = 0;
+  CHECK_EQ(nsvcd__body_build(&source, aligned(memory), blob_capacity, &body), NSVCD_OK);
   return body;
 }
 

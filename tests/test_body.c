@@ -40,13 +40,11 @@ static void body_round_trip(void) {
 // The order visits every patch once, and neighbours end up together: groups are much smaller than
 // the body.
 static void body_order(void) {
-  uint16_t order[NSVCD_SMALL_POINTS], spare[NSVCD_SMALL_POINTS];
+  uint16_t order[NSVCD_SMALL_POINTS];
   for (size_t points = 1; points <= 512; points += 37) {
     const nsvcd_body *body = random_body(points, 1, 0, &blob_a_memory);
     int seen[NSVCD_SMALL_POINTS] = {0};
-    for (size_t i = 0; i < points; i++)
-      order[i] = (uint16_t)i;
-    nsvcd__body_order(points, centres, order, spare);
+    put_in_order(points, order);
     for (size_t i = 0; i < points; i++)
       seen[order[i]]++;
     for (size_t i = 0; i < points; i++)

@@ -9,12 +9,23 @@
 
 void test_encoder(void);
 
+// The latent of a patch of `count` samples; points, normals: (count, 3).
+static void encode_patch(const float *points, const float *normals, size_t count,
+                         const float *centre, float radius, float *latent) {
+  nsvcd__encoded patch;
+  patch.samples = (const nsvcd__f3 *)(const void *)points;
+  patch.normals = (const nsvcd__f3 *)(const void *)normals;
+  patch.count = count;
+  patch.centre = nsvcd__f3_load(centre);
+  patch.inverse_radius = 1 / radius;
+  nsvcd__encode_patch(&patch, latent);
+}
+
 static void encoder_matches_the_trainer(void) {
   for (size_t i = 0; i < GOLDEN_PATCHES; i++) {
     float latent[NSVCD__LATENT];
-    nsvcd__encode_patch(golden_points + 3 * GOLDEN_POINTS * i,
-                        golden_normals + 3 * GOLDEN_POINTS * i, GOLDEN_POINTS,
-                        golden_centre + 3 * i, golden_radius[i], latent);
+    encode_patch(golden_points + 3 * GOLDEN_POINTS * i, golden_normals + 3 * GOLDEN_POINTS * i,
+                 GOLDEN_POINTS, golden_centre + 3 * i, golden_radius[i], latent);
     CHECK_LE(largest_difference(latent, golden_latent + NSVCD__LATENT * i, NSVCD__LATENT), 1e-4);
   }
 }
@@ -57,8 +68,8 @@ static void encoder_is_equivariant(void) {
       for (size_t k = 0; k < 3; k++)
         turned_points[3 * i + k] = scale * turned_points[3 * i + k] + centre[k];
     }
-    nsvcd__encode_patch(points, normals, 40, zero, 1, latent);
-    nsvcd__encode_patch(turned_points, turned_normals, 40, centre, scale, turned);
+    encode_patch(points, normals, 40, zero, 1, latent);
+    encode_patch(turned_points, turned_normals, 40, centre, scale, turned);
     rotate_latent(m, latent, expected);
     memcpy(expected + NSVCD__VECTORS, latent + NSVCD__VECTORS, NSVCD_W_SCALARS * sizeof(float));
     // float32, and gates that amplify

@@ -320,18 +320,19 @@ static int without_lean(scene *s, shapes_rng *rng, size_t n) {
   const size_t size = nsvcd_body_size(1);
   for (int k = 0; k < 2; k++) {
     const nsvcd_body *from = pool[1][shapes_pick(rng, POOL)];
-    const float none[3] = {0, 0, 0};
+    const nsvcd__f3 none = {0, 0, 0};
     const uint16_t first = 0;
-    float centre[3] = {0, 0, 0};
+    nsvcd__f3 centre = {0, 0, 0};
     float radius = 0;
     int8_t latent[NSVCD__LATENT];
-    CHECK(nsvcd_body_patch(from, 0, centre, &radius));
+    CHECK(nsvcd_body_patch(from, 0, &centre.x, &radius));
     memcpy(latent, nsvcd__body_latents(from), sizeof latent);
     for (size_t i = 0; i < 3; i++)
       latent[NSVCD_W_CHANNELS * i] = 0;
-    CHECK_EQ(nsvcd__body_build(1, centre, &radius, none, latent, &first, NSVCD_WEIGHTS_ID, 1,
-                               scaled_memory[k].at, size, k ? &s->fixed : &s->moving),
-             NSVCD_OK);
+    const nsvcd__latents_source source = {1,      &centre, &radius,          &none,
+                                          latent, &first,  NSVCD_WEIGHTS_ID, 1};
+    const nsvcd_body **body = k ? &s->fixed : &s->moving;
+    CHECK_EQ(nsvcd__body_build(&source, scaled_memory[k].at, size, body), NSVCD_OK);
   }
   return n % 2 ? at_rest(s, rng, 1) : moderate(s, rng, n);
 }

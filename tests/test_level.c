@@ -62,6 +62,8 @@ static const level_world *level_shared(void) {
 
 // ---- the body
 
+static float level_square(const float *d) { return d[0] * d[0] + d[1] * d[1] + d[2] * d[2]; }
+
 // Spheres that touch a ball, as a filter of a walk.
 static uint32_t level_touch(const void *what, nsvcd__spheres all) {
   const float *ball = (const float *)what;
@@ -69,7 +71,7 @@ static uint32_t level_touch(const void *what, nsvcd__spheres all) {
   for (size_t l = 0; l < NSVCD__LANES; l++) {
     const float d[3] = {all.x[l] - ball[0], all.y[l] - ball[1], all.z[l] - ball[2]};
     const float reach = all.r[l] + ball[3];
-    met |= (uint32_t)(reach >= 0 && nsvcd__dot3(d, d) <= reach * reach) << l;
+    met |= (uint32_t)(reach >= 0 && level_square(d) <= reach * reach) << l;
   }
   return met;
 }
@@ -115,7 +117,7 @@ static void level_walks_find_all(void) {
                           nsvcd__group_spheres(body).z[g] - ball[2]};
       const float reach = nsvcd__group_spheres(body).r[g] + ball[3];
       size_t next = 0;
-      if (nsvcd__dot3(d, d) > reach * reach)
+      if (level_square(d) > reach * reach)
         continue;
       CHECK(nsvcd__walk_next(&walk, &next));
       CHECK_EQ(next, g);

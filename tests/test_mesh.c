@@ -491,8 +491,7 @@ static double polygon_cover(const double (*xy)[2], uint32_t count) {
   CHECK_EQ(nsvcd__mesh_check(&mesh), NSVCD_OK);
   for (size_t t = 0; t < mesh.triangle_count; ++t) {
     double corner[3][3], v[3];
-    nsvcd__triangle(&mesh, t, corner);
-    covered += nsvcd__area_vector(corner, v);
+    covered += mesh_triangle(&mesh, t, corner, v);
   }
   mesh_area_vector(&mesh, vector);
   for (int k = 0; k < 3; ++k)

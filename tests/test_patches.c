@@ -22,7 +22,7 @@ static void mesh_samples_are_uniform(void) {
   mesh.indices[0] = mesh.indices[1] = 0;
   mesh.indices[2] = 7;
   mesh.triangle_count = 13;
-  nsvcd__sample_surface(&mesh, S, points, normals);
+  nsvcd__sample_surface(&mesh, S, mesh_f3s(points), mesh_f3s(normals));
   double face[6] = {0, 0, 0, 0, 0, 0};
   double mean[6][2] = {{0, 0}, {0, 0}, {0, 0}, {0, 0}, {0, 0}, {0, 0}};
   static const double half[3] = {0.1, 0.2, 0.3};
@@ -47,7 +47,7 @@ static void mesh_samples_are_uniform(void) {
   nsvcd_mesh_free(&mesh, NULL);
 
   mesh = mesh_round(30, 40, 0.1, 0.04);  // every triangle gets its share, to one sample
-  nsvcd__sample_surface(&mesh, S, points, normals);
+  nsvcd__sample_surface(&mesh, S, mesh_f3s(points), mesh_f3s(normals));
   double z2 = 0;
   double exact = 0;
   for (size_t s = 0; s < S; ++s)
@@ -55,8 +55,7 @@ static void mesh_samples_are_uniform(void) {
   // integral of z^2 over a triangle: mean over the edges' middles
   for (size_t t = 0; t < mesh.triangle_count; ++t) {
     double c[3][3], v[3];
-    nsvcd__triangle(&mesh, t, c);
-    double area = nsvcd__area_vector(c, v) / nsvcd__mesh_area(&mesh);
+    double area = mesh_triangle(&mesh, t, c, v) / nsvcd__mesh_area(&mesh);
     for (int i = 0; i < 3; ++i)
       exact += area / 3 * pow(0.5 * (c[i][2] + c[(i + 1) % 3][2]), 2);
   }
@@ -70,9 +69,9 @@ static void mesh_samples_scale(void) {
   static const float scales[] = {0.0009765625f, 1048576.0f, 1e-3f, 1e3f, 1e-9f, 3e-15f};
   for (size_t i = 0; i < sizeof scales / sizeof scales[0]; ++i) {
     nsvcd_mesh mesh = mesh_round(25, 31, 0.1, 0.04);
-    nsvcd__sample_surface(&mesh, S, a, normals);
+    nsvcd__sample_surface(&mesh, S, mesh_f3s(a), mesh_f3s(normals));
     mesh_scale(&mesh, scales[i]);
-    nsvcd__sample_surface(&mesh, S, b, scaled_normals);
+    nsvcd__sample_surface(&mesh, S, mesh_f3s(b), mesh_f3s(scaled_normals));
     double worst = 0;
     double turned = 0;
     for (size_t k = 0; k < 3 * S; ++k) {
@@ -89,7 +88,7 @@ static void mesh_samples_lie_mid_stratum(void) {
   float points[12], normals[12];
   nsvcd_mesh mesh = mesh_fan(2, 1, 1);  // triangles of equal area,
   mesh.positions[4] = 0.2f;             // now a fifth and four fifths of the whole
-  nsvcd__sample_surface(&mesh, 4, points, normals);
+  nsvcd__sample_surface(&mesh, 4, mesh_f3s(points), mesh_f3s(normals));
   // at 1/8, 3/8, 5/8, 7/8
   for (int i = 0; i < 4; ++i)
     CHECK_EQ(points[3 * i + 1] < 0.2f * points[3 * i], i == 0);
@@ -101,11 +100,11 @@ static void mesh_samples_lie_mid_stratum(void) {
 // Samples without a mesh: (n, 3) random points, some of them equal.
 static nsvcd__patches patches_of_points(size_t centres, size_t samples) {
   nsvcd__patches p;
-  CHECK_EQ(nsvcd__patches_alloc(&p, centres, samples, NULL), NSVCD_OK);
+  CHECK(nsvcd__patches_alloc(&p, centres, samples, NULL));
   for (size_t s = 0; s < samples; ++s) {
-    p.x[s] = (float)mesh_below(40);
-    p.y[s] = (float)mesh_below(40);
-    p.z[s] = (float)mesh_below(4);
+    p.drawn[s].x = (float)mesh_below(40);
+    p.drawn[s].y = (float)mesh_below(40);
+    p.drawn[s].z = (float)mesh_below(4);
   }
   return p;
 }
@@ -122,16 +121,15 @@ static void mesh_farthest_points_are_farthest(void) {
       float farthest = 0;
       float centre = HUGE_VALF;
       for (uint32_t j = 0; i < p.count && j < i; ++j) {
-        centre = fminf(centre,
-                       nsvcd__centre_distance(&p, j, p.centre_x[i], p.centre_y[i], p.centre_z[i]));
+        centre = fminf(centre, nsvcd__centre_distance(&p, j, p.centres[i]));
       }
       for (size_t s = 0; s < p.sample_count; ++s) {
         float nearest = HUGE_VALF;
         for (uint32_t j = 0; j < i; ++j)
-          nearest = fminf(nearest, nsvcd__centre_distance(&p, j, p.x[s], p.y[s], p.z[s]));
+          nearest = fminf(nearest, nsvcd__centre_distance(&p, j, p.drawn[s]));
         farthest = fmaxf(farthest, nearest);
         if (i == p.count)
-          CHECK_EQ(nearest, nsvcd__centre_distance(&p, p.owners[s], p.x[s], p.y[s], p.z[s]));
+          CHECK_EQ(nearest, nsvcd__centre_distance(&p, p.owners[s], p.drawn[s]));
       }
       if (i < p.count)
         CHECK_EQ(centre, farthest);
@@ -140,8 +138,7 @@ static void mesh_farthest_points_are_farthest(void) {
   }
   nsvcd__patches p = patches_of_points(10, 64);
   for (size_t s = 0; s < 64; ++s) {  // three places for ten centres
-    p.x[s] = (float)(s % 3);
-    p.y[s] = p.z[s] = 5;
+    p.drawn[s] = nsvcd__f3_of((float)(s % 3), 5, 5);
   }
   nsvcd__farthest_points(&p);
   CHECK_EQ(p.count, 3);
@@ -151,21 +148,22 @@ static void mesh_farthest_points_are_farthest(void) {
 static void mesh_centres_without_samples_are_dropped(void) {
   nsvcd__patches p = patches_of_points(4, 64);
   for (size_t s = 0; s < 64; ++s) {
-    p.x[s] = (float)s;
+    p.drawn[s].x = (float)s;
     p.owners[s] = s < 32 ? 3 : 1;
   }
   nsvcd__move_centres(&p);
   CHECK_EQ(p.count, 2);
-  CHECK_EQ(p.centre_x[0], 47.5);
-  CHECK_EQ(p.centre_x[1], 15.5);
+  CHECK_EQ(p.centres[0].x, 47.5);
+  CHECK_EQ(p.centres[1].x, 15.5);
   for (size_t s = 0; s < 64; ++s)
     CHECK_EQ(p.owners[s], s < 32);
   // Of two centres at the same distance the first one is nearest, whatever the guess.
-  nsvcd__set_centre(&p, 0, 1, 0, 0);
-  nsvcd__set_centre(&p, 1, -1, 0, 0);
+  const nsvcd__f3 origin = {0, 0, 0};
+  p.centres[0] = nsvcd__f3_of(1, 0, 0);
+  p.centres[1] = nsvcd__f3_of(-1, 0, 0);
   nsvcd__link_centres(&p);
-  CHECK_EQ(nsvcd__nearest_centre(&p, 0, 0, 0, 0), 0);
-  CHECK_EQ(nsvcd__nearest_centre(&p, 1, 0, 0, 0), 0);
+  CHECK_EQ(nsvcd__nearest_centre(&p, 0, origin), 0);
+  CHECK_EQ(nsvcd__nearest_centre(&p, 1, origin), 0);
   nsvcd__patches_free(&p, NULL);
 }
 
@@ -195,7 +193,7 @@ static void mesh_patches_are_round(void) {
 
 static int patches_cover(const nsvcd__patches *p, const double *x) {
   for (size_t i = 0; i < p->count; ++i) {
-    double d = nsvcd__squared_distance(p, i, x[0], x[1], x[2]);
+    double d = nsvcd__d3_gap(nsvcd__d3_of(x[0], x[1], x[2]), nsvcd__d3_widen(p->centres[i]));
     if (d <= (double)p->radii[i] * (double)p->radii[i])
       return 1;
   }
@@ -218,7 +216,9 @@ static void mesh_patches_cover_the_surface(void) {
         double x[3];
         double u = mesh_uniform(0, 1);
         double v = mesh_uniform(0, 1 - u);
-        nsvcd__triangle(&mesh, s < mesh.triangle_count ? s : mesh_below(mesh.triangle_count), c);
+        double vector[3];
+        size_t t = s < mesh.triangle_count ? s : mesh_below(mesh.triangle_count);
+        mesh_triangle(&mesh, t, c, vector);
         if (s % 4 == 1)
           u = 0;
         if (s % 4 == 2) {
@@ -255,20 +255,22 @@ static void mesh_patches_are_consistent(void) {
       double samples = p.offsets[i + 1] - p.offsets[i];
       double reach = 0;
       for (size_t s = p.offsets[i]; s < p.offsets[i + 1]; ++s) {
-        const float *x = p.points + 3 * s;
+        const float *x = &p.samples[s].x;
+        const nsvcd__d3 at = nsvcd__d3_load(x);
         for (int k = 0; k < 3; ++k)
           mean[k] += (double)x[k] / samples;
-        reach =
-            fmax(reach, nsvcd__squared_distance(&p, i, (double)x[0], (double)x[1], (double)x[2]));
-        CHECK_NEAR(length3(p.normals + 3 * s), 1, 1e-6);
+        reach = fmax(reach, nsvcd__d3_gap(at, nsvcd__d3_widen(p.centres[i])));
+        CHECK_NEAR(nsvcd__f3_length(p.normals[s]), 1, 1e-6);
       }
+      const float *centre = &p.centres[i].x;
+      const float *area_vector = &p.area_vectors[i].x;
       for (size_t k = 0; k < 3; ++k)
-        CHECK_NEAR((double)p.centres[3 * i + k], mean[k], 1e-6 * fabs(mean[k]) + 1e-12);
+        CHECK_NEAR((double)centre[k], mean[k], 1e-6 * fabs(mean[k]) + 1e-12);
       CHECK_NEAR((double)p.sample_radii[i] / sqrt(reach), 1, 1e-6);
       CHECK(p.radii[i] > 0 && nsvcd__is_finite(p.radii[i]));
       area += (double)p.areas[i];
       for (size_t k = 0; k < 3; ++k)
-        vector[k] += (double)p.area_vectors[3 * i + k];
+        vector[k] += (double)area_vector[k];
     }
     double total = nsvcd__mesh_area(&mesh);
     CHECK_NEAR(area / total, 1, 1e-6);
@@ -294,16 +296,17 @@ static void mesh_nearest_centre_is_nearest(void) {
     nsvcd__patches p;
     CHECK_EQ(nsvcd__patches_build(&mesh, kind % 2 ? 300 : 12, NULL, &p), NSVCD_OK);
     for (int i = 0; i < 3000; ++i) {
-      const float *at = p.points + 3 * mesh_below(p.sample_count);
+      const float *from = &p.samples[mesh_below(p.sample_count)].x;
       double spread = i % 3 * 3 * (double)p.radii[0];
       float x[3];
       for (int k = 0; k < 3; ++k)
-        x[k] = at[k] + (float)(spread * mesh_uniform(-1, 1));
-      uint32_t found = nsvcd__nearest_centre(&p, (uint32_t)mesh_below(p.count), x[0], x[1], x[2]);
+        x[k] = from[k] + (float)(spread * mesh_uniform(-1, 1));
+      const nsvcd__f3 at = nsvcd__f3_load(x);
+      uint32_t found = nsvcd__nearest_centre(&p, (uint32_t)mesh_below(p.count), at);
       uint32_t best = 0;
       for (uint32_t c = 1; c < p.count; ++c) {
-        float d = nsvcd__centre_distance(&p, c, x[0], x[1], x[2]);
-        if (d < nsvcd__centre_distance(&p, best, x[0], x[1], x[2]))
+        float d = nsvcd__centre_distance(&p, c, at);
+        if (d < nsvcd__centre_distance(&p, best, at))
           best = c;
       }
       tried++;
@@ -328,14 +331,14 @@ static void mesh_patches_are_deterministic(void) {
         memcmp(a.radii, b.radii, 4 * a.count) == 0);
   CHECK(memcmp(a.area_vectors, b.area_vectors, 12 * a.count) == 0 &&
         memcmp(a.areas, b.areas, 4 * a.count) == 0);
-  CHECK(memcmp(a.points, b.points, 12 * a.sample_count) == 0 &&
+  CHECK(memcmp(a.samples, b.samples, 12 * a.sample_count) == 0 &&
         memcmp(a.normals, b.normals, 12 * a.sample_count) == 0);
   CHECK(memcmp(a.offsets, b.offsets, 4 * (a.count + 1)) == 0);
   CHECK_EQ(a.count, c.count);  // and a power of two in scale changes nothing else
   for (size_t i = 0; i < a.count && i < c.count; ++i) {
     CHECK_EQ(8 * a.radii[i], c.radii[i]);
-    CHECK_EQ(8 * a.centres[3 * i], c.centres[3 * i]);
-    CHECK_EQ(64 * a.area_vectors[3 * i], c.area_vectors[3 * i]);
+    CHECK_EQ(8 * a.centres[i].x, c.centres[i].x);
+    CHECK_EQ(64 * a.area_vectors[i].x, c.area_vectors[i].x);
   }
   nsvcd__patches_free(&a, NULL);
   nsvcd__patches_free(&b, NULL);
@@ -367,8 +370,8 @@ static void mesh_patches_edge_cases(void) {
       x[k] = (double)mesh.positions[3 * mesh.indices[i] + k];
     CHECK(patches_cover(&p, x));
   }
-  for (size_t i = 0; i < 3 * p.sample_count; ++i)
-    CHECK_EQ(p.normals[i], 0);
+  for (size_t i = 0; i < p.sample_count; ++i)
+    CHECK_EQ(nsvcd__f3_length(p.normals[i]), 0);
   nsvcd__patches_free(&p, NULL);
   nsvcd_mesh_free(&mesh, NULL);
 

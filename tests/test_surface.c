@@ -480,7 +480,7 @@ static void reader_index(reader *r) {
     const int16_t *q = s->vertices + 3 * first;
     for (size_t j = 0; j < n; j++) {
       const vec offset = vec_of(q[j], q[n + j], q[2 * n + j]);
-      const vec centre = vec_load(s->balls + 4 * i);
+      const vec centre = vec_load(&s->balls[i].centre.x);
       r->vertices[first + j] = vec_add(centre, vec_scale(offset, (double)s->steps[i]));
     }
     for (size_t l = s->first_triangle[i]; l < s->first_triangle[i + 1]; l++) {
@@ -500,9 +500,11 @@ static nsvcd_result surface_of(const nsvcd_mesh *mesh, size_t points,
   nsvcd__plan plan;
   nsvcd__parts parts;
   memset(&plan, 0, sizeof plan);
-  plan.points = points;
+  plan.mesh = mesh;
+  plan.allocator = allocator;
+  plan.patches = points;
   plan.triangles = 1;
-  const nsvcd_result result = nsvcd__parts_build(mesh, &plan, allocator, &parts);
+  const nsvcd_result result = nsvcd__parts_build(&plan, &parts);
   if (result)
     return result;
   *surface = parts.surface;
@@ -527,7 +529,7 @@ static int reader_open(reader *r, const nsvcd_mesh *mesh, size_t points) {
 }
 
 static void reader_close(reader *r) {
-  nsvcd__surface_free(&r->surface, NULL);
+  nsvcd__surface_free(&r->surface);
   free(r->vertices);
   free(r->listings);
   free(r->sorted);
@@ -553,8 +555,8 @@ static int check_ranges(const reader *r) {
   for (size_t i = 0; i < 3 * s->vertex_count; i++)
     bad += s->vertices[i] < -32767;
   for (size_t i = 0; i < s->count; i++) {
-    const float *ball = s->balls + 4 * i;
-    const float *disc = s->discs + 6 * i;
+    const float *ball = &s->balls[i].centre.x;
+    const float *disc = &s->discs[i].normal.x;
     bad += s->first_vertex[i] > s->first_vertex[i + 1];
     bad += s->first_triangle[i] > s->first_triangle[i + 1];
     const size_t n = s->first_vertex[i + 1] - s->first_vertex[i];
@@ -589,8 +591,8 @@ typedef struct misses {
 
 static int patch_holds(const reader *r, size_t i, vec x, misses *m) {
   const nsvcd__surface *s = &r->surface;
-  const float *ball = s->balls + 4 * i;
-  const float *disc = s->discs + 6 * i;
+  const float *ball = &s->balls[i].centre.x;
+  const float *disc = &s->discs[i].normal.x;
   const vec offset = vec_sub(x, vec_load(ball));
   if (vec_length(offset) > (double)ball[3] + r->tolerance) {
     m->ball++;
@@ -785,7 +787,7 @@ static void check_seeds(const reader *r) {
     used[mesh->indices[i]] = 1;
   for (size_t k = 0; k < s->component_count; k++) {
     size_t v = 0;
-    const float *seed = s->seeds + 3 * k;
+    const float *seed = &s->seeds[k].x;
     for (; v < mesh->vertex_count; v++) {
       const float *p = mesh->positions + 3 * v;
       if (used[v] && p[0] == seed[0] && p[1] == seed[1] && p[2] == seed[2])
@@ -855,8 +857,8 @@ static void surface_of_a_fine_mesh(void) {
   double radius = 0;
   for (size_t i = 0; i < s->count; i++) {
     const double share = 1 / (double)s->count;
-    const double own = (double)s->balls[4 * i + 3];
-    const double thick = (double)(s->discs[6 * i + 4] - s->discs[6 * i + 3]);
+    const double own = (double)s->balls[i].radius;
+    const double thick = (double)(s->discs[i].high - s->discs[i].low);
     slack += share * (double)s->slacks[i] / own;
     thickness += share * thick / own;
     radius += share * own;
@@ -879,9 +881,9 @@ static void surface_of_large_faces(void) {
     CHECK(reader_open(&r, &mesh, 256));
     double radius = 0;
     for (size_t i = 0; i < r.surface.count; i++) {
-      radius += (double)r.surface.balls[4 * i + 3] / (double)r.surface.count;
-      CHECK_LE(r.surface.slacks[i], 1e-3f * r.surface.balls[4 * i + 3]);
-      CHECK_LE(r.surface.quanta[i], 1e-3f * r.surface.balls[4 * i + 3]);
+      radius += (double)r.surface.balls[i].radius / (double)r.surface.count;
+      CHECK_LE(r.surface.slacks[i], 1e-3f * r.surface.balls[i].radius);
+      CHECK_LE(r.surface.quanta[i], 1e-3f * r.surface.balls[i].radius);
     }
     CHECK_LE(radius, 1.1 * r.patch_radius);
     reader_close(&r);
@@ -963,7 +965,8 @@ static void surface_balls_are_minimal(void) {
       if (trial % 7 == 0 && i > 3)
         points[i] = points[i / 2];
     }
-    const nsvcd__d3 centre = nsvcd__ball_centre(points, count);
+    const nsvcd__points all = {points, count};
+    const nsvcd__d3 centre = nsvcd__ball_centre(all);
     nsvcd__d3 other = points[0];
     double radius = 0;
     double least = HUGE_VAL;
@@ -1019,7 +1022,7 @@ static void surface_allocation_fails(void) {
     allocator.user = &heap;
     const nsvcd_result result = surface_of(&mesh, 64, &allocator, &surface);
     if (result == NSVCD_OK) {
-      nsvcd__surface_free(&surface, &allocator);
+      nsvcd__surface_free(&surface);
       CHECK_EQ(heap.live, 0);
       break;
     }
