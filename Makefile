@@ -306,8 +306,9 @@ FORMATTED = neuralsvcd.h $(wildcard $(WRITTEN:%=%/*.[ch]))
 format:  ## clang-format on what is written by hand
 	clang-format -i $(FORMATTED)
 # Version 14 decides, as in Debian 12: others break lines elsewhere.
-check-text:  ## the header as a text: its lines, functions, contents, the order of its sections; and that all is formatted
-	@if command -v python3 >/dev/null; then python3 tests/text.py; else echo "check-text: no python3: not tested"; fi
+check-text:  ## the header as a text; that the tests that tests/PROMISES.md names are there; that all is formatted
+	@if command -v python3 >/dev/null; then python3 tests/text.py && python3 tests/promises.py; \
+	else echo "check-text: no python3: not tested"; fi
 	@if clang-format --version 2>/dev/null | grep -q 'version 14'; then \
 	  clang-format --dry-run -Werror $(FORMATTED); \
 	else echo "check-text: no clang-format 14: format not tested"; fi

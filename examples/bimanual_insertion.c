@@ -6,7 +6,7 @@
 //
 // Peg and block are bodies like the arms' own: only planner_place knows that they are held
 // (planner_plan in task_planner.h is the code to copy).
-#define _POSIX_C_SOURCE 199309L  // clock_gettime
+#define _POSIX_C_SOURCE 200112L  // clock_gettime
 #define NEURALSVCD_IMPLEMENTATION
 #include "task_planner.h"
 
@@ -76,11 +76,11 @@ int main(int argc, char **argv) {
                         PLANNER_LEGEND);
   if (!svg)
     return 1;
-  double begin = planner_seconds();
+  double begin = seconds();
   if (!planner_encode(&scene, bodies))
     return 1;
   printf("%s, seed %llu: %d bodies encoded in %.2f s, %d pairs that can meet\n", scene.name,
-         (unsigned long long)seed, scene.body_count, planner_seconds() - begin, scene.pair_count);
+         (unsigned long long)seed, scene.body_count, seconds() - begin, scene.pair_count);
 
   if (!planner_plan(&user, bodies, NULL, NULL, &motion))
     return 1;  // NULL: the defaults will do

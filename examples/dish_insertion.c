@@ -6,7 +6,7 @@
 //
 // A motion is planned with the network alone (planner_plan in task_planner.h is the code to copy)
 // and judged afterwards with the exact oracle, which knows the triangles.
-#define _POSIX_C_SOURCE 199309L  // clock_gettime
+#define _POSIX_C_SOURCE 200112L  // clock_gettime
 #define NEURALSVCD_IMPLEMENTATION
 #include "task_planner.h"
 
@@ -82,11 +82,11 @@ int main(int argc, char **argv) {
   // Once: every body is encoded as it is, the dishes by themselves. A dish that is grasped, carried
   // and let go is the same body all along: planner_place moves it with the hand, or not, and
   // nothing is encoded again.
-  double begin = planner_seconds();
+  double begin = seconds();
   if (!planner_encode(&scene, bodies))
     return 1;
   printf("%s, seed %llu: %d bodies encoded in %.2f s\n", scene.name, (unsigned long long)seed,
-         scene.body_count, planner_seconds() - begin);
+         scene.body_count, seconds() - begin);
 
   nsvcd_plan_options options;
   memset(&options, 0, sizeof options);  // the defaults, but:

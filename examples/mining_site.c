@@ -6,7 +6,7 @@
 //
 // Shows how to watch the planner, and how to stop it after SECONDS (planner_plan in task_planner.h
 // is the code to copy).
-#define _POSIX_C_SOURCE 199309L  // clock_gettime
+#define _POSIX_C_SOURCE 200112L  // clock_gettime
 #define NEURALSVCD_IMPLEMENTATION
 #include "task_planner.h"
 
@@ -18,7 +18,7 @@ static int watch(void *data, const nsvcd_plan_progress *progress) {
     printf("  %s %2zu: cost %8.2f, of it collision %8.2f\n",
            progress->refining ? "refine " : "explore", progress->iteration, (double)progress->cost,
            (double)progress->collision);
-  return planner_seconds() > user->until;
+  return seconds() > user->until;
 }
 
 static void draw_motion(FILE *svg, const task_scene *scene, const planner_motion *motion) {
@@ -51,10 +51,10 @@ int main(int argc, char **argv) {
   static task_scene scene;
   static planner_motion motion;
   const nsvcd_body *bodies[TASK_MAX_BODIES];
-  double seconds = 60;
+  double patience = 60;
   uint64_t seed = 1;
   const char *picture = "build/mining_site.svg";
-  if (!planner_arguments(argc, argv, &seed, &picture, &seconds))
+  if (!planner_arguments(argc, argv, &seed, &picture, &patience))
     return 2;
   if (!task_mining_episode(&scene, seed))
     return fprintf(stderr, "no scene comes of this seed: try another\n"), 1;
@@ -63,11 +63,11 @@ int main(int argc, char **argv) {
                         PLANNER_LEGEND ". Strong: the base; pale: the pickaxe");
   if (!svg)
     return 1;
-  double begin = planner_seconds();
+  double begin = seconds();
   if (!planner_encode(&scene, bodies))
     return 1;
   printf("%s, seed %llu: %d bodies encoded in %.2f s, %d pairs that can meet\n", scene.name,
-         (unsigned long long)seed, scene.body_count, planner_seconds() - begin, scene.pair_count);
+         (unsigned long long)seed, scene.body_count, seconds() - begin, scene.pair_count);
 
   nsvcd_plan_options options;
   memset(&options, 0, sizeof options);
@@ -76,7 +76,7 @@ int main(int argc, char **argv) {
   options.jerk = 50;  // a long way: speed costs less, jerks more
   // rather a wider way than a beam touched
   options.sweep.recall = 0.999f;
-  planner_user user = {&scene, planner_seconds() + seconds};
+  planner_user user = {&scene, seconds() + patience};
   if (!planner_plan(&user, bodies, &options, watch, &motion))
     return 1;
   planner_judge(&scene, &motion);

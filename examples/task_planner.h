@@ -6,10 +6,10 @@
 #ifndef NSVCD_EXAMPLES_TASK_PLANNER_H
 #define NSVCD_EXAMPLES_TASK_PLANNER_H
 
+#include "scenery/clock.h"
 #include "scenery/draw.h"
 
 #include <errno.h>
-#include <time.h>
 
 #define PLANNER_DEF SHAPES_DEF
 // patches per body; 256 are faster, but wires and holes are better seen with more
@@ -19,7 +19,7 @@
 // What nsvcd_plan's callbacks get: one pointer serves them all.
 typedef struct planner_user {
   task_scene *scene;
-  // planner_seconds() at which to give up; only for a progress callback that looks at it
+  // seconds() at which to give up; only for a progress callback that looks at it
   double until;
 } planner_user;
 
@@ -35,12 +35,6 @@ typedef struct planner_motion {
   float naive_hit[TASK_MAX_JOINTS];  // where the straight line in joint space first hits something,
   int naive_hits;                    // if it does
 } planner_motion;
-
-PLANNER_DEF double planner_seconds(void) {
-  struct timespec now;
-  clock_gettime(CLOCK_MONOTONIC, &now);
-  return (double)now.tv_sec + 1e-9 * (double)now.tv_nsec;
-}
 
 // ------------------------------------------------------------------------------------------ encode
 
@@ -82,40 +76,20 @@ PLANNER_DEF int planner_plan(planner_user *user, const nsvcd_body *const *bodies
                              planner_motion *motion) {
   const task_scene *scene = user->scene;
   const size_t joints = (size_t)scene->joint_count;
-  float low[TASK_MAX_JOINTS], high[TASK_MAX_JOINTS];
   float control[(NSVCD_MAX_VIA_POINTS + 2) * TASK_MAX_JOINTS];
-  nsvcd_body_pair pairs[TASK_MAX_PAIRS];
-  for (int j = 0; j < scene->joint_count; j++) {
-    low[j] = (float)scene->joints[j].low;
-    high[j] = (float)scene->joints[j].high;
-  }
-  // b is held fixed in a query: what stands still is the scene's first
-  for (int i = 0; i < scene->pair_count; i++) {
-    pairs[i].a = (uint32_t)scene->pairs[i][1];
-    pairs[i].b = (uint32_t)scene->pairs[i][0];
-  }
-
-  nsvcd_plan_problem problem;
-  memset(&problem, 0, sizeof problem);
-  problem.joints = joints;
-  problem.low = low;
-  problem.high = high;
-  problem.start = scene->problems[scene->selected].start;
-  problem.goal = scene->problems[scene->selected].goal;
-  problem.bodies = bodies;
-  problem.body_count = (size_t)scene->body_count;
-  problem.pairs = pairs;
-  problem.pair_count = (size_t)scene->pair_count;
+  task_statement statement;
+  task_state(scene, bodies, &statement);
+  nsvcd_plan_problem problem = statement.problem;
   problem.place = planner_place;
   problem.progress = progress;
   problem.user = user;
 
-  double begin = planner_seconds();
+  double begin = seconds();
   // malloc's memory is aligned well enough on 64-bit
   size_t size = nsvcd_plan_workspace_size(&problem, options);
   void *workspace = malloc(size);
   nsvcd_result result = nsvcd_plan(&problem, options, workspace, size, control, &motion->answer);
-  motion->seconds = planner_seconds() - begin;
+  motion->seconds = seconds() - begin;
   free(workspace);
   if (result)
     return fprintf(stderr, "plan: %s\n", nsvcd_result_string(result)), 0;
@@ -186,25 +160,25 @@ PLANNER_DEF void planner_report(const task_scene *scene, const planner_motion *m
 // [SEED] [PICTURE.svg], and [SECONDS] where that is not NULL. Returns 0, after a message, if they
 // are something else.
 PLANNER_DEF int planner_arguments(int argc, char **argv, uint64_t *seed, const char **picture,
-                                  double *seconds) {
+                                  double *patience) {
   char *end = NULL;
   char *rest = NULL;
   errno = 0;
   if (argc > 1)
     *seed = strtoull(argv[1], &end, 10);
-  int good = argc <= (seconds ? 4 : 3) &&
+  int good = argc <= (patience ? 4 : 3) &&
              (argc < 2 || (argv[1][0] >= '0' && argv[1][0] <= '9' && !*end && !errno));
   if (argc > 2) {
     *picture = argv[2];
     good = good && argv[2][0] && argv[2][0] != '-';
   }
   if (good && argc > 3) {
-    *seconds = strtod(argv[3], &rest);
-    good = rest != argv[3] && !*rest && *seconds >= 0;
+    *patience = strtod(argv[3], &rest);
+    good = rest != argv[3] && !*rest && *patience >= 0;
   }
   if (!good)
     fprintf(stderr, "usage: %s [SEED] [PICTURE.svg]%s\nSEED is a whole number from 0.%s\n", argv[0],
-            seconds ? " [SECONDS]" : "", seconds ? " SECONDS is when to stop planning." : "");
+            patience ? " [SECONDS]" : "", patience ? " SECONDS is when to stop planning." : "");
   return good;
 }
 

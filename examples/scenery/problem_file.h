@@ -23,7 +23,8 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <time.h>
+
+#include "clock.h"
 
 enum { DONE = 0, REFUSED = 1, USAGE = 2 };  // exit statuses
 
@@ -38,12 +39,6 @@ static int complain(const char *format, ...) {
   fprintf(stderr, "\n");
   va_end(arguments);
   return 0;
-}
-
-static double seconds(void) {
-  struct timespec now;
-  clock_gettime(CLOCK_MONOTONIC, &now);
-  return (double)now.tv_sec + 1e-9 * (double)now.tv_nsec;
 }
 
 // Memory aligned for bodies and workspaces. A tool may give up when there is none; the library

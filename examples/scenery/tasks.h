@@ -1200,4 +1200,38 @@ TASK_DEF int task_mining_episode(task_scene *scene, uint64_t seed) {
   return task_free(scene), 0;
 }
 
+// ----------------------------------------------------------------------------------------- to plan
+
+// The selected problem as nsvcd_plan takes it, and what it points to.
+typedef struct task_statement {
+  nsvcd_plan_problem problem;
+  float low[TASK_MAX_JOINTS], high[TASK_MAX_JOINTS];
+  nsvcd_body_pair pairs[TASK_MAX_PAIRS];
+} task_statement;
+
+// All but the callbacks. The statement must stay where it is, and the scene and bodies too.
+TASK_DEF void task_state(const task_scene *scene, const nsvcd_body *const *bodies,
+                         task_statement *statement) {
+  nsvcd_plan_problem *problem = &statement->problem;
+  for (int j = 0; j < scene->joint_count; j++) {
+    statement->low[j] = (float)scene->joints[j].low;
+    statement->high[j] = (float)scene->joints[j].high;
+  }
+  // b is held fixed in a query: what stands still is the scene's first
+  for (int i = 0; i < scene->pair_count; i++) {
+    statement->pairs[i].a = (uint32_t)scene->pairs[i][1];
+    statement->pairs[i].b = (uint32_t)scene->pairs[i][0];
+  }
+  memset(problem, 0, sizeof *problem);
+  problem->joints = (size_t)scene->joint_count;
+  problem->low = statement->low;
+  problem->high = statement->high;
+  problem->start = scene->problems[scene->selected].start;
+  problem->goal = scene->problems[scene->selected].goal;
+  problem->bodies = bodies;
+  problem->body_count = (size_t)scene->body_count;
+  problem->pairs = statement->pairs;
+  problem->pair_count = (size_t)scene->pair_count;
+}
+
 #endif

@@ -71,38 +71,13 @@ typedef struct grid_builder {
 
 // ------------------------------------------------------------------------------------------ points
 
-static int grid_widest(const spheres_ball *balls, size_t count) {
-  float low[3], high[3];
-  int widest = 0;
-  mesh_bvh_empty(low, high);
-  for (size_t i = 0; i < count; i++)
-    for (int k = 0; k < 3; k++)
-      low[k] = mesh_bvh_min(low[k], balls[i].centre[k]),
-      high[k] = mesh_bvh_max(high[k], balls[i].centre[k]);
-  for (int k = 1; k < 3; k++)
-    if (high[k] - low[k] > high[widest] - low[widest])
-      widest = k;
-  return widest;
-}
-static void grid_sort(grid_builder *b, size_t first, size_t count) {
-  spheres_ball *balls = b->shell.balls + first;
-  int axis = grid_widest(balls, count);
-  for (size_t i = 0; i < count; i++) {
-    b->keys[i].value = balls[i].centre[axis];
-    b->keys[i].triangle = (uint32_t)i;
-  }
-  qsort(b->keys, count, sizeof *b->keys, mesh_bvh_compare);
-  memcpy(b->scratch, balls, count * sizeof *balls);
-  for (size_t i = 0; i < count; i++)
-    balls[i] = b->scratch[b->keys[i].triangle];
-}
 // Halves the points until they come in units. Cut at whole units, so that all groups but the last
 // are full.
 static void grid_cut(grid_builder *b, size_t first, size_t count, size_t unit) {
   if (count <= unit)
     return;
   size_t left = ((count + unit - 1) / unit + 1) / 2 * unit;
-  grid_sort(b, first, count);
+  spheres_sort(b->shell.balls + first, count, b->keys, b->scratch);
   grid_cut(b, first, left, unit);
   grid_cut(b, first + left, count - left, unit);
 }

@@ -4,13 +4,8 @@
 #define NSVCD_BENCH_METER_H
 
 #include <stdlib.h>
-#include <time.h>
 
-static double seconds(void) {
-  struct timespec now;
-  clock_gettime(CLOCK_MONOTONIC, &now);
-  return (double)now.tv_sec + 1e-9 * (double)now.tv_nsec;
-}
+#include "../../examples/scenery/clock.h"
 
 // ---- memory that is counted
 

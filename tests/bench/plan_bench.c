@@ -23,19 +23,12 @@
 #define TALLY_numbers(amount) ((void)0)
 #define TALLY_collision(amount) (collision_seconds += (amount) ? seconds() : -seconds())
 static double collision_seconds;  // spent in the cost of collision
-static double seconds(void);
+#include "../../examples/scenery/clock.h"
 #define NEURALSVCD_IMPLEMENTATION
 #include "../../examples/scenery/tasks.h"
 #include "plan_spheres.h"
 
 #include <stdio.h>
-#include <time.h>
-
-static double seconds(void) {
-  struct timespec t;
-  clock_gettime(CLOCK_MONOTONIC, &t);
-  return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
-}
 
 // ---------------------------------------------------------------------------------------- planners
 
@@ -153,33 +146,15 @@ static void *allocate(size_t size) {
 // One motion of the selected problem; adds to the outcome.
 static void run_motion(int task, const planner *planner, uint64_t seed, task_scene *scene,
                        const nsvcd_body **bodies, plan_spheres *spheres, outcome *out) {
-  static nsvcd_body_pair pairs[TASK_MAX_PAIRS];
-  float low[TASK_MAX_JOINTS], high[TASK_MAX_JOINTS],
-      control[(NSVCD_MAX_VIA_POINTS + 2) * TASK_MAX_JOINTS];
+  static task_statement statement;
+  float control[(NSVCD_MAX_VIA_POINTS + 2) * TASK_MAX_JOINTS];
   static float path[(SAMPLES + 1) * TASK_MAX_JOINTS];
   scene_and_spheres both = {scene, spheres};
   const size_t joints = (size_t)scene->joint_count;
   nsvcd_plan_options options = options_of(task, planner, seed);
-  nsvcd_plan_problem problem;
   nsvcd_plan_answer answer;
-  memset(&problem, 0, sizeof problem);
-  for (int k = 0; k < scene->pair_count; k++) {
-    pairs[k].a = (uint32_t)scene->pairs[k][1];
-    pairs[k].b = (uint32_t)scene->pairs[k][0];
-  }
-  for (size_t j = 0; j < joints; j++) {
-    low[j] = (float)scene->joints[j].low;
-    high[j] = (float)scene->joints[j].high;
-  }
-  problem.joints = joints;
-  problem.low = low;
-  problem.high = high;
-  problem.start = scene->problems[scene->selected].start;
-  problem.goal = scene->problems[scene->selected].goal;
-  problem.bodies = bodies;
-  problem.body_count = (size_t)scene->body_count;
-  problem.pairs = pairs;
-  problem.pair_count = (size_t)scene->pair_count;
+  task_state(scene, bodies, &statement);
+  nsvcd_plan_problem problem = statement.problem;
   problem.place = place;
   problem.user = &both;
   if (planner->kind == SPHERES_FEW || planner->kind == SPHERES_MANY)

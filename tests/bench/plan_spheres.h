@@ -37,8 +37,7 @@
 #ifndef NSVCD_BENCH_PLAN_SPHERES_H
 #define NSVCD_BENCH_PLAN_SPHERES_H
 
-#include <time.h>
-
+#include "../../examples/scenery/clock.h"
 #include "../../examples/scenery/tasks.h"
 #include "spheres.h"
 
@@ -92,16 +91,6 @@ typedef struct plan_spheres {
   size_t calls, tests;  // spheres looked up, eights in one go counting eight
   size_t asked;         // of these, distances measured by the mesh's tree
 } plan_spheres;
-
-static double plan_spheres_now(void) {
-#ifdef CLOCK_MONOTONIC
-  struct timespec t;
-  clock_gettime(CLOCK_MONOTONIC, &t);
-  return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
-#else
-  return (double)clock() / CLOCKS_PER_SEC;
-#endif
-}
 
 // ---------------------------------------------------------------------------------------- distance
 
@@ -336,16 +325,9 @@ static int plan_spheres_make_grid(plan_spheres_body *b, float reach) {
 static float plan_spheres_area(const nsvcd_mesh *mesh) {
   double total = 0;
   for (size_t t = 0; t < mesh->triangle_count; t++) {
-    const float *p[3];
-    float u[3], v[3], c[3];
-    for (size_t k = 0; k < 3; k++)
-      p[k] = mesh->positions + 3 * (size_t)mesh->indices[3 * t + k];
-    for (int k = 0; k < 3; k++) {
-      u[k] = p[1][k] - p[0][k];
-      v[k] = p[2][k] - p[0][k];
-    }
-    mesh_bvh_cross(u, v, c);
-    total += 0.5 * (double)sqrtf(plan_spheres_dot(c, c));
+    const float *corner;
+    float u[3], v[3];
+    total += 0.5 * (double)spheres_edges(mesh, t, &corner, u, v);
   }
   return (float)total;
 }
@@ -427,25 +409,9 @@ static int plan_spheres_fit(spheres_body *b, const nsvcd_mesh *mesh, size_t n) {
 // Sorts balls so that eights, and eights of eights, are near each other.
 static void plan_spheres_order(spheres_ball *balls, size_t count, mesh_bvh_key *keys,
                                spheres_ball *scratch) {
-  float low[3], high[3];
-  int axis = 0;
   if (count <= 8)
     return;
-  mesh_bvh_empty(low, high);
-  for (size_t i = 0; i < count; i++)
-    for (int k = 0; k < 3; k++)
-      low[k] = fminf(low[k], balls[i].centre[k]), high[k] = fmaxf(high[k], balls[i].centre[k]);
-  for (int k = 1; k < 3; k++)
-    if (high[k] - low[k] > high[axis] - low[axis])
-      axis = k;
-  for (size_t i = 0; i < count; i++) {
-    keys[i].value = balls[i].centre[axis];
-    keys[i].triangle = (uint32_t)i;
-  }
-  qsort(keys, count, sizeof *keys, mesh_bvh_compare);
-  memcpy(scratch, balls, count * sizeof *balls);
-  for (size_t i = 0; i < count; i++)
-    balls[i] = scratch[keys[i].triangle];
+  spheres_sort(balls, count, keys, scratch);
   size_t part = 8;
   while (2 * part < count)
     part *= 2;  // full eights of eights of ... on the left
@@ -799,7 +765,7 @@ static float plan_spheres_pair(plan_spheres *s, int ia, int ib, size_t samples, 
 // nsvcd_plan_problem.collision, but for `user`. collides: set to 1 if so, else left alone.
 PLAN_SPHERES_DEF float plan_spheres_cost(plan_spheres *s, const nsvcd_pose *poses, size_t samples,
                                          float limit, int *collides, float *gradient) {
-  double begin = plan_spheres_now();
+  double begin = seconds();
   double cost = 0;
   for (size_t first = 0; first < samples; first += PLAN_SPHERES_CHUNK) {
     size_t left = samples - first;
@@ -811,7 +777,7 @@ PLAN_SPHERES_DEF float plan_spheres_cost(plan_spheres *s, const nsvcd_pose *pose
                                         gradient ? gradient + 6 * row : NULL);
   }
   s->calls++;
-  s->seconds += plan_spheres_now() - begin;
+  s->seconds += seconds() - begin;
   return s->weight * (float)cost;
 }
 

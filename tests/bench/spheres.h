@@ -345,6 +345,21 @@ static void spheres_drop_contained(spheres_body *b, float slack) {
   }
   b->ball_count = kept;
 }
+// The first corner of a triangle and the edges from it; returns twice its area.
+static float spheres_edges(const nsvcd_mesh *mesh, size_t t, const float **corner, float *u,
+                           float *v) {
+  const float *p[3];
+  float c[3];
+  for (size_t k = 0; k < 3; k++)
+    p[k] = mesh->positions + 3 * (size_t)mesh->indices[3 * t + k];
+  for (int k = 0; k < 3; k++) {
+    u[k] = p[1][k] - p[0][k];
+    v[k] = p[2][k] - p[0][k];
+  }
+  mesh_bvh_cross(u, v, c);
+  *corner = p[0];
+  return sqrtf(mesh_bvh_dot3(c, c));
+}
 // Point i of n stands for the i-th part of the area, in the order of the triangles; within its
 // triangle it falls by the two-dimensional golden ratio (Roberts 2018). Deterministic, and more
 // even than random points.
@@ -354,16 +369,9 @@ static int spheres_sample(spheres_body *b, const nsvcd_mesh *mesh, size_t n) {
   for (int pass = 0; pass < 2; pass++) {
     size_t made = 0;
     for (size_t t = 0; t < mesh->triangle_count; t++) {
-      const float *p[3];
-      float u[3], v[3], c[3];
-      for (size_t k = 0; k < 3; k++)
-        p[k] = mesh->positions + 3 * (size_t)mesh->indices[3 * t + k];
-      for (int k = 0; k < 3; k++) {
-        u[k] = p[1][k] - p[0][k];
-        v[k] = p[2][k] - p[0][k];
-      }
-      mesh_bvh_cross(u, v, c);
-      *(pass ? &passed : &total) += (double)sqrtf(mesh_bvh_dot3(c, c));
+      const float *corner;
+      float u[3], v[3];
+      *(pass ? &passed : &total) += (double)spheres_edges(mesh, t, &corner, u, v);
       for (; pass && made < n && ((double)made + 0.5) / (double)n * total <= passed; made++) {
         double f = fmod(0.5 + 0.7548776662466927 * (double)made, 1);
         double g = fmod(0.5 + 0.5698402909980532 * (double)made, 1);
@@ -371,7 +379,7 @@ static int spheres_sample(spheres_body *b, const nsvcd_mesh *mesh, size_t n) {
         float e = (float)(f + g > 1 ? 1 - g : g);
         float x[3];
         for (int k = 0; k < 3; k++)
-          x[k] = p[0][k] + a * u[k] + e * v[k];
+          x[k] = corner[k] + a * u[k] + e * v[k];
         if (!spheres_add(b, x, SPHERES_SURFACE_RADIUS))
           return 0;
       }
@@ -398,33 +406,40 @@ static void spheres_bound(const spheres_ball *balls, size_t count, spheres_ball 
         mesh_bvh_max(out->radius, 1.000001f * (sqrtf(mesh_bvh_dot3(d, d)) + balls[i].radius));
   }
 }
+// Sorts along the axis on which the centres are spread most. keys, scratch: (count).
+static void spheres_sort(spheres_ball *balls, size_t count, mesh_bvh_key *keys,
+                         spheres_ball *scratch) {
+  float low[3], high[3];
+  int axis = 0;
+  mesh_bvh_empty(low, high);
+  for (size_t i = 0; i < count; i++) {
+    for (int k = 0; k < 3; k++) {
+      low[k] = mesh_bvh_min(low[k], balls[i].centre[k]);
+      high[k] = mesh_bvh_max(high[k], balls[i].centre[k]);
+    }
+  }
+  for (int k = 1; k < 3; k++)
+    if (high[k] - low[k] > high[axis] - low[axis])
+      axis = k;
+  for (size_t i = 0; i < count; i++) {
+    keys[i].value = balls[i].centre[axis];
+    keys[i].triangle = (uint32_t)i;
+  }
+  qsort(keys, count, sizeof *keys, mesh_bvh_compare);
+  memcpy(scratch, balls, count * sizeof *balls);
+  for (size_t i = 0; i < count; i++)
+    balls[i] = scratch[keys[i].triangle];
+}
 // Halves along the widest axis. Nodes: at most 2 ball_count - 1.
 static void spheres_build(spheres_body *b, mesh_bvh_key *keys, spheres_ball *scratch, size_t first,
                           size_t count) {
   spheres_node *node = &b->nodes[b->node_count++];
   spheres_ball *balls = b->balls + first;
-  float low[3], high[3];
-  int axis = 0;
   spheres_bound(balls, count, &node->ball);
   node->first = (uint32_t)first;
   node->count = count <= SPHERES_GROUP ? (uint32_t)count : 0;
   if (!node->count) {
-    mesh_bvh_empty(low, high);
-    for (size_t i = 0; i < count; i++)
-      for (int k = 0; k < 3; k++)
-        low[k] = mesh_bvh_min(low[k], balls[i].centre[k]),
-        high[k] = mesh_bvh_max(high[k], balls[i].centre[k]);
-    for (int k = 1; k < 3; k++)
-      if (high[k] - low[k] > high[axis] - low[axis])
-        axis = k;
-    for (size_t i = 0; i < count; i++) {
-      keys[i].value = balls[i].centre[axis];
-      keys[i].triangle = (uint32_t)i;
-    }
-    qsort(keys, count, sizeof *keys, mesh_bvh_compare);
-    memcpy(scratch, balls, count * sizeof *balls);
-    for (size_t i = 0; i < count; i++)
-      balls[i] = scratch[keys[i].triangle];
+    spheres_sort(balls, count, keys, scratch);
     spheres_build(b, keys, scratch, first, count / 2);
     spheres_build(b, keys, scratch, first + count / 2, count - count / 2);
   }
