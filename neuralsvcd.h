@@ -82,27 +82,28 @@
 //   is open encloses nothing.
 //   By the network, CERTIFIED_FREE is a proof too: spheres that cover the surfaces never meet.
 //   INSIDE is an estimate, a winding number of patches: reliable for closed meshes of one piece.
-//   Everything else is an opinion: README.md has its measured error rates. It knows nothing finer
-//   than a few millimetres on bodies of 0.1 to 0.4 m: where bodies rest on one another, ask for a
-//   proof.
+//   Everything else is an opinion, whose measured error rates are in tests/bench/RESULTS.md. It
+//   knows nothing finer than a few millimetres on bodies of 0.1 to 0.4 m: where bodies rest on one
+//   another, ask for a proof.
 //
-// NUMERIC ROBUSTNESS (float32), as measured by `make race`, `make bench`, tests/test_proof.c and
+// NUMERIC ROBUSTNESS, as measured by `make race`, `make bench`, tests/test_proof.c and
 // tests/bench/extremes.sh
-//   Coordinates up to NSVCD_MAX_COORDINATE; bodies from NSVCD_MIN_RADIUS, below which squares
-//   underflow. A stored triangle is off by the body's quantum, a few micrometres at most on bodies
-//   of 0.3 m. Proofs hold at every scale, tested from 3e-11 to 3e5 m. They allow for float32 with
-//   NSVCD__ROUNDING, two millionths, of the distances and extents involved: so much room must be
-//   between the surfaces of what is to be certified free, and little more; 2 um for bodies of 0.3
-//   m, 80 um where one of them measures 20 m. Positions are taken relative to the fixed body first,
-//   so a scene 10 km from the origin loses what its own coordinates lose, about 1 mm. All is
-//   reckoned in the frame of one of the two bodies, the one that rests or is the larger, in units
-//   of its scale.
-//   For the network, resolution is the limit: a patch must not be much larger than the clearance in
-//   question. With 512 patches each, a body of 5 cm against one of 0.3, 1, 3 and 20 m is judged
-//   right in 98.5, 93.5, 74 and 54 % of problems near contact; with the large mesh cut to what the
-//   motion can reach (nsvcd_mesh_cut), in 99 %. For the proof the size of patches decides only what
-//   an answer costs.
-//   NaN and infinity are refused on the bits, also under -ffast-math.
+//   All numbers are float32, but where couples of triangles meet: there, double.
+//   Range         coordinates up to NSVCD_MAX_COORDINATE; bodies from NSVCD_MIN_RADIUS, below which
+//                 squares underflow. Proofs are tested from 3e-11 to 3e5 m.
+//   Quantum       a stored triangle is off by this: a few micrometres at most on bodies of 0.3 m.
+//   Rounding      proofs allow for NSVCD__ROUNDING, two millionths, of the distances and extents
+//                 involved: 2 um for bodies of 0.3 m, 80 um where one measures 20 m. So much room,
+//                 and little more, must be between surfaces that are to be certified free.
+//   Far away      positions are taken relative to the fixed body first: a scene 10 km from the
+//                 origin loses what its own coordinates lose, about 1 mm. All is reckoned in the
+//                 frame of one body, the one that rests or is the larger, in units of its scale.
+//   Resolution    the network's limit: a patch must not be much larger than the clearance in
+//                 question. With 512 patches each, a body of 5 cm against one of 0.3, 1, 3 and 20 m
+//                 is judged right in 98.5, 93.5, 74 and 54 % of problems near contact; with the
+//                 large mesh cut to what the motion can reach (nsvcd_mesh_cut), in 99 %. For the
+//                 proof, the size of patches decides only what an answer costs.
+//   Bad numbers   NaN and infinity are refused on their bits, also under -ffast-math.
 //
 // CONTENTS: a section's name ends a line of dashes. Each calls only those above it.
 //   results           codes, and what they say

@@ -63,8 +63,11 @@ int main(void) {
   float control[(NSVCD_MAX_VIA_POINTS + 2) * JOINTS];
   nsvcd_plan_answer answer;
   const nsvcd_result result = nsvcd_plan(&problem, NULL, workspace, size, control, &answer);
-  if (result)
-    return fprintf(stderr, "%s\n", nsvcd_result_string(result)), 1;
+  if (result) {
+    fprintf(stderr, "%s\n", nsvcd_result_string(result));
+    return 1;
+  }
+
 
   const int is_free = answer.status == NSVCD_PLAN_CONVERGED && !answer.collides;
   printf("%s: %s\n", nsvcd_plan_status_string(answer.status),
