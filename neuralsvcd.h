@@ -9288,63 +9288,77 @@ typedef struct nsvcd__height {
 typedef struct nsvcd__proof {
   nsvcd__motion *motion;
   nsvcd__facets moving, fixed;
-  // Lengths are in the fixed body's units.
+  nsvcd__arc arc;  // the last one asked for
+
+  // What is asked; lengths in the fixed body's units. A contact is two triangles that come within
+  // the clearance. With `measure` each contact makes that the distance of its triangles, less this;
+  // with `first` each ends the motion so many ticks before it. So what is proven in the end holds
+  // for the rest.
   float lengths;     // extents of both bodies
   double tolerance;  // beyond the quanta
-  // What is asked. A contact is two triangles that come within the clearance. With `measure` each
-  // contact makes that the distance of its triangles, less this; with `first` each ends the motion
-  // so many ticks before it. So what is proven in the end holds for the rest.
   double clearance, measure, first;
-  double skin;
-  // contacts are not taken, but gathered: those that a lift along no normal known undoes
-  int gathers;
-  nsvcd__d3 normals[NSVCD__LIFTS];  // unit, of what the moving body touches, towards it
-  size_t touch_count, normal_count;
+  size_t work, limit;  // units
   double end;          // ticks: what begins then or later does not matter
-  double clipped_end;  // what that was when a segment was clipped last,
-  uint64_t clipped;    // and those that were
-  // ticks: when the first doubt begins, two triangles that came too near to tell
-  double unsure;
-  int lost;        // something else was left undecided: all from `settled` on
-  double settled;  // ticks
+
+  // With a skin, contacts at the start are not taken at first, but gathered: those that a lift
+  // along no normal known undoes.
+  double skin;
+  int gathers;
+  size_t touch_count, normal_count;
+  nsvcd__d3 normals[NSVCD__LIFTS];  // unit, of what the moving body touches, towards it
+
+  // What is known.
   int has_contact;
-  size_t work, limit;    // units
-  int within;            // a component seems to be within the other body, but close to its surface
   nsvcd__contact found;  // if there is a contact, or WITHIN
-  nsvcd__contact doubt;  // what the first doubt is about
-  nsvcd__arc arc;        // the last one asked for
+  int within;            // a component seems to be within the other body, but close to its surface
+  double unsure;         // ticks: the first doubt, two triangles that came too near to tell
+  nsvcd__contact doubt;  // what that is about
+  int lost;              // something else was left undecided: all from `settled` on
+  double settled;        // ticks
+
+  // Segments as spans, made when they are asked for; and where one has been cut off.
   uint64_t spans_known;  // segments
   nsvcd__span *spans;    // (S)
+  double clipped_end;    // ticks: the end when a segment was cut off last
+  uint64_t clipped;      // segments
+
   // Where the search is: in a moving group; in that and a resting one. Which of its patches are
   // met, and in which segments.
   int in_group, in_both;
   uint32_t met;
   uint64_t met_in[NSVCD__GROUP];
+
+  // Items: as the search finds them, and those that no plane parts over their segment.
   size_t fresh_count, count;
-  nsvcd__item fresh[NSVCD__FRESH];  // as the search finds them
+  nsvcd__item fresh[NSVCD__FRESH];
   union {
-    nsvcd__item items[NSVCD__ITEMS];       // that no plane parts over their segment
+    nsvcd__item items[NSVCD__ITEMS];
     nsvcd__touch touches[NSVCD__TOUCHES];  // gathered before there are any
   } of;
-  // posed
+  size_t misses;  // looks for a witness that found none
+
+  // An item's hulls, posed; and the plane that held last.
   float hull_start[3][NSVCD__LANES], hull_end[3][NSVCD__LANES], hull_rest[3][NSVCD__LANES];
-  nsvcd__f3 held;  // normal of the last plane that held,
+  nsvcd__f3 held;  // its normal
   uint32_t plane;  // and how many held before; 0: none
   nsvcd__height heights[NSVCD__HEIGHTS], rest_heights[NSVCD__REST_HEIGHTS];
+
+  // An item's triangles, block by block.
   nsvcd__block moving_block, fixed_blocks[NSVCD__WINDOW];
-  nsvcd__box bounds[NSVCD__WINDOW];  // of the fixed blocks
-  size_t window;                     // how many they are
-  // later ends of the parts of a span to come, for a couple, the last one first
+  float posed[2][3][3][NSVCD__LANES];  // corners of the moving block at the ends of a span
+  nsvcd__box bounds[NSVCD__WINDOW];    // of the fixed blocks
+  size_t window;                       // how many they are
+
+  // An item over an arc, and a couple: later ends of the parts to come, the last one first.
+  nsvcd__span span;
+  double arc_ends[NSVCD__ARC_PARTS];
   double couple_ends[NSVCD__HALVINGS + 2];
-  double arc_ends[NSVCD__ARC_PARTS];  // the same for all couples of an item
-  nsvcd__span span;                   // of an arc
-  nsvcd__d3 parting;                  // unit normal of the plane that parted a couple last
-  size_t parts;                       // of the span, that couples asked for so far
-  size_t misses;                      // looks for a witness that found none
+  size_t parts;       // of the span, that couples asked for so far
+  nsvcd__d3 parting;  // unit normal of the plane that parted a couple last
   nsvcd__placed placed[NSVCD__PLACED];
   size_t next_placed;
-  float posed[2][3][3][NSVCD__LANES];  // corners of the moving block at the ends of a span
-  uint32_t crossed[NSVCD__CROSSED];    // triangles
+
+  uint32_t crossed[NSVCD__CROSSED];  // triangles that a ray has crossed
 } nsvcd__proof;
 
 // Tests hear of every certificate: kind, patches, listings (or NSVCD_NONE), times, and the plane's
