@@ -791,10 +791,7 @@ static inline void nsvcd__f3_store(nsvcd__f3 a, float *p) {
   p[1] = a.y;
   p[2] = a.z;
 }
-// From, and to, rows of x, y and z, so many numbers apart.
-static inline nsvcd__f3 nsvcd__f3_get(const float *rows, size_t stride) {
-  return nsvcd__f3_of(rows[0], rows[stride], rows[2 * stride]);
-}
+// To rows of x, y and z, so many numbers apart.
 static inline void nsvcd__f3_put(nsvcd__f3 a, float *rows, size_t stride) {
   rows[0] = a.x;
   rows[stride] = a.y;
@@ -4898,8 +4895,10 @@ static void nsvcd__encode_patch(const float *points, const float *normals, size_
 
 // numbers of a latent's vectors: (3, CHANNELS), then (5, CHANNELS)
 #define NSVCD__VECTORS (8 * NSVCD_W_CHANNELS)
-#define NSVCD__WIGNER 34                 // numbers of D: (3, 3), then (5, 5)
-#define NSVCD__LATENT_STEP (1.0f / 127)  // of a stored latent
+// numbers of D: (3, 3), then (5, 5)
+#define NSVCD__WIGNER 34
+// of a stored latent's numbers
+#define NSVCD__LATENT_STEP (1.0f / 127)
 
 // The degree 2 of the symmetric product of a and b, lane by lane: q (5), as nsvcd__degree2.
 static void nsvcd__v_degree2(nsvcd__v3 a, nsvcd__v3 b, nsvcd__v *q) {
@@ -4963,8 +4962,8 @@ NSVCD__INLINE void nsvcd__rotate_degree(const float *latent, float (*turn)[NSVCD
   }
 }
 
-// A stored latent, turned by D (TURN, SLICE) of lane l, to its place of two (0, 1) in a row of the
-// decoder's inputs: vectors (2, 8, CHANNELS), then scalars (2, SCALARS).
+// A stored latent, turned by D (WIGNER, SLICE) of lane l, to its place of two (0, 1) in a row of
+// the decoder's inputs: vectors (2, 8, CHANNELS), then scalars (2, SCALARS).
 static void nsvcd__rotate_latent(const int8_t *z, float (*turn)[NSVCD__SLICE], size_t l,
                                  size_t place, float *row) {
   float *vectors = row + NSVCD__VECTORS * place;
@@ -11545,13 +11544,16 @@ static NSVCD__APART void nsvcd__lift_motion(nsvcd__proof *p, nsvcd__search *sear
 // Cost: at most NSVCD__PLACES * N distances each way, where one body's centres lie in the other's
 // sphere; of large bodies only those of groups nearby.
 
+// places of the inner body that are looked at
 #define NSVCD__PLACES NSVCD__LANES
+// Distances, in radii. A place has clearance if no patch is nearer than this,
 #define NSVCD__CLEARANCE 1.0f
-// no place needs more clearance than this, and what is farther away is not looked at
+// it needs no more than this, and what is farther away is not looked at;
 #define NSVCD__AMPLE 2.0f
+// and the patches of a sphere that is farther than this count as one
 #define NSVCD__DIPOLE 3.0f
 
-// A sphere over places.
+// A sphere over places (3, PLACES).
 static nsvcd__sphere nsvcd__cover_places(float (*places)[NSVCD__PLACES]) {
   nsvcd__f3 low = nsvcd__f3_of(HUGE_VALF, HUGE_VALF, HUGE_VALF);
   nsvcd__f3 high = nsvcd__f3_scale(low, -1);
@@ -11573,10 +11575,11 @@ static uint32_t nsvcd__may_be_close(const void *what, nsvcd__spheres all) {
   const nsvcd__v radius = nsvcd__v_set(places->radius);
   uint32_t close = 0;
   NSVCD__EACH_SLICE(l) {
-    const nsvcd__v3 d = nsvcd__v3_sub(nsvcd__v3_centres(all, l), nsvcd__v3_set(places->centre));
+    const nsvcd__v3 centre = nsvcd__v3_set(places->centre);
+    const nsvcd__v3 d = nsvcd__v3_sub(nsvcd__v3_centres(all, l), centre);
     const nsvcd__v r = nsvcd__v_load(all.r + l);
-    const nsvcd__v reach = nsvcd__v_fma(r, nsvcd__v_set(NSVCD__AMPLE), radius);
-    close |= nsvcd__v_le(nsvcd__v3_dot(d, d), nsvcd__v_signed_square(reach)) << l;
+    const nsvcd__v ample = nsvcd__v_fma(r, nsvcd__v_set(NSVCD__AMPLE), radius);
+    close |= nsvcd__v_le(nsvcd__v3_dot(d, d), nsvcd__v_signed_square(ample)) << l;
   }
   return close;
 }
@@ -11599,8 +11602,8 @@ static nsvcd__v nsvcd__clearance2(const nsvcd_body *body, size_t group, nsvcd__v
   return least;
 }
 
-// The same over all patches of a body, but NSVCD__AMPLE, squared, is the most it says. out:
-// (PROBES).
+// The same over all patches of a body, but NSVCD__AMPLE, squared, is the most it says. places: (3,
+// PLACES), out: (PLACES).
 static void nsvcd__clearances(const nsvcd_body *body, float (*places)[NSVCD__PLACES], float *out) {
   const nsvcd__sphere near_to = nsvcd__cover_places(places);
   nsvcd__walk walk;
@@ -11611,34 +11614,63 @@ static void nsvcd__clearances(const nsvcd_body *body, float (*places)[NSVCD__PLA
   while (nsvcd__walk_next(&walk, &g)) {
     NSVCD__EACH_SLICE(l) {
       const nsvcd__v3 place = nsvcd__v3_load(places, l);
-      nsvcd__v_store(out + l, nsvcd__clearance2(body, g, place, nsvcd__v_load(out + l)));
+      const nsvcd__v least = nsvcd__v_load(out + l);
+      nsvcd__v_store(out + l, nsvcd__clearance2(body, g, place, least));
     }
   }
 }
 
-// The terms of the winding number (their lanes added up) of some spheres, a multiple of 16, with
-// their area vectors. Where radii are given, they say which spheres count: those that are far from
-// the point, and the bits of the others are returned, of 64 at most.
-static uint64_t nsvcd__dipoles(const float *x, size_t stride, const float *areas, size_t count,
-                               const float *radii, nsvcd__f3 point, float *lanes) {
+// Spheres over parts of a surface, and the sums of the area vectors in them.
+typedef struct nsvcd__dipoles {
+  nsvcd__spheres spheres;
+  const float *areas;  // rows of x, y and z,
+  size_t stride;       // so many numbers apart
+} nsvcd__dipoles;
+
+static nsvcd__dipoles nsvcd__dipoles_of_patches(const nsvcd_body *body) {
+  nsvcd__dipoles out;
+  out.spheres = nsvcd__body_patches(body);
+  out.areas = nsvcd__body_areas(body);
+  out.stride = body->padded;
+  return out;
+}
+static nsvcd__dipoles nsvcd__dipoles_of_level(const nsvcd_body *body, size_t n) {
+  const nsvcd__level level = nsvcd__level_of(body->padded, n);
+  nsvcd__dipoles out;
+  out.spheres = nsvcd__level_spheres(body, level);
+  out.areas = nsvcd__level_areas(body, level);
+  out.stride = level.slots;
+  return out;
+}
+static nsvcd__dipoles nsvcd__dipoles_from(nsvcd__dipoles all, size_t first) {
+  all.spheres = nsvcd__spheres_from(all.spheres, first);
+  all.areas += first;
+  return all;
+}
+
+// Adds the terms of the winding number of the first `count` dipoles, a multiple of 16, lane by
+// lane. far_only: those that are too close to the point are left out, and returned as bits, of 64
+// dipoles at most.
+static uint64_t nsvcd__add_dipoles(nsvcd__dipoles all, size_t count, int far_only, nsvcd__f3 point,
+                                   float *lanes) {
   const nsvcd__v3 at = nsvcd__v3_set(point);
   const nsvcd__v zero = nsvcd__v_set(0);
   uint64_t close = 0;
   NSVCD__EACH_SLICE(l) {
     nsvcd__v sum = nsvcd__v_load(lanes + l);
     for (size_t i = l; i < count; i += NSVCD__LANES) {
-      const nsvcd__v3 d = nsvcd__v3_sub(nsvcd__v3_load_rows(x + i, stride), at);
-      const nsvcd__v3 area = nsvcd__v3_load_rows(areas + i, stride);
+      const nsvcd__v3 d = nsvcd__v3_sub(nsvcd__v3_centres(all.spheres, i), at);
+      const nsvcd__v3 area = nsvcd__v3_load_rows(all.areas + i, all.stride);
       const nsvcd__v length = nsvcd__v_max(nsvcd__v3_length(d), nsvcd__v_set(1e-30f));
       const nsvcd__v inverse = nsvcd__v_div(nsvcd__v_set(1), length);
       // step by step: the cube may overflow
       const nsvcd__v cosine = nsvcd__v_mul(nsvcd__v3_dot(area, d), inverse);
       nsvcd__v term = nsvcd__v_mul(nsvcd__v_mul(cosine, inverse), inverse);
-      if (radii) {
-        const nsvcd__v radius = nsvcd__v_load(radii + i);
-        const nsvcd__v reach = nsvcd__v_mul(nsvcd__v_set(NSVCD__DIPOLE), radius);
-        close |= (uint64_t)nsvcd__v_le(length, reach) << i;
-        term = nsvcd__v_pick(length, reach, zero, term);
+      if (far_only) {
+        const nsvcd__v radius = nsvcd__v_load(all.spheres.r + i);
+        const nsvcd__v least = nsvcd__v_mul(nsvcd__v_set(NSVCD__DIPOLE), radius);
+        close |= (uint64_t)nsvcd__v_le(length, least) << i;
+        term = nsvcd__v_pick(length, least, zero, term);
       }
       sum = nsvcd__v_add(sum, term);
     }
@@ -11647,23 +11679,20 @@ static uint64_t nsvcd__dipoles(const float *x, size_t stride, const float *areas
   return close;
 }
 
-// Adds the terms of the spheres of a level from `first` on: of those that are far from the point,
-// and of the members of the others.
-static void nsvcd__dipoles_of_level(const nsvcd_body *body, size_t n, size_t first, size_t count,
-                                    nsvcd__f3 point, float *lanes) {
-  const nsvcd__level level = nsvcd__level_of(body->padded, n);
-  const float *x = nsvcd__body_floats(body, level.first + first);
-  uint64_t close = nsvcd__dipoles(x, level.slots, nsvcd__level_areas(body, level) + first, count,
-                                  x + 3 * level.slots, point, lanes);
+// Adds the terms of `count` spheres of level n, from `first` on: of those that are far from the
+// point, and of the members of the others.
+static void nsvcd__add_level(const nsvcd_body *body, size_t n, size_t first, size_t count,
+                             nsvcd__f3 point, float *lanes) {
+  const nsvcd__dipoles level = nsvcd__dipoles_from(nsvcd__dipoles_of_level(body, n), first);
+  uint64_t close = nsvcd__add_dipoles(level, count, 1, point, lanes);
   for (; close; close &= close - 1) {
     const size_t member = NSVCD__GROUP * (first + nsvcd__lowest_bit(close));
     if (n > 0) {
-      nsvcd__dipoles_of_level(body, n - 1, member, NSVCD__GROUP, point, lanes);
-    } else {
-      const float *areas = nsvcd__body_areas(body) + member;
-      nsvcd__dipoles(nsvcd__body_x(body) + member, body->padded, areas, NSVCD__GROUP, NULL, point,
-                     lanes);
+      nsvcd__add_level(body, n - 1, member, NSVCD__GROUP, point, lanes);
+      continue;
     }
+    const nsvcd__dipoles patches = nsvcd__dipoles_of_patches(body);
+    nsvcd__add_dipoles(nsvcd__dipoles_from(patches, member), NSVCD__GROUP, 0, point, lanes);
   }
 }
 
@@ -11673,10 +11702,9 @@ static float nsvcd__winding_number(const nsvcd_body *body, nsvcd__f3 point) {
   const size_t top = nsvcd__level_count(body->padded) - 1;
   if (top > 0) {
     const size_t slots = nsvcd__level_of(body->padded, top).slots;
-    nsvcd__dipoles_of_level(body, top, 0, slots, point, lanes);
+    nsvcd__add_level(body, top, 0, slots, point, lanes);
   } else {
-    nsvcd__dipoles(nsvcd__body_x(body), body->padded, nsvcd__body_areas(body), body->padded, NULL,
-                   point, lanes);
+    nsvcd__add_dipoles(nsvcd__dipoles_of_patches(body), body->padded, 0, point, lanes);
   }
   // in this order, whatever the slices
   for (size_t l = 0; l < NSVCD__LANES; l++)
@@ -11684,29 +11712,40 @@ static float nsvcd__winding_number(const nsvcd_body *body, nsvcd__f3 point) {
   return total / 12.5663706f;
 }
 
-// 1 if `inner`, of this scale and at this pose in the frame of `outer`, lies inside it.
-static int nsvcd__is_inside(const nsvcd_body *inner, const nsvcd_body *outer, float scale,
-                            const nsvcd__transform *pose) {
-  const nsvcd__spheres patches = nsvcd__body_patches(inner);
-  float places[3][NSVCD__PLACES];
-  float clearance[NSVCD__PLACES];
-  if (outer->open)
-    return 0;
+// Some centres of the patches of a body of this scale and at this pose: places (3, PLACES).
+static void nsvcd__places_of(const nsvcd_body *body, float scale, const nsvcd__transform *pose,
+                             float (*places)[NSVCD__PLACES]) {
+  const nsvcd__spheres patches = nsvcd__body_patches(body);
   for (size_t k = 0; k < NSVCD__PLACES; k++) {
     // neighbours are stored together: equal steps spread over it
-    const nsvcd__f3 own = nsvcd__centre_of(patches, k * inner->points / NSVCD__PLACES);
+    const nsvcd__f3 own = nsvcd__centre_of(patches, k * body->points / NSVCD__PLACES);
     const nsvcd__f3 turned = nsvcd__mat3_apply(&pose->rotation, own);
     const nsvcd__f3 place = nsvcd__f3_add(nsvcd__f3_scale(turned, scale), pose->position);
     nsvcd__lane_set(place, places, k);
   }
-  // One that sticks out of the outer body's sphere says it all.
-  const nsvcd__v3 centre = nsvcd__v3_set(nsvcd__f3_load(outer->centre));
+}
+
+// Are all places (3, PLACES) within the sphere of a body?
+static int nsvcd__all_in_sphere(const nsvcd_body *body, float (*places)[NSVCD__PLACES]) {
+  const nsvcd__v3 centre = nsvcd__v3_set(nsvcd__f3_load(body->centre));
   uint32_t within = 0;
   NSVCD__EACH_SLICE(l) {
     const nsvcd__v3 off = nsvcd__v3_sub(nsvcd__v3_load(places, l), centre);
-    within |= nsvcd__v_le(nsvcd__v3_length(off), nsvcd__v_set(outer->radius)) << l;
+    within |= nsvcd__v_le(nsvcd__v3_length(off), nsvcd__v_set(body->radius)) << l;
   }
-  if (within != 0xffff)
+  return within == 0xffff;
+}
+
+// 1 if `inner`, of this scale and at this pose in the frame of `outer`, lies inside it.
+static int nsvcd__is_inside(const nsvcd_body *inner, const nsvcd_body *outer, float scale,
+                            const nsvcd__transform *pose) {
+  float places[3][NSVCD__PLACES];
+  float clearance[NSVCD__PLACES];
+  if (outer->open)
+    return 0;
+  nsvcd__places_of(inner, scale, pose, places);
+  // One that sticks out of the outer body's sphere says it all.
+  if (!nsvcd__all_in_sphere(outer, places))
     return 0;
   nsvcd__clearances(outer, places, clearance);
   size_t best = 0;
