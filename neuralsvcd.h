@@ -14001,11 +14001,25 @@ NSVCDDEF nsvcd_result nsvcd_sweep_gradient(const nsvcd_question *question, void 
 
 #ifndef NSVCD_NO_OPTIMIZER
 // ------------------------------------------------------------------------------------------ spline
-// Control points -> positions and derivatives. All is linear in the control points: the weights of
-// one moment are (M + 2), the means of squares over the whole motion are quadratic forms (M + 2, M
-// + 2), the same for each joint.
+// Control points -> positions and derivatives. All is linear in the control points, and the same
+// for each joint: what the joints are at one moment is a sum of the points by weights (M + 2), and
+// the mean of its square over the motion a quadratic form (M + 2, M + 2).
 
-// The weights of the control points in the joints' derivative of the given order by t.
+// A derivative at u of a polynomial of degree five, times `scale`.
+static double nsvcd__polynomial(const double *coefficients, double u, size_t derivative,
+                                double scale) {
+  double value = 0;
+  double power = scale;
+  for (size_t n = derivative; n < 6; n++, power *= u) {
+    double factor = coefficients[n];
+    for (size_t d = 0; d < derivative; d++)
+      factor *= (double)(n - d);
+    value += factor * power;
+  }
+  return value;
+}
+
+// The weights (M + 2) of the control points in the joints' derivative of the given order by t.
 static void nsvcd__spline_weights(size_t via, double t, size_t derivative, double *weights) {
   // Polynomials of u in [0,1]: of the position, velocity and acceleration at its left end, then at
   // its right.
@@ -14016,30 +14030,22 @@ static void nsvcd__spline_weights(size_t via, double t, size_t derivative, doubl
   const double at = (t > 0 ? (t < 1 ? t : 1) : 0) * (double)last;
   const size_t left = (size_t)at < last ? (size_t)at : last - 1;
   const double u = at - (double)left;
-  double scale = 1;
+  double scale = 1;  // derivatives by t, not by u
   for (size_t k = 0; k < derivative; k++)
     scale *= (double)last;
   for (size_t k = 0; k <= last; k++)
     weights[k] = 0;
   for (size_t end = 0; end < 2; end++) {
+    const double(*polynomials)[6] = basis + 3 * end;
     const size_t point = left + end;
-    double value[3];
-    for (size_t k = 0; k < 3; k++) {
-      double power = scale;
-      value[k] = 0;
-      for (size_t n = derivative; n < 6; n++, power *= u) {
-        double factor = basis[3 * end + k][n];
-        for (size_t d = 0; d < derivative; d++)
-          factor *= (double)(n - d);
-        value[k] += factor * power;
-      }
-    }
-    weights[point] += value[0];
+    weights[point] += nsvcd__polynomial(polynomials[0], u, derivative, scale);
     if (point == 0 || point == last)
       continue;  // at rest
-    weights[point + 1] += 0.5 * value[1] + value[2];
-    weights[point - 1] += value[2] - 0.5 * value[1];
-    weights[point] -= 2 * value[2];
+    const double velocity = nsvcd__polynomial(polynomials[1], u, derivative, scale);
+    const double acceleration = nsvcd__polynomial(polynomials[2], u, derivative, scale);
+    weights[point + 1] += 0.5 * velocity + acceleration;
+    weights[point - 1] += acceleration - 0.5 * velocity;
+    weights[point] -= 2 * acceleration;
   }
 }
 
@@ -14065,12 +14071,14 @@ static void nsvcd__add_mean_square(size_t via, size_t derivative, double weight,
   static const double shares[5] = {0.118463442528095, 0.239314335249683, 0.284444444444444,
                                    0.239314335249683, 0.118463442528095};
   const size_t count = via + 2;
+  const double pieces = (double)(via + 1);
   double w[NSVCD_MAX_VIA_POINTS + 2];
   for (size_t piece = 0; piece < via + 1; piece++) {
     for (size_t n = 0; n < 5; n++) {
-      nsvcd__spline_weights(via, ((double)piece + nodes[n]) / (double)(via + 1), derivative, w);
+      const double t = ((double)piece + nodes[n]) / pieces;
+      nsvcd__spline_weights(via, t, derivative, w);
       for (size_t i = 0; i < count; i++) {
-        const double scaled = weight * shares[n] / (double)(via + 1) * w[i];
+        const double scaled = weight * shares[n] / pieces * w[i];
         for (size_t j = 0; j < count; j++)
           form[i * count + j] += scaled * w[j];
       }
@@ -14078,10 +14086,11 @@ static void nsvcd__add_mean_square(size_t via, size_t derivative, double weight,
   }
 }
 
-// L L^T = a, lower; a, l: (n, n). Of a symmetric positive definite a; what rounding makes of it is
-// kept positive.
+// L L^T = a, lower; a, l: (n, n), and may be the same. Of a symmetric positive definite a; what
+// rounding makes of it is kept positive.
 static void nsvcd__cholesky(const double *a, size_t n, double *l) {
   for (size_t i = 0; i < n; i++) {
+    const double least = 1e-9 * a[i * n + i];
     for (size_t j = 0; j < n; j++) {
       double sum = a[i * n + j];
       for (size_t k = 0; k < (i < j ? i : j); k++)
@@ -14089,7 +14098,7 @@ static void nsvcd__cholesky(const double *a, size_t n, double *l) {
       if (j < i)
         l[i * n + j] = sum / l[j * n + j];
       if (j == i)
-        l[i * n + i] = sqrt(sum > 1e-9 * a[i * n + i] ? sum : 1e-9 * a[i * n + i]);
+        l[i * n + i] = sqrt(sum > least ? sum : least);
       if (j > i)
         l[i * n + j] = 0;
     }
