@@ -13392,7 +13392,8 @@ NSVCDDEF nsvcd_result nsvcd_sweep_batch(const nsvcd_question *questions, size_t 
     nsvcd__query *query = nsvcd__query_open(&questions[k], workspace);
     nsvcd__task *ask = &query->task;
     // The hint is about patches of the moving body and of the fixed one.
-    if (k > 0 && (!nsvcd__same_bodies(&questions[k], &questions[k - 1]) || ask->swapped != swapped))
+    const int same = k > 0 && nsvcd__same_bodies(&questions[k], &questions[k - 1]);
+    if (!same || ask->swapped != swapped)
       hint = none;
     swapped = ask->swapped;
     nsvcd__answer_task(ask, query, &hint, &answers[k]);
