@@ -5473,8 +5473,10 @@ static void nsvcd__encode_patch(const nsvcd__encoded *patch, float *latent) {
 
 // numbers of a latent's vectors: (3, CHANNELS), then (5, CHANNELS)
 #define NSVCD__VECTORS (8 * NSVCD_W_CHANNELS)
-#define NSVCD__WIGNER 34                 // numbers of D: (3, 3), then (5, 5)
-#define NSVCD__LATENT_STEP (1.0f / 127)  // of a stored latent
+// numbers of D: (3, 3), then (5, 5)
+#define NSVCD__WIGNER 34
+// of a stored latent's numbers
+#define NSVCD__LATENT_STEP (1.0f / 127)
 
 // The degree 2 of the symmetric product of a and b, lane by lane: q (5), as nsvcd__degree2.
 static void nsvcd__v_degree2(nsvcd__v3 a, nsvcd__v3 b, nsvcd__v *q) {
@@ -5538,8 +5540,8 @@ NSVCD__INLINE void nsvcd__rotate_degree(const float *latent, float (*turn)[NSVCD
   }
 }
 
-// A stored latent, turned by D (TURN, SLICE) of lane l, to its place of two (0, 1) in a row of the
-// decoder's inputs: vectors (2, 8, CHANNELS), then scalars (2, SCALARS).
+// A stored latent, turned by D (WIGNER, SLICE) of lane l, to its place of two (0, 1) in a row of
+// the decoder's inputs: vectors (2, 8, CHANNELS), then scalars (2, SCALARS).
 static void nsvcd__rotate_latent(const int8_t *z, float (*turn)[NSVCD__SLICE], size_t l,
                                  size_t place, float *row) {
   float *vectors = row + NSVCD__VECTORS * place;
@@ -12370,13 +12372,16 @@ static NSVCD__APART void nsvcd__lift_motion(nsvcd__proof *p, nsvcd__search *sear
 // Cost: at most NSVCD__PLACES * N distances each way, where one body's centres lie in the other's
 // sphere; of large bodies only those of groups nearby.
 
+// places of the inner body that are looked at
 #define NSVCD__PLACES NSVCD__LANES
+// Distances, in radii. A place has clearance if no patch is nearer than this,
 #define NSVCD__CLEARANCE 1.0f
-// no place needs more clearance than this, and what is farther away is not looked at
+// it needs no more than this, and what is farther away is not looked at;
 #define NSVCD__AMPLE 2.0f
+// and the patches of a sphere that is farther than this count as one
 #define NSVCD__DIPOLE 3.0f
 
-// A sphere over places.
+// A sphere over places (3, PLACES).
 static nsvcd__sphere nsvcd__cover_places(float (*places)[NSVCD__PLACES]) {
   nsvcd__f3 low = nsvcd__f3_of(HUGE_VALF, HUGE_VALF, HUGE_VALF);
   nsvcd__f3 high = nsvcd__f3_scale(low, -1);
@@ -12398,10 +12403,11 @@ static uint32_t nsvcd__may_be_close(const void *what, nsvcd__spheres all) {
   const nsvcd__v radius = nsvcd__v_set(places->radius);
   uint32_t close = 0;
   NSVCD__EACH_SLICE(l) {
-    const nsvcd__v3 d = nsvcd__v3_sub(nsvcd__v3_centres(all, l), nsvcd__v3_set(places->centre));
+    const nsvcd__v3 centre = nsvcd__v3_set(places->centre);
+    const nsvcd__v3 d = nsvcd__v3_sub(nsvcd__v3_centres(all, l), centre);
     const nsvcd__v r = nsvcd__v_load(all.r + l);
-    const nsvcd__v reach = nsvcd__v_fma(r, nsvcd__v_set(NSVCD__AMPLE), radius);
-    close |= nsvcd__v_le(nsvcd__v3_dot(d, d), nsvcd__v_signed_square(reach)) << l;
+    const nsvcd__v ample = nsvcd__v_fma(r, nsvcd__v_set(NSVCD__AMPLE), radius);
+    close |= nsvcd__v_le(nsvcd__v3_dot(d, d), nsvcd__v_signed_square(ample)) << l;
   }
   return close;
 }
@@ -12424,8 +12430,8 @@ static nsvcd__v nsvcd__clearance2(const nsvcd_body *body, size_t group, nsvcd__v
   return least;
 }
 
-// The same over all patches of a body, but NSVCD__AMPLE, squared, is the most it says. out:
-// (PROBES).
+// The same over all patches of a body, but NSVCD__AMPLE, squared, is the most it says. places: (3,
+// PLACES), out: (PLACES).
 static void nsvcd__clearances(const nsvcd_body *body, float (*places)[NSVCD__PLACES], float *out) {
   const nsvcd__sphere near_to = nsvcd__cover_places(places);
   nsvcd__walk walk;
@@ -12436,34 +12442,63 @@ static void nsvcd__clearances(const nsvcd_body *body, float (*places)[NSVCD__PLA
   while (nsvcd__walk_next(&walk, &g)) {
     NSVCD__EACH_SLICE(l) {
       const nsvcd__v3 place = nsvcd__v3_load(places, l);
-      nsvcd__v_store(out + l, nsvcd__clearance2(body, g, place, nsvcd__v_load(out + l)));
+      const nsvcd__v least = nsvcd__v_load(out + l);
+      nsvcd__v_store(out + l, nsvcd__clearance2(body, g, place, least));
     }
   }
 }
 
-// The terms of the winding number (their lanes added up) of some spheres, a multiple of 16, with
-// their area vectors. Where radii are given, they say which spheres count: those that are far from
-// the point, and the bits of the others are returned, of 64 at most.
-static uint64_t nsvcd__dipoles(const float *x, size_t stride, const float *areas, size_t count,
-                               const float *radii, nsvcd__f3 point, float *lanes) {
+// Spheres over parts of a surface, and the sums of the area vectors in them.
+typedef struct nsvcd__dipoles {
+  nsvcd__spheres spheres;
+  const float *areas;  // rows of x, y and z,
+  size_t stride;       // so many numbers apart
+} nsvcd__dipoles;
+
+static nsvcd__dipoles nsvcd__dipoles_of_patches(const nsvcd_body *body) {
+  nsvcd__dipoles out;
+  out.spheres = nsvcd__body_patches(body);
+  out.areas = nsvcd__body_areas(body);
+  out.stride = body->padded;
+  return out;
+}
+static nsvcd__dipoles nsvcd__dipoles_of_level(const nsvcd_body *body, size_t n) {
+  const nsvcd__level level = nsvcd__level_of(body->padded, n);
+  nsvcd__dipoles out;
+  out.spheres = nsvcd__level_spheres(body, level);
+  out.areas = nsvcd__level_areas(body, level);
+  out.stride = level.slots;
+  return out;
+}
+static nsvcd__dipoles nsvcd__dipoles_from(nsvcd__dipoles all, size_t first) {
+  all.spheres = nsvcd__spheres_from(all.spheres, first);
+  all.areas += first;
+  return all;
+}
+
+// Adds the terms of the winding number of the first `count` dipoles, a multiple of 16, lane by
+// lane. far_only: those that are too close to the point are left out, and returned as bits, of 64
+// dipoles at most.
+static uint64_t nsvcd__add_dipoles(nsvcd__dipoles all, size_t count, int far_only, nsvcd__f3 point,
+                                   float *lanes) {
   const nsvcd__v3 at = nsvcd__v3_set(point);
   const nsvcd__v zero = nsvcd__v_set(0);
   uint64_t close = 0;
   NSVCD__EACH_SLICE(l) {
     nsvcd__v sum = nsvcd__v_load(lanes + l);
     for (size_t i = l; i < count; i += NSVCD__LANES) {
-      const nsvcd__v3 d = nsvcd__v3_sub(nsvcd__v3_load_rows(x + i, stride), at);
-      const nsvcd__v3 area = nsvcd__v3_load_rows(areas + i, stride);
+      const nsvcd__v3 d = nsvcd__v3_sub(nsvcd__v3_centres(all.spheres, i), at);
+      const nsvcd__v3 area = nsvcd__v3_load_rows(all.areas + i, all.stride);
       const nsvcd__v length = nsvcd__v_max(nsvcd__v3_length(d), nsvcd__v_set(1e-30f));
       const nsvcd__v inverse = nsvcd__v_div(nsvcd__v_set(1), length);
       // step by step: the cube may overflow
       const nsvcd__v cosine = nsvcd__v_mul(nsvcd__v3_dot(area, d), inverse);
       nsvcd__v term = nsvcd__v_mul(nsvcd__v_mul(cosine, inverse), inverse);
-      if (radii) {
-        const nsvcd__v radius = nsvcd__v_load(radii + i);
-        const nsvcd__v reach = nsvcd__v_mul(nsvcd__v_set(NSVCD__DIPOLE), radius);
-        close |= (uint64_t)nsvcd__v_le(length, reach) << i;
-        term = nsvcd__v_pick(length, reach, zero, term);
+      if (far_only) {
+        const nsvcd__v radius = nsvcd__v_load(all.spheres.r + i);
+        const nsvcd__v least = nsvcd__v_mul(nsvcd__v_set(NSVCD__DIPOLE), radius);
+        close |= (uint64_t)nsvcd__v_le(length, least) << i;
+        term = nsvcd__v_pick(length, least, zero, term);
       }
       sum = nsvcd__v_add(sum, term);
     }
@@ -12472,23 +12507,20 @@ static uint64_t nsvcd__dipoles(const float *x, size_t stride, const float *areas
   return close;
 }
 
-// Adds the terms of the spheres of a level from `first` on: of those that are far from the point,
-// and of the members of the others.
-static void nsvcd__dipoles_of_level(const nsvcd_body *body, size_t n, size_t first, size_t count,
-                                    nsvcd__f3 point, float *lanes) {
-  const nsvcd__level level = nsvcd__level_of(body->padded, n);
-  const float *x = nsvcd__body_floats(body, level.first + first);
-  uint64_t close = nsvcd__dipoles(x, level.slots, nsvcd__level_areas(body, level) + first, count,
-                                  x + 3 * level.slots, point, lanes);
+// Adds the terms of `count` spheres of level n, from `first` on: of those that are far from the
+// point, and of the members of the others.
+static void nsvcd__add_level(const nsvcd_body *body, size_t n, size_t first, size_t count,
+                             nsvcd__f3 point, float *lanes) {
+  const nsvcd__dipoles level = nsvcd__dipoles_from(nsvcd__dipoles_of_level(body, n), first);
+  uint64_t close = nsvcd__add_dipoles(level, count, 1, point, lanes);
   for (; close; close &= close - 1) {
     const size_t member = NSVCD__GROUP * (first + nsvcd__lowest_bit(close));
     if (n > 0) {
-      nsvcd__dipoles_of_level(body, n - 1, member, NSVCD__GROUP, point, lanes);
-    } else {
-      const float *areas = nsvcd__body_areas(body) + member;
-      nsvcd__dipoles(nsvcd__body_x(body) + member, body->padded, areas, NSVCD__GROUP, NULL, point,
-                     lanes);
+      nsvcd__add_level(body, n - 1, member, NSVCD__GROUP, point, lanes);
+      continue;
     }
+    const nsvcd__dipoles patches = nsvcd__dipoles_of_patches(body);
+    nsvcd__add_dipoles(nsvcd__dipoles_from(patches, member), NSVCD__GROUP, 0, point, lanes);
   }
 }
 
@@ -12498,10 +12530,9 @@ static float nsvcd__winding_number(const nsvcd_body *body, nsvcd__f3 point) {
   const size_t top = nsvcd__level_count(body->padded) - 1;
   if (top > 0) {
     const size_t slots = nsvcd__level_of(body->padded, top).slots;
-    nsvcd__dipoles_of_level(body, top, 0, slots, point, lanes);
+    nsvcd__add_level(body, top, 0, slots, point, lanes);
   } else {
-    nsvcd__dipoles(nsvcd__body_x(body), body->padded, nsvcd__body_areas(body), body->padded, NULL,
-                   point, lanes);
+    nsvcd__add_dipoles(nsvcd__dipoles_of_patches(body), body->padded, 0, point, lanes);
   }
   // in this order, whatever the slices
   for (size_t l = 0; l < NSVCD__LANES; l++)
@@ -12509,29 +12540,40 @@ static float nsvcd__winding_number(const nsvcd_body *body, nsvcd__f3 point) {
   return total / 12.5663706f;
 }
 
-// 1 if `inner`, of this scale and at this pose in the frame of `outer`, lies inside it.
-static int nsvcd__is_inside(const nsvcd_body *inner, const nsvcd_body *outer, float scale,
-                            const nsvcd__transform *pose) {
-  const nsvcd__spheres patches = nsvcd__body_patches(inner);
-  float places[3][NSVCD__PLACES];
-  float clearance[NSVCD__PLACES];
-  if (outer->open)
-    return 0;
+// Some centres of the patches of a body of this scale and at this pose: places (3, PLACES).
+static void nsvcd__places_of(const nsvcd_body *body, float scale, const nsvcd__transform *pose,
+                             float (*places)[NSVCD__PLACES]) {
+  const nsvcd__spheres patches = nsvcd__body_patches(body);
   for (size_t k = 0; k < NSVCD__PLACES; k++) {
     // neighbours are stored together: equal steps spread over it
-    const nsvcd__f3 own = nsvcd__centre_of(patches, k * inner->points / NSVCD__PLACES);
+    const nsvcd__f3 own = nsvcd__centre_of(patches, k * body->points / NSVCD__PLACES);
     const nsvcd__f3 turned = nsvcd__mat3_apply(&pose->rotation, own);
     const nsvcd__f3 place = nsvcd__f3_add(nsvcd__f3_scale(turned, scale), pose->position);
     nsvcd__lane_set(place, places, k);
   }
-  // One that sticks out of the outer body's sphere says it all.
-  const nsvcd__v3 centre = nsvcd__v3_set(nsvcd__f3_load(outer->centre));
+}
+
+// Are all places (3, PLACES) within the sphere of a body?
+static int nsvcd__all_in_sphere(const nsvcd_body *body, float (*places)[NSVCD__PLACES]) {
+  const nsvcd__v3 centre = nsvcd__v3_set(nsvcd__f3_load(body->centre));
   uint32_t within = 0;
   NSVCD__EACH_SLICE(l) {
     const nsvcd__v3 off = nsvcd__v3_sub(nsvcd__v3_load(places, l), centre);
-    within |= nsvcd__v_le(nsvcd__v3_length(off), nsvcd__v_set(outer->radius)) << l;
+    within |= nsvcd__v_le(nsvcd__v3_length(off), nsvcd__v_set(body->radius)) << l;
   }
-  if (within != 0xffff)
+  return within == 0xffff;
+}
+
+// 1 if `inner`, of this scale and at this pose in the frame of `outer`, lies inside it.
+static int nsvcd__is_inside(const nsvcd_body *inner, const nsvcd_body *outer, float scale,
+                            const nsvcd__transform *pose) {
+  float places[3][NSVCD__PLACES];
+  float clearance[NSVCD__PLACES];
+  if (outer->open)
+    return 0;
+  nsvcd__places_of(inner, scale, pose, places);
+  // One that sticks out of the outer body's sphere says it all.
+  if (!nsvcd__all_in_sphere(outer, places))
     return 0;
   nsvcd__clearances(outer, places, clearance);
   size_t best = 0;
@@ -12627,7 +12669,7 @@ enum {
 typedef struct nsvcd__pairs {
   // centres at mid-interval: of the moving patch, of the fixed one; the fixed body's frame
   nsvcd__v3 p1, p2;
-  nsvcd__v r1, r2;        // metres
+  nsvcd__v r1, r2;        // the balls' radii
   nsvcd__vmat3 rotation;  // of the moving body at mid-interval
   // half displacement of the point midway between p1 and p2, as part of the moving body
   nsvcd__v3 v;
@@ -14179,7 +14221,8 @@ NSVCDDEF nsvcd_result nsvcd_sweep_batch(const nsvcd_question *questions, size_t 
     nsvcd__query *query = nsvcd__query_open(&questions[k], workspace);
     nsvcd__task *ask = &query->task;
     // The hint is about patches of the moving body and of the fixed one.
-    if (k > 0 && (!nsvcd__same_bodies(&questions[k], &questions[k - 1]) || ask->swapped != swapped))
+    const int same = k > 0 && nsvcd__same_bodies(&questions[k], &questions[k - 1]);
+    if (!same || ask->swapped != swapped)
       hint = none;
     swapped = ask->swapped;
     nsvcd__answer_task(ask, query, &hint, &answers[k]);
@@ -14197,9 +14240,9 @@ NSVCDDEF nsvcd_result nsvcd_sweep_batch(const nsvcd_question *questions, size_t 
 //   pair        by the line between the centres, the velocity, and the rotations, over the frame
 //               and the facts
 //   instants    by the moving body's poses at t_enter, t_exit and in the middle, and by these times
-//   contact     from the times to the poses at the ends of the segment in which the spheres meet or
+//   contact     from the times to the poses at the ends of the segment in which the balls meet or
 //               part
-//   samples     from the pose at any time to the caller's poses
+//   poses       from the pose at any time to the caller's poses
 //
 // The derivative by the pose of a rigid body is a wrench: a force (by a displacement of its origin)
 // and a torque (by a small rotation about that). A force f on a point at `arm` from the origin is
@@ -14330,7 +14373,8 @@ static nsvcd__f3 nsvcd__latent_torque(const float *x, const float *by) {
   const float root3 = 1.7320508075688772f;
   nsvcd__f3 torque = {0, 0, 0};
   for (size_t c = 0; c < NSVCD_W_CHANNELS; c++) {
-    float q[8], h[8];
+    float q[8];
+    float h[8];
     for (size_t k = 0; k < 8; k++) {
       q[k] = x[NSVCD_W_CHANNELS * k + c];
       h[k] = by[NSVCD_W_CHANNELS * k + c];
@@ -14341,14 +14385,13 @@ static nsvcd__f3 nsvcd__latent_torque(const float *x, const float *by) {
   return torque;
 }
 
-// The derivative of a logit by a pair, as nsvcd__pairs has it: metres and radians, the fixed body's
-// axes.
+// The derivative of a logit by a pair, as nsvcd__pairs has it, in the fixed body's axes and units.
 typedef struct nsvcd__by_pair {
   nsvcd__f3 p1, v, w;
   nsvcd__f3 rotation;  // by a small rotation of the moving patch about its centre
 } nsvcd__by_pair;
 
-// A pair in its own units: lane 0 of nsvcd__views.
+// A pair in its own units: what nsvcd__views has in lane 0.
 typedef struct nsvcd__view {
   float inverse, k1, order, side;
   nsvcd__f3 d, v, w, lean;
@@ -14384,29 +14427,33 @@ static nsvcd__f3 nsvcd__add_along_rows(nsvcd__f3 sum, const nsvcd__mat3 *m, nsvc
 // The adjoint of the facts: by (FACTS), added to `out`.
 static void nsvcd__by_facts(const nsvcd__view *view, const float *facts, const float *by,
                             nsvcd__by_view *out) {
-  const float tau = facts[3];
+  const float tau = facts[NSVCD__FACT_TAU];
   const float scale = 1 / (nsvcd__f3_dot(view->v, view->v) + 1e-6f);
   const nsvcd__f3 closest = nsvcd__f3_sub(view->d, nsvcd__f3_scale(view->v, tau));
-  const nsvcd__f3 by_closest = nsvcd__by_length(closest, by[2]);
-  const nsvcd__f3 by_velocity = nsvcd__f3_load(by + 4);
-  const nsvcd__f3 by_turn = nsvcd__f3_load(by + 7);
-  out->d = nsvcd__f3_add(out->d, nsvcd__by_length(view->d, by[0]));
+  const nsvcd__f3 by_distance = nsvcd__by_length(view->d, by[NSVCD__FACT_DISTANCE]);
+  const nsvcd__f3 by_closest = nsvcd__by_length(closest, by[NSVCD__FACT_CLOSEST]);
+  out->d = nsvcd__f3_add(out->d, by_distance);
   out->d = nsvcd__f3_add(out->d, by_closest);
   out->v = nsvcd__f3_add_scaled(out->v, -tau, by_closest);
   if (fabsf(tau) < 1) {  // else it is clamped
-    const float by_tau = scale * (by[3] - nsvcd__f3_dot(by_closest, view->v));
+    const float direct = by[NSVCD__FACT_TAU];
+    const float by_tau = scale * (direct - nsvcd__f3_dot(by_closest, view->v));
     out->d = nsvcd__f3_add_scaled(out->d, by_tau, view->v);
     out->v = nsvcd__f3_add_scaled(out->v, by_tau, view->d);
     out->v = nsvcd__f3_add_scaled(out->v, -2 * by_tau * tau, view->v);
   }
+
+  const nsvcd__f3 velocity = nsvcd__f3_load(facts + NSVCD__FACT_VELOCITY);
+  const nsvcd__f3 turn = nsvcd__f3_load(facts + NSVCD__FACT_TURN);
+  const nsvcd__f3 by_velocity = nsvcd__f3_load(by + NSVCD__FACT_VELOCITY);
+  const nsvcd__f3 by_turn = nsvcd__f3_load(by + NSVCD__FACT_TURN);
+  const nsvcd__f3 mirrored = nsvcd__f3_scale(by_turn, view->side);
   out->v = nsvcd__add_along_rows(out->v, &view->frame, by_velocity);
-  out->w = nsvcd__add_along_rows(out->w, &view->frame, nsvcd__f3_scale(by_turn, view->side));
-  const nsvcd__f3 velocity = nsvcd__f3_load(facts + 4);
-  const nsvcd__f3 turn = nsvcd__f3_load(facts + 7);
+  out->w = nsvcd__add_along_rows(out->w, &view->frame, mirrored);
   out->torque = nsvcd__f3_add(out->torque, nsvcd__f3_cross(velocity, by_velocity));
   out->torque = nsvcd__f3_add(out->torque, nsvcd__f3_cross(turn, by_turn));
-  out->v = nsvcd__f3_add(out->v, nsvcd__by_length(view->v, by[10]));
-  out->w = nsvcd__f3_add(out->w, nsvcd__by_length(view->w, by[11]));
+  out->v = nsvcd__f3_add(out->v, nsvcd__by_length(view->v, by[NSVCD__FACT_SPEED]));
+  out->w = nsvcd__f3_add(out->w, nsvcd__by_length(view->w, by[NSVCD__FACT_SPIN]));
 }
 
 // The coordinate axis farthest from e.
@@ -14427,6 +14474,8 @@ static void nsvcd__by_frame(const nsvcd__view *view, nsvcd__by_view *by) {
   const nsvcd__f3 e3 = view->frame.z;
   const float length = nsvcd__f3_length(view->d);
   const nsvcd__f3 line = nsvcd__f3_of(view->lean.x + 1e-6f, view->lean.y, view->lean.z);
+
+  // Axis 2: of what is across axis 1, of a reference a.
   nsvcd__f3 a = nsvcd__f3_add(nsvcd__f3_scale(view->lean, NSVCD__LEAN), view->v);
   nsvcd__f3 across = nsvcd__f3_sub(a, nsvcd__f3_scale(e1, nsvcd__f3_dot(a, e1)));
   const int vanishes = nsvcd__f3_length(across) <= 1e-7f;
@@ -14439,6 +14488,8 @@ static void nsvcd__by_frame(const nsvcd__view *view, nsvcd__by_view *by) {
     by->v = nsvcd__f3_add_scaled(by->v, -about, e3);
     by->lean = nsvcd__f3_add_scaled(by->lean, -about * NSVCD__LEAN, e3);
   }
+
+  // Axis 1: of the line, or of what stands for it.
   nsvcd__f3 by_e1 = nsvcd__f3_scale(e3, by->torque.y + about * nsvcd__f3_dot(e1, a));
   by_e1 = nsvcd__f3_add_scaled(by_e1, -by->torque.z, e2);
   if (length > 1e-5f)
@@ -14457,8 +14508,8 @@ static NSVCD__APART void nsvcd__by_invariants(const nsvcd__pairs *pairs, const f
   const nsvcd__mat3 rotation = nsvcd__first_mat3(&pairs->rotation);
   // Which way time runs. 0 at rest, to rounding: the logit is even in the motion, with a kink
   // there, and the mean of its two sides is 0.
-  const float same = nsvcd__f3_dot(view.v, nsvcd__first_f3(pairs->v)) * view.inverse +
-                     nsvcd__f3_dot(view.w, nsvcd__first_f3(pairs->w));
+  const float same_v = nsvcd__f3_dot(view.v, nsvcd__first_f3(pairs->v)) * view.inverse;
+  const float same = same_v + nsvcd__f3_dot(view.w, nsvcd__first_f3(pairs->w));
   const float sign = fabsf(same) < 1e-12f ? 0.0f : same < 0 ? -1.0f : 1.0f;
 
   // Torques in the frame: on the moving patch's latent, then on all that the frame sees.
@@ -14485,63 +14536,89 @@ static NSVCD__APART void nsvcd__by_invariants(const nsvcd__pairs *pairs, const f
   by->w = nsvcd__f3_scale(seen.w, sign);
 }
 
-// ---- samples
+// ---- poses
 
 // The derivative by the pose of a rigid body.
 typedef struct nsvcd__wrench {
   nsvcd__f3 force, torque;
 } nsvcd__wrench;
 
-static inline nsvcd__wrench nsvcd__wrench_load(const float *row) {
-  const nsvcd__wrench out = {nsvcd__f3_load(row), nsvcd__f3_load(row + 3)};
+static nsvcd__wrench nsvcd__wrench_of(nsvcd__f3 force, nsvcd__f3 torque) {
+  const nsvcd__wrench out = {force, torque};
   return out;
 }
-// row (6) += (force, torque).
-static void nsvcd__add_to_row(float *row, nsvcd__f3 force, nsvcd__f3 torque) {
-  nsvcd__f3_store(nsvcd__f3_add(nsvcd__f3_load(row), force), row);
-  nsvcd__f3_store(nsvcd__f3_add(nsvcd__f3_load(row + 3), torque), row + 3);
+static inline nsvcd__wrench nsvcd__wrench_load(const float *row) {
+  return nsvcd__wrench_of(nsvcd__f3_load(row), nsvcd__f3_load(row + 3));
+}
+static nsvcd__wrench nsvcd__wrench_scale(nsvcd__wrench by, float s) {
+  return nsvcd__wrench_of(nsvcd__f3_scale(by.force, s), nsvcd__f3_scale(by.torque, s));
+}
+// row (6) += by.
+static void nsvcd__wrench_add(nsvcd__wrench by, float *row) {
+  const nsvcd__wrench sum = nsvcd__wrench_load(row);
+  nsvcd__f3_store(nsvcd__f3_add(sum.force, by.force), row);
+  nsvcd__f3_store(nsvcd__f3_add(sum.torque, by.torque), row + 3);
+}
+
+// The turn from a pose to the next on the shorter arc: by twice the angle h, about the axis n.
+typedef struct nsvcd__turn {
+  nsvcd__f3 n;  // of length 1, or 0 where nothing turns
+  float h;
+  float inverse;  // 1 / sin(h), or 0
+} nsvcd__turn;
+
+static nsvcd__turn nsvcd__turn_between(const nsvcd_pose *a, const nsvcd_pose *b) {
+  const nsvcd__quat qa = nsvcd__quat_unit(nsvcd__quat_load(a->rotation));
+  const nsvcd__quat qb = nsvcd__quat_unit(nsvcd__quat_load(b->rotation));
+  const nsvcd__quat nearer = nsvcd__quat_beside(qb, nsvcd__poses_opposed(a, b));
+  const nsvcd__f3 axis = nsvcd__quat_turn(qa, nearer);  // times sin(h)
+  const float sine = nsvcd__f3_length(axis);
+  nsvcd__turn out;
+  out.h = nsvcd__quat_arc(qa, nearer);
+  out.inverse = sine > 0 ? 1 / sine : 0;
+  out.n = nsvcd__f3_scale(axis, out.inverse);
+  return out;
 }
 
 // From a wrench on a body at time t, in the world, to `gradient` (count, 6), or NULL, by its poses
-// before and after t. Returns the derivative by t. With R = exp(2 u h n) A, the shorter
-// arc from A to B = exp(2 h n) A, small rotations a of A and b of B (on the left) turn R along n by
-// (1 - u) a + u b, and across n by
-//   sin((1 - u) h) / sin h of a turned by u h about n, and sin(u h) / sin h of b turned by -(1 - u)
-//   h.
-static float nsvcd__by_poses(const nsvcd__track *track, float t, const nsvcd__wrench *by,
+// before and after t. Returns the derivative by t. With R = exp(2 u h n) A, on the shorter arc from
+// A to B = exp(2 h n) A, small rotations a of A and b of B (on the left) turn R
+//   along n    by (1 - u) a + u b,
+//   across n   by sin((1 - u) h) / sin h of a, turned by u h about n,
+//              and sin(u h) / sin h of b, turned by -(1 - u) h.
+static float nsvcd__by_poses(const nsvcd__track *track, float t, nsvcd__wrench by,
                              float *gradient) {
   const size_t arcs = track->count - 1;
   if (arcs == 0) {
     if (gradient)
-      nsvcd__add_to_row(gradient, by->force, by->torque);
+      nsvcd__wrench_add(by, gradient);
     return 0;
   }
   const float at = t * (float)arcs;
   const size_t k = (size_t)at < arcs - 1 ? (size_t)at : arcs - 1;
   const float u = at - (float)k;
-  const nsvcd__world_pose a = nsvcd__world_pose_of(&track->poses[k]);
-  const nsvcd__world_pose b = nsvcd__world_pose_of(&track->poses[k + 1]);
-  const int opposed = nsvcd__poses_opposed(&track->poses[k], &track->poses[k + 1]);
-  const nsvcd__quat qa = nsvcd__quat_unit(a.rotation);
-  const nsvcd__quat qb = nsvcd__quat_beside(nsvcd__quat_unit(b.rotation), opposed);
-  const float h = nsvcd__quat_arc(qa, qb);
-  const nsvcd__f3 axis = nsvcd__quat_turn(qa, qb);  // times sin(h)
-  const float sine = nsvcd__f3_length(axis);
-  const float inverse = sine > 0 ? 1 / sine : 0;
-  const nsvcd__f3 n = nsvcd__f3_scale(axis, inverse);
-  const float wa = h > 1e-3f ? sinf((1 - u) * h) * inverse : 1 - u;
-  const float wb = h > 1e-3f ? sinf(u * h) * inverse : u;
+  const nsvcd_pose *a = &track->poses[k];
+  const nsvcd_pose *b = &track->poses[k + 1];
+  const nsvcd__turn turn = nsvcd__turn_between(a, b);
+  const nsvcd__f3 n = turn.n;
+  const float h = turn.h;
   if (gradient) {
     const nsvcd__f3 none = {0, 0, 0};
-    const nsvcd__f3 on_a = nsvcd__add_turned(none, by->torque, n, 1 - u, wa, -u * h);
-    const nsvcd__f3 on_b = nsvcd__add_turned(none, by->torque, n, u, wb, (1 - u) * h);
-    nsvcd__add_to_row(gradient + 6 * k, nsvcd__f3_scale(by->force, 1 - u), on_a);
-    nsvcd__add_to_row(gradient + 6 * (k + 1), nsvcd__f3_scale(by->force, u), on_b);
+    const float wa = h > 1e-3f ? sinf((1 - u) * h) * turn.inverse : 1 - u;
+    const float wb = h > 1e-3f ? sinf(u * h) * turn.inverse : u;
+    nsvcd__wrench on_a;
+    nsvcd__wrench on_b;
+    on_a.force = nsvcd__f3_scale(by.force, 1 - u);
+    on_b.force = nsvcd__f3_scale(by.force, u);
+    on_a.torque = nsvcd__add_turned(none, by.torque, n, 1 - u, wa, -u * h);
+    on_b.torque = nsvcd__add_turned(none, by.torque, n, u, wb, (1 - u) * h);
+    nsvcd__wrench_add(on_a, gradient + 6 * k);
+    nsvcd__wrench_add(on_b, gradient + 6 * (k + 1));
   }
-  const nsvcd__f3 from = nsvcd__f3_load(track->poses[k].position);
-  const nsvcd__f3 moved = nsvcd__f3_sub(nsvcd__f3_load(track->poses[k + 1].position), from);
-  const float by_turn = 2 * h * nsvcd__f3_dot(by->torque, n);
-  return (float)arcs * (nsvcd__f3_dot(by->force, moved) + by_turn);
+  const nsvcd__f3 from = nsvcd__f3_load(a->position);
+  const nsvcd__f3 moved = nsvcd__f3_sub(nsvcd__f3_load(b->position), from);
+  const float by_turn = 2 * h * nsvcd__f3_dot(by.torque, n);
+  return (float)arcs * (nsvcd__f3_dot(by.force, moved) + by_turn);
 }
 
 // The derivatives by both bodies' poses; NULL: not wanted.
@@ -14551,36 +14628,48 @@ typedef struct nsvcd__gradients {
 
 // The same from a wrench on the moving body in the fixed one's axes and units. What it does to one
 // body it does to the other the opposite way.
-static float nsvcd__by_motion(const nsvcd__motion *motion, float t, const nsvcd__wrench *seen,
+static float nsvcd__by_motion(const nsvcd__motion *motion, float t, nsvcd__wrench seen,
                               const nsvcd__gradients *out) {
   const nsvcd__world_pose moving = nsvcd__track_pose_at(&motion->moving, t);
   const nsvcd__world_pose fixed = nsvcd__track_pose_at(&motion->fixed, t);
   const nsvcd__mat3 from_fixed = nsvcd__mat3_of(fixed.rotation);
   const nsvcd__f3 offset = nsvcd__d3_narrow(nsvcd__d3_sub(moving.position, fixed.position));
-  const nsvcd__f3 force = nsvcd__mat3_apply(&from_fixed, seen->force);
+  const nsvcd__f3 force = nsvcd__mat3_apply(&from_fixed, seen.force);
   const float unit = motion->unit;
   nsvcd__wrench by;
   by.force = nsvcd__f3_of(force.x / unit, force.y / unit, force.z / unit);
-  by.torque = nsvcd__mat3_apply(&from_fixed, seen->torque);
+  by.torque = nsvcd__mat3_apply(&from_fixed, seen.torque);
   nsvcd__wrench back;
   back.force = nsvcd__f3_scale(by.force, -1);
   back.torque = nsvcd__f3_sub(nsvcd__f3_cross(offset, back.force), by.torque);
-  const float by_moving = nsvcd__by_poses(&motion->moving, t, &by, out->moving);
-  return by_moving + nsvcd__by_poses(&motion->fixed, t, &back, out->fixed);
+  const float by_moving = nsvcd__by_poses(&motion->moving, t, by, out->moving);
+  return by_moving + nsvcd__by_poses(&motion->fixed, t, back, out->fixed);
 }
 
 // ---- instants and contact
 
-// The moving patch at seven times: entry, exit, the middle between them, and the ends of the
-// segments in which it enters (3, 4) and leaves (5, 6). The fixed body's axes, metres.
+// Times at which the moving patch is looked at.
+enum {
+  NSVCD__AT_ENTRY = 0,
+  NSVCD__AT_EXIT = 1,
+  NSVCD__AT_MIDDLE = 2,    // between these two
+  NSVCD__ENTRY_BEGIN = 3,  // the ends of the segment in which it enters,
+  NSVCD__ENTRY_END = 4,
+  NSVCD__EXIT_BEGIN = 5,  // and of that in which it leaves
+  NSVCD__EXIT_END = 6,
+  NSVCD__INSTANTS = 7
+};
+
+// The moving patch at these times, in the fixed body's axes and units.
 typedef struct nsvcd__instants {
-  float t[7];
-  nsvcd__f3 arm[7];    // from the body's origin to its centre
-  nsvcd__f3 place[7];  // its centre
+  float t[NSVCD__INSTANTS];
+  nsvcd__f3 arm[NSVCD__INSTANTS];    // from the body's origin to its centre
+  nsvcd__f3 place[NSVCD__INSTANTS];  // its centre
   // does it within the segment? else at one of its ends, and these do not move
   int enters, leaves;
 } nsvcd__instants;
 
+// The instants of a candidate. time: of the segments' ends.
 static void nsvcd__instants_of(const nsvcd__task *ask, const nsvcd__candidate *candidate,
                                const float *time, nsvcd__instants *at) {
   const float t0 = candidate->t_enter;
@@ -14594,14 +14683,22 @@ static void nsvcd__instants_of(const nsvcd__task *ask, const nsvcd__candidate *c
     a++;
   while (!(t1 <= time[b + 1]) && time[b + 1] < 1)
     b++;
-  const float t[7] = {t0, t1, 0.5f * (t0 + t1), time[a], time[a + 1], time[b], time[b + 1]};
-  memcpy(at->t, t, sizeof t);
+  at->t[NSVCD__AT_ENTRY] = t0;
+  at->t[NSVCD__AT_EXIT] = t1;
+  at->t[NSVCD__AT_MIDDLE] = 0.5f * (t0 + t1);
+  at->t[NSVCD__ENTRY_BEGIN] = time[a];
+  at->t[NSVCD__ENTRY_END] = time[a + 1];
+  at->t[NSVCD__EXIT_BEGIN] = time[b];
+  at->t[NSVCD__EXIT_END] = time[b + 1];
   at->enters = time[a] < t0 && t0 < time[a + 1];
   at->leaves = time[b] < t1 && t1 < time[b + 1];
-  for (size_t first = 0; first < 7; first += NSVCD__SLICE) {
-    const size_t count = 7 - first < NSVCD__SLICE ? 7 - first : NSVCD__SLICE;
-    float arms[3][NSVCD__LANES], places[3][NSVCD__LANES];
-    const nsvcd__v_pose pose = nsvcd__v_poses_at(motion, t + first, count);
+
+  for (size_t first = 0; first < NSVCD__INSTANTS; first += NSVCD__SLICE) {
+    const size_t left = NSVCD__INSTANTS - first;
+    const size_t count = left < NSVCD__SLICE ? left : NSVCD__SLICE;
+    float arms[3][NSVCD__LANES];
+    float places[3][NSVCD__LANES];
+    const nsvcd__v_pose pose = nsvcd__v_poses_at(motion, at->t + first, count);
     const nsvcd__v3 arm = nsvcd__vmat3_apply(nsvcd__vmat3_of(pose.rotation), centre);
     nsvcd__v3_store(arms, 0, arm);
     nsvcd__v3_store(places, 0, nsvcd__v3_add(arm, pose.position));
@@ -14612,25 +14709,24 @@ static void nsvcd__instants_of(const nsvcd__task *ask, const nsvcd__candidate *c
   }
 }
 
-// A force on the patch's centre at instant l, and a torque on the body. Returns the derivative by
-// the time.
+// From a force on the patch's centre at instant l, and a torque on the body. Returns the derivative
+// by the time.
 static float nsvcd__by_instant(const nsvcd__task *ask, const nsvcd__instants *at, size_t l,
                                nsvcd__f3 force, nsvcd__f3 torque,
                                const nsvcd__gradients *gradients) {
-  nsvcd__wrench by;
-  by.force = force;
-  by.torque = nsvcd__f3_add(torque, nsvcd__f3_cross(at->arm[l], force));
-  return nsvcd__by_motion(&ask->motion, at->t[l], &by, gradients);
+  const nsvcd__f3 lever = nsvcd__f3_cross(at->arm[l], force);
+  const nsvcd__wrench by = nsvcd__wrench_of(force, nsvcd__f3_add(torque, lever));
+  return nsvcd__by_motion(&ask->motion, at->t[l], by, gradients);
 }
 
-// The adjoint of the time at which the spheres meet (l = 0) or part (l = 1): |y| = reach with y =
-// x0 + tau x - c, from the chord x of the segment; so y.(dy + x dtau) = 0. Spheres that only graze
-// (y across x) do so for a time whose derivative has no limit: it is bounded where float32 has no
-// digits left.
+// The adjoint of the time at which the balls meet (AT_ENTRY) or part (AT_EXIT): y = x0 + tau x - c,
+// from the chord x of the segment, is as long as the sum of the radii; so y.(dy + x dtau) = 0.
+// Balls that only graze (y across x) do so for a time whose derivative has no limit: it is bounded
+// where float32 has no digits left.
 static void nsvcd__by_contact(const nsvcd__task *ask, const nsvcd__instants *at, size_t l,
                               nsvcd__f3 centre, float by_time, const nsvcd__gradients *gradients) {
   const nsvcd__f3 none = {0, 0, 0};
-  const size_t s = 3 + 2 * l;
+  const size_t s = l == NSVCD__AT_ENTRY ? NSVCD__ENTRY_BEGIN : NSVCD__EXIT_BEGIN;
   const float length = at->t[s + 1] - at->t[s];
   const float tau = (at->t[l] - at->t[s]) / length;
   const nsvcd__f3 chord = nsvcd__f3_sub(at->place[s + 1], at->place[s]);
@@ -14640,11 +14736,23 @@ static void nsvcd__by_contact(const nsvcd__task *ask, const nsvcd__instants *at,
   const float dot = fabsf(nsvcd__f3_dot(y, chord));
   if (!(least > 0))
     return;
-  const float rate = (l == 0 ? length : -length) * by_time / (dot > least ? dot : least);
+  const float along = l == NSVCD__AT_ENTRY ? length : -length;
+  const float rate = along * by_time / (dot > least ? dot : least);
   const nsvcd__f3 before = nsvcd__f3_scale(y, (1 - tau) * rate);
   const nsvcd__f3 after = nsvcd__f3_scale(y, tau * rate);
   nsvcd__by_instant(ask, at, s, before, none, gradients);
   nsvcd__by_instant(ask, at, s + 1, after, none, gradients);
+}
+
+// From the derivative by w, half the rotation vector of R1 R0^-1, to those by small rotations of R0
+// and R1, which turn it as nsvcd__by_poses says.
+static void nsvcd__by_half_rotation(nsvcd__f3 w, nsvcd__f3 by, nsvcd__f3 *by0, nsvcd__f3 *by1) {
+  const nsvcd__f3 none = {0, 0, 0};
+  const float h = nsvcd__f3_length(w);
+  const float half = 0.5f * (h > 1e-3f ? h / sinf(h) : 1);
+  const nsvcd__f3 n = h > 0 ? nsvcd__f3_of(w.x / h, w.y / h, w.z / h) : none;
+  *by0 = nsvcd__add_turned(none, by, n, -0.5f, -half, -h);
+  *by1 = nsvcd__add_turned(none, by, n, 0.5f, half, h);
 }
 
 // The derivative of the decisive logit by the poses, added to the gradients. time: of the segments'
@@ -14656,7 +14764,8 @@ static void nsvcd__gradient(const nsvcd__task *ask, const nsvcd__decisive *decis
   nsvcd__pairs pairs;
   nsvcd__by_pair by;
   nsvcd__instants at;
-  float x[NSVCD__DECODER_IN], by_x[NSVCD__DECODER_IN];
+  float x[NSVCD__DECODER_IN];
+  float by_x[NSVCD__DECODER_IN];
   nsvcd__pairs_of(ask->moving, ask->fixed, &ask->motion, &one, 1, &pairs);
   nsvcd__invariants(&pairs, 1, x);
   nsvcd__decoder_gradient(decisive->decoder, x, by_x);
@@ -14664,31 +14773,29 @@ static void nsvcd__gradient(const nsvcd__task *ask, const nsvcd__decisive *decis
   nsvcd__instants_of(ask, &candidate, time, &at);
 
   // The adjoint of nsvcd__pairs_of. v = w x arm + (x1 - x0) / 2, where arm goes from the moving
-  // centre half way to the other; w is half the rotation vector of R1 R0^-1, which small rotations
-  // of R0 and R1 turn as nsvcd__by_poses says.
-  const nsvcd__f3 none = {0, 0, 0};
+  // centre half way to the other.
   const nsvcd__f3 w = nsvcd__first_f3(pairs.w);
   const nsvcd__f3 centre = nsvcd__first_f3(pairs.p2);
+  const nsvcd__f3 line = nsvcd__f3_sub(centre, at.place[NSVCD__AT_MIDDLE]);
+  const nsvcd__f3 arm = nsvcd__f3_scale(line, 0.5f);
   const nsvcd__f3 enter = nsvcd__f3_scale(by.v, -0.5f);
   const nsvcd__f3 leave = nsvcd__f3_scale(by.v, 0.5f);
-  const nsvcd__f3 arm = nsvcd__f3_scale(nsvcd__f3_sub(centre, at.place[2]), 0.5f);
+  nsvcd__f3 enter_torque;
+  nsvcd__f3 leave_torque;
   by.w = nsvcd__f3_add(by.w, nsvcd__f3_cross(arm, by.v));
   by.p1 = nsvcd__f3_add_scaled(by.p1, -0.5f, nsvcd__f3_cross(by.v, w));
-  const float h = nsvcd__f3_length(w);
-  const float half = 0.5f * (h > 1e-3f ? h / sinf(h) : 1);
-  const nsvcd__f3 n = h > 0 ? nsvcd__f3_of(w.x / h, w.y / h, w.z / h) : none;
-  const nsvcd__f3 torque0 = nsvcd__add_turned(none, by.w, n, -0.5f, -half, -h);
-  const nsvcd__f3 torque1 = nsvcd__add_turned(none, by.w, n, 0.5f, half, h);
+  nsvcd__by_half_rotation(w, by.w, &enter_torque, &leave_torque);
 
-  const float by_middle = nsvcd__by_instant(ask, &at, 2, by.p1, by.rotation, gradients);
+  const float by_middle =
+      nsvcd__by_instant(ask, &at, NSVCD__AT_MIDDLE, by.p1, by.rotation, gradients);
   float by_enter = 0.5f * by_middle;
   float by_exit = 0.5f * by_middle;
-  by_enter += nsvcd__by_instant(ask, &at, 0, enter, torque0, gradients);
-  by_exit += nsvcd__by_instant(ask, &at, 1, leave, torque1, gradients);
+  by_enter += nsvcd__by_instant(ask, &at, NSVCD__AT_ENTRY, enter, enter_torque, gradients);
+  by_exit += nsvcd__by_instant(ask, &at, NSVCD__AT_EXIT, leave, leave_torque, gradients);
   if (at.enters)
-    nsvcd__by_contact(ask, &at, 0, centre, by_enter, gradients);
+    nsvcd__by_contact(ask, &at, NSVCD__AT_ENTRY, centre, by_enter, gradients);
   if (at.leaves)
-    nsvcd__by_contact(ask, &at, 1, centre, by_exit, gradients);
+    nsvcd__by_contact(ask, &at, NSVCD__AT_EXIT, centre, by_exit, gradients);
 }
 
 NSVCDDEF nsvcd_result nsvcd_sweep_gradient(const nsvcd_question *question, void *workspace,
@@ -14709,26 +14816,40 @@ NSVCDDEF nsvcd_result nsvcd_sweep_gradient(const nsvcd_question *question, void 
   nsvcd__decisive decisive;
   ask->decisive = &decisive;
   nsvcd__answer_task(ask, query, NULL, answer);
-  const nsvcd__gradients out = {ask->swapped ? gradient_b : gradient_a,
-                                ask->swapped ? gradient_a : gradient_b};
+  nsvcd__gradients out;
+  out.moving = ask->swapped ? gradient_b : gradient_a;
+  out.fixed = ask->swapped ? gradient_a : gradient_b;
   if (out.moving)
     memset(out.moving, 0, 6 * ask->motion.moving.count * sizeof(float));
   if (out.fixed)
     memset(out.fixed, 0, 6 * ask->motion.fixed.count * sizeof(float));
-  if (answer->status == NSVCD_STATUS_OK || answer->status == NSVCD_STATUS_LIMIT) {
+  if (answer->status == NSVCD_STATUS_OK || answer->status == NSVCD_STATUS_LIMIT)
     nsvcd__gradient(ask, &decisive, query->broad_phase.time, &out);
-  }
   return NSVCD_OK;
 }
 #endif  // NSVCD_NO_GRADIENT
 
 #ifndef NSVCD_NO_OPTIMIZER
 // ------------------------------------------------------------------------------------------ spline
-// Control points -> positions and derivatives. All is linear in the control points: the weights of
-// one moment are (M + 2), the means of squares over the whole motion are quadratic forms (M + 2, M
-// + 2), the same for each joint.
+// Control points -> positions and derivatives. All is linear in the control points, and the same
+// for each joint: what the joints are at one moment is a sum of the points by weights (M + 2), and
+// the mean of its square over the motion a quadratic form (M + 2, M + 2).
 
-// The weights of the control points in the joints' derivative of the given order by t.
+// A derivative at u of a polynomial of degree five, times `scale`.
+static double nsvcd__polynomial(const double *coefficients, double u, size_t derivative,
+                                double scale) {
+  double value = 0;
+  double power = scale;
+  for (size_t n = derivative; n < 6; n++, power *= u) {
+    double factor = coefficients[n];
+    for (size_t d = 0; d < derivative; d++)
+      factor *= (double)(n - d);
+    value += factor * power;
+  }
+  return value;
+}
+
+// The weights (M + 2) of the control points in the joints' derivative of the given order by t.
 static void nsvcd__spline_weights(size_t via, double t, size_t derivative, double *weights) {
   // Polynomials of u in [0,1]: of the position, velocity and acceleration at its left end, then at
   // its right.
@@ -14739,30 +14860,22 @@ static void nsvcd__spline_weights(size_t via, double t, size_t derivative, doubl
   const double at = (t > 0 ? (t < 1 ? t : 1) : 0) * (double)last;
   const size_t left = (size_t)at < last ? (size_t)at : last - 1;
   const double u = at - (double)left;
-  double scale = 1;
+  double scale = 1;  // derivatives by t, not by u
   for (size_t k = 0; k < derivative; k++)
     scale *= (double)last;
   for (size_t k = 0; k <= last; k++)
     weights[k] = 0;
   for (size_t end = 0; end < 2; end++) {
+    const double(*polynomials)[6] = basis + 3 * end;
     const size_t point = left + end;
-    double value[3];
-    for (size_t k = 0; k < 3; k++) {
-      double power = scale;
-      value[k] = 0;
-      for (size_t n = derivative; n < 6; n++, power *= u) {
-        double factor = basis[3 * end + k][n];
-        for (size_t d = 0; d < derivative; d++)
-          factor *= (double)(n - d);
-        value[k] += factor * power;
-      }
-    }
-    weights[point] += value[0];
+    weights[point] += nsvcd__polynomial(polynomials[0], u, derivative, scale);
     if (point == 0 || point == last)
       continue;  // at rest
-    weights[point + 1] += 0.5 * value[1] + value[2];
-    weights[point - 1] += value[2] - 0.5 * value[1];
-    weights[point] -= 2 * value[2];
+    const double velocity = nsvcd__polynomial(polynomials[1], u, derivative, scale);
+    const double acceleration = nsvcd__polynomial(polynomials[2], u, derivative, scale);
+    weights[point + 1] += 0.5 * velocity + acceleration;
+    weights[point - 1] += acceleration - 0.5 * velocity;
+    weights[point] -= 2 * acceleration;
   }
 }
 
@@ -14788,12 +14901,14 @@ static void nsvcd__add_mean_square(size_t via, size_t derivative, double weight,
   static const double shares[5] = {0.118463442528095, 0.239314335249683, 0.284444444444444,
                                    0.239314335249683, 0.118463442528095};
   const size_t count = via + 2;
+  const double pieces = (double)(via + 1);
   double w[NSVCD_MAX_VIA_POINTS + 2];
   for (size_t piece = 0; piece < via + 1; piece++) {
     for (size_t n = 0; n < 5; n++) {
-      nsvcd__spline_weights(via, ((double)piece + nodes[n]) / (double)(via + 1), derivative, w);
+      const double t = ((double)piece + nodes[n]) / pieces;
+      nsvcd__spline_weights(via, t, derivative, w);
       for (size_t i = 0; i < count; i++) {
-        const double scaled = weight * shares[n] / (double)(via + 1) * w[i];
+        const double scaled = weight * shares[n] / pieces * w[i];
         for (size_t j = 0; j < count; j++)
           form[i * count + j] += scaled * w[j];
       }
@@ -14801,10 +14916,11 @@ static void nsvcd__add_mean_square(size_t via, size_t derivative, double weight,
   }
 }
 
-// L L^T = a, lower; a, l: (n, n). Of a symmetric positive definite a; what rounding makes of it is
-// kept positive.
+// L L^T = a, lower; a, l: (n, n), and may be the same. Of a symmetric positive definite a; what
+// rounding makes of it is kept positive.
 static void nsvcd__cholesky(const double *a, size_t n, double *l) {
   for (size_t i = 0; i < n; i++) {
+    const double least = 1e-9 * a[i * n + i];
     for (size_t j = 0; j < n; j++) {
       double sum = a[i * n + j];
       for (size_t k = 0; k < (i < j ? i : j); k++)
@@ -14812,7 +14928,7 @@ static void nsvcd__cholesky(const double *a, size_t n, double *l) {
       if (j < i)
         l[i * n + j] = sum / l[j * n + j];
       if (j == i)
-        l[i * n + i] = sqrt(sum > 1e-9 * a[i * n + i] ? sum : 1e-9 * a[i * n + i]);
+        l[i * n + i] = sqrt(sum > least ? sum : least);
       if (j > i)
         l[i * n + j] = 0;
     }
@@ -15312,10 +15428,10 @@ static void nsvcd__add_wrench(const nsvcd_body_pair *pair, const nsvcd_pose *pos
   const nsvcd__f3 torque = nsvcd__mat3_apply(&axes, seen.torque);
   const nsvcd__f3 arm = nsvcd__f3_sub(nsvcd__f3_load(a->position), nsvcd__f3_load(b->position));
   const nsvcd__f3 back = nsvcd__f3_add(torque, nsvcd__f3_cross(arm, force));
-  float *on_a = wrenches + 6 * pair->a;
-  float *on_b = wrenches + 6 * pair->b;
-  nsvcd__add_to_row(on_a, nsvcd__f3_scale(force, scale), nsvcd__f3_scale(torque, scale));
-  nsvcd__add_to_row(on_b, nsvcd__f3_scale(force, -scale), nsvcd__f3_scale(back, -scale));
+  const nsvcd__wrench on_a = nsvcd__wrench_of(force, torque);
+  const nsvcd__wrench on_b = nsvcd__wrench_of(force, back);
+  nsvcd__wrench_add(nsvcd__wrench_scale(on_a, scale), wrenches + 6 * pair->a);
+  nsvcd__wrench_add(nsvcd__wrench_scale(on_b, -scale), wrenches + 6 * pair->b);
 }
 
 // The most suspicious moment of a trajectory.
