@@ -12,6 +12,7 @@
 
 #include "scenery/draw.h"
 #include "scenery/level.h"
+#include "scenery/poses.h"
 
 #define SIDE 20.0         // metres
 #define SEED 1            // of the level
@@ -134,22 +135,6 @@ static int fly(flight *f, const nsvcd_body *drone, const nsvcd_body *level, void
   return 1;
 }
 
-static void draw_shape(draw_list *list, const shapes_mesh *shape, const nsvcd_pose *at,
-                       const draw_colour *colour) {
-  task_body body;
-  oracle_pose pose;
-  memset(&body, 0, sizeof body);
-  for (int k = 0; k < 3; k++)
-    pose.position[k] = (double)at->position[k];
-  for (int k = 0; k < 4; k++)
-    pose.rotation[k] = (double)at->rotation[k];
-  if (!oracle_mesh_init(&body.exact, shape->positions, shape->vertices, shape->indices,
-                        shape->triangles, 1))
-    return;
-  draw_body(list, &body, &pose, colour, 1);
-  oracle_mesh_free(&body.exact);
-}
-
 // How near to the level the flight came, all of it, by the exact oracle: metres; negative without
 // memory.
 static double oracle_says(const flight *f, const shapes_mesh *drone, const shapes_mesh *level) {
@@ -158,11 +143,7 @@ static double oracle_says(const flight *f, const shapes_mesh *drone, const shape
   const oracle_options options = {1e-3, 0, 0, 1};
   oracle_pose *poses = (oracle_pose *)allocate(f->frames * sizeof *poses);
   for (size_t n = 0; n < f->frames; n++) {
-    for (int k = 0; k < 3; k++)
-      poses[n].position[k] = (double)f->path[n].position[k];
-    for (int k = 0; k < 4; k++)
-      poses[n].rotation[k] = (double)f->path[n].rotation[k];
-    oracle_quat_normalize(poses[n].rotation);
+    poses[n] = pose_widened(&f->path[n]);
   }
   if (!oracle_mesh_init(&moving, drone->positions, drone->vertices, drone->indices,
                         drone->triangles, 1))
@@ -180,7 +161,7 @@ static double oracle_says(const flight *f, const shapes_mesh *drone, const shape
 // The level is drawn with fewer triangles: the same things in the same places.
 static int draw(const flight *f, const shapes_mesh *drone) {
   const draw_view view = {-0.9, 0.75, {0, 0, 0.3}, 33, 860, 620, 0.6};
-  const nsvcd_pose origin = {{0, 0, 0}, {0, 0, 0, 1}};
+  const oracle_pose origin = {{0, 0, 0}, {0, 0, 0, 1}};
   shapes_mesh ground, things;
   FILE *svg = draw_open("build/fly_through.svg", 900, 740, "A level as one body",
                         "200,000 triangles; what lies ahead is proven free, frame by frame");
@@ -192,19 +173,18 @@ static int draw(const flight *f, const shapes_mesh *drone) {
   level_things(&things, SIDE, 10000, SEED);
   draw_panel(svg, 20, 84, &view);
   draw_list list = {&view, NULL, 0, 0, 0};
-  draw_shape(&list, &ground, &origin, &draw_cream);
+  draw_shape(&list, &ground, 1, &origin, &draw_cream);
   draw_flush(svg, &list);
-  draw_shape(&list, &things, &origin, &draw_steel);
-  for (size_t n = 0; n < f->frames; n += GHOSTS)
-    draw_shape(&list, drone, &f->path[n], &draw_orange);
+  draw_shape(&list, &things, 1, &origin, &draw_steel);
+  for (size_t n = 0; n < f->frames; n += GHOSTS) {
+    const oracle_pose pose = pose_widened(&f->path[n]);
+    draw_shape(&list, drone, 1, &pose, &draw_orange);
+  }
   draw_flush(svg, &list);
   fprintf(svg, "<path fill=\"none\" stroke=\"#1454a0\" stroke-width=\"2\" d=\"");
   for (size_t n = 0; n < f->frames; n++) {
-    double world[3], at[3];
-    for (int k = 0; k < 3; k++)
-      world[k] = (double)f->path[n].position[k];
-    draw_project(&view, world, at);
-    fprintf(svg, "%s%.1f %.1f", n ? "L" : "M", at[0], at[1]);
+    const oracle_pose pose = pose_widened(&f->path[n]);
+    draw_to(svg, &view, n == 0, pose.position);
   }
   fprintf(svg, "\"/>\n");
   draw_panel_end(svg, &view, "half a minute of flight");

@@ -11,6 +11,7 @@
 #define PROGRAM "game"
 #include "scenery/problem_file.h"
 #include "scenery/draw.h"
+#include "scenery/poses.h"
 
 #define MESHES 8
 #define MOVERS 50
@@ -491,26 +492,13 @@ static int draw(const world *w) {
   for (size_t n = 0; n < THINGS; n++) {
     const size_t i = THINGS - 1 - n;  // the floor first
     const thing *t = &w->things[i];
-    const shapes_mesh *shape = &w->shapes[t->mesh];
-    task_body body;
-    oracle_pose pose;
-    memset(&body, 0, sizeof body);
-    if (!oracle_mesh_init(&body.exact, shape->positions, shape->vertices, shape->indices,
-                          shape->triangles, (double)t->scale)) {
-      return 0;
-    }
-    for (int k = 0; k < 3; k++)
-      pose.position[k] = (double)t->poses[0].position[k];
-    for (int k = 0; k < 4; k++)
-      pose.rotation[k] = (double)t->poses[0].rotation[k];
-    draw_body(&list, &body, &pose,
-              i == FLOOR   ? &draw_cream
-              : i < MOVERS ? colours[i % 3]
-                           : &draw_steel,
-              1);
+    const oracle_pose pose = pose_widened(&t->poses[0]);
+    draw_shape(&list, &w->shapes[t->mesh], (double)t->scale, &pose,
+               i == FLOOR   ? &draw_cream
+               : i < MOVERS ? colours[i % 3]
+                            : &draw_steel);
     if (i == FLOOR)
       draw_flush(svg, &list);
-    oracle_mesh_free(&body.exact);
   }
   draw_flush(svg, &list);
   draw_panel_end(svg, &view, "where they came to rest");

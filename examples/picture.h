@@ -1,10 +1,9 @@
-// picture.h - draws what the quickstart asked about, as SVG: the fixed mesh and the moving one
-// along its motion, light to dark, the place of contact marked. No part of the library. Include
-// neuralsvcd.h first.
+// picture.h - draws what the quickstart asked about, as SVG (scenery/draw.h): the fixed mesh and the
+// moving one along its motion, light to dark, the place of contact marked. No part of the library.
+// Include neuralsvcd.h first.
 //
-// In: meshes (metres), motions, answers. Out: one panel per motion. A parallel projection; nearer
-// things cover farther ones, where the fixed mesh is sorted triangle by triangle and each drawing
-// of the moving one counts as one thing.
+// In: meshes (metres), motions, answers. Out: one panel per motion. Nearer things cover farther
+// ones, where each drawing of the moving mesh counts as one thing.
 #ifndef NSVCD_EXAMPLES_PICTURE_H
 #define NSVCD_EXAMPLES_PICTURE_H
 
@@ -13,12 +12,19 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "scenery/draw.h"
+#include "scenery/poses.h"
+
 #define PICTURE_MAX_POSES 128
 #define PICTURE_WIDTH 664  // of a panel, pixels
 #define PICTURE_HEIGHT 520
 #define PICTURE_TOP 84  // of the panels
 #define PICTURE_GHOSTS 9
-#define PICTURE_SCALE 860.0  // pixels per metre
+
+// The camera stands at +x, 24 degrees towards -y, and looks down by 17 degrees.
+static const draw_view picture_view = {
+    -0.42, 0.30, {0, -0.1528, 0.1361}, 860, PICTURE_WIDTH, PICTURE_HEIGHT, 1};
+static const oracle_pose picture_origin = {{0, 0, 0}, {0, 0, 0, 1}};
 
 typedef struct picture_panel {
   const char *name;
@@ -37,155 +43,49 @@ static void picture_take(picture_panel *panel, const char *name, const nsvcd_pos
   panel->microseconds = microseconds;
 }
 
-// -------------------------------------------------------------------------------------- projection
-
-// World to the panel: x to the right and y down in pixels, z towards the viewer in metres. The
-// camera stands at +x, 24 degrees towards -y, and looks down by 17 degrees.
-static void picture_project(const double *p, double *out) {
-  const double azimuth = -0.42;
-  const double elevation = 0.30;
-  double ca = cos(azimuth);
-  double sa = sin(azimuth);
-  double ce = cos(elevation);
-  double se = sin(elevation);
-  out[0] = 452 + PICTURE_SCALE * (-sa * p[0] + ca * p[1]);
-  out[1] = 356 - PICTURE_SCALE * (-se * ca * p[0] - se * sa * p[1] + ce * p[2]);
-  out[2] = ce * ca * p[0] + ce * sa * p[1] + se * p[2];
-}
-static void picture_place(const nsvcd_pose *pose, const float *v, double *out) {
-  const float *q = pose->rotation;
-  double c[3] = {(double)(q[1] * v[2] - q[2] * v[1] + q[3] * v[0]),
-                 (double)(q[2] * v[0] - q[0] * v[2] + q[3] * v[1]),
-                 (double)(q[0] * v[1] - q[1] * v[0] + q[3] * v[2])};
-  for (int k = 0; k < 3; k++) {
-    int i = (k + 1) % 3;
-    int j = (k + 2) % 3;
-    out[k] =
-        (double)v[k] + 2 * ((double)q[i] * c[j] - (double)q[j] * c[i]) + (double)pose->position[k];
+// Exits where there is no memory.
+static oracle_mesh picture_mesh(const nsvcd_mesh *mesh) {
+  oracle_mesh out;
+  double *positions = (double *)malloc(3 * mesh->vertex_count * sizeof *positions);
+  for (size_t i = 0; positions && i < 3 * mesh->vertex_count; i++)
+    positions[i] = (double)mesh->positions[i];
+  if (!positions || !oracle_mesh_init(&out, positions, mesh->vertex_count, mesh->indices,
+                                      mesh->triangle_count, 1)) {
+    exit(1);
   }
-}
-
-typedef struct picture_triangle {
-  double corners[3][3];  // in the panel
-  double depth;          // of the middle; greater is nearer
-  double top;            // highest z in world axes
-  double light;          // 0 dark to 1 bright
-  double facing;         // > 0: seen from outside
-} picture_triangle;
-
-static picture_triangle picture_look(const nsvcd_mesh *mesh, size_t index, const nsvcd_pose *pose) {
-  const double to_light[3] = {0.45, -0.45, 0.77};
-  picture_triangle t;
-  double world[3][3], n[3], length;
-  for (int c = 0; c < 3; c++) {
-    picture_place(pose, mesh->positions + 3 * (size_t)mesh->indices[3 * index + (size_t)c],
-                  world[c]);
-    picture_project(world[c], t.corners[c]);
-  }
-  for (int k = 0; k < 3; k++) {
-    int i = (k + 1) % 3;
-    int j = (k + 2) % 3;
-    n[k] = (world[1][i] - world[0][i]) * (world[2][j] - world[0][j]) -
-           (world[1][j] - world[0][j]) * (world[2][i] - world[0][i]);
-  }
-  length = sqrt(n[0] * n[0] + n[1] * n[1] + n[2] * n[2]);
-  t.light =
-      length > 0
-          ? 0.5 + 0.5 * (n[0] * to_light[0] + n[1] * to_light[1] + n[2] * to_light[2]) / length
-          : 0.5;
-  t.top = fmax(world[0][2], fmax(world[1][2], world[2][2]));
-  t.depth = (t.corners[0][2] + t.corners[1][2] + t.corners[2][2]) / 3;
-  t.facing = -((t.corners[1][0] - t.corners[0][0]) * (t.corners[2][1] - t.corners[0][1]) -
-               (t.corners[1][1] - t.corners[0][1]) * (t.corners[2][0] - t.corners[0][0]));
-  return t;
-}
-static int picture_compare(const void *a, const void *b) {
-  double x = ((const picture_triangle *)a)->depth;
-  double y = ((const picture_triangle *)b)->depth;
-  return (x > y) - (x < y);
-}
-// All triangles that face the viewer, the farthest first. NULL without memory; the caller frees.
-static picture_triangle *picture_sort(const nsvcd_mesh *mesh, const nsvcd_pose *pose,
-                                      size_t *count) {
-  picture_triangle *triangles =
-      (picture_triangle *)malloc((mesh->triangle_count + 1) * sizeof *triangles);
-  *count = 0;
-  if (!triangles)
-    return NULL;
-  for (size_t i = 0; i < mesh->triangle_count; i++) {
-    triangles[*count] = picture_look(mesh, i, pose);
-    if (triangles[*count].facing > 0)
-      ++*count;
-  }
-  qsort(triangles, *count, sizeof *triangles, picture_compare);
-  return triangles;
+  free(positions);
+  return out;
 }
 
 // ----------------------------------------------------------------------------------------- drawing
 
-typedef struct picture_colour {
-  double dark[3], bright[3];
-} picture_colour;
-
-static const picture_colour picture_steel = {{84, 98, 116}, {214, 222, 232}};
-static const picture_colour picture_red = {{132, 14, 22}, {255, 128, 116}};
-static const picture_colour picture_green = {{10, 92, 52}, {116, 222, 150}};
-
-static void picture_corner_list(FILE *svg, const picture_triangle *t) {
-  fprintf(svg, "M%.1f %.1fL%.1f %.1fL%.1f %.1fZ", t->corners[0][0], t->corners[0][1],
-          t->corners[1][0], t->corners[1][1], t->corners[2][0], t->corners[2][1]);
-}
-static void picture_rgb(FILE *svg, const picture_colour *colour, double light) {
-  fprintf(svg, "rgb(%.0f,%.0f,%.0f)",
-          colour->dark[0] + light * (colour->bright[0] - colour->dark[0]),
-          colour->dark[1] + light * (colour->bright[1] - colour->dark[1]),
-          colour->dark[2] + light * (colour->bright[2] - colour->dark[2]));
-}
-// The thin edge of the same colour hides the seams between triangles.
-static void picture_shaded(FILE *svg, const picture_triangle *t, const picture_colour *colour) {
-  fprintf(svg, "<path d=\"");
-  picture_corner_list(svg, t);
-  fprintf(svg, "\" stroke-width=\".6\" fill=\"");
-  picture_rgb(svg, colour, t->light);
-  fprintf(svg, "\" stroke=\"");
-  picture_rgb(svg, colour, t->light);
-  fprintf(svg, "\"/>\n");
-}
-// One moving body: shaded if `solid`, else a silhouette. `light`: from 1, early, to 0, late.
-static void picture_moving(FILE *svg, const nsvcd_mesh *mesh, const nsvcd_pose *pose,
-                           const picture_colour *colour, double light, int solid) {
-  size_t count;
-  picture_triangle *triangles = picture_sort(mesh, pose, &count);
-  if (!triangles)
-    return;
-  if (solid) {
-    for (size_t i = 0; i < count; i++)
-      picture_shaded(svg, &triangles[i], colour);
-  } else {
-    fprintf(svg, "<path fill-opacity=\"%.2f\" fill=\"", 0.16 + 0.30 * (1 - light));
-    picture_rgb(svg, colour, 0.25 + 0.75 * light);
-    fprintf(svg, "\" d=\"");
-    for (size_t i = 0; i < count; i++)
-      picture_corner_list(svg, &triangles[i]);
-    fprintf(svg, "\"/>\n");
-  }
-  free(triangles);
+// The moving body on its way, a silhouette. `light`: from 1, early, to 0, late.
+static void picture_ghost(FILE *svg, const oracle_mesh *mesh, const nsvcd_pose *pose,
+                          const draw_colour *colour, double light) {
+  draw_list list = {&picture_view, NULL, 0, 0, 0};
+  const oracle_pose at = pose_widened(pose);
+  draw_solid(&list, mesh, &at, colour, 0.16 + 0.30 * (1 - light));
+  for (size_t i = 0; i < list.count; i++)
+    list.triangles[i].light = 0.25 + 0.75 * light;
+  draw_flush(svg, &list);
 }
 // The shadow on the table: light from straight above.
-static void picture_shadow(FILE *svg, const nsvcd_mesh *mesh, const nsvcd_pose *pose) {
+static void picture_shadow(FILE *svg, const oracle_mesh *mesh, const oracle_pose *pose) {
+  double m[9];
+  oracle_matrix(pose->rotation, m);
   fprintf(svg, "<path fill=\"#1b2430\" fill-opacity=\".13\" d=\"");
   for (size_t i = 0; i < mesh->triangle_count; i++) {
-    picture_triangle t;
-    for (int c = 0; c < 3; c++) {
-      double p[3];
-      picture_place(pose, mesh->positions + 3 * (size_t)mesh->indices[3 * i + (size_t)c], p);
-      p[2] = 0;
-      picture_project(p, t.corners[c]);
+    const oracle_triangle *t = &mesh->triangles[i];
+    double normal[3], world[3];
+    oracle_rotate(m, t->normal, normal);
+    if (normal[2] < 1e-3)
+      continue;
+    for (int k = 0; k < 3; k++) {
+      oracle_transform(pose, t->v[k], world);
+      world[2] = 0;
+      draw_to(svg, &picture_view, k == 0, world);
     }
-    double turn = (t.corners[1][0] - t.corners[0][0]) * (t.corners[2][1] - t.corners[0][1]) -
-                  (t.corners[1][1] - t.corners[0][1]) * (t.corners[2][0] - t.corners[0][0]);
-    if (turn < -0.05)
-      picture_corner_list(svg, &t);
+    fprintf(svg, "Z");
   }
   fprintf(svg, "\"/>\n");
 }
@@ -193,11 +93,8 @@ static void picture_table(FILE *svg) {
   const double corners[4][3] = {
       {0.25, -0.60, 0}, {0.25, 0.26, 0}, {-0.27, 0.26, 0}, {-0.27, -0.60, 0}};
   fprintf(svg, "<path fill=\"#efe7da\" stroke=\"#ddd0bb\" d=\"");
-  for (int i = 0; i < 4; i++) {
-    double p[3];
-    picture_project(corners[i], p);
-    fprintf(svg, "%s%.1f %.1f", i ? "L" : "M", p[0], p[1]);
-  }
+  for (int i = 0; i < 4; i++)
+    draw_to(svg, &picture_view, i == 0, corners[i]);
   fprintf(svg, "Z\"/>\n");
 }
 // The path of the moving body's origin.
@@ -207,11 +104,8 @@ static void picture_path(FILE *svg, const picture_panel *panel, const char *ink)
           "stroke-linecap=\"round\" d=\"",
           ink);
   for (size_t i = 0; i < panel->count; i++) {
-    double p[3];
-    double world[3] = {(double)panel->poses[i].position[0], (double)panel->poses[i].position[1],
-                       (double)panel->poses[i].position[2]};
-    picture_project(world, p);
-    fprintf(svg, "%s%.1f %.1f", i ? "L" : "M", p[0], p[1]);
+    const oracle_pose pose = pose_widened(&panel->poses[i]);
+    draw_to(svg, &picture_view, i == 0, pose.position);
   }
   fprintf(svg, "\"/>\n");
 }
@@ -223,8 +117,8 @@ static void picture_contact(FILE *svg, const picture_panel *panel) {
     world[k] = (double)a->point[k];
     tip[k] = world[k] + 0.12 * (double)a->normal[k];
   }
-  picture_project(world, p);
-  picture_project(tip, q);
+  draw_project(&picture_view, world, p);
+  draw_project(&picture_view, tip, q);
   const double x = q[0] - p[0];
   const double y = q[1] - p[1];
   const double length = hypot(x, y) + 1e-9;
@@ -248,28 +142,34 @@ static void picture_contact(FILE *svg, const picture_panel *panel) {
 
 // What of the fixed mesh covers the moving one, or all the rest. Seen from above, nothing that lies
 // lower can cover it.
-static void picture_fixed(FILE *svg, const picture_triangle *triangles, size_t count, double depth,
-                          double lowest, int covering) {
-  for (size_t i = 0; i < count; i++) {
-    int covers = triangles[i].depth > depth && triangles[i].top > lowest;
-    if (covers == covering)
-      picture_shaded(svg, &triangles[i], &picture_steel);
+static void picture_fixed(FILE *svg, const oracle_mesh *mesh, double depth, double lowest,
+                          int covering) {
+  draw_list list = {&picture_view, NULL, 0, 0, 0};
+  for (size_t i = 0; i < mesh->triangle_count; i++) {
+    const oracle_triangle *t = &mesh->triangles[i];
+    double middle[3], p[3];
+    for (int k = 0; k < 3; k++)
+      middle[k] = (t->v[0][k] + t->v[1][k] + t->v[2][k]) / 3;
+    draw_project(&picture_view, middle, p);
+    const double top = fmax(t->v[0][2], fmax(t->v[1][2], t->v[2][2]));
+    if ((p[2] > depth && top > lowest) == covering)
+      draw_one(&list, t, &picture_origin, &draw_steel, 1);
   }
+  draw_flush(svg, &list);
 }
 // The lowest z of a moving body, and the depth of its middle. What touches it shall not be cut in
 // two by that depth: hence a little nearer than the middle.
-static void picture_stand(const nsvcd_mesh *mesh, const nsvcd_pose *pose, double *depth,
+static void picture_stand(const oracle_mesh *mesh, const oracle_pose *pose, double *depth,
                           double *lowest) {
-  double world[3];
-  double p[3];
   double least = HUGE_VAL;
   double most = -HUGE_VAL;
   *lowest = HUGE_VAL;
-  for (size_t i = 0; i < mesh->vertex_count; i++) {
-    picture_place(pose, mesh->positions + 3 * i, world);
+  for (size_t i = 0; i < 3 * mesh->triangle_count; i++) {
+    double world[3], p[3];
+    oracle_transform(pose, mesh->triangles[i / 3].v[i % 3], world);
     *lowest = fmin(*lowest, world[2]);
     world[2] = 0;
-    picture_project(world, p);
+    draw_project(&picture_view, world, p);
     least = fmin(least, p[2]);
     most = fmax(most, p[2]);
   }
@@ -277,31 +177,28 @@ static void picture_stand(const nsvcd_mesh *mesh, const nsvcd_pose *pose, double
 }
 // Back to front: what of the fixed mesh lies behind the moving one, the silhouettes, the moving
 // body at the time of contact or else at the end, the rest of the fixed mesh, the mark.
-static void picture_scene(FILE *svg, const nsvcd_mesh *moving, const nsvcd_mesh *fixed,
+static void picture_scene(FILE *svg, const oracle_mesh *moving, const oracle_mesh *fixed,
                           const picture_panel *panel) {
-  const nsvcd_pose origin = {{0, 0, 0}, {0, 0, 0, 1}};
   const nsvcd_answer *a = &panel->answer;
-  const picture_colour *colour = a->collides ? &picture_red : &picture_green;
-  size_t count;
-  size_t last = panel->count - 1;
-  size_t shown = a->collides ? (size_t)((double)a->contact_time * (double)last + 0.5) : last;
-  picture_triangle *triangles = picture_sort(fixed, &origin, &count);
-  if (!triangles)
-    return;
-  picture_shadow(svg, fixed, &origin);
-  picture_shadow(svg, moving, &panel->poses[shown]);
+  const draw_colour *colour = a->collides ? &draw_red : &draw_green;
+  const size_t last = panel->count - 1;
+  const size_t shown = a->collides ? (size_t)((double)a->contact_time * (double)last + 0.5) : last;
+  const oracle_pose pose = pose_widened(&panel->poses[shown]);
   double depth, lowest;
-  picture_stand(moving, &panel->poses[shown], &depth, &lowest);
-  picture_fixed(svg, triangles, count, depth, lowest, 0);
+  picture_shadow(svg, fixed, &picture_origin);
+  picture_shadow(svg, moving, &pose);
+  picture_stand(moving, &pose, &depth, &lowest);
+  picture_fixed(svg, fixed, depth, lowest, 0);
   for (size_t i = 0; i < PICTURE_GHOSTS; i++) {
-    size_t at = i * last / (PICTURE_GHOSTS - 1);
+    const size_t at = i * last / (PICTURE_GHOSTS - 1);
     if (at != shown)
-      picture_moving(svg, moving, &panel->poses[at], colour, 1 - (double)at / (double)last, 0);
+      picture_ghost(svg, moving, &panel->poses[at], colour, 1 - (double)at / (double)last);
   }
   picture_path(svg, panel, a->collides ? "#b3202c" : "#12824c");
-  picture_moving(svg, moving, &panel->poses[shown], colour, 0, 1);
-  picture_fixed(svg, triangles, count, depth, lowest, 1);
-  free(triangles);
+  draw_list list = {&picture_view, NULL, 0, 0, 0};
+  draw_solid(&list, moving, &pose, colour, 1);
+  draw_flush(svg, &list);
+  picture_fixed(svg, fixed, depth, lowest, 1);
   if (a->status == NSVCD_STATUS_WITNESS)
     picture_contact(svg, panel);
 }
@@ -354,46 +251,25 @@ static void picture_legend(FILE *svg, int x, int y) {
 // Returns 1, or 0 after a message.
 static int picture_write(const char *path, const nsvcd_mesh *moving, const nsvcd_mesh *fixed,
                          const picture_panel *panels, int count) {
-  FILE *svg = fopen(path, "w");
+  const int height = PICTURE_TOP + PICTURE_HEIGHT + 56;
+  FILE *svg = draw_open(path, 24 + (PICTURE_WIDTH + 24) * count, height,
+                        "Does the mug, carried along this path, hit the dish rack?",
+                        "neuralsvcd.h: each mesh encoded once, each motion answered by one query");
   if (!svg)
-    return fprintf(stderr, "%s: cannot be written\n", path), 0;
-  int width = 24 + (PICTURE_WIDTH + 24) * count;
-  int height = PICTURE_TOP + PICTURE_HEIGHT + 56;
-  fprintf(
-      svg,
-      "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"%d\" height=\"%d\" viewBox=\"0 0 %d %d\" "
-      "font-family=\"Helvetica, Arial, sans-serif\">\n<rect width=\"%d\" height=\"%d\" "
-      "fill=\"#f6f7f9\"/>\n",
-      width, height, width, height, width, height);
-  fprintf(svg,
-          "<text x=\"26\" y=\"38\" font-size=\"26\" font-weight=\"700\" fill=\"#1b2430\">"
-          "Does the mug, carried along this path, hit the dish rack?</text>\n");
-  fprintf(svg,
-          "<text x=\"26\" y=\"64\" font-size=\"15\" fill=\"#5a6675\">"
-          "neuralsvcd.h: each mesh encoded once, each whole motion answered by one query</text>\n");
+    return 0;
+  oracle_mesh a = picture_mesh(moving);
+  oracle_mesh b = picture_mesh(fixed);
   for (int i = 0; i < count; i++) {
-    fprintf(svg, "<g transform=\"translate(%d %d)\">\n", 24 + (PICTURE_WIDTH + 24) * i,
-            PICTURE_TOP);
-    fprintf(svg,
-            "<clipPath id=\"panel%d\"><rect width=\"%d\" height=\"%d\" rx=\"12\"/></clipPath>\n", i,
-            PICTURE_WIDTH, PICTURE_HEIGHT);
-    fprintf(svg,
-            "<g clip-path=\"url(#panel%d)\"><rect width=\"%d\" height=\"%d\" fill=\"#fff\"/>\n", i,
-            PICTURE_WIDTH, PICTURE_HEIGHT);
+    draw_panel(svg, 24 + (PICTURE_WIDTH + 24) * i, PICTURE_TOP, &picture_view);
     picture_table(svg);
-    picture_scene(svg, moving, fixed, &panels[i]);
+    picture_scene(svg, &a, &b, &panels[i]);
     picture_captions(svg, &panels[i]);
-    fprintf(svg,
-            "</g>\n<rect width=\"%d\" height=\"%d\" rx=\"12\" fill=\"none\" stroke=\"#d5dae1\"/>\n",
-            PICTURE_WIDTH, PICTURE_HEIGHT);
-    fprintf(svg, "</g>\n");
+    draw_panel_end(svg, &picture_view, "");
   }
   picture_legend(svg, 26, height - 22);
-  fprintf(svg, "</svg>\n");
-  int good = !ferror(svg);
-  if (fclose(svg) == 0 && good)
-    return 1;
-  return fprintf(stderr, "%s: cannot be written\n", path), 0;
+  oracle_mesh_free(&a);
+  oracle_mesh_free(&b);
+  return draw_close(svg);
 }
 
 #endif

@@ -6,8 +6,8 @@
 #ifndef NSVCD_EXAMPLES_TASK_PLANNER_H
 #define NSVCD_EXAMPLES_TASK_PLANNER_H
 
+#include "draw_tasks.h"
 #include "scenery/clock.h"
-#include "scenery/draw.h"
 
 #include <errno.h>
 
@@ -250,18 +250,16 @@ PLANNER_DEF void planner_fit(draw_view *view, const task_scene *scene, const pla
 PLANNER_DEF void planner_ghost(draw_list *list, const task_scene *scene, const float *joints,
                                int body, int frame, const draw_colour *colour, double opacity) {
   oracle_pose pose = planner_pose(scene, joints, body, frame);
-  draw_body(list, &scene->bodies[body], &pose, colour, opacity);
+  draw_solid(list, &scene->bodies[body].exact, &pose, colour, opacity);
 }
 // The line along which the body's origin moves. joints: (count, joint_count).
 PLANNER_DEF void planner_line(FILE *svg, const draw_view *view, const task_scene *scene,
                               const float *joints, int count, int body, int frame,
                               const char *style) {
-  double p[3] = {0, 0, 0};
   fprintf(svg, "<path fill=\"none\" stroke-linejoin=\"round\" stroke-width=\"3\" %s d=\"", style);
   for (int s = 0; s < count; s++) {
-    draw_project(view, planner_pose(scene, joints + s * scene->joint_count, body, frame).position,
-                 p);
-    fprintf(svg, "%s%.1f %.1f", s ? "L" : "M", p[0], p[1]);
+    const oracle_pose pose = planner_pose(scene, joints + s * scene->joint_count, body, frame);
+    draw_to(svg, view, s == 0, pose.position);
   }
   fprintf(svg, "\"/>\n");
 }

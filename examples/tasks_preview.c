@@ -5,7 +5,7 @@
 //   build/tasks_preview 7          those of seed 7
 //   build/tasks_preview measure N [SEED]  N episodes of each task: bodies, pairs, time, how hard
 //                                         they are
-#include "scenery/draw.h"
+#include "draw_tasks.h"
 
 #include <time.h>
 

@@ -1,6 +1,5 @@
-// draw.h - draws scenes of tasks.h as SVG: what stands still, the robot at any number of
-// configurations, solid or as ghosts, lines that things move along, panels side by side, frames one
-// after the other.
+// draw.h - meshes as SVG: triangles at poses, solid or as ghosts, lines that things move along,
+// panels side by side, frames one after the other.
 //
 // A parallel projection, nearer triangles over farther ones; long triangles are cut up, as
 // otherwise a wall would have only one depth. One panel:
@@ -8,15 +7,15 @@
 //   FILE *svg = draw_open("scene.svg", 800, 600, "title", "what is to be seen");
 //   draw_panel(svg, 20, 84, &view);
 //   draw_list list = {&view, NULL, 0, 0, 0};
-//   draw_floor(&list, &scene), draw_flush(svg, &list);  // first, as everything stands on it
-//   draw_still(&list, &scene), draw_robot(&list, &scene, joints, &draw_blue, &draw_orange, 1);
-//   draw_flush(svg, &list);
+//   draw_solid(&list, &floor, &pose, &draw_cream, 1), draw_flush(svg, &list);  // things stand on it
+//   draw_solid(&list, &thing, &pose, &draw_blue, 1), draw_flush(svg, &list);
 //   draw_panel_end(svg, &view, "caption");
 //   draw_close(svg);
 #ifndef NSVCD_SCENERY_DRAW_H
 #define NSVCD_SCENERY_DRAW_H
 
-#include "tasks.h"
+#include "oracle.h"
+#include "shapes.h"
 
 #define DRAW_DEF SHAPES_DEF
 #define DRAW_INK "#1b2430"
@@ -43,6 +42,7 @@ static const draw_colour draw_rock = {{120, 112, 104}, {206, 198, 188}};
 static const draw_colour draw_wood = {{112, 76, 40}, {214, 172, 118}};
 static const draw_colour draw_blue = {{20, 60, 120}, {150, 190, 240}};
 static const draw_colour draw_green = {{12, 92, 54}, {132, 222, 160}};
+static const draw_colour draw_red = {{132, 14, 22}, {255, 128, 116}};
 static const draw_colour draw_orange = {{160, 70, 8}, {255, 190, 110}};
 
 typedef struct draw_triangle {
@@ -121,78 +121,39 @@ DRAW_DEF void draw_split(draw_list *list, const double (*world)[3], draw_triangl
   triangle->depth = depth;
   draw_push(list, triangle);
 }
-DRAW_DEF void draw_body(draw_list *list, const task_body *body, const oracle_pose *pose,
-                        const draw_colour *colour, double opacity) {
+// One triangle, unless it is seen from inside.
+DRAW_DEF void draw_one(draw_list *list, const oracle_triangle *t, const oracle_pose *pose,
+                       const draw_colour *colour, double opacity) {
   const double to_light[3] = {0.35, -0.45, 0.82};
   const draw_view *view = list->view;
   const double to_viewer[3] = {cos(view->elevation) * cos(view->azimuth),
                                cos(view->elevation) * sin(view->azimuth), sin(view->elevation)};
-  for (size_t i = 0; i < body->exact.triangle_count; i++) {
-    const oracle_triangle *t = &body->exact.triangles[i];
-    draw_triangle triangle = {{{0, 0}, {0, 0}, {0, 0}}, 0, 0, opacity, colour};
-    double world[3][3], m[9], normal[3];
-    oracle_matrix(pose->rotation, m);
-    oracle_rotate(m, t->normal, normal);
-    if (oracle_dot(normal, to_viewer) <= 0)
-      continue;  // seen from inside
-    for (int k = 0; k < 3; k++)
-      oracle_transform(pose, t->v[k], world[k]);
-    triangle.light = 0.5 + 0.5 * oracle_dot(normal, to_light);
-    draw_split(list, (const double(*)[3])world, &triangle);
-  }
+  draw_triangle triangle = {{{0, 0}, {0, 0}, {0, 0}}, 0, 0, opacity, colour};
+  double world[3][3], m[9], normal[3];
+  oracle_matrix(pose->rotation, m);
+  oracle_rotate(m, t->normal, normal);
+  if (oracle_dot(normal, to_viewer) <= 0)
+    return;
+  for (int k = 0; k < 3; k++)
+    oracle_transform(pose, t->v[k], world[k]);
+  triangle.light = 0.5 + 0.5 * oracle_dot(normal, to_light);
+  draw_split(list, (const double(*)[3])world, &triangle);
 }
-// A foot that does not travel, a torso.
-DRAW_DEF int draw_is_fixed(const task_scene *scene, const task_body *body) {
-  return body->kind == TASK_ROBOT && body->link <= scene->foot && !scene->joints[0].slides;
+// Opacity below 1 makes a ghost.
+DRAW_DEF void draw_solid(draw_list *list, const oracle_mesh *mesh, const oracle_pose *pose,
+                         const draw_colour *colour, double opacity) {
+  for (size_t i = 0; i < mesh->triangle_count; i++)
+    draw_one(list, &mesh->triangles[i], pose, colour, opacity);
 }
-DRAW_DEF void draw_floor(draw_list *list, const task_scene *scene) {
-  for (int i = 0; i < scene->body_count; i++)
-    if (scene->bodies[i].kind == TASK_FLOOR)
-      draw_body(list, &scene->bodies[i], &scene->bodies[i].offset, &draw_cream, 1);
-}
-// What stands still on it; rock towards the viewer is left out, as it would hide what goes on
-// behind it.
-DRAW_DEF void draw_still(draw_list *list, const task_scene *scene) {
-  for (int i = 0; i < scene->body_count; i++) {
-    const task_body *body = &scene->bodies[i];
-    int rock = strstr(body->name, "rock") && !strstr(body->name, "heap");
-    double center[3];
-    oracle_transform(&body->offset, body->exact.center, center);
-    if (draw_is_fixed(scene, body))
-      draw_body(list, body, &body->offset, &draw_steel, 1);
-    if (body->kind != TASK_SCENE)
-      continue;
-    if (rock && center[1] * sin(list->view->azimuth) > 0)
-      continue;
-    int wood =
-        strstr(body->name, "beam") || strstr(body->name, "frame") || strstr(body->name, "prop");
-    int dark = rock || strstr(body->name, "coal") || strstr(body->name, "heap");
-    const draw_colour *colour = wood                          ? &draw_wood
-                                : dark                        ? &draw_rock
-                                : strstr(body->name, "wagon") ? &draw_steel
-                                : !strcmp(body->name, "rack") ? &draw_iron
-                                                              : &draw_china;
-    draw_body(list, body, &body->offset, colour, 1);
-  }
-}
-// The robot and what it holds. Opacity below 1 makes a ghost.
-DRAW_DEF void draw_robot(draw_list *list, const task_scene *scene, const float *joints,
-                         const draw_colour *robot, const draw_colour *held, double opacity) {
-  double q[TASK_MAX_JOINTS];
-  oracle_pose links[TASK_MAX_JOINTS + 1];
-  for (int j = 0; j < scene->joint_count; j++)
-    q[j] = (double)joints[j];
-  task_links(scene, q, links);
-  for (int i = 0; i < scene->body_count; i++) {
-    oracle_pose pose = task_body_pose(scene, i, links);
-    const task_body *body = &scene->bodies[i];
-    if (!task_moves(body) || draw_is_fixed(scene, body))
-      continue;
-    const draw_colour *colour = body->kind == TASK_ROBOT      ? robot
-                                : strcmp(body->name, "block") ? held
-                                                              : &draw_wood;
-    draw_body(list, body, &pose, colour, opacity);
-  }
+DRAW_DEF void draw_shape(draw_list *list, const shapes_mesh *shape, double scale,
+                         const oracle_pose *pose, const draw_colour *colour) {
+  oracle_mesh mesh;
+  list->failed |= !oracle_mesh_init(&mesh, shape->positions, shape->vertices, shape->indices,
+                                    shape->triangles, scale);
+  if (list->failed)
+    return;
+  draw_solid(list, &mesh, pose, colour, 1);
+  oracle_mesh_free(&mesh);
 }
 DRAW_DEF int draw_compare(const void *a, const void *b) {
   double x = ((const draw_triangle *)a)->depth;
@@ -229,22 +190,11 @@ DRAW_DEF void draw_flush(FILE *svg, draw_list *list) {
   list->triangles = NULL;
   list->count = list->capacity = 0;
 }
-// The line along which the origin of `body` moves. joints: (samples, joint_count).
-DRAW_DEF void draw_trace(FILE *svg, const draw_view *view, const task_scene *scene, int body,
-                         const float *joints, int samples, const char *ink) {
-  fprintf(svg,
-          "<path fill=\"none\" stroke=\"%s\" stroke-width=\"2.5\" stroke-linejoin=\"round\" d=\"",
-          ink);
-  for (int s = 0; s < samples; s++) {
-    double q[TASK_MAX_JOINTS], p[3];
-    oracle_pose links[TASK_MAX_JOINTS + 1];
-    for (int j = 0; j < scene->joint_count; j++)
-      q[j] = (double)joints[s * scene->joint_count + j];
-    task_links(scene, q, links);
-    draw_project(view, task_body_pose(scene, body, links).position, p);
-    fprintf(svg, "%s%.1f %.1f", s ? "L" : "M", p[0], p[1]);
-  }
-  fprintf(svg, "\"/>\n");
+// In the `d` of a path: to this point, or, the first, from it.
+DRAW_DEF void draw_to(FILE *svg, const draw_view *view, int first, const double *world) {
+  double p[3];
+  draw_project(view, world, p);
+  fprintf(svg, "%s%.1f %.1f", first ? "M" : "L", p[0], p[1]);
 }
 
 // ------------------------------------------------------------------------------------------- pages
