@@ -4961,8 +4961,8 @@ static void nsvcd__surface_free(nsvcd__surface *surface) {
   nsvcd__free(allocator, surface->seed_patches);
 }
 
-// A surface of up to n patches, none of which is described yet. On success release it with
-// nsvcd__surface_free; 0 without memory.
+// A surface of up to n patches, none of which is described yet. 0 without memory. In either case
+// release it with nsvcd__surface_free.
 static int nsvcd__surface_begin(size_t n, size_t components, const nsvcd_allocator *allocator,
                                 nsvcd__surface *s) {
   memset(s, 0, sizeof *s);
@@ -4983,10 +4983,8 @@ static int nsvcd__surface_begin(size_t n, size_t components, const nsvcd_allocat
   s->seed_patches = nsvcd__alloc_words(allocator, components);
   int ok = s->balls && s->discs && s->steps && s->slacks && s->quanta && s->hull_counts;
   ok = ok && s->first_vertex && s->first_triangle && s->seeds && s->seed_patches;
-  if (!ok) {
-    nsvcd__surface_free(s);
+  if (!ok)
     return 0;
-  }
   memset(s->discs, 0, n * sizeof *s->discs);
   memset(s->steps, 0, n * sizeof *s->steps);
   memset(s->slacks, 0, n * sizeof *s->slacks);
