@@ -1047,6 +1047,9 @@ static inline nsvcd__d3 nsvcd__d3_max(nsvcd__d3 a, nsvcd__d3 b) {
 static inline double nsvcd__d3_axis(nsvcd__d3 a, size_t axis) {
   return axis == 0 ? a.x : axis == 1 ? a.y : a.z;
 }
+static inline void nsvcd__d3_set_axis(nsvcd__d3 *a, size_t axis, double to) {
+  *(axis == 0 ? &a->x : axis == 1 ? &a->y : &a->z) = to;
+}
 static inline nsvcd__d3 nsvcd__d3_over(nsvcd__d3 a, double s) {
   return nsvcd__d3_of(a.x / s, a.y / s, a.z / s);
 }
@@ -1990,6 +1993,19 @@ NSVCDDEF void nsvcd_mesh_free(nsvcd_mesh *mesh, const nsvcd_allocator *allocator
   memset(mesh, 0, sizeof *mesh);
 }
 
+// Room for vertices and triangles. 0 without memory; in either case nsvcd_mesh_free gives it back.
+static int nsvcd__mesh_alloc(nsvcd_mesh *mesh, size_t vertices, size_t triangles,
+                             const nsvcd_allocator *allocator) {
+  const size_t positions = 3 * sizeof(float);
+  const size_t indices = 3 * sizeof(uint32_t);
+  mesh->vertex_count = vertices;
+  mesh->triangle_count = triangles;
+  // + 1: a file may hold faces and no vertex, and malloc(0) may return NULL.
+  mesh->positions = (float *)nsvcd__alloc_array(allocator, vertices + 1, positions);
+  mesh->indices = (uint32_t *)nsvcd__alloc_array(allocator, triangles, indices);
+  return mesh->positions && mesh->indices;
+}
+
 // A mesh may come from anywhere: everything below relies on what is checked here.
 static nsvcd_result nsvcd__mesh_check(const nsvcd_mesh *mesh) {
   if (!mesh)
@@ -1998,56 +2014,84 @@ static nsvcd_result nsvcd__mesh_check(const nsvcd_mesh *mesh) {
     return NSVCD_ERROR_EMPTY;
   if (!mesh->positions || !mesh->indices)
     return NSVCD_ERROR_ARGUMENT;
-  if (mesh->vertex_count > NSVCD__MAX_COUNT || mesh->triangle_count > NSVCD__MAX_COUNT)
+  const size_t vertices = mesh->vertex_count;
+  const size_t triangles = mesh->triangle_count;
+  if (vertices > NSVCD__MAX_COUNT || triangles > NSVCD__MAX_COUNT)
     return NSVCD_ERROR_TOO_LARGE;
-  for (size_t i = 0; i < 3 * mesh->triangle_count; ++i) {
-    if (mesh->indices[i] >= mesh->vertex_count)
+  for (size_t i = 0; i < 3 * triangles; i++) {
+    if (mesh->indices[i] >= vertices)
       return NSVCD_ERROR_INDEX;
   }
-  for (size_t i = 0; i < 3 * mesh->vertex_count; ++i) {
-    float x = mesh->positions[i];
+  for (size_t i = 0; i < 3 * vertices; i++) {
+    const float x = mesh->positions[i];
     if (!nsvcd__is_finite(x) || fabsf(x) > NSVCD_MAX_COORDINATE)
       return NSVCD_ERROR_NUMBER;
   }
   return NSVCD_OK;
 }
 
-// Cuts a polygon at one side of a box: keeps what has sign * x[axis] <= sign * bound. corners: at
-// most 8, one more comes out. Returns the corners of `out`.
-static size_t nsvcd__clip(double (*corners)[3], size_t count, size_t axis, double sign,
-                          double bound, double (*out)[3]) {
-  size_t kept = 0;
-  for (size_t i = 0; i < count; i++) {
-    const double *a = corners[i];
-    const double *b = corners[(i + 1) % count];
-    const double past_a = sign * (a[axis] - bound);
-    const double past_b = sign * (b[axis] - bound);
-    if (past_a <= 0)
-      memcpy(out[kept++], a, 3 * sizeof *a);
-    if ((past_a <= 0) == (past_b <= 0))
-      continue;
-    for (size_t k = 0; k < 3; k++)
-      out[kept][k] = a[k] + past_a / (past_a - past_b) * (b[k] - a[k]);
-    out[kept++][axis] = bound;
-  }
-  return kept;
+// What is left of a triangle when it is cut at the six sides of a box. Each side adds one corner, or
+// two where roundings make an edge cross it twice.
+typedef struct nsvcd__clipped {
+  nsvcd__d3 corners[3 + 2 * 6];
+  size_t count;
+} nsvcd__clipped;
+
+static void nsvcd__clipped_add(nsvcd__clipped *polygon, nsvcd__d3 corner) {
+  polygon->corners[polygon->count++] = corner;
 }
 
-// The corners of triangle t within the box: 0, or 3 to 9.
-static size_t nsvcd__cut_triangle(const nsvcd_mesh *mesh, size_t t, const float *low,
-                                  const float *high, double (*polygon)[3]) {
-  double other[10][3];
-  size_t count = 3;
-  for (size_t i = 0; i < 3; i++) {
-    const float *p = mesh->positions + 3 * (size_t)mesh->indices[3 * t + i];
-    for (size_t k = 0; k < 3; k++)
-      polygon[i][k] = (double)p[k];
+// Cuts a polygon at one side of a box: keeps what has sign * x[axis] <= sign * bound.
+static nsvcd__clipped nsvcd__clip(const nsvcd__clipped *polygon, size_t axis, double sign,
+                                  double bound) {
+  nsvcd__clipped out;
+  out.count = 0;
+  for (size_t i = 0; i < polygon->count; i++) {
+    const nsvcd__d3 a = polygon->corners[i];
+    const nsvcd__d3 b = polygon->corners[(i + 1) % polygon->count];
+    const double past_a = sign * (nsvcd__d3_axis(a, axis) - bound);
+    const double past_b = sign * (nsvcd__d3_axis(b, axis) - bound);
+    if (past_a <= 0)
+      nsvcd__clipped_add(&out, a);
+    if ((past_a <= 0) == (past_b <= 0))
+      continue;
+    nsvcd__d3 between = nsvcd__d3_mix(a, b, past_a / (past_a - past_b));
+    nsvcd__d3_set_axis(&between, axis, bound);
+    nsvcd__clipped_add(&out, between);
   }
-  for (size_t k = 0; k < 3 && count >= 3; k++) {
-    count = nsvcd__clip(polygon, count, k, -1, (double)low[k], other);
-    count = nsvcd__clip(other, count, k, 1, (double)high[k], polygon);
+  return out;
+}
+
+// The part of triangle t within the box: 0, or 3 to 9 corners.
+static nsvcd__clipped nsvcd__cut_triangle(const nsvcd_mesh *mesh, size_t t, const float *low,
+                                          const float *high) {
+  const uint32_t *corners = mesh->indices + 3 * t;
+  nsvcd__clipped polygon;
+  polygon.count = 0;
+  for (size_t i = 0; i < 3; i++)
+    nsvcd__clipped_add(&polygon, nsvcd__d3_row(mesh->positions, corners[i]));
+  for (size_t k = 0; k < 3 && polygon.count >= 3; k++) {
+    polygon = nsvcd__clip(&polygon, k, -1, (double)low[k]);
+    polygon = nsvcd__clip(&polygon, k, 1, (double)high[k]);
   }
-  return count >= 3 ? count : 0;
+  if (polygon.count < 3)
+    polygon.count = 0;
+  return polygon;
+}
+
+// Adds a polygon to a mesh in which there is room for it: a fan of triangles.
+static void nsvcd__mesh_add(nsvcd_mesh *mesh, const nsvcd__clipped *polygon) {
+  const uint32_t first = (uint32_t)mesh->vertex_count;
+  for (size_t i = 0; i < polygon->count; i++) {
+    const nsvcd__f3 corner = nsvcd__d3_narrow(polygon->corners[i]);
+    nsvcd__f3_store(corner, mesh->positions + 3 * mesh->vertex_count++);
+  }
+  for (uint32_t i = 2; i < polygon->count; i++) {
+    uint32_t *triangle = mesh->indices + 3 * mesh->triangle_count++;
+    triangle[0] = first;
+    triangle[1] = first + i - 1;
+    triangle[2] = first + i;
+  }
 }
 
 NSVCDDEF nsvcd_result nsvcd_mesh_cut(const nsvcd_mesh *mesh, const float low[3],
@@ -2056,43 +2100,36 @@ NSVCDDEF nsvcd_result nsvcd_mesh_cut(const nsvcd_mesh *mesh, const float low[3],
   if (!low || !high || !part)
     return NSVCD_ERROR_ARGUMENT;
   for (size_t k = 0; k < 3; k++) {
-    if (!nsvcd__is_finite(low[k]) || !nsvcd__is_finite(high[k]) || !(low[k] < high[k]))
+    const int finite = nsvcd__is_finite(low[k]) && nsvcd__is_finite(high[k]);
+    if (!finite || !(low[k] < high[k]))
       return NSVCD_ERROR_ARGUMENT;
   }
   const nsvcd_result result = nsvcd__mesh_check(mesh);
   if (result)
     return result;
-  double polygon[10][3];
-  nsvcd_mesh out = {NULL, NULL, 0, 0};
+
+  size_t vertices = 0;
+  size_t triangles = 0;
   for (size_t t = 0; t < mesh->triangle_count; t++) {
-    const size_t corners = nsvcd__cut_triangle(mesh, t, low, high, polygon);
-    out.vertex_count += corners;
-    out.triangle_count += corners ? corners - 2 : 0;
+    const size_t corners = nsvcd__cut_triangle(mesh, t, low, high).count;
+    vertices += corners;
+    triangles += corners ? corners - 2 : 0;
   }
-  if (out.vertex_count == 0)
+  if (vertices == 0)
     return NSVCD_ERROR_EMPTY;
-  if (out.vertex_count > NSVCD__MAX_COUNT)
+  if (vertices > NSVCD__MAX_COUNT)
     return NSVCD_ERROR_TOO_LARGE;
-  out.positions = (float *)nsvcd__alloc_array(allocator, out.vertex_count, 3 * sizeof(float));
-  out.indices = (uint32_t *)nsvcd__alloc_array(allocator, out.triangle_count, 3 * sizeof(uint32_t));
-  if (!out.positions || !out.indices) {
+  nsvcd_mesh out;
+  if (!nsvcd__mesh_alloc(&out, vertices, triangles, allocator)) {
     nsvcd_mesh_free(&out, allocator);
     return NSVCD_ERROR_MEMORY;
   }
-  uint32_t *index = out.indices;
-  uint32_t first = 0;
+
+  out.vertex_count = 0;
+  out.triangle_count = 0;
   for (size_t t = 0; t < mesh->triangle_count; t++) {
-    const size_t corners = nsvcd__cut_triangle(mesh, t, low, high, polygon);
-    for (size_t i = 0; i < corners; i++) {
-      for (size_t k = 0; k < 3; k++)
-        out.positions[3 * (first + i) + k] = (float)polygon[i][k];
-    }
-    for (uint32_t i = 2; i < corners; i++) {
-      *index++ = first;
-      *index++ = first + i - 1;
-      *index++ = first + i;
-    }
-    first += (uint32_t)corners;
+    const nsvcd__clipped polygon = nsvcd__cut_triangle(mesh, t, low, high);
+    nsvcd__mesh_add(&out, &polygon);
   }
   *part = out;
   return NSVCD_OK;
@@ -2105,15 +2142,19 @@ NSVCDDEF nsvcd_result nsvcd_mesh_cut(const nsvcd_mesh *mesh, const float low[3],
 // polygon, concave or with holes cut open by a bridge, is covered without overlap; any other
 // (crossing itself, no area) is cut somehow.
 
-// ear clipping takes corners * reflex corners steps: bounds the time per byte
+// Ear clipping takes corners * reflex corners steps: this bounds the time per byte.
 #define NSVCD__MAX_CONCAVE_CORNERS 4096
 
 typedef struct nsvcd__corner {
-  double x, y;  // in the polygon's plane, counter-clockwise
+  // in the polygon's plane, counter-clockwise
+  double x, y;
   uint32_t vertex;
-  uint32_t previous, next;      // the ring of corners not yet clipped
-  uint32_t queued, queue_next;  // corners that may have become an ear
-  uint32_t reflex;              // 1: the inner angle exceeds 180 degrees
+  // the ring of corners not yet clipped
+  uint32_t previous, next;
+  // 1: in the queue of corners that may have become an ear; the next one there
+  uint32_t queued, queue_next;
+  // 1: the inner angle exceeds 180 degrees
+  uint32_t reflex;
 } nsvcd__corner;
 
 typedef struct nsvcd__polygon {
@@ -2133,53 +2174,69 @@ static int nsvcd__same_place(const nsvcd__corner *a, const nsvcd__corner *b) {
   return !(a->x < b->x || a->x > b->x || a->y < b->y || a->y > b->y);
 }
 
-// Drops the axis along which the polygon's area vector (Newell's) is longest: keeps the coordinates
-// exact.
+// Twice the area times the normal of a polygon in space (Newell's).
+static nsvcd__d3 nsvcd__polygon_normal(const nsvcd__corner *corners, uint32_t count,
+                                       const float *positions) {
+  const nsvcd__d3 origin = nsvcd__d3_row(positions, corners[0].vertex);
+  nsvcd__d3 normal = nsvcd__d3_of(0, 0, 0);
+  for (uint32_t i = 0; i < count; i++) {
+    const uint32_t next = corners[(i + 1) % count].vertex;
+    const nsvcd__d3 p = nsvcd__d3_row(positions, corners[i].vertex);
+    const nsvcd__d3 q = nsvcd__d3_row(positions, next);
+    const nsvcd__d3 area = nsvcd__d3_cross(nsvcd__d3_sub(p, origin), nsvcd__d3_sub(q, origin));
+    normal = nsvcd__d3_add(normal, area);
+  }
+  return normal;
+}
+
+// Places the corners in a plane: drops the axis along which the normal is longest, and so keeps the
+// coordinates exact.
 static void nsvcd__polygon_project(nsvcd__corner *corners, uint32_t count, const float *positions) {
-  double normal[3] = {0, 0, 0};
-  const float *origin = positions + 3 * (size_t)corners[0].vertex;
-  for (uint32_t i = 0; i < count; ++i) {
-    const float *p = positions + 3 * (size_t)corners[i].vertex;
-    const float *q = positions + 3 * (size_t)corners[(i + 1) % count].vertex;
-    for (int k = 0; k < 3; ++k) {
-      int u = (k + 1) % 3;
-      int v = (k + 2) % 3;
-      double pu = (double)p[u] - (double)origin[u];
-      double pv = (double)p[v] - (double)origin[v];
-      double qu = (double)q[u] - (double)origin[u];
-      double qv = (double)q[v] - (double)origin[v];
-      normal[k] += pu * qv - pv * qu;
-    }
-  }
-  int axis = fabs(normal[1]) > fabs(normal[0]) ? 1 : 0;
-  if (fabs(normal[2]) > fabs(normal[axis]))
+  const nsvcd__d3 normal = nsvcd__polygon_normal(corners, count, positions);
+  size_t axis = fabs(normal.y) > fabs(normal.x) ? 1 : 0;
+  if (fabs(normal.z) > fabs(nsvcd__d3_axis(normal, axis)))
     axis = 2;
-  int u = (axis + 1) % 3;
-  int v = (axis + 2) % 3;
-  if (normal[axis] < 0) {
-    u = (axis + 2) % 3;
-    v = (axis + 1) % 3;
-  }
-  for (uint32_t i = 0; i < count; ++i) {
+  const int turned = nsvcd__d3_axis(normal, axis) < 0;
+  const size_t u = (axis + (turned ? 2 : 1)) % 3;
+  const size_t v = (axis + (turned ? 1 : 2)) % 3;
+  for (uint32_t i = 0; i < count; i++) {
     const float *p = positions + 3 * (size_t)corners[i].vertex;
     corners[i].x = (double)p[u];
     corners[i].y = (double)p[v];
   }
 }
 
-// after a neighbour of corner i has changed
+// Looks at corner i again, after a neighbour of it has changed.
 static void nsvcd__polygon_update(nsvcd__polygon *polygon, uint32_t i) {
   nsvcd__corner *corners = polygon->corners;
   nsvcd__corner *c = &corners[i];
-  uint32_t reflex = nsvcd__corner_cross(&corners[c->previous], c, &corners[c->next]) < 0;
+  const nsvcd__corner *previous = &corners[c->previous];
+  const nsvcd__corner *next = &corners[c->next];
+  const uint32_t reflex = nsvcd__corner_cross(previous, c, next) < 0;
   polygon->reflex_count += reflex - c->reflex;
   c->reflex = reflex;
   if (c->queued)
     return;
   c->queued = 1;
-  *(polygon->queue_length++ == 0 ? &polygon->queue_first
-                                 : &corners[polygon->queue_last].queue_next) = i;
+  if (polygon->queue_length == 0) {
+    polygon->queue_first = i;
+  } else {
+    corners[polygon->queue_last].queue_next = i;
+  }
+  polygon->queue_length++;
   polygon->queue_last = i;
+}
+
+// Is corner p within abc, and not at the place of one of these?
+static int nsvcd__corner_is_within(const nsvcd__corner *p, const nsvcd__corner *a,
+                                   const nsvcd__corner *b, const nsvcd__corner *c) {
+  if (nsvcd__corner_cross(a, b, p) < 0)
+    return 0;
+  if (nsvcd__corner_cross(b, c, p) < 0 || nsvcd__corner_cross(c, a, p) < 0)
+    return 0;
+  if (nsvcd__same_place(p, a) || nsvcd__same_place(p, b))
+    return 0;
+  return !nsvcd__same_place(p, c);
 }
 
 // An ear is a convex corner whose triangle holds no other corner; only reflex ones need a look.
@@ -2193,28 +2250,34 @@ static int nsvcd__polygon_is_ear(const nsvcd__polygon *polygon, uint32_t i) {
   if (polygon->reflex_count == 0 || polygon->count > NSVCD__MAX_CONCAVE_CORNERS)
     return 1;
   for (const nsvcd__corner *p = &corners[c->next]; p != a; p = &corners[p->next]) {
-    if (!p->reflex || nsvcd__corner_cross(a, b, p) < 0 || nsvcd__corner_cross(b, c, p) < 0 ||
-        nsvcd__corner_cross(c, a, p) < 0)
-      continue;
-    if (!nsvcd__same_place(p, a) && !nsvcd__same_place(p, b) && !nsvcd__same_place(p, c))
+    if (p->reflex && nsvcd__corner_is_within(p, a, b, c))
       return 0;
   }
   return 1;
 }
 
-// corners: (count) with their vertices set, count >= 3. triangles: (count - 2, 3).
-static nsvcd_result nsvcd__polygon_triangulate(nsvcd__corner *corners, uint32_t count,
-                                               const float *positions, uint32_t *triangles) {
+// Makes a ring of the corners, and of each one that may be an ear.
+static nsvcd__polygon nsvcd__polygon_of(nsvcd__corner *corners, uint32_t count,
+                                        const float *positions) {
   nsvcd__polygon polygon = {corners, count, 0, 0, 0, 0};
   if (count > 3)
     nsvcd__polygon_project(corners, count, positions);
-  for (uint32_t i = 0; i < count; ++i) {
+  for (uint32_t i = 0; i < count; i++) {
     corners[i].previous = (i + count - 1) % count;
     corners[i].next = (i + 1) % count;
-    corners[i].queued = corners[i].reflex = 0;
+    corners[i].queued = 0;
+    corners[i].reflex = 0;
   }
-  for (uint32_t i = 0; count > 3 && i < count; ++i)
+  for (uint32_t i = 0; count > 3 && i < count; i++)
     nsvcd__polygon_update(&polygon, i);
+  return polygon;
+}
+
+// corners: (count) with their vertices set, count >= 3. triangles: (count - 2, 3). TOO_LARGE if
+// there are too many corners for a concave face.
+static nsvcd_result nsvcd__polygon_triangulate(nsvcd__corner *corners, uint32_t count,
+                                               const float *positions, uint32_t *triangles) {
+  nsvcd__polygon polygon = nsvcd__polygon_of(corners, count, positions);
   if (polygon.reflex_count > 0 && count > NSVCD__MAX_CONCAVE_CORNERS)
     return NSVCD_ERROR_TOO_LARGE;
 
@@ -2222,8 +2285,8 @@ static nsvcd_result nsvcd__polygon_triangulate(nsvcd__corner *corners, uint32_t 
   for (uint32_t left = count; left > 3;) {
     // An empty queue means that no corner is an ear: not a simple polygon. Cut any corner off and
     // go on.
-    int stuck = polygon.queue_length == 0;
-    uint32_t i = stuck ? at : polygon.queue_first;
+    const int stuck = polygon.queue_length == 0;
+    const uint32_t i = stuck ? at : polygon.queue_first;
     nsvcd__corner *c = &corners[i];
     if (!stuck) {
       polygon.queue_first = c->queue_next;
@@ -2263,7 +2326,13 @@ typedef struct nsvcd__obj {
   uint32_t max_corners;  // of a face
 } nsvcd__obj;
 
-enum { NSVCD__OBJ_END, NSVCD__OBJ_VERTEX, NSVCD__OBJ_FACE, NSVCD__OBJ_OTHER, NSVCD__OBJ_BAD };
+enum {
+  NSVCD__OBJ_END,
+  NSVCD__OBJ_VERTEX,
+  NSVCD__OBJ_FACE,
+  NSVCD__OBJ_OTHER,
+  NSVCD__OBJ_BAD  // not a keyword
+};
 
 // Length of the blank at p: a backslash before the line's end continues the statement on the next
 // line.
@@ -2288,7 +2357,9 @@ static int nsvcd__obj_accept(nsvcd__obj *obj, char c) {
   return is_there;
 }
 static int nsvcd__obj_token_ends(const nsvcd__obj *obj) {
-  return obj->at == obj->end || *obj->at == '\n' || nsvcd__obj_blank(obj->at, obj->end) > 0;
+  if (obj->at == obj->end || *obj->at == '\n')
+    return 1;
+  return nsvcd__obj_blank(obj->at, obj->end) > 0;
 }
 static void nsvcd__obj_skip_token(nsvcd__obj *obj) {
   while (!nsvcd__obj_token_ends(obj))
@@ -2297,11 +2368,16 @@ static void nsvcd__obj_skip_token(nsvcd__obj *obj) {
 
 // Skips blanks; 0 where the statement ends instead.
 static int nsvcd__obj_has_token(nsvcd__obj *obj) {
-  for (size_t blank; (blank = nsvcd__obj_blank(obj->at, obj->end)) > 0; obj->at += blank)
+  size_t blank = nsvcd__obj_blank(obj->at, obj->end);
+  while (blank > 0) {
     obj->line += blank > 1;
+    obj->at += blank;
+    blank = nsvcd__obj_blank(obj->at, obj->end);
+  }
   return obj->at < obj->end && *obj->at != '\n' && *obj->at != '#';
 }
 
+// To the begin of the next line that does not continue this statement.
 static void nsvcd__obj_skip_statement(nsvcd__obj *obj) {
   int comment = obj->at < obj->end && *obj->at == '#';
   for (int continued = 1; continued && obj->at < obj->end; obj->line++) {
@@ -2315,6 +2391,7 @@ static void nsvcd__obj_skip_statement(nsvcd__obj *obj) {
   }
 }
 
+// Reads the keyword that a statement begins with.
 static int nsvcd__obj_keyword(nsvcd__obj *obj) {
   if (!nsvcd__obj_has_token(obj))
     return obj->at == obj->end ? NSVCD__OBJ_END : NSVCD__OBJ_OTHER;
@@ -2324,7 +2401,7 @@ static int nsvcd__obj_keyword(nsvcd__obj *obj) {
     return NSVCD__OBJ_VERTEX;
   if (obj->at - start == 1 && *start == 'f')
     return NSVCD__OBJ_FACE;
-  for (const char *p = start; p < obj->at; ++p) {
+  for (const char *p = start; p < obj->at; p++) {
     if (!((*p >= 'a' && *p <= 'z') || (*p >= 'A' && *p <= 'Z') || *p == '_'))
       return NSVCD__OBJ_BAD;
   }
@@ -2345,19 +2422,20 @@ static double nsvcd__obj_scale(uint64_t mantissa, int exponent) {
   return exponent < 0 ? value / power[-exponent] : value * power[exponent];
 }
 
-// A decimal number, to double within 2^-52: rounded to float it is the nearest, unless two are
-// equally near to that.
-static nsvcd_result nsvcd__obj_number(nsvcd__obj *obj, double *value) {
-  int negative = nsvcd__obj_accept(obj, '-');
-  if (!negative)
+// Accepts a sign; returns 1 if it is a minus.
+static int nsvcd__obj_minus(nsvcd__obj *obj) {
+  const int minus = nsvcd__obj_accept(obj, '-');
+  if (!minus)
     nsvcd__obj_accept(obj, '+');
-  // nan, inf
-  if (obj->at < obj->end && strchr("nNiI", *obj->at) && *obj->at)
-    return NSVCD_ERROR_NUMBER;
-  uint64_t mantissa = 0;
-  int64_t exponent = 0;
+  return minus;
+}
+
+// Digits and a point, as mantissa * 10^exponent. 0 where there is no digit.
+static int nsvcd__obj_digits(nsvcd__obj *obj, uint64_t *mantissa, int64_t *exponent) {
   int digits = 0;
   int point = 0;
+  *mantissa = 0;
+  *exponent = 0;
   for (;;) {
     if (!point && nsvcd__obj_accept(obj, '.'))
       point = 1;
@@ -2365,26 +2443,44 @@ static nsvcd_result nsvcd__obj_number(nsvcd__obj *obj, double *value) {
       break;
     digits = 1;
     // 19 digits are kept, the rest only moves the point
-    int fits = mantissa < 1000000000000000000u;
+    const int fits = *mantissa < 1000000000000000000u;
     if (fits)
-      mantissa = 10 * mantissa + (uint64_t)(*obj->at - '0');
-    exponent += !fits - point;
+      *mantissa = 10 * *mantissa + (uint64_t)(*obj->at - '0');
+    *exponent += !fits - point;
     obj->at++;
   }
-  if (!digits)
+  return digits;
+}
+
+// The number behind an e, added to the exponent. 0 where there is none.
+static int nsvcd__obj_exponent(nsvcd__obj *obj, int64_t *exponent) {
+  const int minus = nsvcd__obj_minus(obj);
+  int64_t written = 0;
+  if (!nsvcd__obj_is_digit(obj))
+    return 0;
+  for (; nsvcd__obj_is_digit(obj); obj->at++) {
+    if (written < 1000000000000000)
+      written = 10 * written + (*obj->at - '0');
+  }
+  *exponent += minus ? -written : written;
+  return 1;
+}
+
+// A decimal number, to double within 2^-52: rounded to float it is the nearest, unless two are
+// equally near to that. NUMBER if float cannot hold it.
+static nsvcd_result nsvcd__obj_number(nsvcd__obj *obj, double *value) {
+  const double greatest = 3.4028234663852886e38;  // FLT_MAX
+  const int negative = nsvcd__obj_minus(obj);
+  // nan, inf
+  if (obj->at < obj->end && strchr("nNiI", *obj->at) && *obj->at)
+    return NSVCD_ERROR_NUMBER;
+  uint64_t mantissa;
+  int64_t exponent;
+  if (!nsvcd__obj_digits(obj, &mantissa, &exponent))
     return NSVCD_ERROR_SYNTAX;
   if (nsvcd__obj_accept(obj, 'e') || nsvcd__obj_accept(obj, 'E')) {
-    int minus = nsvcd__obj_accept(obj, '-');
-    if (!minus)
-      nsvcd__obj_accept(obj, '+');
-    if (!nsvcd__obj_is_digit(obj))
+    if (!nsvcd__obj_exponent(obj, &exponent))
       return NSVCD_ERROR_SYNTAX;
-    int64_t written = 0;
-    for (; nsvcd__obj_is_digit(obj); obj->at++) {
-      if (written < 1000000000000000)
-        written = 10 * written + (*obj->at - '0');
-    }
-    exponent += minus ? -written : written;
   }
   if (!nsvcd__obj_token_ends(obj))
     return NSVCD_ERROR_SYNTAX;
@@ -2392,9 +2488,10 @@ static nsvcd_result nsvcd__obj_number(nsvcd__obj *obj, double *value) {
     exponent = 0;
   if (exponent > 400)
     return NSVCD_ERROR_NUMBER;
-  double magnitude = nsvcd__obj_scale(mantissa, exponent < -400 ? -400 : (int)exponent);
-  if (magnitude > 3.4028234663852886e38)
-    return NSVCD_ERROR_NUMBER;  // FLT_MAX
+  const int power = exponent < -400 ? -400 : (int)exponent;
+  const double magnitude = nsvcd__obj_scale(mantissa, power);
+  if (magnitude > greatest)
+    return NSVCD_ERROR_NUMBER;
   *value = negative ? -magnitude : magnitude;
   return NSVCD_OK;
 }
@@ -2402,7 +2499,7 @@ static nsvcd_result nsvcd__obj_number(nsvcd__obj *obj, double *value) {
 // v x y z, then nothing, a weight w, a colour r g b, or both: skipped, but they must be numbers.
 static nsvcd_result nsvcd__obj_vertex(nsvcd__obj *obj, float *position) {
   int count = 0;
-  for (; nsvcd__obj_has_token(obj); ++count) {
+  for (; nsvcd__obj_has_token(obj); count++) {
     double value;
     nsvcd_result result = nsvcd__obj_number(obj, &value);
     if (result != NSVCD_OK)
@@ -2419,7 +2516,7 @@ static nsvcd_result nsvcd__obj_vertex(nsvcd__obj *obj, float *position) {
 }
 
 // One corner: v, v/vt, v//vn or v/vt/vn. The numbers after a slash are not used, nor checked
-// against a range.
+// against a range. vertex_count: of the file.
 static nsvcd_result nsvcd__obj_corner(nsvcd__obj *obj, uint32_t vertex_count, uint32_t *vertex) {
   int negative = nsvcd__obj_accept(obj, '-');
   if (!nsvcd__obj_is_digit(obj))
@@ -2429,7 +2526,7 @@ static nsvcd_result nsvcd__obj_corner(nsvcd__obj *obj, uint32_t vertex_count, ui
     if (number <= NSVCD__MAX_COUNT)
       number = 10 * number + (uint64_t)(*obj->at - '0');
   }
-  for (int i = 0; i < 2 && nsvcd__obj_accept(obj, '/'); ++i) {
+  for (int i = 0; i < 2 && nsvcd__obj_accept(obj, '/'); i++) {
     nsvcd__obj_accept(obj, '-');
     while (nsvcd__obj_is_digit(obj))
       obj->at++;
@@ -2451,9 +2548,16 @@ static void nsvcd__obj_begin(nsvcd__obj *obj, const char *text, size_t size) {
     obj->at += 3;  // UTF-8 byte order mark
 }
 
+// To the next statement. Returns its keyword.
+static int nsvcd__obj_next(nsvcd__obj *obj) {
+  nsvcd__obj_skip_statement(obj);
+  return nsvcd__obj_keyword(obj);
+}
+
+// First pass: counts vertices and triangles.
 static nsvcd_result nsvcd__obj_count(nsvcd__obj *obj) {
-  for (int keyword; (keyword = nsvcd__obj_keyword(obj)) != NSVCD__OBJ_END;
-       nsvcd__obj_skip_statement(obj)) {
+  int keyword = nsvcd__obj_keyword(obj);
+  for (; keyword != NSVCD__OBJ_END; keyword = nsvcd__obj_next(obj)) {
     if (keyword == NSVCD__OBJ_BAD)
       return NSVCD_ERROR_SYNTAX;
     if (keyword == NSVCD__OBJ_VERTEX && obj->vertices++ == NSVCD__MAX_COUNT)
@@ -2474,68 +2578,73 @@ static nsvcd_result nsvcd__obj_count(nsvcd__obj *obj) {
   return NSVCD_OK;
 }
 
+// Second pass: positions (vertices, 3).
 static nsvcd_result nsvcd__obj_vertices(nsvcd__obj *obj, float *positions) {
-  for (int keyword; (keyword = nsvcd__obj_keyword(obj)) != NSVCD__OBJ_END;
-       nsvcd__obj_skip_statement(obj)) {
+  int keyword = nsvcd__obj_keyword(obj);
+  for (; keyword != NSVCD__OBJ_END; keyword = nsvcd__obj_next(obj)) {
     if (keyword != NSVCD__OBJ_VERTEX)
       continue;
-    nsvcd_result result = nsvcd__obj_vertex(obj, positions + 3 * (size_t)obj->vertices++);
-    if (result != NSVCD_OK)
+    const nsvcd_result result = nsvcd__obj_vertex(obj, positions);
+    if (result)
       return result;
+    positions += 3;
+    obj->vertices++;
   }
   return NSVCD_OK;
 }
 
+// One face: its triangles, (corners - 2, 3). corners: room for those of any face.
+static nsvcd_result nsvcd__obj_face(nsvcd__obj *obj, const nsvcd_mesh *mesh,
+                                    nsvcd__corner *corners) {
+  const uint32_t vertices = (uint32_t)mesh->vertex_count;
+  uint32_t *triangles = mesh->indices + 3 * (size_t)obj->triangles;
+  uint32_t count = 0;
+  while (nsvcd__obj_has_token(obj)) {
+    const nsvcd_result result = nsvcd__obj_corner(obj, vertices, &corners[count++].vertex);
+    if (result)
+      return result;
+  }
+  obj->triangles += count - 2;
+  return nsvcd__polygon_triangulate(corners, count, mesh->positions, triangles);
+}
+
+// Third pass: the mesh's indices.
 static nsvcd_result nsvcd__obj_faces(nsvcd__obj *obj, const nsvcd_mesh *mesh,
                                      nsvcd__corner *corners) {
-  for (int keyword; (keyword = nsvcd__obj_keyword(obj)) != NSVCD__OBJ_END;
-       nsvcd__obj_skip_statement(obj)) {
+  int keyword = nsvcd__obj_keyword(obj);
+  for (; keyword != NSVCD__OBJ_END; keyword = nsvcd__obj_next(obj)) {
     obj->vertices += keyword == NSVCD__OBJ_VERTEX;
     if (keyword != NSVCD__OBJ_FACE)
       continue;
-    uint32_t count = 0;
-    for (; nsvcd__obj_has_token(obj); ++count) {
-      nsvcd_result result =
-          nsvcd__obj_corner(obj, (uint32_t)mesh->vertex_count, &corners[count].vertex);
-      if (result != NSVCD_OK)
-        return result;
-    }
-    uint32_t *triangles = mesh->indices + 3 * (size_t)obj->triangles;
-    nsvcd_result result = nsvcd__polygon_triangulate(corners, count, mesh->positions, triangles);
-    if (result != NSVCD_OK)
+    const nsvcd_result result = nsvcd__obj_face(obj, mesh, corners);
+    if (result)
       return result;
-    obj->triangles += count - 2;
   }
   return NSVCD_OK;
 }
 
+// Reads OBJ text into a mesh that nsvcd_mesh_free gives back, also on failure.
 static nsvcd_result nsvcd__obj_read(nsvcd__obj *obj, const char *text, size_t size,
                                     const nsvcd_allocator *allocator, nsvcd_mesh *mesh) {
   nsvcd__obj_begin(obj, text, size);
   nsvcd_result result = nsvcd__obj_count(obj);
-  if (result != NSVCD_OK)
+  if (result)
     return result;
   obj->line = 0;  // what follows is not tied to a line
   if (obj->triangles == 0)
     return NSVCD_ERROR_EMPTY;
-  mesh->vertex_count = obj->vertices;
-  mesh->triangle_count = obj->triangles;
-  // + 1: a file may hold faces and no vertex, and malloc(0) may return NULL.
-  mesh->positions =
-      (float *)nsvcd__alloc_array(allocator, mesh->vertex_count + 1, 3 * sizeof(float));
-  mesh->indices =
-      (uint32_t *)nsvcd__alloc_array(allocator, mesh->triangle_count, 3 * sizeof(uint32_t));
+  if (!nsvcd__mesh_alloc(mesh, obj->vertices, obj->triangles, allocator))
+    return NSVCD_ERROR_MEMORY;
   nsvcd__corner *corners =
       (nsvcd__corner *)nsvcd__alloc_array(allocator, obj->max_corners, sizeof(nsvcd__corner));
-  if (!mesh->positions || !mesh->indices || !corners) {
-    result = NSVCD_ERROR_MEMORY;
-  } else {
+  if (!corners)
+    return NSVCD_ERROR_MEMORY;
+
+  nsvcd__obj_begin(obj, text, size);
+  result = nsvcd__obj_vertices(obj, mesh->positions);
+  if (!result) {
     nsvcd__obj_begin(obj, text, size);
-    result = nsvcd__obj_vertices(obj, mesh->positions);
-    if (result == NSVCD_OK) {
-      nsvcd__obj_begin(obj, text, size);
-      result = nsvcd__obj_faces(obj, mesh, corners);
-    }
+    result = nsvcd__obj_faces(obj, mesh, corners);
   }
   nsvcd__free(allocator, corners);
   return result;
@@ -2562,13 +2671,16 @@ NSVCDDEF nsvcd_result nsvcd_obj_parse(const char *text, size_t size,
 }
 
 #ifndef NSVCD_NO_STDIO
-// The whole file into *text; no fseek, so that pipes work and a directory is an error.
+// Reads the whole file into *text, which the caller frees. No fseek, so that pipes work and a
+// directory is an error. MEMORY, IO.
 static nsvcd_result nsvcd__read_file(FILE *file, const nsvcd_allocator *allocator, char **text,
                                      size_t *size) {
   size_t used = 0;
   char *buffer = NULL;
   for (size_t capacity = 65536;; capacity *= 2) {
-    char *larger = capacity > SIZE_MAX / 2 ? NULL : (char *)nsvcd__alloc(allocator, capacity);
+    char *larger = NULL;
+    if (capacity <= SIZE_MAX / 2)
+      larger = (char *)nsvcd__alloc(allocator, capacity);
     if (larger && used > 0)
       memcpy(larger, buffer, used);
     nsvcd__free(allocator, buffer);
@@ -5053,8 +5165,8 @@ static void nsvcd__surface_free(nsvcd__surface *surface) {
   nsvcd__free(allocator, surface->seed_patches);
 }
 
-// A surface of up to n patches, none of which is described yet. On success release it with
-// nsvcd__surface_free; 0 without memory.
+// A surface of up to n patches, none of which is described yet. 0 without memory. In either case
+// release it with nsvcd__surface_free.
 static int nsvcd__surface_begin(size_t n, size_t components, const nsvcd_allocator *allocator,
                                 nsvcd__surface *s) {
   memset(s, 0, sizeof *s);
@@ -5075,10 +5187,8 @@ static int nsvcd__surface_begin(size_t n, size_t components, const nsvcd_allocat
   s->seed_patches = nsvcd__alloc_words(allocator, components);
   int ok = s->balls && s->discs && s->steps && s->slacks && s->quanta && s->hull_counts;
   ok = ok && s->first_vertex && s->first_triangle && s->seeds && s->seed_patches;
-  if (!ok) {
-    nsvcd__surface_free(s);
+  if (!ok)
     return 0;
-  }
   memset(s->discs, 0, n * sizeof *s->discs);
   memset(s->steps, 0, n * sizeof *s->steps);
   memset(s->slacks, 0, n * sizeof *s->slacks);
