@@ -1280,7 +1280,7 @@ static inline nsvcd__quat nsvcd__quat_unit(nsvcd__quat q) {
 // Is the shorter arc from a to b the one to -b? Products of floats are exact in double, so that
 // every machine and the exact poses of the proof say the same, also where the arcs are equally long
 // to rounding.
-static NSVCD__APART int nsvcd__quats_opposed(nsvcd__quat a, nsvcd__quat b) {
+static inline int nsvcd__quats_opposed(nsvcd__quat a, nsvcd__quat b) {
   double dot = (double)a.x * (double)b.x;
   dot += (double)a.y * (double)b.y;
   dot += (double)a.z * (double)b.z;
@@ -2030,8 +2030,8 @@ static nsvcd_result nsvcd__mesh_check(const nsvcd_mesh *mesh) {
   return NSVCD_OK;
 }
 
-// What is left of a triangle when it is cut at the six sides of a box. Each side adds one corner, or
-// two where roundings make an edge cross it twice.
+// What is left of a triangle when it is cut at the six sides of a box. Each side adds one corner,
+// or two where roundings make an edge cross it twice.
 typedef struct nsvcd__clipped {
   nsvcd__d3 corners[3 + 2 * 6];
   size_t count;
