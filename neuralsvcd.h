@@ -137,6 +137,8 @@
 //
 // GLOSSARY
 //   patch             a part of the surface about a representative point; N of them make a body
+//   sample            a point of the surface, with its normal, drawn to find the patches
+//   piece             a triangle, or a part of one, that belongs to one patch
 //   ball              of a patch: a sphere that contains it
 //   group, level      16 neighbouring patches; spheres over 16 groups each, 16 of these, ...
 //   tile              up to 32 groups of a body that are searched together
@@ -2031,7 +2033,7 @@ static nsvcd_result nsvcd__mesh_check(const nsvcd_mesh *mesh) {
 }
 
 // What is left of a triangle when it is cut at the six sides of a box. Each side adds one corner,
-// or two where roundings make an edge cross it twice.
+// or two where roundings make the polygon cross it twice.
 typedef struct nsvcd__clipped {
   nsvcd__d3 corners[3 + 2 * 6];
   size_t count;
@@ -3052,7 +3054,8 @@ static void nsvcd__farthest_points(nsvcd__patches *p) {
   nsvcd__d3 sum = nsvcd__d3_of(0, 0, 0);
   for (size_t s = 0; s < p->sample_count; s++)
     sum = nsvcd__d3_add(sum, nsvcd__d3_widen(p->drawn[s]));
-  p->centres[0] = nsvcd__d3_narrow(nsvcd__d3_over(sum, (double)p->sample_count));
+  const nsvcd__d3 mean = nsvcd__d3_over(sum, (double)p->sample_count);
+  p->centres[0] = nsvcd__d3_narrow(mean);
   nsvcd__give_all_samples(p);
   p->centres[0] = p->drawn[p->farthest_sample[0]];
   nsvcd__give_all_samples(p);
@@ -3083,8 +3086,10 @@ static void nsvcd__move_centres(nsvcd__patches *p) {
   for (size_t i = 0; i < p->count; i++) {
     const nsvcd__patch_sum *sum = &p->sums[i];
     p->offsets[i] = kept;  // for now: the new number of patch i
-    if (sum->weight > 0)
-      p->centres[kept++] = nsvcd__d3_narrow(nsvcd__d3_over(sum->vector, sum->weight));
+    if (!(sum->weight > 0))
+      continue;
+    const nsvcd__d3 mean = nsvcd__d3_over(sum->vector, sum->weight);
+    p->centres[kept++] = nsvcd__d3_narrow(mean);
   }
   for (size_t s = 0; s < p->sample_count; s++)
     p->owners[s] = (uint16_t)p->offsets[p->owners[s]];
@@ -3114,7 +3119,8 @@ static void nsvcd__group_samples(nsvcd__patches *p) {
 
   for (size_t s = 0; s < p->sample_count; s++) {
     const uint32_t owner = p->owners[s];
-    const size_t to = p->offsets[owner]++;  // afterwards each offset is the next patch's
+    // afterwards each offset is the next patch's
+    const size_t to = p->offsets[owner]++;
     p->samples[to] = p->drawn[s];
     p->normals[to] = p->drawn_normals[s];
     nsvcd__reach_to(p, owner, nsvcd__d3_widen(p->drawn[s]));
@@ -3273,7 +3279,8 @@ static void nsvcd__cover(nsvcd__patches *p, const nsvcd_mesh *mesh) {
     const nsvcd__patch_sum *sum = &p->sums[i];
     // A patch may own samples but, its border being finer, only some small piece: its ball holds
     // both.
-    p->radii[i] = fmaxf(nsvcd__radius_above(sum->squared_reach), p->sample_radii[i]);
+    const float radius = nsvcd__radius_above(sum->squared_reach);
+    p->radii[i] = fmaxf(radius, p->sample_radii[i]);
     p->areas[i] = (float)sum->weight;
     p->area_vectors[i] = nsvcd__d3_narrow(sum->vector);
   }
@@ -3530,7 +3537,8 @@ static void nsvcd__sort_edges(const nsvcd__topology *topology, nsvcd__edges *edg
   for (size_t t = 0; t < mesh->triangle_count; t++) {
     const size_t count = nsvcd__edges_of(topology, t, sides);
     for (size_t i = 0; i < count; i++) {
-      const size_t to = edges->first[sides[i].low + 1]++;  // afterwards the start of the next
+      // afterwards the start of the next
+      const size_t to = edges->first[sides[i].low + 1]++;
       edges->ends[to] = sides[i].high;
       edges->signs[to] = sides[i].sign;
     }
@@ -4936,7 +4944,8 @@ static int nsvcd__sorted_build(const nsvcd__pieces *pieces, nsvcd__sorted *sorte
   }
   for (size_t i = 0; i < patches; i++)
     sorted->most = corners[i] > sorted->most ? corners[i] : sorted->most;
-  sorted->most += NSVCD__HULL;  // a hull's vertices need not be corners of what is listed
+  // a hull's vertices need not be corners of what is listed
+  sorted->most += NSVCD__HULL;
   if (!nsvcd__sorted_alloc(sorted)) {
     nsvcd__sorted_free(sorted);
     return 0;
@@ -5285,8 +5294,10 @@ static nsvcd_result nsvcd__surface_add(const nsvcd__region *region, const nsvcd_
 // inputs, of 16. Offsets instead of pointers: nothing needs relocation, so that all of it stays in
 // read-only memory.
 typedef struct nsvcd__decoder {
-  size_t layers;    // 0: compiled out
-  size_t sizes[6];  // (layers + 1)
+  // 0: compiled out
+  size_t layers;
+  // (layers + 1)
+  size_t sizes[6];
   // of its matrices: per layer (sizes[l], sizes[l + 1]) floats in nsvcd_w_decoder, and the same
   // numbers in nsvcd_w_decoder_int8 as (sizes[l] / 4, sizes[l + 1], 4), over the output's scale
   size_t weights;
@@ -5374,7 +5385,10 @@ static nsvcd__f5 nsvcd__f5_add(nsvcd__f5 a, nsvcd__f5 b) {
   return a;
 }
 static float nsvcd__f5_dot(nsvcd__f5 a, nsvcd__f5 b) {
-  return a.v[0] * b.v[0] + a.v[1] * b.v[1] + a.v[2] * b.v[2] + a.v[3] * b.v[3] + a.v[4] * b.v[4];
+  float sum = a.v[0] * b.v[0];
+  for (size_t k = 1; k < 5; k++)
+    sum += a.v[k] * b.v[k];
+  return sum;
 }
 
 // The symmetric traceless part of a b^T, scaled so that the square of a vector has its squared
@@ -5795,7 +5809,8 @@ static nsvcd__sphere nsvcd__body_sphere(const nsvcd_body *body) {
 
 // Spheres with their padding: of the patches and all levels.
 static size_t nsvcd__sphere_slots(size_t padded) {
-  const nsvcd__level top = nsvcd__level_of(padded, nsvcd__level_count(padded) - 1);
+  const size_t levels = nsvcd__level_count(padded);
+  const nsvcd__level top = nsvcd__level_of(padded, levels - 1);
   return top.first / 4 + top.slots;
 }
 
@@ -5811,7 +5826,12 @@ static size_t nsvcd__area_slots(size_t padded) {
   return nsvcd__level_count(padded) > 1 ? nsvcd__sphere_slots(padded) : padded;
 }
 static const float *nsvcd__body_areas(const nsvcd_body *body) {  // (3, P)
-  return (const float *)(const void *)((const char *)body + nsvcd__spheres_size(body->padded));
+  const char *at = (const char *)body + nsvcd__spheres_size(body->padded);
+  return (const float *)(const void *)at;
+}
+static float *nsvcd__areas_to_write(nsvcd_body *body) {
+  char *at = (char *)body + nsvcd__spheres_size(body->padded);
+  return (float *)(void *)at;
 }
 // The sums over the spheres of a level of a body that has some above the groups, (3, slots): they
 // lie as the spheres do.
@@ -6071,8 +6091,9 @@ static int nsvcd__walk_next(nsvcd__walk *walk, size_t *group) {
         return 0;
       walk->level++;
     }
-    const size_t found = walk->first[walk->level] + nsvcd__lowest_bit(walk->left[walk->level]);
-    walk->left[walk->level] &= walk->left[walk->level] - 1;
+    uint32_t *left = &walk->left[walk->level];
+    const size_t found = walk->first[walk->level] + nsvcd__lowest_bit(*left);
+    *left &= *left - 1;
     if (walk->level == 0) {
       *group = found;
       return 1;
@@ -6113,7 +6134,7 @@ static int nsvcd__areas_are_sound(const nsvcd_body *body) {
 #if !defined(NSVCD_NO_ENCODER) && !defined(NSVCD_NO_NETWORK)
 // Fills the area vectors of the levels from those of the patches.
 static void nsvcd__sum_areas(nsvcd_body *body) {
-  float *areas = (float *)(void *)((char *)body + nsvcd__spheres_size(body->padded));
+  float *areas = nsvcd__areas_to_write(body);
   const size_t levels = nsvcd__level_count(body->padded);
   const float *below = areas;
   size_t stride = body->padded;
@@ -6172,7 +6193,7 @@ static nsvcd_result nsvcd__body_build(const nsvcd__latents_source *source, void 
   nsvcd_body *b = nsvcd__body_begin(memory, size, source->count, source->open);
   const size_t padded = b->padded;
   b->weights_id = source->weights_id;
-  float *areas = (float *)(void *)((char *)memory + nsvcd__spheres_size(padded));
+  float *areas = nsvcd__areas_to_write(b);
   int8_t *latents = (int8_t *)(areas + 3 * nsvcd__area_slots(padded));
   for (size_t i = 0; i < source->count; i++) {
     const size_t from = source->order[i];
@@ -6369,14 +6390,19 @@ static size_t nsvcd__facets_size(size_t patches, const nsvcd__facet_counts *coun
   const size_t padded = nsvcd__round_up(patches, NSVCD__GROUP);
   uint64_t size = nsvcd__spheres_size(padded);
   size += sizeof *counts + 4 * NSVCD__FACET_BOX;
-  size += 36 * padded;                        // discs, steps, slacks, quanta
-  size += 24 * nsvcd__group_slots(padded);    // group discs
-  size += 12 * (patches + 1);                 // first_vertex, first_triangle, first_byte
-  size += 4 * (padded / NSVCD__GROUP + 1);    // first_seed
-  size += (uint64_t)12 * counts->components;  // seeds
+  // discs, steps, slacks, quanta
+  size += 36 * padded;
+  // group discs
+  size += 24 * nsvcd__group_slots(padded);
+  // first_vertex, first_triangle, first_byte; first_seed
+  size += 12 * (patches + 1);
+  size += 4 * (padded / NSVCD__GROUP + 1);
+  // seeds, vertices, listings
+  size += (uint64_t)12 * counts->components;
   size += 2 * ((uint64_t)3 * counts->vertices + NSVCD__LANES);
   size += counts->listings_size;
-  size += patches + NSVCD_ALIGNMENT;  // hull_counts, zeros
+  // hull_counts, and zeros
+  size += patches + NSVCD_ALIGNMENT;
   size -= size % NSVCD_ALIGNMENT;
   return size > 0xffffffffu ? 0 : (size_t)size;
 }
@@ -6512,6 +6538,10 @@ static uint32_t nsvcd__facet_number(const nsvcd__facets *f, size_t patch, size_t
 static nsvcd__f3 nsvcd__facet_centre(const nsvcd__facets *f, size_t patch) {
   return nsvcd__centre_of(nsvcd__body_patches(f->body), patch);
 }
+// The same in double: what the vertices are counted from.
+static nsvcd__d3 nsvcd__facet_origin(const nsvcd__facets *f, size_t patch) {
+  return nsvcd__d3_widen(nsvcd__facet_centre(f, patch));
+}
 
 // Vertices first .. first + 15 of a patch, of which `count` are wanted: the slice of them that
 // begins with lane l. The last one wanted is repeated in the lanes that are left.
@@ -6542,11 +6572,12 @@ NSVCD__INLINE nsvcd__v3 nsvcd__facet_vertices(const nsvcd__facets *f, size_t pat
 static void nsvcd__facet_triangle(const nsvcd__facets *f, size_t patch, size_t n,
                                   nsvcd__d3 *corners) {
   const nsvcd__vertices vertices = nsvcd__vertices_of(f, patch);
-  const nsvcd__d3 centre = nsvcd__d3_widen(nsvcd__facet_centre(f, patch));
+  const nsvcd__d3 origin = nsvcd__facet_origin(f, patch);
   const double step = (double)f->steps[patch];
   for (size_t k = 0; k < 3; k++) {
     const size_t i = nsvcd__facet_corner(f, patch, n, k);
-    corners[k] = nsvcd__d3_add_scaled(centre, step, nsvcd__vertex_at(&vertices, i));
+    const nsvcd__d3 vertex = nsvcd__vertex_at(&vertices, i);
+    corners[k] = nsvcd__d3_add_scaled(origin, step, vertex);
   }
 }
 
@@ -6563,15 +6594,17 @@ typedef struct nsvcd__slab {
 
 static nsvcd__slab nsvcd__slab_of_group(const nsvcd__facets *f, size_t g, nsvcd__d3 normal) {
   const size_t first = NSVCD__GROUP * g;
-  const nsvcd__d3 centre = nsvcd__d3_widen(nsvcd__centre_of(nsvcd__group_spheres(f->body), g));
+  const nsvcd__spheres groups = nsvcd__group_spheres(f->body);
+  const nsvcd__d3 centre = nsvcd__d3_widen(nsvcd__centre_of(groups, g));
   nsvcd__slab slab = {HUGE_VAL, -HUGE_VAL, 0};
   for (size_t i = first; i < first + NSVCD__GROUP && i < f->body->points; i++) {
     const nsvcd__vertices vertices = nsvcd__vertices_of(f, i);
-    const nsvcd__d3 own = nsvcd__d3_sub(nsvcd__d3_widen(nsvcd__facet_centre(f, i)), centre);
+    const nsvcd__d3 own = nsvcd__d3_sub(nsvcd__facet_origin(f, i), centre);
     const double step = (double)f->steps[i];
     const double slack = (double)f->slacks[i];
     for (size_t k = 0; k < f->hull_counts[i]; k++) {
-      const nsvcd__d3 v = nsvcd__d3_add_scaled(own, step, nsvcd__vertex_at(&vertices, k));
+      const nsvcd__d3 vertex = nsvcd__vertex_at(&vertices, k);
+      const nsvcd__d3 v = nsvcd__d3_add_scaled(own, step, vertex);
       const double height = nsvcd__d3_dot(normal, v);
       const double square = nsvcd__d3_dot(v, v) - height * height;
       slab.low = fmin(slab.low, height - slack);
@@ -6608,8 +6641,8 @@ static void nsvcd__finish_group(nsvcd_body *body, size_t g) {
     if (!(length > 1e-3))
       continue;
     // As it is stored, and no longer than 1.
-    const nsvcd__f3 stored = nsvcd__f3_round(nsvcd__d3_scale(normals[k], 0.9999998 / length));
-    const nsvcd__d3 unit = nsvcd__d3_widen(stored);
+    const nsvcd__d3 shorter = nsvcd__d3_scale(normals[k], 0.9999998 / length);
+    const nsvcd__d3 unit = nsvcd__d3_widen(nsvcd__f3_round(shorter));
     const nsvcd__slab slab = nsvcd__slab_of_group(&f, g, unit);
     if (!(slab.high - slab.low < thinnest.high - thinnest.low))
       continue;
@@ -6638,19 +6671,23 @@ static void nsvcd__finish_box(nsvcd_body *body) {
   float widest = 0;
   for (size_t i = 0; i < body->points; i++) {
     const nsvcd__vertices vertices = nsvcd__vertices_of(&f, i);
-    const nsvcd__d3 centre = nsvcd__d3_widen(nsvcd__facet_centre(&f, i));
+    const nsvcd__d3 origin = nsvcd__facet_origin(&f, i);
     const nsvcd__d3 quantum = nsvcd__d3_all((double)f.quanta[i]);
     const double step = (double)f.steps[i];
     for (size_t k = 0; k < vertices.count; k++) {
-      const nsvcd__d3 at = nsvcd__d3_add_scaled(centre, step, nsvcd__vertex_at(&vertices, k));
+      const nsvcd__d3 vertex = nsvcd__vertex_at(&vertices, k);
+      const nsvcd__d3 at = nsvcd__d3_add_scaled(origin, step, vertex);
       low = nsvcd__d3_min(low, nsvcd__d3_sub(at, quantum));
       high = nsvcd__d3_max(high, nsvcd__d3_add(at, quantum));
     }
     widest = f.quanta[i] > widest ? f.quanta[i] : widest;
   }
-  const nsvcd__d3 margin = nsvcd__d3_all(1e-6 * (double)body->extent);  // float rounding
-  nsvcd__f3_store(nsvcd__d3_narrow(nsvcd__d3_sub(low, margin)), box);
-  nsvcd__f3_store(nsvcd__d3_narrow(nsvcd__d3_add(high, margin)), box + 3);
+  // float rounding
+  const nsvcd__d3 margin = nsvcd__d3_all(1e-6 * (double)body->extent);
+  low = nsvcd__d3_sub(low, margin);
+  high = nsvcd__d3_add(high, margin);
+  nsvcd__f3_store(nsvcd__d3_narrow(low), box);
+  nsvcd__f3_store(nsvcd__d3_narrow(high), box + 3);
   box[6] = widest;
   box[7] = 0;
 }
@@ -6856,9 +6893,11 @@ static int nsvcd__numbers_are_sound(const nsvcd__facets *f, size_t from, size_t 
 
 // Are counts and indices of a patch right? What stands before it is.
 static int nsvcd__patch_is_laid_out(const nsvcd__facets *f, size_t i) {
-  if (f->first_vertex[i + 1] < f->first_vertex[i] || f->first_vertex[i + 1] > f->vertex_count)
+  const uint32_t *vertex = f->first_vertex + i;
+  const uint32_t *triangle = f->first_triangle + i;
+  if (vertex[1] < vertex[0] || vertex[1] > f->vertex_count)
     return 0;
-  if (f->first_triangle[i + 1] < f->first_triangle[i] || f->first_triangle[i + 1] > f->listed)
+  if (triangle[1] < triangle[0] || triangle[1] > f->listed)
     return 0;
   const size_t vertices = nsvcd__vertices_of(f, i).count;
   const size_t triangles = nsvcd__listing_count(f, i);
@@ -6876,7 +6915,7 @@ static int nsvcd__patch_is_laid_out(const nsvcd__facets *f, size_t i) {
   if (!nsvcd__numbers_are_sound(f, (size_t)corners_end, end, triangles))
     return 0;
   for (size_t n = 0; n < 3 * triangles; n++) {
-    if (nsvcd__facet_corner(f, i, f->first_triangle[i] + n / 3, n % 3) >= vertices)
+    if (nsvcd__facet_corner(f, i, triangle[0] + n / 3, n % 3) >= vertices)
       return 0;
   }
   return 1;
@@ -6909,9 +6948,13 @@ static int nsvcd__facets_are_laid_out(const nsvcd_body *body, size_t size) {
     if (f.first_seed[g + 1] < f.first_seed[g])
       return 0;
   }
-  if (f.first_byte[patches] != f.listings_size || f.first_seed[groups] != f.components)
+  if (f.first_byte[patches] != f.listings_size)
     return 0;
-  return f.first_vertex[patches] == f.vertex_count && f.first_triangle[patches] == f.listed;
+  if (f.first_seed[groups] != f.components)
+    return 0;
+  if (f.first_vertex[patches] != f.vertex_count)
+    return 0;
+  return f.first_triangle[patches] == f.listed;
 }
 
 // Are discs in range? Of (6, stride).
@@ -6982,9 +7025,13 @@ static void nsvcd__scale_facets(nsvcd_body *body, float scale) {
 
 // Is this the beginning of a blob of ours, of `size` bytes or fewer?
 static int nsvcd__header_is_sound(const nsvcd_body *b, size_t size) {
-  if (size < sizeof *b || b->magic != NSVCD__BODY_MAGIC || b->version != NSVCD__BODY_VERSION)
+  if (size < sizeof *b)
     return 0;
-  if (b->open > 1 || b->points < 1 || b->points > NSVCD_MAX_POINTS || b->size > size)
+  if (b->magic != NSVCD__BODY_MAGIC || b->version != NSVCD__BODY_VERSION)
+    return 0;
+  if (b->points < 1 || b->points > NSVCD_MAX_POINTS)
+    return 0;
+  if (b->open > 1 || b->size > size)
     return 0;
   if (b->padded != nsvcd__round_up(b->points, NSVCD__GROUP))
     return 0;
@@ -6994,8 +7041,9 @@ static int nsvcd__header_is_sound(const nsvcd_body *b, size_t size) {
 // All of a body of triangles, of at most `size` bytes, its header known to be sound.
 static int nsvcd__triangles_are_sound(const nsvcd_body *b, size_t size) {
 #ifndef NSVCD_NO_PROOF
-  return b->inner == 0 && nsvcd__spheres_are_sound(b) && nsvcd__facets_are_laid_out(b, size) &&
-         nsvcd__facets_are_sound(b);
+  if (b->inner != 0 || !nsvcd__spheres_are_sound(b))
+    return 0;
+  return nsvcd__facets_are_laid_out(b, size) && nsvcd__facets_are_sound(b);
 #else
   (void)b;
   (void)size;
@@ -7008,9 +7056,11 @@ static int nsvcd__inner_is_sound(const nsvcd_body *b) {
   const char *at = (const char *)b + b->inner;
   const nsvcd_body *within = (const nsvcd_body *)(const void *)at;
   const size_t left = b->size - b->inner;
-  if (!nsvcd__header_is_sound(within, left) || within->size != left || within->weights_id != 0)
+  if (!nsvcd__header_is_sound(within, left) || within->size != left)
     return 0;
-  if (within->points != b->points || within->triangles != b->triangles || within->open != b->open)
+  if (within->weights_id != 0 || within->open != b->open)
+    return 0;
+  if (within->points != b->points || within->triangles != b->triangles)
     return 0;
   return nsvcd__triangles_are_sound(within, left);
 }
@@ -7101,7 +7151,7 @@ static void nsvcd__scale_part(nsvcd_body *b, float scale) {
     return;
   }
 #ifndef NSVCD_NO_NETWORK
-  float *areas = (float *)(void *)((char *)b + nsvcd__spheres_size(b->padded));
+  float *areas = nsvcd__areas_to_write(b);
   for (size_t i = 0; i < nsvcd__area_numbers(b); i++) {
     areas[i] *= scale;
     areas[i] *= scale;
@@ -12914,19 +12964,22 @@ static NSVCD__APART void nsvcd__pairs_of(const nsvcd_body *moving, const nsvcd_b
 
   const nsvcd__v half = nsvcd__v_set(0.5f);
   const nsvcd__v3 centre = nsvcd__v3_load_rows(centres1, NSVCD__SLICE);
-  const nsvcd__v_pose first = nsvcd__v_poses_at(motion, enter, count);
-  const nsvcd__v_pose last = nsvcd__v_poses_at(motion, leave, count);
-  const nsvcd__v_pose mean = nsvcd__v_poses_at(motion, middle, count);
-  const nsvcd__v3 x1 = nsvcd__vmat3_apply(nsvcd__vmat3_of(first.rotation), centre);
-  const nsvcd__v3 x2 = nsvcd__vmat3_apply(nsvcd__vmat3_of(last.rotation), centre);
-  const nsvcd__vquat back = nsvcd__vquat_inverse(first.rotation);
-  pairs->w = nsvcd__v_half_rotation(nsvcd__vquat_mul(last.rotation, back));
-  pairs->rotation = nsvcd__vmat3_of(mean.rotation);
-  pairs->p1 = nsvcd__v3_add(nsvcd__vmat3_apply(pairs->rotation, centre), mean.position);
+  nsvcd__v_pose at = nsvcd__v_poses_at(motion, enter, count);
+  const nsvcd__v3 from = at.position;
+  const nsvcd__v3 arm1 = nsvcd__vmat3_apply(nsvcd__vmat3_of(at.rotation), centre);
+  const nsvcd__vquat back = nsvcd__vquat_inverse(at.rotation);
+
+  at = nsvcd__v_poses_at(motion, leave, count);
+  const nsvcd__v3 arm2 = nsvcd__vmat3_apply(nsvcd__vmat3_of(at.rotation), centre);
+  const nsvcd__v3 moved = nsvcd__v3_sub(at.position, from);
+  const nsvcd__v3 step = nsvcd__v3_add(nsvcd__v3_sub(arm2, arm1), moved);
+  pairs->w = nsvcd__v_half_rotation(nsvcd__vquat_mul(at.rotation, back));
+
+  at = nsvcd__v_poses_at(motion, middle, count);
+  pairs->rotation = nsvcd__vmat3_of(at.rotation);
+  pairs->p1 = nsvcd__v3_add(nsvcd__vmat3_apply(pairs->rotation, centre), at.position);
   pairs->p2 = nsvcd__v3_load_rows(centres2, NSVCD__SLICE);
   const nsvcd__v3 arm = nsvcd__v3_scale(nsvcd__v3_sub(pairs->p2, pairs->p1), half);
-  const nsvcd__v3 moved = nsvcd__v3_sub(last.position, first.position);
-  const nsvcd__v3 step = nsvcd__v3_add(nsvcd__v3_sub(x2, x1), moved);
   pairs->v = nsvcd__v3_fma(half, step, nsvcd__v3_cross(pairs->w, arm));
   pairs->r1 = nsvcd__v_load(r1);
   pairs->r2 = nsvcd__v_load(r2);
