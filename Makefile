@@ -97,12 +97,11 @@ check-gradient: $(GRADIENT_SWITCHES:%=build/gradient_%)
 # The tests of the proof, alone; PROOF_MANY=10 in the environment: 10^6 crossings.
 build/test_proof: tests/test_proof.c $(HELPERS) $(SCENERY) $(LIBRARY) | build
 	$(CC) $(CFLAGS) -std=c99 $(TEST_WARNINGS) -DTEST_ALONE -o $@ $< -lm
-# The same, with tiles of two groups: bodies of more than 32 patches are searched tile by tile.
-build/test_tiles: tests/test_proof.c $(HELPERS) $(SCENERY) $(LIBRARY) | build
+# The same, and bodies, with tiles of two groups: those of more than 32 patches are searched tile by tile.
+build/tiles_%: tests/test_%.c $(HELPERS) $(SCENERY) $(LIBRARY) | build
 	$(CC) $(CFLAGS) -std=c99 $(TEST_WARNINGS) -DNSVCD__TILE=2 -DTEST_ALONE -o $@ $< -lm
-check-tiles: build/test_tiles
-	@build/test_tiles >build/test_tiles.txt || { cat build/test_tiles.txt; exit 1; }
-	@echo build/test_tiles; tail -1 build/test_tiles.txt
+check-tiles: build/tiles_proof build/tiles_facets
+	@for test in $^; do echo $$test; $$test >$$test.txt || { cat $$test.txt; exit 1; }; tail -1 $$test.txt; done
 # On 32 bits, where sizes end at 4 GB, under sanitizers; where the compiler can (Debian: gcc-multilib).
 CFLAGS_32 = -m32 -msse2 -mfpmath=sse -O1 -fsanitize=address,undefined -fno-sanitize-recover=all
 build/test_%_32: tests/test_%.c $(HELPERS) $(PEERS) $(SCENERY) $(LIBRARY) | build

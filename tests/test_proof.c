@@ -1,7 +1,7 @@
 // The proof, attacked: every certificate replayed in double at other times and points than it was
-// made from, poses at which triangles cross, witnesses, containment, limits, and
-// scenes that are hard to get right. TEST_ALONE: with a main of its own. PROOF_MANY=10 in the
-// environment: as many times more crossings.
+// made from, poses at which triangles cross, witnesses, containment, limits, and scenes that are
+// hard to get right. TEST_ALONE: with a main of its own. PROOF_MANY=10 in the environment: as many
+// times more crossings.
 #define NSVCD_STATIC
 #define NEURALSVCD_IMPLEMENTATION
 #include <stddef.h>
