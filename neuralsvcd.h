@@ -960,7 +960,9 @@ static inline nsvcd__f3 nsvcd__f3_of(float x, float y, float z) {
   const nsvcd__f3 out = {x, y, z};
   return out;
 }
-static inline nsvcd__f3 nsvcd__f3_load(const float *p) { return nsvcd__f3_of(p[0], p[1], p[2]); }
+static inline nsvcd__f3 nsvcd__f3_load(const float *p) {
+  return nsvcd__f3_of(p[0], p[1], p[2]);
+}
 static inline void nsvcd__f3_store(nsvcd__f3 a, float *p) {
   p[0] = a.x;
   p[1] = a.y;
@@ -1008,7 +1010,9 @@ static inline float nsvcd__f3_dot(nsvcd__f3 a, nsvcd__f3 b) {
 static inline nsvcd__f3 nsvcd__f3_cross(nsvcd__f3 a, nsvcd__f3 b) {
   return nsvcd__f3_of(a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x);
 }
-static inline float nsvcd__f3_length(nsvcd__f3 a) { return sqrtf(nsvcd__f3_dot(a, a)); }
+static inline float nsvcd__f3_length(nsvcd__f3 a) {
+  return sqrtf(nsvcd__f3_dot(a, a));
+}
 
 // A box along the axes.
 typedef struct nsvcd__box {
@@ -1068,7 +1072,9 @@ static inline double nsvcd__d3_dot(nsvcd__d3 a, nsvcd__d3 b) {
 static inline nsvcd__d3 nsvcd__d3_cross(nsvcd__d3 a, nsvcd__d3 b) {
   return nsvcd__d3_of(a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x);
 }
-static inline double nsvcd__d3_length(nsvcd__d3 a) { return sqrt(nsvcd__d3_dot(a, a)); }
+static inline double nsvcd__d3_length(nsvcd__d3 a) {
+  return sqrt(nsvcd__d3_dot(a, a));
+}
 static inline double nsvcd__d3_gap(nsvcd__d3 a, nsvcd__d3 b) {  // squared distance
   const nsvcd__d3 offset = nsvcd__d3_sub(a, b);
   return nsvcd__d3_dot(offset, offset);
@@ -1450,19 +1456,39 @@ static uint32_t nsvcd__magnitude(float x) {
 #include <immintrin.h>
 #define NSVCD__SLICE 16
 typedef __m512 nsvcd__v;
-static inline nsvcd__v nsvcd__v_load(const float *p) { return _mm512_loadu_ps(p); }
-static inline void nsvcd__v_store(float *p, nsvcd__v a) { _mm512_storeu_ps(p, a); }
-static inline nsvcd__v nsvcd__v_set(float x) { return _mm512_set1_ps(x); }
-static inline nsvcd__v nsvcd__v_add(nsvcd__v a, nsvcd__v b) { return _mm512_add_ps(a, b); }
-static inline nsvcd__v nsvcd__v_sub(nsvcd__v a, nsvcd__v b) { return _mm512_sub_ps(a, b); }
-static inline nsvcd__v nsvcd__v_mul(nsvcd__v a, nsvcd__v b) { return _mm512_mul_ps(a, b); }
-static inline nsvcd__v nsvcd__v_div(nsvcd__v a, nsvcd__v b) { return _mm512_div_ps(a, b); }
+static inline nsvcd__v nsvcd__v_load(const float *p) {
+  return _mm512_loadu_ps(p);
+}
+static inline void nsvcd__v_store(float *p, nsvcd__v a) {
+  _mm512_storeu_ps(p, a);
+}
+static inline nsvcd__v nsvcd__v_set(float x) {
+  return _mm512_set1_ps(x);
+}
+static inline nsvcd__v nsvcd__v_add(nsvcd__v a, nsvcd__v b) {
+  return _mm512_add_ps(a, b);
+}
+static inline nsvcd__v nsvcd__v_sub(nsvcd__v a, nsvcd__v b) {
+  return _mm512_sub_ps(a, b);
+}
+static inline nsvcd__v nsvcd__v_mul(nsvcd__v a, nsvcd__v b) {
+  return _mm512_mul_ps(a, b);
+}
+static inline nsvcd__v nsvcd__v_div(nsvcd__v a, nsvcd__v b) {
+  return _mm512_div_ps(a, b);
+}
 static inline nsvcd__v nsvcd__v_fma(nsvcd__v a, nsvcd__v b, nsvcd__v c) {
   return _mm512_fmadd_ps(a, b, c);
 }
-static inline nsvcd__v nsvcd__v_min(nsvcd__v a, nsvcd__v b) { return _mm512_min_ps(a, b); }
-static inline nsvcd__v nsvcd__v_max(nsvcd__v a, nsvcd__v b) { return _mm512_max_ps(a, b); }
-static inline nsvcd__v nsvcd__v_sqrt(nsvcd__v a) { return _mm512_sqrt_ps(a); }
+static inline nsvcd__v nsvcd__v_min(nsvcd__v a, nsvcd__v b) {
+  return _mm512_min_ps(a, b);
+}
+static inline nsvcd__v nsvcd__v_max(nsvcd__v a, nsvcd__v b) {
+  return _mm512_max_ps(a, b);
+}
+static inline nsvcd__v nsvcd__v_sqrt(nsvcd__v a) {
+  return _mm512_sqrt_ps(a);
+}
 static inline uint32_t nsvcd__v_le(nsvcd__v a, nsvcd__v b) {
   return _mm512_cmp_ps_mask(a, b, _CMP_LE_OQ);
 }
@@ -1472,7 +1498,9 @@ static inline uint32_t nsvcd__v_lt(nsvcd__v a, nsvcd__v b) {
 static inline nsvcd__v nsvcd__v_pick(nsvcd__v a, nsvcd__v b, nsvcd__v x, nsvcd__v y) {
   return _mm512_mask_blend_ps(_mm512_cmp_ps_mask(a, b, _CMP_LE_OQ), y, x);
 }
-static inline float nsvcd__v_least(nsvcd__v a) { return _mm512_reduce_min_ps(a); }
+static inline float nsvcd__v_least(nsvcd__v a) {
+  return _mm512_reduce_min_ps(a);
+}
 static inline nsvcd__v nsvcd__v_load_int16(const int16_t *p) {
   const __m256i packed = _mm256_loadu_si256((const __m256i *)(const void *)p);
   return _mm512_cvtepi32_ps(_mm512_cvtepi16_epi32(packed));
@@ -1482,19 +1510,39 @@ static inline nsvcd__v nsvcd__v_load_int16(const int16_t *p) {
 #include <immintrin.h>
 #define NSVCD__SLICE 8
 typedef __m256 nsvcd__v;
-static inline nsvcd__v nsvcd__v_load(const float *p) { return _mm256_loadu_ps(p); }
-static inline void nsvcd__v_store(float *p, nsvcd__v a) { _mm256_storeu_ps(p, a); }
-static inline nsvcd__v nsvcd__v_set(float x) { return _mm256_set1_ps(x); }
-static inline nsvcd__v nsvcd__v_add(nsvcd__v a, nsvcd__v b) { return _mm256_add_ps(a, b); }
-static inline nsvcd__v nsvcd__v_sub(nsvcd__v a, nsvcd__v b) { return _mm256_sub_ps(a, b); }
-static inline nsvcd__v nsvcd__v_mul(nsvcd__v a, nsvcd__v b) { return _mm256_mul_ps(a, b); }
-static inline nsvcd__v nsvcd__v_div(nsvcd__v a, nsvcd__v b) { return _mm256_div_ps(a, b); }
+static inline nsvcd__v nsvcd__v_load(const float *p) {
+  return _mm256_loadu_ps(p);
+}
+static inline void nsvcd__v_store(float *p, nsvcd__v a) {
+  _mm256_storeu_ps(p, a);
+}
+static inline nsvcd__v nsvcd__v_set(float x) {
+  return _mm256_set1_ps(x);
+}
+static inline nsvcd__v nsvcd__v_add(nsvcd__v a, nsvcd__v b) {
+  return _mm256_add_ps(a, b);
+}
+static inline nsvcd__v nsvcd__v_sub(nsvcd__v a, nsvcd__v b) {
+  return _mm256_sub_ps(a, b);
+}
+static inline nsvcd__v nsvcd__v_mul(nsvcd__v a, nsvcd__v b) {
+  return _mm256_mul_ps(a, b);
+}
+static inline nsvcd__v nsvcd__v_div(nsvcd__v a, nsvcd__v b) {
+  return _mm256_div_ps(a, b);
+}
 static inline nsvcd__v nsvcd__v_fma(nsvcd__v a, nsvcd__v b, nsvcd__v c) {
   return _mm256_fmadd_ps(a, b, c);
 }
-static inline nsvcd__v nsvcd__v_min(nsvcd__v a, nsvcd__v b) { return _mm256_min_ps(a, b); }
-static inline nsvcd__v nsvcd__v_max(nsvcd__v a, nsvcd__v b) { return _mm256_max_ps(a, b); }
-static inline nsvcd__v nsvcd__v_sqrt(nsvcd__v a) { return _mm256_sqrt_ps(a); }
+static inline nsvcd__v nsvcd__v_min(nsvcd__v a, nsvcd__v b) {
+  return _mm256_min_ps(a, b);
+}
+static inline nsvcd__v nsvcd__v_max(nsvcd__v a, nsvcd__v b) {
+  return _mm256_max_ps(a, b);
+}
+static inline nsvcd__v nsvcd__v_sqrt(nsvcd__v a) {
+  return _mm256_sqrt_ps(a);
+}
 static inline uint32_t nsvcd__v_le(nsvcd__v a, nsvcd__v b) {
   return (uint32_t)_mm256_movemask_ps(_mm256_cmp_ps(a, b, _CMP_LE_OQ));
 }
@@ -1518,19 +1566,39 @@ static inline nsvcd__v nsvcd__v_load_int16(const int16_t *p) {
 #include <emmintrin.h>
 #define NSVCD__SLICE 4
 typedef __m128 nsvcd__v;
-static inline nsvcd__v nsvcd__v_load(const float *p) { return _mm_loadu_ps(p); }
-static inline void nsvcd__v_store(float *p, nsvcd__v a) { _mm_storeu_ps(p, a); }
-static inline nsvcd__v nsvcd__v_set(float x) { return _mm_set1_ps(x); }
-static inline nsvcd__v nsvcd__v_add(nsvcd__v a, nsvcd__v b) { return _mm_add_ps(a, b); }
-static inline nsvcd__v nsvcd__v_sub(nsvcd__v a, nsvcd__v b) { return _mm_sub_ps(a, b); }
-static inline nsvcd__v nsvcd__v_mul(nsvcd__v a, nsvcd__v b) { return _mm_mul_ps(a, b); }
-static inline nsvcd__v nsvcd__v_div(nsvcd__v a, nsvcd__v b) { return _mm_div_ps(a, b); }
+static inline nsvcd__v nsvcd__v_load(const float *p) {
+  return _mm_loadu_ps(p);
+}
+static inline void nsvcd__v_store(float *p, nsvcd__v a) {
+  _mm_storeu_ps(p, a);
+}
+static inline nsvcd__v nsvcd__v_set(float x) {
+  return _mm_set1_ps(x);
+}
+static inline nsvcd__v nsvcd__v_add(nsvcd__v a, nsvcd__v b) {
+  return _mm_add_ps(a, b);
+}
+static inline nsvcd__v nsvcd__v_sub(nsvcd__v a, nsvcd__v b) {
+  return _mm_sub_ps(a, b);
+}
+static inline nsvcd__v nsvcd__v_mul(nsvcd__v a, nsvcd__v b) {
+  return _mm_mul_ps(a, b);
+}
+static inline nsvcd__v nsvcd__v_div(nsvcd__v a, nsvcd__v b) {
+  return _mm_div_ps(a, b);
+}
 static inline nsvcd__v nsvcd__v_fma(nsvcd__v a, nsvcd__v b, nsvcd__v c) {
   return _mm_add_ps(_mm_mul_ps(a, b), c);
 }
-static inline nsvcd__v nsvcd__v_min(nsvcd__v a, nsvcd__v b) { return _mm_min_ps(a, b); }
-static inline nsvcd__v nsvcd__v_max(nsvcd__v a, nsvcd__v b) { return _mm_max_ps(a, b); }
-static inline nsvcd__v nsvcd__v_sqrt(nsvcd__v a) { return _mm_sqrt_ps(a); }
+static inline nsvcd__v nsvcd__v_min(nsvcd__v a, nsvcd__v b) {
+  return _mm_min_ps(a, b);
+}
+static inline nsvcd__v nsvcd__v_max(nsvcd__v a, nsvcd__v b) {
+  return _mm_max_ps(a, b);
+}
+static inline nsvcd__v nsvcd__v_sqrt(nsvcd__v a) {
+  return _mm_sqrt_ps(a);
+}
 static inline uint32_t nsvcd__v_le(nsvcd__v a, nsvcd__v b) {
   return (uint32_t)_mm_movemask_ps(_mm_cmple_ps(a, b));
 }
@@ -1554,19 +1622,39 @@ static inline nsvcd__v nsvcd__v_load_int16(const int16_t *p) {
 #include <arm_neon.h>
 #define NSVCD__SLICE 4
 typedef float32x4_t nsvcd__v;
-static inline nsvcd__v nsvcd__v_load(const float *p) { return vld1q_f32(p); }
-static inline void nsvcd__v_store(float *p, nsvcd__v a) { vst1q_f32(p, a); }
-static inline nsvcd__v nsvcd__v_set(float x) { return vdupq_n_f32(x); }
-static inline nsvcd__v nsvcd__v_add(nsvcd__v a, nsvcd__v b) { return vaddq_f32(a, b); }
-static inline nsvcd__v nsvcd__v_sub(nsvcd__v a, nsvcd__v b) { return vsubq_f32(a, b); }
-static inline nsvcd__v nsvcd__v_mul(nsvcd__v a, nsvcd__v b) { return vmulq_f32(a, b); }
-static inline nsvcd__v nsvcd__v_div(nsvcd__v a, nsvcd__v b) { return vdivq_f32(a, b); }
+static inline nsvcd__v nsvcd__v_load(const float *p) {
+  return vld1q_f32(p);
+}
+static inline void nsvcd__v_store(float *p, nsvcd__v a) {
+  vst1q_f32(p, a);
+}
+static inline nsvcd__v nsvcd__v_set(float x) {
+  return vdupq_n_f32(x);
+}
+static inline nsvcd__v nsvcd__v_add(nsvcd__v a, nsvcd__v b) {
+  return vaddq_f32(a, b);
+}
+static inline nsvcd__v nsvcd__v_sub(nsvcd__v a, nsvcd__v b) {
+  return vsubq_f32(a, b);
+}
+static inline nsvcd__v nsvcd__v_mul(nsvcd__v a, nsvcd__v b) {
+  return vmulq_f32(a, b);
+}
+static inline nsvcd__v nsvcd__v_div(nsvcd__v a, nsvcd__v b) {
+  return vdivq_f32(a, b);
+}
 static inline nsvcd__v nsvcd__v_fma(nsvcd__v a, nsvcd__v b, nsvcd__v c) {
   return vfmaq_f32(c, a, b);
 }
-static inline nsvcd__v nsvcd__v_min(nsvcd__v a, nsvcd__v b) { return vminq_f32(a, b); }
-static inline nsvcd__v nsvcd__v_max(nsvcd__v a, nsvcd__v b) { return vmaxq_f32(a, b); }
-static inline nsvcd__v nsvcd__v_sqrt(nsvcd__v a) { return vsqrtq_f32(a); }
+static inline nsvcd__v nsvcd__v_min(nsvcd__v a, nsvcd__v b) {
+  return vminq_f32(a, b);
+}
+static inline nsvcd__v nsvcd__v_max(nsvcd__v a, nsvcd__v b) {
+  return vmaxq_f32(a, b);
+}
+static inline nsvcd__v nsvcd__v_sqrt(nsvcd__v a) {
+  return vsqrtq_f32(a);
+}
 static inline uint32_t nsvcd__v_bits(uint32x4_t lanes) {
   static const uint32_t bit[4] = {1, 2, 4, 8};
   return vaddvq_u32(vandq_u32(lanes, vld1q_u32(bit)));
@@ -1580,7 +1668,9 @@ static inline uint32_t nsvcd__v_lt(nsvcd__v a, nsvcd__v b) {
 static inline nsvcd__v nsvcd__v_pick(nsvcd__v a, nsvcd__v b, nsvcd__v x, nsvcd__v y) {
   return vbslq_f32(vcleq_f32(a, b), x, y);
 }
-static inline float nsvcd__v_least(nsvcd__v a) { return vminvq_f32(a); }
+static inline float nsvcd__v_least(nsvcd__v a) {
+  return vminvq_f32(a);
+}
 static inline nsvcd__v nsvcd__v_load_int16(const int16_t *p) {
   return vcvtq_f32_s32(vmovl_s16(vld1_s16(p)));
 }
@@ -1588,27 +1678,57 @@ static inline nsvcd__v nsvcd__v_load_int16(const int16_t *p) {
 #else
 #define NSVCD__SLICE 1
 typedef float nsvcd__v;
-static inline nsvcd__v nsvcd__v_load(const float *p) { return *p; }
-static inline void nsvcd__v_store(float *p, nsvcd__v a) { *p = a; }
-static inline nsvcd__v nsvcd__v_set(float x) { return x; }
-static inline nsvcd__v nsvcd__v_add(nsvcd__v a, nsvcd__v b) { return a + b; }
-static inline nsvcd__v nsvcd__v_sub(nsvcd__v a, nsvcd__v b) { return a - b; }
-static inline nsvcd__v nsvcd__v_mul(nsvcd__v a, nsvcd__v b) { return a * b; }
-static inline nsvcd__v nsvcd__v_div(nsvcd__v a, nsvcd__v b) { return a / b; }
-static inline nsvcd__v nsvcd__v_fma(nsvcd__v a, nsvcd__v b, nsvcd__v c) { return a * b + c; }
-static inline nsvcd__v nsvcd__v_min(nsvcd__v a, nsvcd__v b) { return a < b ? a : b; }
-static inline nsvcd__v nsvcd__v_max(nsvcd__v a, nsvcd__v b) { return a > b ? a : b; }
-static inline nsvcd__v nsvcd__v_sqrt(nsvcd__v a) { return sqrtf(a); }
+static inline nsvcd__v nsvcd__v_load(const float *p) {
+  return *p;
+}
+static inline void nsvcd__v_store(float *p, nsvcd__v a) {
+  *p = a;
+}
+static inline nsvcd__v nsvcd__v_set(float x) {
+  return x;
+}
+static inline nsvcd__v nsvcd__v_add(nsvcd__v a, nsvcd__v b) {
+  return a + b;
+}
+static inline nsvcd__v nsvcd__v_sub(nsvcd__v a, nsvcd__v b) {
+  return a - b;
+}
+static inline nsvcd__v nsvcd__v_mul(nsvcd__v a, nsvcd__v b) {
+  return a * b;
+}
+static inline nsvcd__v nsvcd__v_div(nsvcd__v a, nsvcd__v b) {
+  return a / b;
+}
+static inline nsvcd__v nsvcd__v_fma(nsvcd__v a, nsvcd__v b, nsvcd__v c) {
+  return a * b + c;
+}
+static inline nsvcd__v nsvcd__v_min(nsvcd__v a, nsvcd__v b) {
+  return a < b ? a : b;
+}
+static inline nsvcd__v nsvcd__v_max(nsvcd__v a, nsvcd__v b) {
+  return a > b ? a : b;
+}
+static inline nsvcd__v nsvcd__v_sqrt(nsvcd__v a) {
+  return sqrtf(a);
+}
 // Bit i is set where a <= b in lane i of the slice, or a < b.
-static inline uint32_t nsvcd__v_le(nsvcd__v a, nsvcd__v b) { return a <= b; }
-static inline uint32_t nsvcd__v_lt(nsvcd__v a, nsvcd__v b) { return a < b; }
+static inline uint32_t nsvcd__v_le(nsvcd__v a, nsvcd__v b) {
+  return a <= b;
+}
+static inline uint32_t nsvcd__v_lt(nsvcd__v a, nsvcd__v b) {
+  return a < b;
+}
 // a <= b ? x : y.
 static inline nsvcd__v nsvcd__v_pick(nsvcd__v a, nsvcd__v b, nsvcd__v x, nsvcd__v y) {
   return a <= b ? x : y;
 }
 // The least of all lanes.
-static inline float nsvcd__v_least(nsvcd__v a) { return a; }
-static inline nsvcd__v nsvcd__v_load_int16(const int16_t *p) { return (float)*p; }
+static inline float nsvcd__v_least(nsvcd__v a) {
+  return a;
+}
+static inline nsvcd__v nsvcd__v_load_int16(const int16_t *p) {
+  return (float)*p;
+}
 #endif
 
 #define NSVCD__SLICE_MASK (((uint32_t)1 << (NSVCD__SLICE - 1) << 1) - 1)
@@ -1632,9 +1752,13 @@ static inline void nsvcd__v_cross(const nsvcd__v *a, const nsvcd__v *b, nsvcd__v
 static inline nsvcd__v nsvcd__v_clamp(nsvcd__v a, float low, float high) {
   return nsvcd__v_min(nsvcd__v_max(a, nsvcd__v_set(low)), nsvcd__v_set(high));
 }
-static inline nsvcd__v nsvcd__v_negate(nsvcd__v a) { return nsvcd__v_sub(nsvcd__v_set(0), a); }
+static inline nsvcd__v nsvcd__v_negate(nsvcd__v a) {
+  return nsvcd__v_sub(nsvcd__v_set(0), a);
+}
 
-static inline nsvcd__v nsvcd__v_abs(nsvcd__v a) { return nsvcd__v_max(a, nsvcd__v_negate(a)); }
+static inline nsvcd__v nsvcd__v_abs(nsvcd__v a) {
+  return nsvcd__v_max(a, nsvcd__v_negate(a));
+}
 
 // 16 vectors as a value, lane by lane.
 typedef struct nsvcd__v3 {
@@ -1679,7 +1803,9 @@ NSVCD__INLINE nsvcd__v nsvcd__v3_dot_add(nsvcd__v3 a, nsvcd__v3 b, nsvcd__v s) {
   const nsvcd__v sum = nsvcd__v_fma(a.x, b.x, s);
   return nsvcd__v_fma(a.z, b.z, nsvcd__v_fma(a.y, b.y, sum));
 }
-NSVCD__INLINE nsvcd__v nsvcd__v3_length(nsvcd__v3 a) { return nsvcd__v_sqrt(nsvcd__v3_dot(a, a)); }
+NSVCD__INLINE nsvcd__v nsvcd__v3_length(nsvcd__v3 a) {
+  return nsvcd__v_sqrt(nsvcd__v3_dot(a, a));
+}
 NSVCD__INLINE nsvcd__v3 nsvcd__v3_cross(nsvcd__v3 a, nsvcd__v3 b) {
   return nsvcd__v3_of(nsvcd__v_sub(nsvcd__v_mul(a.y, b.z), nsvcd__v_mul(a.z, b.y)),
                       nsvcd__v_sub(nsvcd__v_mul(a.z, b.x), nsvcd__v_mul(a.x, b.z)),
@@ -3105,7 +3231,9 @@ static void nsvcd__reach_to(nsvcd__patches *p, size_t patch, nsvcd__d3 at) {
 }
 
 // Root, rounded up: a radius may be too large by a rounding, never too small.
-static float nsvcd__radius_above(double squared) { return (float)(sqrt(squared) * (1 + 4e-7)); }
+static float nsvcd__radius_above(double squared) {
+  return (float)(sqrt(squared) * (1 + 4e-7));
+}
 
 // Writes the samples patch by patch, in a patch in their order (counting sort), and the sample
 // radii.
@@ -4031,7 +4159,9 @@ static nsvcd__list nsvcd__list_of(size_t item_size, const nsvcd_allocator *alloc
   const nsvcd__list out = {allocator, NULL, item_size, 0, 0};
   return out;
 }
-static void nsvcd__list_free(nsvcd__list *list) { nsvcd__free(list->allocator, list->items); }
+static void nsvcd__list_free(nsvcd__list *list) {
+  nsvcd__free(list->allocator, list->items);
+}
 
 // Room for `more` items; 0 without memory, and the list is as it was.
 static int nsvcd__list_reserve(nsvcd__list *list, size_t more) {
@@ -4405,7 +4535,9 @@ static float nsvcd__float_above(double x) {
   const float rounded = nsvcd__to_float(x);
   return (double)rounded < x ? nextafterf(rounded, HUGE_VALF) : rounded;
 }
-static float nsvcd__float_below(double x) { return -nsvcd__float_above(-x); }
+static float nsvcd__float_below(double x) {
+  return -nsvcd__float_above(-x);
+}
 
 // ---- small linear systems, for balls and for distances
 
@@ -4592,7 +4724,9 @@ typedef struct nsvcd__symmetric {
   nsvcd__d3 x, y, z;
 } nsvcd__symmetric;
 
-static double nsvcd__trace(const nsvcd__symmetric *m) { return m->x.x + m->y.y + m->z.z; }
+static double nsvcd__trace(const nsvcd__symmetric *m) {
+  return m->x.x + m->y.y + m->z.z;
+}
 
 static nsvcd__d3 nsvcd__longest_row(const nsvcd__symmetric *m) {
   const double x = nsvcd__d3_dot(m->x, m->x);
@@ -4839,7 +4973,8 @@ static void nsvcd__choose_hull(nsvcd__points points, double enough, double *boun
   hull->next = 0;
   hull->farthest = HUGE_VAL;
   for (size_t i = 0; i < points.count; i++) {
-    bounds[i] = nsvcd__d3_length(points.at[i]);  // from the centre, to begin with
+    // from the centre, to begin with
+    bounds[i] = nsvcd__d3_length(points.at[i]);
     if (bounds[i] > bounds[hull->next])
       hull->next = i;
   }
@@ -5670,7 +5805,8 @@ static void nsvcd__rotate_latent(const int8_t *z, float (*turn)[NSVCD__SLICE], s
                                  size_t place, float *row) {
   float *vectors = row + NSVCD__VECTORS * place;
   float *scalars = row + 2 * NSVCD__VECTORS + NSVCD_W_SCALARS * place;
-  float degree[5 * NSVCD_W_CHANNELS];  // one after the other: it is the deepest place of a query
+  // one after the other: it is the deepest place of a query
+  float degree[5 * NSVCD_W_CHANNELS];
   for (size_t k = 0; k < 3 * NSVCD_W_CHANNELS; k++)
     degree[k] = (float)z[k];
   nsvcd__rotate_degree(degree, turn, l, 3, vectors);
@@ -5779,11 +5915,15 @@ static size_t nsvcd__level_count(size_t padded) {
 }
 
 // Accessors: x, y, z and r are (P), of the patches.
-static size_t nsvcd__body_groups(const nsvcd_body *body) { return body->padded / NSVCD__GROUP; }
+static size_t nsvcd__body_groups(const nsvcd_body *body) {
+  return body->padded / NSVCD__GROUP;
+}
 static const float *nsvcd__body_floats(const nsvcd_body *body, size_t first) {
   return (const float *)(body + 1) + first;
 }
-static const float *nsvcd__body_x(const nsvcd_body *body) { return nsvcd__body_floats(body, 0); }
+static const float *nsvcd__body_x(const nsvcd_body *body) {
+  return nsvcd__body_floats(body, 0);
+}
 static const float *nsvcd__body_y(const nsvcd_body *body) {
   return nsvcd__body_floats(body, body->padded);
 }
@@ -6438,7 +6578,9 @@ static nsvcd__facets nsvcd__facets_of(const nsvcd_body *body) {
   return f;
 }
 
-static float nsvcd__widest_quantum(const nsvcd__facets *f) { return f->box[6]; }
+static float nsvcd__widest_quantum(const nsvcd__facets *f) {
+  return f->box[6];
+}
 
 // ---- one patch
 
@@ -6467,7 +6609,9 @@ static size_t nsvcd__listing_count(const nsvcd__facets *f, size_t patch) {
 }
 
 // Bytes of a corner in a patch of so many vertices.
-static size_t nsvcd__corner_bytes(size_t vertices) { return vertices <= 256 ? 1 : 2; }
+static size_t nsvcd__corner_bytes(size_t vertices) {
+  return vertices <= 256 ? 1 : 2;
+}
 
 // Bytes of the corners of a patch.
 static size_t nsvcd__corners_size(const nsvcd__facets *f, size_t patch) {
@@ -6584,7 +6728,9 @@ static void nsvcd__facet_triangle(const nsvcd__facets *f, size_t patch, size_t n
 // ---- what follows from the patches
 
 // A float not less than x, which is not negative.
-static float nsvcd__round_outward(double x) { return (float)(x * (1 + 2e-7)) + 1e-37f; }
+static float nsvcd__round_outward(double x) {
+  return (float)(x * (1 + 2e-7)) + 1e-37f;
+}
 
 // What the members of a group extend to along a direction and across it, from the centre of the
 // group's sphere.
@@ -6660,7 +6806,9 @@ static void nsvcd__finish_group(nsvcd_body *body, size_t g) {
   nsvcd__disc_store(disc, discs, nsvcd__group_slots(body->padded), g);
 }
 
-static nsvcd__d3 nsvcd__d3_all(double x) { return nsvcd__d3_of(x, x, x); }
+static nsvcd__d3 nsvcd__d3_all(double x) {
+  return nsvcd__d3_of(x, x, x);
+}
 
 // Writes the box, and the greatest of the quanta.
 static void nsvcd__finish_box(nsvcd_body *body) {
@@ -7561,7 +7709,8 @@ NSVCDDEF nsvcd_result nsvcd_encode(const nsvcd_mesh *mesh, const nsvcd_encode_op
 
 NSVCDDEF void nsvcd_body_free(const nsvcd_body *body, const nsvcd_allocator *allocator) {
   void *memory;
-  memcpy(&memory, &body, sizeof memory);  // a cast would take away a const
+  // a cast would take away a const
+  memcpy(&memory, &body, sizeof memory);
   nsvcd__free(allocator, memory);
 }
 #endif
@@ -8706,7 +8855,8 @@ static void nsvcd__intervals_close(nsvcd__intervals *intervals, uint32_t lanes,
   const nsvcd__v scaled = nsvcd__v_mul(nsvcd__v_set(search->scale), own);
   const nsvcd__v radii = nsvcd__v_max(nsvcd__v_add(scaled, other), nsvcd__v_set(1e-30f));
   intervals->open &= ~lanes;
-  if (kept->count == kept->limit) {  // most are shallower than all that is kept: only counted
+  // most are shallower than all that is kept: only counted
+  if (kept->count == kept->limit) {
     const uint32_t deep = lanes & nsvcd__deeper_than_kept(kept, intervals->square, radii);
     kept->total += nsvcd__bit_count(lanes & ~deep);
     lanes = deep;
@@ -8749,7 +8899,8 @@ static void nsvcd__intervals_close(nsvcd__intervals *intervals, uint32_t lanes,
 // Asked for all 16 beforehand, so that machines with narrower slices find the same intervals.
 static uint64_t nsvcd__interval_cuts(const nsvcd__search *search, size_t j, uint64_t wanted) {
   const nsvcd__sphere patch = nsvcd__sphere_of(nsvcd__body_patches(search->fixed), j);
-  uint64_t cuts = wanted & ~(wanted << 1);  // where the segment before is left out
+  // where the segment before is left out
+  uint64_t cuts = wanted & ~(wanted << 1);
   uint32_t open = 0;
   size_t oldest = 0;
   if (!(search->turn[search->segments] > NSVCD__INTERVAL_TURN))
@@ -9550,7 +9701,8 @@ static nsvcd__dquat nsvcd__leg_at(const nsvcd__leg *leg, double u) {
   const double way = leg->from + leg->share * u;
   double before = 1 - way;
   double after = way;
-  if (leg->half_angle > 1e-7) {  // below, the difference is less than rounding
+  // below, the difference is less than rounding
+  if (leg->half_angle > 1e-7) {
     before = sin((1 - way) * leg->half_angle);
     after = sin(way * leg->half_angle);
   }
@@ -9620,7 +9772,8 @@ static void nsvcd__arc_bend(nsvcd__arc *arc) {
   arc->bulge = 0.1250001 * arc->scale * (arc->turn * arc->turn + twist);
   arc->drift = 0.1250001 * (2 * across + angle * swing);
   arc->axis = nsvcd__d3_unit(turn, nsvcd__d3_of(1, 0, 0));
-  if (arc->has_axis) {  // the fixed body only goes along: its axes are those of its start
+  // the fixed body only goes along: its axes are those of its start
+  if (arc->has_axis) {
     const nsvcd__dmat3 fixed = nsvcd__dmat3_of(arc->fixed.start);
     arc->axis = nsvcd__dmat3_apply_transpose(&fixed, arc->axis);
   }
@@ -9848,10 +10001,14 @@ NSVCD__INLINE nsvcd__v nsvcd__v_deviation(const nsvcd__v_span *span, nsvcd__v3 n
 }
 
 // Is all work done that is allowed?
-static int nsvcd__is_spent(const nsvcd__proof *p) { return p->work > p->limit; }
+static int nsvcd__is_spent(const nsvcd__proof *p) {
+  return p->work > p->limit;
+}
 
 // The clearance, in float: not less.
-static float nsvcd__clearance_of(const nsvcd__proof *p) { return 1.000001f * (float)p->clearance; }
+static float nsvcd__clearance_of(const nsvcd__proof *p) {
+  return 1.000001f * (float)p->clearance;
+}
 
 // What stored triangles of two patches may be off by, both together.
 static float nsvcd__quanta_of(const nsvcd__proof *p, size_t i, size_t j) {
@@ -10054,7 +10211,8 @@ static uint32_t nsvcd__apart_by_fixed_disc(const nsvcd__approach *a, const nsvcd
 // The same by planes normal to the mean of the moving disc's normals.
 static uint32_t nsvcd__apart_by_moving_disc(const nsvcd__approach *a, const nsvcd__span *span,
                                             uint32_t met) {
-  const float half = 0.5f * a->per_scale;  // rotations in a span are times the scale
+  // rotations in a span are times the scale
+  const float half = 0.5f * a->per_scale;
   const nsvcd__mat3 *from = &span->start.rotation;
   const nsvcd__mat3 *to = &span->end.rotation;
   const nsvcd__f3 origin = {0, 0, 0};
@@ -10249,7 +10407,9 @@ static void nsvcd__pose_hulls(nsvcd__proof *p, size_t i, size_t j, const nsvcd__
   }
 }
 
-static float nsvcd__clamp01(float x) { return x < 0 ? 0 : x < 1 ? x : 1; }
+static float nsvcd__clamp01(float x) {
+  return x < 0 ? 0 : x < 1 ? x : 1;
+}
 
 // Posed hulls along a direction: how far the moving one, at both ends of the span, stays ahead of
 // the resting one, and the difference of the two vertices that say so.
@@ -10387,7 +10547,9 @@ typedef struct nsvcd__nearest {
   nsvcd__d3 on_a, on_b;
 } nsvcd__nearest;
 
-static double nsvcd__clamp_share(double x) { return x > 0 ? (x < 1 ? x : 1) : 0; }
+static double nsvcd__clamp_share(double x) {
+  return x > 0 ? (x < 1 ? x : 1) : 0;
+}
 
 static void nsvcd__keep_nearer(nsvcd__nearest *best, nsvcd__d3 a, nsvcd__d3 b) {
   const nsvcd__d3 d = nsvcd__d3_sub(a, b);
@@ -10753,7 +10915,8 @@ static nsvcd__verdict nsvcd__settle_short_part(nsvcd__proof *p, const nsvcd__cou
   const nsvcd__verdict passage = nsvcd__find_passage(p, couple, u, end, speed);
   if (passage == NSVCD__MEETS || passage == NSVCD__TAKEN)
     return passage;
-  if (p->measure > 0 && p->clearance > 0) {  // say less, but for certain
+  // say less, but for certain
+  if (p->measure > 0 && p->clearance > 0) {
     const double close = couple->slack + p->tolerance;
     p->clearance = fmax(0, p->clearance - 2 * close);
     return NSVCD__FREE;
@@ -11557,7 +11720,8 @@ static NSVCD__APART void nsvcd__clip_segment(nsvcd__proof *p, nsvcd__search *sea
   p->clipped |= (uint64_t)1 << s;
   p->spans_known &= ~((uint64_t)1 << s);
   search->posed &= ~((uint64_t)1 << s);
-  p->plane += p->plane > 0;  // heights over the plane that held last are not what they were
+  // heights over the plane that held last are not what they were
+  p->plane += p->plane > 0;
 }
 
 // Settles the items that no plane parts, the best first.
@@ -12263,7 +12427,8 @@ static NSVCD__APART double nsvcd__guess_clearance(nsvcd__proof *p, const nsvcd__
   nsvcd__f3 target = nsvcd__f3_round(nsvcd__d3_load(p->fixed.body->centre));
   size_t i = 0;
   size_t j = 0;
-  for (size_t round = 0; round < 2; round++) {  // from one body to the other, and again
+  // from one body to the other, and again
+  for (size_t round = 0; round < 2; round++) {
     nsvcd__f3 on_moving = target;
     const nsvcd__d3 seen = nsvcd__place_point(&back, nsvcd__d3_widen(target));
     nsvcd__to_nearest_patch(&p->moving, &pose, nsvcd__f3_round(seen), target, &i, &on_moving);
@@ -12494,7 +12659,8 @@ static NSVCD__APART void nsvcd__lift_motion(nsvcd__proof *p, nsvcd__search *sear
   const double clearance = p->clearance;
   p->motion = &start;
   p->normal_count = 0;
-  p->clearance += 0.05 * p->skin;  // what is about to touch is lifted off too
+  // what is about to touch is lifted off too
+  p->clearance += 0.05 * p->skin;
   p->gathers = 1;
   int liftable = 1;
   // as many times as there are too many contacts to look at at once
@@ -13049,7 +13215,8 @@ static void nsvcd__views_set_frame(nsvcd__views *view) {
   view->w = nsvcd__v3_scale(view->w, sign);
   const nsvcd__v3 forward = nsvcd__v3_scale(v_across, sign);
   const nsvcd__v3 ref = nsvcd__v3_fma(nsvcd__v_set(NSVCD__LEAN), lean_across, forward);
-  if (nsvcd__v_le(nsvcd__v3_length(ref), nsvcd__v_set(1e-7f))) {  // somewhere
+  // somewhere
+  if (nsvcd__v_le(nsvcd__v3_length(ref), nsvcd__v_set(1e-7f))) {
     const nsvcd__v3 axis = nsvcd__v_across(nsvcd__v_farthest_axis(e1), e1);
     instead = nsvcd__v_unit_or(axis, 1e-9f, x_axis);
   }
@@ -13123,7 +13290,8 @@ static NSVCD__APART void nsvcd__scenes_of(const nsvcd__pairs *pairs, size_t coun
   const nsvcd__v3 closest = nsvcd__v3_sub(view.d, nsvcd__v3_scale(view.v, tau));
   const nsvcd__v3 velocity = nsvcd__vmat3_apply(view.frame, view.v);
   const nsvcd__v3 turn = nsvcd__vmat3_apply(view.frame, view.w);
-  const nsvcd__v3 mirrored = nsvcd__v3_scale(turn, view.side);  // an axial vector
+  // an axial vector
+  const nsvcd__v3 mirrored = nsvcd__v3_scale(turn, view.side);
 
   float(*facts)[NSVCD__SLICE] = scene->facts;
   nsvcd__v_store(facts[NSVCD__FACT_DISTANCE], nsvcd__v3_length(view.d));
@@ -13929,7 +14097,8 @@ static void nsvcd__answer_by_network(nsvcd__task *ask, nsvcd__query *query, nsvc
     *hint = here;
   }
 
-  if (nsvcd__starts_inside(ask)) {  // a body inside another need not touch anything
+  // a body inside another need not touch anything
+  if (nsvcd__starts_inside(ask)) {
     answer->status = NSVCD_STATUS_INSIDE;
     answer->logit = NSVCD_LOGIT_CERTAIN;
     answer->contact_time = 0;
@@ -15335,7 +15504,9 @@ static void nsvcd__stage_memory(nsvcd__stage *stage, char *base, uint64_t *used)
   stage->weights = nsvcd__take_floats(base, used, stage->moments, via + 2);
 }
 
-static size_t nsvcd__larger(size_t a, size_t b) { return a > b ? a : b; }
+static size_t nsvcd__larger(size_t a, size_t b) {
+  return a > b ? a : b;
+}
 
 // Lays the planner's memory out in base, or, where that is NULL, only measures. Returns the bytes;
 // 0 if they are more than can be counted.
@@ -15410,7 +15581,8 @@ static void nsvcd__stage_init(const nsvcd_plan_options *o, nsvcd__stage *stage) 
   nsvcd__cholesky(stage->factor, via, stage->factor);
 
   stage->deviation = 0;
-  for (size_t k = 0; k < via; k++) {  // the variance of via point k is |L^-1 e_k|^2
+  // the variance of via point k is |L^-1 e_k|^2
+  for (size_t k = 0; k < via; k++) {
     double square = 0;
     for (size_t i = 0; i < via; i++)
       w[i] = i == k;
@@ -15999,7 +16171,8 @@ static void nsvcd__change(const nsvcd__planner *p, size_t via, const float *cont
     const float x = control[f + k] + scale * offset[k];
     const float low = p->problem->low[k % f];
     const float high = p->problem->high[k % f];
-    out[f + k] = x < low ? low : x < high ? x : high;  // high where x is not a number
+    // high where x is not a number
+    out[f + k] = x < low ? low : x < high ? x : high;
   }
 }
 

@@ -37,15 +37,27 @@ static vec vec_of(float x, float y, float z) {
   const vec out = {x, y, z};
   return out;
 }
-static vec vec_from(const float *p) { return vec_of(p[0], p[1], p[2]); }
-static vec vec_add(vec a, vec b) { return vec_of(a.x + b.x, a.y + b.y, a.z + b.z); }
-static vec vec_scale(vec a, float s) { return vec_of(s * a.x, s * a.y, s * a.z); }
-static vec vec_sub(vec a, vec b) { return vec_add(a, vec_scale(b, -1)); }
-static float vec_dot(vec a, vec b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
+static vec vec_from(const float *p) {
+  return vec_of(p[0], p[1], p[2]);
+}
+static vec vec_add(vec a, vec b) {
+  return vec_of(a.x + b.x, a.y + b.y, a.z + b.z);
+}
+static vec vec_scale(vec a, float s) {
+  return vec_of(s * a.x, s * a.y, s * a.z);
+}
+static vec vec_sub(vec a, vec b) {
+  return vec_add(a, vec_scale(b, -1));
+}
+static float vec_dot(vec a, vec b) {
+  return a.x * b.x + a.y * b.y + a.z * b.z;
+}
 static vec vec_cross(vec a, vec b) {
   return vec_of(a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x);
 }
-static float vec_length(vec a) { return sqrtf(vec_dot(a, a)); }
+static float vec_length(vec a) {
+  return sqrtf(vec_dot(a, a));
+}
 
 typedef struct thing {
   size_t mesh;
@@ -155,7 +167,9 @@ static void fill_room(world *w) {
 
 // ------------------------------------------------------------------------------------- broad phase
 
-static int moves(const thing *t) { return t->inverse_mass > 0 && !t->asleep && t->left > 0; }
+static int moves(const thing *t) {
+  return t->inverse_mass > 0 && !t->asleep && t->left > 0;
+}
 
 typedef struct box {
   float low[3], high[3];

@@ -68,7 +68,6 @@ int main(void) {
     return 1;
   }
 
-
   const int is_free = answer.status == NSVCD_PLAN_CONVERGED && !answer.collides;
   printf("%s: %s\n", nsvcd_plan_status_string(answer.status),
          is_free ? "certified free" : "not free");

@@ -11,7 +11,9 @@
 
 #define PREVIEW_MAX 512  // samples of a trajectory
 
-static double preview_now(void) { return (double)clock() / CLOCKS_PER_SEC; }
+static double preview_now(void) {
+  return (double)clock() / CLOCKS_PER_SEC;
+}
 static int preview_episode(task_scene *scene, int task, uint64_t seed) {
   return task == 0   ? task_dish_episode(scene, seed)
          : task == 1 ? task_bimanual_episode(scene, seed)

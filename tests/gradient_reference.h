@@ -29,7 +29,9 @@ typedef struct reference_pair {
 static double reference_dot(const double *a, const double *b) {
   return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
 }
-static double reference_length(const double *a) { return sqrt(reference_dot(a, a)); }
+static double reference_length(const double *a) {
+  return sqrt(reference_dot(a, a));
+}
 static void reference_cross(const double *a, const double *b, double *out) {
   out[0] = a[1] * b[2] - a[2] * b[1];
   out[1] = a[2] * b[0] - a[0] * b[2];

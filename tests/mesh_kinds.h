@@ -16,7 +16,9 @@ static uint32_t mesh_random(void) {  // splitmix64
   return (uint32_t)((z ^ (z >> 31)) >> 32);
 }
 
-static size_t mesh_below(size_t n) { return (size_t)mesh_random() % n; }
+static size_t mesh_below(size_t n) {
+  return (size_t)mesh_random() % n;
+}
 
 static double mesh_uniform(double low, double high) {
   return low + (high - low) * (double)mesh_random() / 4294967296.0;
@@ -38,7 +40,9 @@ static double mesh_triangle(const nsvcd_mesh *mesh, size_t t, double corners[3][
 }
 
 // As vectors.
-static nsvcd__f3 *mesh_f3s(float *numbers) { return (nsvcd__f3 *)(void *)numbers; }
+static nsvcd__f3 *mesh_f3s(float *numbers) {
+  return (nsvcd__f3 *)(void *)numbers;
+}
 
 static void mesh_area_vector(const nsvcd_mesh *mesh, double *sum) {
   sum[0] = sum[1] = sum[2] = 0;

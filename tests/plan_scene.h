@@ -336,6 +336,8 @@ static int plan_open(plan_scene *s, plan_inside *in) {
   return 1;
 }
 
-static void plan_close(plan_inside *in) { query_release(&in->memory); }
+static void plan_close(plan_inside *in) {
+  query_release(&in->memory);
+}
 
 #endif

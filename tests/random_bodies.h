@@ -14,7 +14,9 @@ typedef union blob {
 
 static blob blob_a_memory, blob_b_memory;
 
-static char *aligned(blob *b) { return b->bytes + (16 - (uintptr_t)b->bytes % 16) % 16; }
+static char *aligned(blob *b) {
+  return b->bytes + (16 - (uintptr_t)b->bytes % 16) % 16;
+}
 static const size_t blob_capacity = BLOB - 16;
 
 static float centres[3 * NSVCD_SMALL_POINTS], radii[NSVCD_SMALL_POINTS],
@@ -82,6 +84,8 @@ static const nsvcd_body *shell_body(size_t points, double radius, blob *memory) 
   return build(points, memory);
 }
 
-static size_t body_bytes(const nsvcd_body *body) { return nsvcd_body_size(body->points); }
+static size_t body_bytes(const nsvcd_body *body) {
+  return nsvcd_body_size(body->points);
+}
 
 #endif

@@ -178,11 +178,17 @@ static void conservative_tumble(void) {
   conservative("50 turns", 100, 0, 18000 * degrees, 150, 200, 1, 1, 0);
 }
 
-static void conservative_jumps(void) { conservative("jumps", 200, 2, 0, 1, 200, 1, 1, 0); }
+static void conservative_jumps(void) {
+  conservative("jumps", 200, 2, 0, 1, 200, 1, 1, 0);
+}
 
-static void conservative_still(void) { conservative("single pose", 200, 0, 0, 1, 1, 1, 1, 0); }
+static void conservative_still(void) {
+  conservative("single pose", 200, 0, 0, 1, 1, 1, 1, 0);
+}
 
-static void conservative_far(void) { conservative("1 km away", 200, 0, 2, 2, 40, 0.1, 0.2, 1000); }
+static void conservative_far(void) {
+  conservative("1 km away", 200, 0, 2, 2, 40, 0.1, 0.2, 1000);
+}
 
 static void conservative_sizes(void) {
   conservative("1 : 1000", 100, 1, 2, 2, 40, 1e-3, 1, 0);

@@ -35,6 +35,8 @@ static void rotation_operator_is_a_group(void) {
   }
 }
 
-void test_latent_rotation(void) { RUN(rotation_operator_is_a_group); }
+void test_latent_rotation(void) {
+  RUN(rotation_operator_is_a_group);
+}
 
 CHECK_ALONE(test_latent_rotation)

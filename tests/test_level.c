@@ -62,7 +62,9 @@ static const level_world *level_shared(void) {
 
 // ---- the body
 
-static float level_square(const float *d) { return d[0] * d[0] + d[1] * d[1] + d[2] * d[2]; }
+static float level_square(const float *d) {
+  return d[0] * d[0] + d[1] * d[1] + d[2] * d[2];
+}
 
 // Spheres that touch a ball, as a filter of a walk.
 static uint32_t level_touch(const void *what, nsvcd__spheres all) {

@@ -2228,7 +2228,9 @@ static void proof_certificates_hold(void) {
   CHECK_GE(sum.verdicts[NSVCD_STATUS_CERTIFIED_FREE], 100);
 }
 
-static void proof_certificates_hold_at_a_hair(void) { proof_scenes("hair", 77, -7.5, -4, 0.1); }
+static void proof_certificates_hold_at_a_hair(void) {
+  proof_scenes("hair", 77, -7.5, -4, 0.1);
+}
 
 // The mesh of another, multiplied: enough to place bodies by.
 static proof_body proof_multiplied(const proof_body *from, float scale) {

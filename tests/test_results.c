@@ -19,6 +19,8 @@ static void mesh_result_strings(void) {
         0);
 }
 
-void test_results(void) { RUN(mesh_result_strings); }
+void test_results(void) {
+  RUN(mesh_result_strings);
+}
 
 CHECK_ALONE(test_results)

@@ -24,12 +24,24 @@ static vec vec_of(double x, double y, double z) {
   const vec out = {x, y, z};
   return out;
 }
-static vec vec_load(const float *p) { return vec_of((double)p[0], (double)p[1], (double)p[2]); }
-static vec vec_add(vec a, vec b) { return vec_of(a.x + b.x, a.y + b.y, a.z + b.z); }
-static vec vec_sub(vec a, vec b) { return vec_of(a.x - b.x, a.y - b.y, a.z - b.z); }
-static vec vec_scale(vec a, double s) { return vec_of(s * a.x, s * a.y, s * a.z); }
-static double vec_dot(vec a, vec b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
-static double vec_length(vec a) { return sqrt(vec_dot(a, a)); }
+static vec vec_load(const float *p) {
+  return vec_of((double)p[0], (double)p[1], (double)p[2]);
+}
+static vec vec_add(vec a, vec b) {
+  return vec_of(a.x + b.x, a.y + b.y, a.z + b.z);
+}
+static vec vec_sub(vec a, vec b) {
+  return vec_of(a.x - b.x, a.y - b.y, a.z - b.z);
+}
+static vec vec_scale(vec a, double s) {
+  return vec_of(s * a.x, s * a.y, s * a.z);
+}
+static double vec_dot(vec a, vec b) {
+  return a.x * b.x + a.y * b.y + a.z * b.z;
+}
+static double vec_length(vec a) {
+  return sqrt(vec_dot(a, a));
+}
 static vec vec_cross(vec a, vec b) {
   return vec_of(a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x);
 }

@@ -19,7 +19,9 @@ static void semihost(int operation, const void *argument) {
   __asm__ volatile("bkpt 0xab" : "+r"(r0) : "r"(r1) : "memory");
 }
 
-void board_print(const char *text) { semihost(SYS_WRITE0, text); }
+void board_print(const char *text) {
+  semihost(SYS_WRITE0, text);
+}
 
 // Ends QEMU with this exit status.
 static void finish(int status) {
@@ -44,7 +46,9 @@ static void start_clock(void) {
   TIMER_CONTROL = 1;
 }
 
-uint64_t board_instructions(void) { return (uint64_t)PER_TICK * (0xffffffffu - TIMER_VALUE); }
+uint64_t board_instructions(void) {
+  return (uint64_t)PER_TICK * (0xffffffffu - TIMER_VALUE);
+}
 
 // A loop of 2 `rounds` instructions has to count as so many. Without -icount it does not.
 int board_measures(void) {

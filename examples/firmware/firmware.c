@@ -69,7 +69,9 @@ static nsvcd_pose pose_of(float x, float y, float z, float qx, float qy, float q
   const nsvcd_pose pose = {{x, y, z}, {qx / length, qy / length, qz / length, qw / length}};
   return pose;
 }
-static nsvcd_pose upright(float x, float y, float z) { return pose_of(x, y, z, 0, 0, 0, 1); }
+static nsvcd_pose upright(float x, float y, float z) {
+  return pose_of(x, y, z, 0, 0, 0, 1);
+}
 
 // Somewhere in or around the rack, which is 0.4 m long, 0.3 m deep and 0.12 m high.
 static nsvcd_pose random_pose(uint32_t *seed) {

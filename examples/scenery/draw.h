@@ -256,6 +256,8 @@ DRAW_DEF void draw_frame(FILE *svg, int index, int count, double seconds) {
       "keyTimes=\"0;%.4f;%.4f\" calcMode=\"discrete\" dur=\"%gs\" repeatCount=\"indefinite\"/>\n",
       index ? "hidden" : "visible", (double)index / count, (index + 1.0) / count, seconds);
 }
-DRAW_DEF void draw_frame_end(FILE *svg) { fprintf(svg, "</g>\n"); }
+DRAW_DEF void draw_frame_end(FILE *svg) {
+  fprintf(svg, "</g>\n");
+}
 
 #endif

@@ -45,7 +45,9 @@ ORACLE_DEF void oracle_cross(const double *a, const double *b, double *out) {
   out[1] = y;
   out[2] = z;
 }
-ORACLE_DEF double oracle_length(const double *a) { return sqrt(oracle_dot(a, a)); }
+ORACLE_DEF double oracle_length(const double *a) {
+  return sqrt(oracle_dot(a, a));
+}
 
 typedef struct oracle_pose {
   double position[3];
@@ -378,7 +380,9 @@ ORACLE_DEF int oracle_mesh_init(oracle_mesh *mesh, const double *positions, size
 
 // -------------------------------------------------------------------------- two triangles, exactly
 
-ORACLE_DEF double oracle_clamp01(double x) { return x < 0 ? 0 : x > 1 ? 1 : x; }
+ORACLE_DEF double oracle_clamp01(double x) {
+  return x < 0 ? 0 : x > 1 ? 1 : x;
+}
 
 // Squared distance of segments p0 p1 and q0 q1, with the closest points (Ericson, Real-Time
 // Collision Detection, 5.1.9).
@@ -566,7 +570,9 @@ ORACLE_DEF void oracle_try_triangles(oracle_search *s, size_t ia, size_t ib) {
   memcpy(s->on_a, on_a, sizeof on_a);
   memcpy(s->on_b, on_b, sizeof on_b);
 }
-ORACLE_DEF double oracle_node_size(const oracle_node *n) { return oracle_dot(n->half, n->half); }
+ORACLE_DEF double oracle_node_size(const oracle_node *n) {
+  return oracle_dot(n->half, n->half);
+}
 
 // Opens the larger box and visits the nearer child first.
 ORACLE_DEF void oracle_descend(oracle_search *s, size_t ia, size_t ib) {

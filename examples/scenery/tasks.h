@@ -553,7 +553,9 @@ TASK_DEF int task_back_out(const task_scene *scene, const double *joints, int bo
 
 // ------------------------------------------------------------------------------------------ robots
 
-TASK_DEF oracle_pose task_at(double x, double y, double z) { return task_pose(x, y, z, 0, 0, 0); }
+TASK_DEF oracle_pose task_at(double x, double y, double z) {
+  return task_pose(x, y, z, 0, 0, 0);
+}
 TASK_DEF void task_capsule(shapes_mesh *mesh, double ax, double ay, double az, double bx, double by,
                            double bz, double radius) {
   const double up[3] = {0, 0, 1};

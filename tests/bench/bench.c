@@ -303,7 +303,9 @@ static int sweep_discrete(const method *m, const void *moving, const void *fixed
   return 0;
 }
 
-static double clock_ms(double since) { return 1e3 * (seconds() - since); }
+static double clock_ms(double since) {
+  return 1e3 * (seconds() - since);
+}
 
 // A mesh of its own, times `scale`.
 static nsvcd_mesh scaled_mesh(const nsvcd_mesh *mesh, float scale) {

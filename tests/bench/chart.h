@@ -28,7 +28,9 @@ typedef struct chart {
   chart_mark marks[CHART_POINTS];
 } chart;
 
-static void chart_start(chart *c) { memset(c, 0, sizeof *c); }
+static void chart_start(chart *c) {
+  memset(c, 0, sizeof *c);
+}
 // Points that follow belong to this panel. Panels beyond CHART_PANELS are not drawn.
 static void chart_panel(chart *c, const char *name, size_t problems) {
   if (c->panels < CHART_PANELS)

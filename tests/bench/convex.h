@@ -941,8 +941,12 @@ static void *convex_scaled(const void *body, float scale) {
     to->vertices[i] *= scale;
   return to;
 }
-static void convex_release(void *body) { free(body); }
-static size_t convex_bytes(const void *body) { return ((const convex_body *)body)->size; }
+static void convex_release(void *body) {
+  free(body);
+}
+static size_t convex_bytes(const void *body) {
+  return ((const convex_body *)body)->size;
+}
 
 // ------------------------------------------------------------------------------------------- query
 

@@ -314,8 +314,12 @@ static void *grid_prepare(const nsvcd_mesh *mesh, const preparation *how) {
   free(b.winding);
   return out;
 }
-static void grid_release(void *body) { free(body); }
-static size_t grid_bytes(const void *body) { return ((const grid_body *)body)->bytes; }
+static void grid_release(void *body) {
+  free(body);
+}
+static size_t grid_bytes(const void *body) {
+  return ((const grid_body *)body)->bytes;
+}
 static void *grid_scaled(const void *body, float scale) {
   const grid_body *from = (const grid_body *)body;
   grid_body *to = (grid_body *)malloc(from->bytes);
@@ -352,7 +356,9 @@ static void grid_place(grid_query *q, const placement *at) {
   for (int i = 0; i < 3; i++)
     q->p[i] = (at->position[i] - q->fixed->low[i]) * q->inverse;
 }
-static inline float grid_beyond(float d, float beyond) { return d > 0 ? sqrtf(d * d + beyond) : d; }
+static inline float grid_beyond(float d, float beyond) {
+  return d > 0 ? sqrtf(d * d + beyond) : d;
+}
 // The children that may be within reach, and by how much.
 static inline unsigned grid_reach(const grid_query *q, const grid_node *node, grid_lanes *out,
                                   float *gap) {

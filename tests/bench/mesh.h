@@ -71,9 +71,15 @@ typedef struct mesh_bvh {
 
 // ----------------------------------------------------------------------------------------- helpers
 
-static inline float mesh_bvh_min(float a, float b) { return a < b ? a : b; }
-static inline float mesh_bvh_max(float a, float b) { return a > b ? a : b; }
-static inline float mesh_bvh_clamp01(float x) { return mesh_bvh_min(mesh_bvh_max(x, 0), 1); }
+static inline float mesh_bvh_min(float a, float b) {
+  return a < b ? a : b;
+}
+static inline float mesh_bvh_max(float a, float b) {
+  return a > b ? a : b;
+}
+static inline float mesh_bvh_clamp01(float x) {
+  return mesh_bvh_min(mesh_bvh_max(x, 0), 1);
+}
 static inline float mesh_bvh_dot(float ax, float ay, float az, float bx, float by, float bz) {
   return MESH_BVH_FMA(ax, bx, MESH_BVH_FMA(ay, by, az * bz));
 }
@@ -371,8 +377,12 @@ static void *mesh_bvh_prepare(const nsvcd_mesh *mesh, const preparation *how) {
   free(b.tree.leaves);
   return out;
 }
-static void mesh_bvh_release(void *body) { free(body); }
-static size_t mesh_bvh_bytes(const void *body) { return ((const mesh_bvh *)body)->size; }
+static void mesh_bvh_release(void *body) {
+  free(body);
+}
+static size_t mesh_bvh_bytes(const void *body) {
+  return ((const mesh_bvh *)body)->size;
+}
 
 static void mesh_bvh_scale_floats(float *x, size_t count, float scale) {
   for (size_t i = 0; i < count; i++)

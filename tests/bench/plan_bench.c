@@ -317,8 +317,12 @@ static void run_episode(int task, uint64_t seed, int only, float weight, outcome
 #define PANEL_WIDTH 320.0
 #define PANEL_HEIGHT 260.0
 // 0.05 to 20 s
-static double x_of(double time) { return PANEL_X + PANEL_WIDTH * (log10(time) + 1.3) / 2.6; }
-static double y_of(double success) { return PANEL_Y + PANEL_HEIGHT * (1 - success / 100); }
+static double x_of(double time) {
+  return PANEL_X + PANEL_WIDTH * (log10(time) + 1.3) / 2.6;
+}
+static double y_of(double success) {
+  return PANEL_Y + PANEL_HEIGHT * (1 - success / 100);
+}
 
 static int draw_chart(const char *from, const char *to) {
   static const char *const colors[PLANNERS] = {"#56b4e9", "#0072b2", "#e69f00",

@@ -94,7 +94,9 @@ typedef struct plan_spheres {
 
 // ---------------------------------------------------------------------------------------- distance
 
-static float plan_spheres_dot(const float *a, const float *b) { return mesh_bvh_dot3(a, b); }
+static float plan_spheres_dot(const float *a, const float *b) {
+  return mesh_bvh_dot3(a, b);
+}
 
 // The point of triangle k of the leaf that is nearest to x.
 static void plan_spheres_on_triangle(const mesh_bvh_leaf *leaf, size_t k, const float *x,

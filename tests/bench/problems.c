@@ -673,7 +673,9 @@ static int load_body(oracle_mesh *mesh, source *s, double extent, double *scale)
   return oracle_mesh_init(mesh, s->mesh.positions, s->mesh.vertices, s->mesh.indices,
                           s->mesh.triangles, *scale);
 }
-static source *any(shapes_rng *rng, pool *p) { return &p->items[shapes_next(rng) % p->count]; }
+static source *any(shapes_rng *rng, pool *p) {
+  return &p->items[shapes_next(rng) % p->count];
+}
 
 // Step 1, ACROSS.
 static void place_across(shapes_rng *rng, problem *p) {
