@@ -1752,6 +1752,13 @@ static inline void nsvcd__v_cross(const nsvcd__v *a, const nsvcd__v *b, nsvcd__v
 static inline nsvcd__v nsvcd__v_clamp(nsvcd__v a, float low, float high) {
   return nsvcd__v_min(nsvcd__v_max(a, nsvcd__v_set(low)), nsvcd__v_set(high));
 }
+// All lanes times a number, and plus a number.
+static inline nsvcd__v nsvcd__v_scale(nsvcd__v a, float s) {
+  return nsvcd__v_mul(a, nsvcd__v_set(s));
+}
+static inline nsvcd__v nsvcd__v_plus(nsvcd__v a, float s) {
+  return nsvcd__v_add(a, nsvcd__v_set(s));
+}
 static inline nsvcd__v nsvcd__v_negate(nsvcd__v a) {
   return nsvcd__v_sub(nsvcd__v_set(0), a);
 }
@@ -5757,8 +5764,8 @@ static void nsvcd__v_degree2(nsvcd__v3 a, nsvcd__v3 b, nsvcd__v *q) {
 // D of a slice of matrices, lane by lane, times `scale`: out (WIGNER, SLICE). Column k of degree 2
 // is the image of basis vector k, a degree 2 of m's columns.
 static void nsvcd__wigner(const nsvcd__vmat3 *m, nsvcd__v scale, float (*out)[NSVCD__SLICE]) {
-  const nsvcd__v third = nsvcd__v_mul(scale, nsvcd__v_set(1.0f / 3));
-  const nsvcd__v root = nsvcd__v_mul(scale, nsvcd__v_set(0.5773502691896258f));
+  const nsvcd__v third = nsvcd__v_scale(scale, 1.0f / 3);
+  const nsvcd__v root = nsvcd__v_scale(scale, 0.5773502691896258f);
   const nsvcd__v twice = nsvcd__v_add(root, root);
   const nsvcd__vmat3 scaled = nsvcd__vmat3_scale(*m, scale);
   const nsvcd__vmat3 columns = nsvcd__vmat3_transpose(*m);
@@ -8202,7 +8209,7 @@ static uint64_t *nsvcd__nearby(const nsvcd__search *search, size_t g) {
 // asin(chord / 2) of their chord as quaternions, asin x <= x + (pi/2 - 1) x^3, and half a
 // thousandth for the lengths. chord2: its square.
 static nsvcd__v nsvcd__v_arc_bound(nsvcd__v chord2) {
-  const nsvcd__v x = nsvcd__v_mul(nsvcd__v_set(0.50025f), nsvcd__v_sqrt(chord2));
+  const nsvcd__v x = nsvcd__v_scale(nsvcd__v_sqrt(chord2), 0.50025f);
   return nsvcd__v_mul(x, nsvcd__v_fma(nsvcd__v_set(2.2832f), nsvcd__v_mul(x, x), nsvcd__v_set(4)));
 }
 
@@ -8370,7 +8377,7 @@ static nsvcd__v nsvcd__v_arc(nsvcd__vquat a, nsvcd__vquat b) {
 static nsvcd__v nsvcd__v_turn_off_axis(nsvcd__v3 axis, nsvcd__vquat from, nsvcd__vquat to,
                                        nsvcd__v arc) {
   const nsvcd__v3 across = nsvcd__v3_cross(axis, nsvcd__v_turn_between(from, to));
-  return nsvcd__v_mul(nsvcd__v_mul(arc, nsvcd__v_set(0.3931f)), nsvcd__v3_length(across));
+  return nsvcd__v_mul(nsvcd__v_scale(arc, 0.3931f), nsvcd__v3_length(across));
 }
 
 // most, sum: of the slice.
@@ -8443,7 +8450,7 @@ static void nsvcd__cut_double_arc(const nsvcd__motion *motion, const nsvcd__v_po
   const nsvcd__v square = nsvcd__v_mul(sine, sine);
   const nsvcd__v fixed_square = nsvcd__v_mul(fixed_sine, fixed_sine);
   const nsvcd__v cubes = nsvcd__v_fma(square, sine, nsvcd__v_mul(fixed_square, fixed_sine));
-  nsvcd__v turn = nsvcd__v_mul(nsvcd__v_set(2.00001f), difference);
+  nsvcd__v turn = nsvcd__v_scale(difference, 2.00001f);
   turn = nsvcd__v_fma(nsvcd__v_set(1.1417f), cubes, turn);
   turn = nsvcd__v_fma(nsvcd__v_set(2e-6f), sines, turn);
   const nsvcd__v fixed_turn = nsvcd__v_arc(from->fixed, to->fixed);
@@ -8471,7 +8478,7 @@ static void nsvcd__cut_arc(const nsvcd__motion *motion, const nsvcd__v_poses *at
   } else {
     const nsvcd__v3 axis = nsvcd__v3_load(out->axis, l);
     const nsvcd__vquat last_seen = nsvcd__vquat_load(cut->last.seen + l, NSVCD__KNOTS);
-    const nsvcd__v bulge = nsvcd__v_mul(nsvcd__v_mul(arc, arc), nsvcd__v_set(0.125f));
+    const nsvcd__v bulge = nsvcd__v_scale(nsvcd__v_mul(arc, arc), 0.125f);
     const nsvcd__v off_axis = nsvcd__v_turn_off_axis(axis, last_seen, seen, arc);
     nsvcd__v_keep_most(cut->most.arc_bulge + l, bulge);
     nsvcd__v_keep_most(cut->most.axis_turn + l, off_axis);
@@ -8558,8 +8565,8 @@ static void nsvcd__cut_deviations(const nsvcd__motion *motion, float lengths, si
   const nsvcd__v3 start = nsvcd__v3_load(out->position, l);
   const nsvcd__v3 end = nsvcd__v3_add(start, nsvcd__v3_load(out->moved, l));
   const nsvcd__v remote = nsvcd__v_add(nsvcd__v3_length(start), nsvcd__v3_length(end));
-  const nsvcd__v all = nsvcd__v_add(remote, nsvcd__v_add(drift, nsvcd__v_set(lengths)));
-  const nsvcd__v rounding = nsvcd__v_mul(all, nsvcd__v_set(NSVCD__ROUNDING));
+  const nsvcd__v all = nsvcd__v_add(remote, nsvcd__v_plus(drift, lengths));
+  const nsvcd__v rounding = nsvcd__v_scale(all, NSVCD__ROUNDING);
   nsvcd__v_store(out->rounding + l, rounding);
   nsvcd__v_store(out->spread + l, nsvcd__v_add(rounding, drift));
 }
@@ -8839,7 +8846,7 @@ static uint32_t nsvcd__deeper_than_kept(const nsvcd__candidates *kept, nsvcd__v 
   if (!kept->limit)
     return 0;
   const float share = (1 - kept->items[0].depth) * 1.000001f;
-  const nsvcd__v most = nsvcd__v_mul(radii, nsvcd__v_set(share > 0 ? share : 0));
+  const nsvcd__v most = nsvcd__v_scale(radii, share > 0 ? share : 0);
   return nsvcd__v_le(square, nsvcd__v_mul(most, most));
 }
 
@@ -8852,7 +8859,7 @@ static void nsvcd__intervals_close(nsvcd__intervals *intervals, uint32_t lanes,
   const nsvcd__v one = nsvcd__v_set(1);
   const nsvcd__v own = nsvcd__v_load(nsvcd__body_r(search->moving) + i);
   const nsvcd__v other = nsvcd__v_set(nsvcd__body_r(search->fixed)[j]);
-  const nsvcd__v scaled = nsvcd__v_mul(nsvcd__v_set(search->scale), own);
+  const nsvcd__v scaled = nsvcd__v_scale(own, search->scale);
   const nsvcd__v radii = nsvcd__v_max(nsvcd__v_add(scaled, other), nsvcd__v_set(1e-30f));
   intervals->open &= ~lanes;
   // most are shallower than all that is kept: only counted
@@ -8936,7 +8943,7 @@ NSVCD__INLINE nsvcd__meetings nsvcd__meetings_of(const nsvcd__chords *c, size_t 
   const nsvcd__v3 way = nsvcd__chords_way(c, l);
   const nsvcd__v3 d = nsvcd__v3_sub(nsvcd__chords_start(c, l), nsvcd__v3_set(resting.centre));
   const nsvcd__v inverse = nsvcd__v_load(c->inverse + l);
-  const nsvcd__v reach = nsvcd__v_add(nsvcd__v_load(c->reach + l), nsvcd__v_set(resting.radius));
+  const nsvcd__v reach = nsvcd__v_plus(nsvcd__v_load(c->reach + l), resting.radius);
   out.limit = nsvcd__v_signed_square(reach);
   out.nearest = nsvcd__v_mul(nsvcd__v3_dot(d, way), inverse);
   out.tau = nsvcd__v_clamp(out.nearest, 0, 1);
@@ -9056,7 +9063,7 @@ static void nsvcd__boxes_grow(const nsvcd__chords *c, size_t l, nsvcd__sphere re
   const nsvcd__v3 way = nsvcd__chords_way(c, l);
   const nsvcd__v3 d = nsvcd__v3_sub(start, nsvcd__v3_set(resting.centre));
   const nsvcd__v reach = nsvcd__v_load(c->reach + l);
-  const nsvcd__v sum = nsvcd__v_add(reach, nsvcd__v_set(resting.radius));
+  const nsvcd__v sum = nsvcd__v_plus(reach, resting.radius);
   const nsvcd__v square = nsvcd__nearest2(d, way, nsvcd__v_load(c->inverse + l));
   const nsvcd__v nearby = nsvcd__v_pick(square, nsvcd__v_signed_square(sum), reach, nowhere);
   const nsvcd__v3 end = nsvcd__v3_add(start, way);
@@ -10277,7 +10284,7 @@ static uint32_t nsvcd__groups_apart(const nsvcd__two_groups *two, nsvcd__segment
                                     const nsvcd__chords *c, size_t l, nsvcd__v_parted *by_fixed,
                                     nsvcd__v_parted *by_moving) {
   const nsvcd__v_span spans = nsvcd__v_span_load(block, l);
-  const nsvcd__v allowed = nsvcd__v_add(spans.rounding, nsvcd__v_set(two->clearance));
+  const nsvcd__v allowed = nsvcd__v_plus(spans.rounding, two->clearance);
   const nsvcd__vmat3 rotation = nsvcd__vmat3_load(block->rotation, l);
   const nsvcd__vmat3 turn = nsvcd__vmat3_load(block->turned, l);
   nsvcd__v_approach seen;
@@ -11142,7 +11149,7 @@ static nsvcd__box nsvcd__box_of_lane(nsvcd__block *block, size_t l) {
 // is beyond it.
 static nsvcd__v nsvcd__margin_along(nsvcd__v3 n, float margin) {
   const nsvcd__v square = nsvcd__v3_dot(n, n);
-  const nsvcd__v limit = nsvcd__v_mul(nsvcd__v_set(margin), nsvcd__v_sqrt(square));
+  const nsvcd__v limit = nsvcd__v_scale(nsvcd__v_sqrt(square), margin);
   return nsvcd__v_pick(square, nsvcd__v_set(1e-30f), nsvcd__v_set(1e30f), limit);
 }
 
@@ -11851,7 +11858,7 @@ static uint32_t nsvcd__spheres_on_ray(const nsvcd_body *b, const nsvcd__ray *ray
     const nsvcd__v3 n = nsvcd__v3_set(direction);
     const nsvcd__v3 d = nsvcd__v3_sub(centre, nsvcd__v3_set(from));
     const nsvcd__v3 off = nsvcd__v3_cross(d, n);
-    const nsvcd__v reach = nsvcd__v_add(nsvcd__v_load(all.r + l), nsvcd__v_set(rounding));
+    const nsvcd__v reach = nsvcd__v_plus(nsvcd__v_load(all.r + l), rounding);
     const uint32_t near_line = nsvcd__v_le(nsvcd__v3_dot(off, off), nsvcd__v_signed_square(reach));
     met |= (near_line & nsvcd__v_le(nsvcd__v_negate(reach), nsvcd__v3_dot(d, n))) << l;
   }
@@ -11974,7 +11981,7 @@ static uint32_t nsvcd__is_around(const void *what, nsvcd__spheres all) {
   uint32_t met = 0;
   NSVCD__EACH_SLICE(l) {
     const nsvcd__v3 d = nsvcd__v3_sub(nsvcd__v3_centres(all, l), nsvcd__v3_set(here->place));
-    const nsvcd__v reach = nsvcd__v_add(nsvcd__v_load(all.r + l), nsvcd__v_set(here->distance));
+    const nsvcd__v reach = nsvcd__v_plus(nsvcd__v_load(all.r + l), here->distance);
     met |= nsvcd__v_le(nsvcd__v3_dot(d, d), nsvcd__v_signed_square(reach)) << l;
   }
   return met;
@@ -12258,7 +12265,7 @@ static void nsvcd__collect_items(nsvcd__proof *p, const nsvcd__search *search, s
           nsvcd__v_clamp(nsvcd__v_mul(nsvcd__v3_dot(d, v), nsvcd__v_load(c->inverse + l)), 0, 1);
       const nsvcd__v3 closest = nsvcd__v3_fma(tau, v, d);
       const nsvcd__v square = nsvcd__v3_dot(closest, closest);
-      const nsvcd__v reach = nsvcd__v_add(nsvcd__v_load(c->reach + l), nsvcd__v_set(radius));
+      const nsvcd__v reach = nsvcd__v_plus(nsvcd__v_load(c->reach + l), radius);
       met |= nsvcd__v_le(square, nsvcd__v_signed_square(reach)) << l;
       nsvcd__v_store(squares + l, square);
       nsvcd__v_store(share + l, tau);
@@ -12750,7 +12757,7 @@ static nsvcd__v nsvcd__clearance2(const nsvcd_body *body, size_t group, nsvcd__v
     const nsvcd__v3 d = nsvcd__v3_sub(nsvcd__v3_set(patch.centre), place);
     const float square = patch.radius * patch.radius;
     const float inverse = 1 / (square > 1e-37f ? square : 1e-37f);
-    const nsvcd__v ratio = nsvcd__v_mul(nsvcd__v3_dot(d, d), nsvcd__v_set(inverse));
+    const nsvcd__v ratio = nsvcd__v_scale(nsvcd__v3_dot(d, d), inverse);
     least = nsvcd__v_min(least, ratio);
   }
   return least;
@@ -12822,7 +12829,7 @@ static uint64_t nsvcd__add_dipoles(nsvcd__dipoles all, size_t count, int far_onl
       nsvcd__v term = nsvcd__v_mul(nsvcd__v_mul(cosine, inverse), inverse);
       if (far_only) {
         const nsvcd__v radius = nsvcd__v_load(all.spheres.r + i);
-        const nsvcd__v least = nsvcd__v_mul(nsvcd__v_set(NSVCD__DIPOLE), radius);
+        const nsvcd__v least = nsvcd__v_scale(radius, NSVCD__DIPOLE);
         close |= (uint64_t)nsvcd__v_le(length, least) << i;
         term = nsvcd__v_pick(length, least, zero, term);
       }
@@ -13164,7 +13171,7 @@ static nsvcd__v nsvcd__v_unit_of_length(const nsvcd__pairs *pairs) {
 // Pairs in their own units, in the fixed body's axes, and their frames.
 typedef struct nsvcd__views {
   nsvcd__v inverse, k1, k2;  // 1 over the unit of length; the radii
-  nsvcd__v order;            // -1: the other patch is the larger
+  nsvcd__v swap;             // -1: the other patch is the larger
   nsvcd__v3 d;               // the line from the larger patch to the smaller one
   nsvcd__v3 lean;
   nsvcd__v3 v, w;      // reversed where time is to run backwards
@@ -13205,7 +13212,7 @@ static void nsvcd__views_set_frame(nsvcd__views *view) {
   const nsvcd__v minus = nsvcd__v_set(-1);
   const nsvcd__v3 lean = view->lean;
   const nsvcd__v3 x_axis = nsvcd__v3_set(nsvcd__f3_of(1, 0, 0));
-  const nsvcd__v3 line = nsvcd__v3_of(nsvcd__v_add(lean.x, nsvcd__v_set(1e-6f)), lean.y, lean.z);
+  const nsvcd__v3 line = nsvcd__v3_of(nsvcd__v_plus(lean.x, 1e-6f), lean.y, lean.z);
   nsvcd__v3 instead = nsvcd__v_unit_or(line, 1e-9f, x_axis);
   const nsvcd__v3 e1 = nsvcd__v_unit_or(view->d, 1e-5f, instead);
   const nsvcd__v3 lean_across = nsvcd__v_across(lean, e1);
@@ -13250,14 +13257,14 @@ static void nsvcd__views_of(const nsvcd__pairs *pairs, size_t count, nsvcd__view
   view->inverse = inverse;
   view->k1 = nsvcd__v_mul(pairs->r1, inverse);
   view->k2 = nsvcd__v_mul(pairs->r2, inverse);
-  view->order = nsvcd__v_pick(pairs->r2, pairs->r1, nsvcd__v_set(1), nsvcd__v_set(-1));
+  view->swap = nsvcd__v_pick(pairs->r2, pairs->r1, nsvcd__v_set(1), nsvcd__v_set(-1));
   // Seen from the other body the motion is reversed as well, but time may run either way: v and w
   // can stay.
   const nsvcd__v3 lean1 = nsvcd__v3_scale(mean1, view->k1);
   const nsvcd__v3 lean2 = nsvcd__v3_scale(mean2, view->k2);
   const nsvcd__v3 line = nsvcd__v3_scale(nsvcd__v3_sub(pairs->p2, pairs->p1), inverse);
-  view->lean = nsvcd__v3_scale(nsvcd__v3_sub(lean1, lean2), view->order);
-  view->d = nsvcd__v3_scale(line, view->order);
+  view->lean = nsvcd__v3_scale(nsvcd__v3_sub(lean1, lean2), view->swap);
+  view->d = nsvcd__v3_scale(line, view->swap);
   view->v = nsvcd__v3_scale(pairs->v, inverse);
   view->w = pairs->w;
   nsvcd__views_set_frame(view);
@@ -13280,10 +13287,10 @@ static NSVCD__APART void nsvcd__scenes_of(const nsvcd__pairs *pairs, size_t coun
   scene->turn2 = view.frame;
   scene->k1 = view.k1;
   scene->k2 = view.k2;
-  scene->keep = nsvcd__v_le(nsvcd__v_set(0), view.order);
+  scene->keep = nsvcd__v_le(nsvcd__v_set(0), view.swap);
 
   const nsvcd__v speed2 = nsvcd__v3_dot(view.v, view.v);
-  const nsvcd__v above = nsvcd__v_add(speed2, nsvcd__v_set(1e-6f));
+  const nsvcd__v above = nsvcd__v_plus(speed2, 1e-6f);
   // nearest approach of the centres, in half intervals
   const nsvcd__v nearest = nsvcd__v_div(nsvcd__v3_dot(view.d, view.v), above);
   const nsvcd__v tau = nsvcd__v_clamp(nearest, -1, 1);
@@ -14725,7 +14732,7 @@ typedef struct nsvcd__by_pair {
 
 // A pair in its own units: what nsvcd__views has in lane 0.
 typedef struct nsvcd__view {
-  float inverse, k1, order, side;
+  float inverse, k1, swap, side;
   nsvcd__f3 d, v, w, lean;
   nsvcd__mat3 frame;
 } nsvcd__view;
@@ -14734,7 +14741,7 @@ static nsvcd__view nsvcd__first_view(const nsvcd__views *views) {
   nsvcd__view out;
   out.inverse = nsvcd__first_lane(views->inverse);
   out.k1 = nsvcd__first_lane(views->k1);
-  out.order = nsvcd__first_lane(views->order);
+  out.swap = nsvcd__first_lane(views->swap);
   out.side = nsvcd__first_lane(views->side);
   out.d = nsvcd__first_f3(views->d);
   out.v = nsvcd__first_f3(views->v);
@@ -14846,7 +14853,7 @@ static NSVCD__APART void nsvcd__by_invariants(const nsvcd__pairs *pairs, const f
 
   // Torques in the frame: on the moving patch's latent, then on all that the frame sees.
   const size_t facts = 2 * NSVCD__LATENT;
-  const size_t first = view.order > 0 ? 0 : NSVCD__VECTORS;
+  const size_t first = view.swap > 0 ? 0 : NSVCD__VECTORS;
   const size_t second = NSVCD__VECTORS - first;
   const nsvcd__f3 on_moving = nsvcd__latent_torque(x + first, by_x + first);
   const nsvcd__f3 on_fixed = nsvcd__latent_torque(x + second, by_x + second);
@@ -14857,13 +14864,13 @@ static NSVCD__APART void nsvcd__by_invariants(const nsvcd__pairs *pairs, const f
   nsvcd__by_frame(&view, &seen);
 
   const nsvcd__f3 mean = nsvcd__mean_direction(pairs->z1[0]);
-  const nsvcd__f3 scaled = nsvcd__f3_scale(mean, view.order * view.k1 / 127);
+  const nsvcd__f3 scaled = nsvcd__f3_scale(mean, view.swap * view.k1 / 127);
   const nsvcd__f3 lean1 = nsvcd__mat3_apply(&rotation, scaled);
   const nsvcd__f3 none = {0, 0, 0};
   const nsvcd__f3 turned = nsvcd__f3_scale(on_moving, view.side);
   by->rotation = nsvcd__add_along_rows(none, &view.frame, turned);
   by->rotation = nsvcd__f3_add(by->rotation, nsvcd__f3_cross(lean1, seen.lean));
-  by->p1 = nsvcd__f3_scale(seen.d, -view.order * view.inverse);
+  by->p1 = nsvcd__f3_scale(seen.d, -view.swap * view.inverse);
   by->v = nsvcd__f3_scale(seen.v, sign * view.inverse);
   by->w = nsvcd__f3_scale(seen.w, sign);
 }

@@ -72,7 +72,7 @@ members without scale|nsvcd__v_fma(nsvcd__v_set(scale), radius, deviation);|nsvc
 discs without scale|nsvcd__v_mul(a->scale, nsvcd__v3_dot(w, w));\n  const nsvcd__v across = nsvcd__v_mul(a->scale, nsvcd__v3_length(turned));|nsvcd__v3_dot(w, w);\n  const nsvcd__v across = nsvcd__v3_length(turned);
 disc without clearance|nsvcd__v_set(a->clearance + span->rounding + stray);|nsvcd__v_set(span->rounding + stray);
 moving disc without clearance|nsvcd__v_set(span->rounding + a->clearance);|nsvcd__v_set(span->rounding);
-groups without clearance|nsvcd__v_add(spans.rounding, nsvcd__v_set(two->clearance));|spans.rounding;
+groups without clearance|nsvcd__v_plus(spans.rounding, two->clearance);|spans.rounding;
 held plane without clearance|nsvcd__greatest_height(p, item->fixed) + clearance))\n    return 0;|nsvcd__greatest_height(p, item->fixed) + 0 * clearance))\n    return 0;
 search without clearance|block->spread[l] += clearance;|block->spread[l] += 0 * clearance;
 clipped without twice the bulge|    block->bulge[l] *= 2;\n    block->drift[l] *= 2;\n|    block->bulge[l] *= 0.1f;\n

@@ -6,13 +6,17 @@ status 1 if something is not.
   statements one a line: none joined by commas, but in the head of a for loop
   contents   the list of contents names the sections, all of them, in their order
   order      a section uses nothing that a later one makes
+  width      a line of code has 38 characters at most, on average, its indentation left out
+  paths      the files that it names are there
 """
 
 import re
 import sys
+from pathlib import Path
 
 COLUMNS = 100
 LINES = 60
+WIDTH = 38
 
 
 def code_of(line: str) -> str:
@@ -119,6 +123,27 @@ def order_faults(lines: list[str], sections: list[tuple[str, int, int]]) -> list
     return faults
 
 
+def code_lines(lines: list[str]) -> list[str]:
+    """Without blank lines and those that are a comment; without indentation."""
+    stripped = [line.strip() for line in lines]
+    return [line for line in stripped if line and not line.startswith("//")]
+
+
+def width_faults(lines: list[str]) -> list[str]:
+    code = code_lines(lines)
+    mean = sum(map(len, code)) / len(code)
+    return [f"1: {mean:.2f} characters a line of code"] if mean > WIDTH else []
+
+
+def missing_paths(lines: list[str]) -> list[str]:
+    faults = []
+    for n, line in enumerate(lines):
+        for path in re.findall(r"\b(?:tests|examples|train)/[\w/]*\w+\.\w+", line):
+            if not Path(path).exists():
+                faults.append(f"{n + 1}: there is no {path}")
+    return faults
+
+
 def main() -> int:
     path = sys.argv[1] if len(sys.argv) > 1 else "neuralsvcd.h"
     with open(path, encoding="ascii") as file:
@@ -126,11 +151,12 @@ def main() -> int:
     sections = sections_of(lines)
     faults = long_lines(lines) + long_functions(lines) + joined_statements(lines)
     faults += contents_faults(lines, [name for name, _, _ in sections]) + order_faults(lines, sections)
+    faults += width_faults(lines) + missing_paths(lines)
     for fault in faults:
         print(f"{path}:{fault}")
-    code = [line for line in lines if line.strip() and not line.strip().startswith("//")]
+    code = code_lines(lines)
     mean = sum(map(len, code)) / len(code)
-    print(f"text: {len(code)} lines of code, {mean:.1f} columns on average; {len(sections)} sections")
+    print(f"text: {len(code)} lines of code, {mean:.2f} characters on average; {len(sections)} sections")
     return 1 if faults else 0
 
 
