@@ -313,13 +313,13 @@ typedef struct nsvcd_body nsvcd_body;
 #define NSVCD_ALIGNMENT 8
 // Patches of a body, where the options do not say: of one with triangles, and of one for the
 // network alone, which needs finer patches than a proof.
-#define NSVCD_DEFAULT_POINTS 192
-#define NSVCD_DEFAULT_NETWORK_POINTS 256
-#define NSVCD_MAX_POINTS 65536
+#define NSVCD_DEFAULT_PATCHES 192
+#define NSVCD_DEFAULT_NETWORK_PATCHES 256
+#define NSVCD_MAX_PATCHES 65536
 // A body of more patches is a level: its patches are in a tree, and it has latents only if asked.
-#define NSVCD_SMALL_POINTS 512
-// A mesh of up to FEW triangles has NSVCD_DEFAULT_POINTS patches, where the options do not say; of
-// up to MANY, NSVCD_SMALL_POINTS. A mesh of more is a level, with a patch for each 12 triangles.
+#define NSVCD_SMALL_PATCHES 512
+// A mesh of up to FEW triangles has NSVCD_DEFAULT_PATCHES patches, where the options do not say; of
+// up to MANY, NSVCD_SMALL_PATCHES. A mesh of more is a level, with a patch for each 12 triangles.
 #define NSVCD_FEW_TRIANGLES 32768
 #define NSVCD_MANY_TRIANGLES 131072
 #define NSVCD_LEVEL_TRIANGLES 12
@@ -339,9 +339,9 @@ typedef int nsvcd_progress(float done, void *user);
 
 // What is zero is the default.
 typedef struct nsvcd_encode_options {
-  // N, patches, 1..NSVCD_MAX_POINTS; 0: by the number of triangles, see above
-  size_t points;
-  // metres; if > 0 and points is 0: as many patches as have about this radius. For a level about
+  // N, 1..NSVCD_MAX_PATCHES; 0: by the number of triangles, see above
+  size_t patches;
+  // metres; if > 0 and patches is 0: as many patches as have about this radius. For a level about
   // half the size of the bodies that move in it
   float patch_radius;
   // 1: the mesh is not closed (a sheet, or a part cut out): nothing counts as inside it
@@ -350,7 +350,7 @@ typedef struct nsvcd_encode_options {
   int no_triangles;
   // 1: for the proof alone
   int no_latents;
-  // 1: for the network too, also of more than NSVCD_SMALL_POINTS patches. Not with no_latents
+  // 1: for the network too, also of more than NSVCD_SMALL_PATCHES patches. Not with no_latents
   int latents;
   // NULL, or told how much is done
   nsvcd_progress *progress;
@@ -361,12 +361,11 @@ typedef struct nsvcd_encode_options {
 #ifndef NSVCD_NO_NETWORK
 // Bytes of a body without triangles; 0 if there can be no such body. One with triangles is larger:
 // let nsvcd_encode allocate it.
-//   points     patches
-NSVCDDEF size_t nsvcd_body_size(size_t points);
-// The same as a constant, for 1 to NSVCD_SMALL_POINTS patches.
-#define NSVCD_BODY_BYTES(points)                                                           \
-  ((64 + 28 * (((points) + 15) / 16 * 16) + 16 * ((((points) + 15) / 16 + 15) / 16 * 16) + \
-    40 * (points) + 7) /                                                                   \
+NSVCDDEF size_t nsvcd_body_size(size_t patches);
+// The same as a constant, for 1 to NSVCD_SMALL_PATCHES patches.
+#define NSVCD_BODY_BYTES(patches)                                                            \
+  ((64 + 28 * (((patches) + 15) / 16 * 16) + 16 * ((((patches) + 15) / 16 + 15) / 16 * 16) + \
+    40 * (patches) + 7) /                                                                    \
    8 * 8)
 #endif
 
@@ -419,8 +418,8 @@ NSVCDDEF nsvcd_result nsvcd_body_scale(const nsvcd_body *body, float scale, void
 typedef struct nsvcd_body_facts {
   // bytes: what to save
   size_t size;
-  // N, patches
-  size_t points;
+  // N
+  size_t patches;
   // metres: a sphere that contains the body
   float centre[3];
   float radius;
@@ -642,14 +641,14 @@ NSVCDDEF nsvcd_result nsvcd_sweep(const nsvcd_question *question, void *workspac
 // NSVCD_MEMORY declares an array that is aligned:
 //   static NSVCD_MEMORY(workspace, NSVCD_PROOF_WORKSPACE_BYTES(64, 192, 16));
 #define NSVCD_MEMORY(name, bytes) uint64_t name[((bytes) + 7) / 8]
-#define NSVCD__GROUPS_OF(points) ((points) > 512 ? 32 : ((points) + 15) / 16)
-#define NSVCD__SEARCH_BYTES(points_a, points_b, segments)                                  \
-  (1024 + 704 * (segments) + 8 * NSVCD__GROUPS_OF(points_a) * NSVCD__GROUPS_OF(points_b) + \
-   ((points_a) > 512 || (points_b) > 512 ? 1024 : 0))
-#define NSVCD_PROOF_WORKSPACE_BYTES(points_a, points_b, segments) \
-  (NSVCD__SEARCH_BYTES(points_a, points_b, segments) + 24576 + 168 * (segments))
-#define NSVCD_NETWORK_WORKSPACE_BYTES(points_a, points_b, segments, pairs) \
-  (NSVCD__SEARCH_BYTES(points_a, points_b, segments) + 96 * (pairs))
+#define NSVCD__GROUPS_OF(patches) ((patches) > 512 ? 32 : ((patches) + 15) / 16)
+#define NSVCD__SEARCH_BYTES(patches_a, patches_b, segments)                                  \
+  (1024 + 704 * (segments) + 8 * NSVCD__GROUPS_OF(patches_a) * NSVCD__GROUPS_OF(patches_b) + \
+   ((patches_a) > 512 || (patches_b) > 512 ? 1024 : 0))
+#define NSVCD_PROOF_WORKSPACE_BYTES(patches_a, patches_b, segments) \
+  (NSVCD__SEARCH_BYTES(patches_a, patches_b, segments) + 24576 + 168 * (segments))
+#define NSVCD_NETWORK_WORKSPACE_BYTES(patches_a, patches_b, segments, pairs) \
+  (NSVCD__SEARCH_BYTES(patches_a, patches_b, segments) + 96 * (pairs))
 
 // Answers many questions, as a frame of a game or a sampling planner has them. Where a question and
 // the one before it ask the network about the same two bodies, it is first asked where that one
@@ -703,7 +702,7 @@ NSVCDDEF nsvcd_result nsvcd_sweep_gradient(const nsvcd_question *question, void 
 #define NSVCD_MAX_JOINTS 32
 #define NSVCD_MAX_VIA_POINTS 32
 // of a stage of the planner
-#define NSVCD_MAX_SEGMENTS 4096
+#define NSVCD_MAX_PLAN_SEGMENTS 4096
 
 // The joints at a time, or their derivatives by t.
 //   control    (via_points + 2, joints), not NULL
@@ -796,7 +795,7 @@ typedef struct nsvcd_plan_stage {
   // M
   size_t via_points;
   // of the trajectory, each swept as one motion; with `discrete`, their ends are looked at; up to
-  // NSVCD_MAX_SEGMENTS
+  // NSVCD_MAX_PLAN_SEGMENTS
   size_t segments;
   // at most, up to 100000; NSVCD_NONE: leave the stage out
   size_t iterations;
@@ -3017,7 +3016,7 @@ static uint32_t *nsvcd__next_words(float **next, size_t count) {
 }
 
 // All arrays in one block: the doubles first, then everything of four bytes. 0 without memory.
-// count: up to NSVCD_SMALL_POINTS, so that nothing overflows.
+// count: up to NSVCD_SMALL_PATCHES, so that nothing overflows.
 static int nsvcd__patches_alloc(nsvcd__patches *p, size_t count, size_t samples,
                                 const nsvcd_allocator *allocator) {
   const size_t gaps = NSVCD__NEIGHBOURS * count;
@@ -3423,7 +3422,7 @@ static void nsvcd__cover(nsvcd__patches *p, const nsvcd_mesh *mesh) {
 
 // ---- all of it
 
-// Splits the surface of a checked mesh into at most `count` patches, 1..NSVCD_SMALL_POINTS: fewer
+// Splits the surface of a checked mesh into at most `count` patches, 1..NSVCD_SMALL_PATCHES: fewer
 // where samples coincide or a patch loses all of its samples. On success release *patches with
 // nsvcd__patches_free. On failure, MEMORY, it is untouched.
 static nsvcd_result nsvcd__patches_build(const nsvcd_mesh *mesh, size_t count,
@@ -3999,7 +3998,7 @@ static int nsvcd__regions_build(const nsvcd_mesh *mesh, size_t patches,
   r->seeds = topology.seen;
   topology.seen = NULL;
   r->count = 1;
-  if (patches > NSVCD_SMALL_POINTS)
+  if (patches > NSVCD_SMALL_PATCHES)
     r->count = (patches + NSVCD__REGION_PATCHES - 1) / NSVCD__REGION_PATCHES;
   for (size_t i = 0; i < 3 * mesh->vertex_count; i++)
     r->greatest = fmax(r->greatest, fabs((double)mesh->positions[i]));
@@ -5876,8 +5875,8 @@ struct nsvcd_body {
   uint32_t size;
   // of the weights that made the latents; 0: a body of triangles
   uint32_t weights_id;
-  uint32_t points;  // N, patches
-  uint32_t padded;  // P
+  uint32_t patches;  // N
+  uint32_t padded;   // P
   // a sphere over all
   float centre[3], radius;
   // max |p_i| + r_i: no part is farther from the body's origin
@@ -5991,12 +5990,12 @@ static const int8_t *nsvcd__body_latents(const nsvcd_body *body) {  // (N, LATEN
 #endif
 
 #ifndef NSVCD_NO_NETWORK
-NSVCDDEF size_t nsvcd_body_size(size_t points) {
-  if (points < 1 || points > NSVCD_MAX_POINTS)
+NSVCDDEF size_t nsvcd_body_size(size_t patches) {
+  if (patches < 1 || patches > NSVCD_MAX_PATCHES)
     return 0;
-  const size_t padded = nsvcd__round_up(points, NSVCD__GROUP);
+  const size_t padded = nsvcd__round_up(patches, NSVCD__GROUP);
   const size_t areas = 12 * nsvcd__area_slots(padded);
-  const size_t latents = points * NSVCD__LATENT;
+  const size_t latents = patches * NSVCD__LATENT;
   const size_t size = nsvcd__spheres_size(padded) + areas + latents;
   return nsvcd__round_up(size, NSVCD_ALIGNMENT);
 }
@@ -6095,7 +6094,7 @@ static nsvcd_body *nsvcd__body_begin(void *memory, size_t size, size_t patches, 
   b->magic = NSVCD__BODY_MAGIC;
   b->version = NSVCD__BODY_VERSION;
   b->size = (uint32_t)size;
-  b->points = (uint32_t)patches;
+  b->patches = (uint32_t)patches;
   b->padded = (uint32_t)nsvcd__round_up(patches, NSVCD__GROUP);
   b->open = open != 0;
   float *radii = (float *)(b + 1) + 3 * b->padded;
@@ -6174,7 +6173,7 @@ static void nsvcd__level_finish(nsvcd__spheres below, size_t members, nsvcd__lev
 static void nsvcd__body_finish(nsvcd_body *body) {
   const nsvcd__spheres patches = nsvcd__body_patches(body);
   nsvcd__spheres below = patches;
-  size_t members = body->points;
+  size_t members = body->patches;
   for (size_t k = 0; k < nsvcd__level_count(body->padded); k++) {
     const nsvcd__level level = nsvcd__level_of(body->padded, k);
     nsvcd__level_finish(below, members, level, (float *)(body + 1) + level.first);
@@ -6183,8 +6182,8 @@ static void nsvcd__body_finish(nsvcd_body *body) {
   }
   size_t farthest = 0;
   const nsvcd__f3 origin = nsvcd__f3_of(0, 0, 0);
-  const nsvcd__sphere sphere = nsvcd__cover_spheres(patches, body->points);
-  const float extent = nsvcd__reach_of_spheres(patches, body->points, origin, &farthest);
+  const nsvcd__sphere sphere = nsvcd__cover_spheres(patches, body->patches);
+  const float extent = nsvcd__reach_of_spheres(patches, body->patches, origin, &farthest);
   nsvcd__f3_store(sphere.centre, body->centre);
   body->radius = sphere.radius;
   body->extent = extent * 1.000002f;
@@ -6413,7 +6412,7 @@ static int nsvcd__level_covers(nsvcd__spheres above, size_t count, nsvcd__sphere
 static int nsvcd__spheres_are_sound(const nsvcd_body *body) {
   const nsvcd__spheres patches = nsvcd__body_patches(body);
   const nsvcd__sphere about_origin = {nsvcd__f3_of(0, 0, 0), body->extent};
-  if (!nsvcd__are_spheres(patches, body->points, body->padded, NSVCD_MAX_COORDINATE))
+  if (!nsvcd__are_spheres(patches, body->patches, body->padded, NSVCD_MAX_COORDINATE))
     return 0;
   if (!nsvcd__all_within(body->centre, 3, NSVCD__MAX_LENGTH))
     return 0;
@@ -6424,7 +6423,7 @@ static int nsvcd__spheres_are_sound(const nsvcd_body *body) {
   if (body->radius < NSVCD_MIN_RADIUS)
     return 0;
   nsvcd__spheres below = patches;
-  size_t members = body->points;
+  size_t members = body->patches;
   for (size_t k = 0; k < nsvcd__level_count(body->padded); k++) {
     const nsvcd__level level = nsvcd__level_of(body->padded, k);
     const nsvcd__spheres above = nsvcd__level_spheres(body, level);
@@ -6435,8 +6434,8 @@ static int nsvcd__spheres_are_sound(const nsvcd_body *body) {
     below = above;
     members = level.count;
   }
-  return nsvcd__covers(nsvcd__body_sphere(body), patches, body->points) &&
-         nsvcd__covers(about_origin, patches, body->points);
+  return nsvcd__covers(nsvcd__body_sphere(body), patches, body->patches) &&
+         nsvcd__covers(about_origin, patches, body->patches);
 }
 
 // Multiplies the spheres that both kinds of bodies begin with.
@@ -6444,7 +6443,7 @@ static void nsvcd__scale_spheres(nsvcd_body *body, float scale) {
   float *floats = (float *)(body + 1);
   for (size_t i = 0; i < 3 * (size_t)body->padded; i++)
     floats[i] *= scale;
-  for (size_t i = 0; i < body->points; i++)
+  for (size_t i = 0; i < body->patches; i++)
     floats[3 * body->padded + i] *= scale;
 }
 
@@ -6575,9 +6574,9 @@ static nsvcd__facets nsvcd__facets_of(const nsvcd_body *body) {
   f.slacks = f.steps + padded;
   f.quanta = f.slacks + padded;
   f.first_vertex = (const uint32_t *)(const void *)(f.quanta + padded);
-  f.first_triangle = f.first_vertex + body->points + 1;
-  f.first_byte = f.first_triangle + body->points + 1;
-  f.first_seed = f.first_byte + body->points + 1;
+  f.first_triangle = f.first_vertex + body->patches + 1;
+  f.first_byte = f.first_triangle + body->patches + 1;
+  f.first_seed = f.first_byte + body->patches + 1;
   f.seeds = (const float *)(const void *)(f.first_seed + nsvcd__body_groups(body) + 1);
   f.vertices = (const int16_t *)(const void *)(f.seeds + 3 * f.components);
   f.listings = (const unsigned char *)(f.vertices + 3 * f.vertex_count + NSVCD__LANES);
@@ -6750,7 +6749,7 @@ static nsvcd__slab nsvcd__slab_of_group(const nsvcd__facets *f, size_t g, nsvcd_
   const nsvcd__spheres groups = nsvcd__group_spheres(f->body);
   const nsvcd__d3 centre = nsvcd__d3_widen(nsvcd__centre_of(groups, g));
   nsvcd__slab slab = {HUGE_VAL, -HUGE_VAL, 0};
-  for (size_t i = first; i < first + NSVCD__GROUP && i < f->body->points; i++) {
+  for (size_t i = first; i < first + NSVCD__GROUP && i < f->body->patches; i++) {
     const nsvcd__vertices vertices = nsvcd__vertices_of(f, i);
     const nsvcd__d3 own = nsvcd__d3_sub(nsvcd__facet_origin(f, i), centre);
     const double step = (double)f->steps[i];
@@ -6824,7 +6823,7 @@ static void nsvcd__finish_box(nsvcd_body *body) {
   nsvcd__d3 low = nsvcd__d3_all(HUGE_VAL);
   nsvcd__d3 high = nsvcd__d3_all(-HUGE_VAL);
   float widest = 0;
-  for (size_t i = 0; i < body->points; i++) {
+  for (size_t i = 0; i < body->patches; i++) {
     const nsvcd__vertices vertices = nsvcd__vertices_of(&f, i);
     const nsvcd__d3 origin = nsvcd__facet_origin(&f, i);
     const nsvcd__d3 quantum = nsvcd__d3_all((double)f.quanta[i]);
@@ -6972,7 +6971,7 @@ static void nsvcd__seeds_write(const nsvcd__surface *surface, const uint16_t *or
   // Until the body is whole, the places of patches are kept where their first vertices will be.
   uint32_t *places = nsvcd__writable_words(body, f.first_vertex);
   const size_t groups = nsvcd__body_groups(body);
-  for (size_t i = 0; i < body->points; i++)
+  for (size_t i = 0; i < body->patches; i++)
     places[order[i]] = (uint32_t)i;
   for (size_t n = 0; n < surface->seed_count; n++) {
     const size_t g = places[surface->seed_patches[n]] / NSVCD__GROUP;
@@ -6988,7 +6987,7 @@ static void nsvcd__seeds_write(const nsvcd__surface *surface, const uint16_t *or
   // Now first_seed[g + 1] is where group g begins.
   memmove(first_seed, first_seed + 1, groups * sizeof *first_seed);
   first_seed[groups] = (uint32_t)surface->seed_count;
-  memset(places, 0, body->points * sizeof *places);
+  memset(places, 0, body->patches * sizeof *places);
 }
 
 // What a body of triangles is built of.
@@ -7017,7 +7016,7 @@ static nsvcd_result nsvcd__facets_build(const nsvcd__facets_source *source, void
     nsvcd__shape_write(surface, from, source->centres[from], b, i);
     nsvcd__listings_write(surface, from, b, i);
   }
-  if (!nsvcd__all_within(nsvcd__body_r(b), b->points, 4 * NSVCD_MAX_COORDINATE))
+  if (!nsvcd__all_within(nsvcd__body_r(b), b->patches, 4 * NSVCD_MAX_COORDINATE))
     return NSVCD_ERROR_NUMBER;
   nsvcd__facets_finish(b);
   return b->radius < NSVCD_MIN_RADIUS ? NSVCD_ERROR_NUMBER : NSVCD_OK;
@@ -7085,11 +7084,11 @@ static int nsvcd__facets_are_laid_out(const nsvcd_body *body, size_t size) {
   const uint32_t *zeros = counts->zeros;
   if (zeros[0] || zeros[1] || zeros[2] || zeros[3] || body->triangles == 0)
     return 0;
-  if (body->size != nsvcd__facets_size(body->points, counts) || body->size > size)
+  if (body->size != nsvcd__facets_size(body->patches, counts) || body->size > size)
     return 0;
 
   const nsvcd__facets f = nsvcd__facets_of(body);
-  const size_t patches = body->points;
+  const size_t patches = body->patches;
   const size_t groups = nsvcd__body_groups(body);
   if (f.first_vertex[0] != 0 || f.first_triangle[0] != 0)
     return 0;
@@ -7159,7 +7158,7 @@ static void nsvcd__scale_facets(nsvcd_body *body, float scale) {
   float *slacks = nsvcd__writable_floats(body, f.slacks);
   float *quanta = nsvcd__writable_floats(body, f.quanta);
   float *seeds = nsvcd__writable_floats(body, f.seeds);
-  for (size_t i = 0; i < body->points; i++) {
+  for (size_t i = 0; i < body->patches; i++) {
     const double distance = (double)nsvcd__f3_length(nsvcd__facet_centre(&f, i));
     nsvcd__disc disc = nsvcd__disc_at(f.discs, padded, i);
     steps[i] *= scale;
@@ -7184,11 +7183,11 @@ static int nsvcd__header_is_sound(const nsvcd_body *b, size_t size) {
     return 0;
   if (b->magic != NSVCD__BODY_MAGIC || b->version != NSVCD__BODY_VERSION)
     return 0;
-  if (b->points < 1 || b->points > NSVCD_MAX_POINTS)
+  if (b->patches < 1 || b->patches > NSVCD_MAX_PATCHES)
     return 0;
   if (b->open > 1 || b->size > size)
     return 0;
-  if (b->padded != nsvcd__round_up(b->points, NSVCD__GROUP))
+  if (b->padded != nsvcd__round_up(b->patches, NSVCD__GROUP))
     return 0;
   return b->size >= nsvcd__spheres_size(b->padded) && b->size % NSVCD_ALIGNMENT == 0;
 }
@@ -7215,7 +7214,7 @@ static int nsvcd__inner_is_sound(const nsvcd_body *b) {
     return 0;
   if (within->weights_id != 0 || within->open != b->open)
     return 0;
-  if (within->points != b->points || within->triangles != b->triangles)
+  if (within->patches != b->patches || within->triangles != b->triangles)
     return 0;
   return nsvcd__triangles_are_sound(within, left);
 }
@@ -7234,7 +7233,7 @@ static int nsvcd__body_is_sound(const nsvcd_body *b) {
 #ifndef NSVCD_NO_NETWORK
   if (b->weights_id != NSVCD_WEIGHTS_ID)
     return 0;
-  const size_t latents = nsvcd_body_size(b->points);
+  const size_t latents = nsvcd_body_size(b->patches);
   if (b->size < latents || !nsvcd__areas_are_sound(b))
     return 0;
   if (b->inner == 0)
@@ -7338,12 +7337,12 @@ NSVCDDEF nsvcd_body_facts nsvcd_body_describe(const nsvcd_body *body) {
   nsvcd_body_facts facts;
   memset(&facts, 0, sizeof facts);
   facts.size = body->size;
-  facts.points = body->points;
+  facts.patches = body->patches;
   memcpy(facts.centre, body->centre, sizeof facts.centre);
   facts.radius = body->radius;
   facts.latents = body->weights_id != 0;
-  for (size_t i = 0; i < body->points; i++)
-    facts.mean_patch_radius += nsvcd__body_r(body)[i] / (float)body->points;
+  for (size_t i = 0; i < body->patches; i++)
+    facts.mean_patch_radius += nsvcd__body_r(body)[i] / (float)body->patches;
 #ifndef NSVCD_NO_PROOF
   const nsvcd_body *triangles = nsvcd__triangles_of(body);
   if (triangles) {
@@ -7358,7 +7357,7 @@ NSVCDDEF nsvcd_body_facts nsvcd_body_describe(const nsvcd_body *body) {
 
 NSVCDDEF int nsvcd_body_patch(const nsvcd_body *body, uint32_t patch, float centre[3],
                               float *radius) {
-  if (!body || patch >= body->points)
+  if (!body || patch >= body->patches)
     return 0;
   const nsvcd__sphere sphere = nsvcd__sphere_of(nsvcd__body_patches(body), patch);
   nsvcd__f3_store(sphere.centre, centre);
@@ -7624,7 +7623,7 @@ static nsvcd_result nsvcd__parts_order_and_write(const nsvcd__parts *parts, void
 // How many patches, where the options do not say. area: of the mesh, square metres.
 static size_t nsvcd__patches_for(const nsvcd_mesh *mesh, float patch_radius, double area,
                                  int triangles) {
-  const double most = NSVCD_MAX_POINTS;
+  const double most = NSVCD_MAX_PATCHES;
   if (patch_radius > 0) {
     // N balls of radius r cover about N r^2 / 0.45 of surface: measured, on the real meshes, for N
     // = 32 to 512.
@@ -7633,13 +7632,13 @@ static size_t nsvcd__patches_for(const nsvcd_mesh *mesh, float patch_radius, dou
     return (size_t)fmin(fmax(count, 1), most);
   }
   if (!triangles)
-    return NSVCD_DEFAULT_NETWORK_POINTS;
+    return NSVCD_DEFAULT_NETWORK_PATCHES;
   if (mesh->triangle_count <= NSVCD_FEW_TRIANGLES)
-    return NSVCD_DEFAULT_POINTS;
+    return NSVCD_DEFAULT_PATCHES;
   if (mesh->triangle_count <= NSVCD_MANY_TRIANGLES)
-    return NSVCD_SMALL_POINTS;
+    return NSVCD_SMALL_PATCHES;
   const size_t fine = mesh->triangle_count / NSVCD_LEVEL_TRIANGLES;
-  return fine < NSVCD_MAX_POINTS ? fine : NSVCD_MAX_POINTS;
+  return fine < NSVCD_MAX_PATCHES ? fine : NSVCD_MAX_PATCHES;
 }
 
 // Checks mesh and options (NULL: none), and fills in the defaults; all but the allocator.
@@ -7664,7 +7663,7 @@ static nsvcd_result nsvcd__plan_of(const nsvcd_mesh *mesh, const nsvcd_encode_op
     return NSVCD_ERROR_ARGUMENT;  // nothing would be left
   if (!nsvcd__is_finite(o.patch_radius) || o.patch_radius < 0)
     return NSVCD_ERROR_ARGUMENT;
-  if (o.points > NSVCD_MAX_POINTS || (o.latents && o.no_latents))
+  if (o.patches > NSVCD_MAX_PATCHES || (o.latents && o.no_latents))
     return NSVCD_ERROR_ARGUMENT;
   const nsvcd_result checked = nsvcd__mesh_check(mesh);
   if (checked)
@@ -7672,10 +7671,10 @@ static nsvcd_result nsvcd__plan_of(const nsvcd_mesh *mesh, const nsvcd_encode_op
   const double area = nsvcd__mesh_area(mesh);
   if (!(area > 0))
     return NSVCD_ERROR_EMPTY;
-  plan->patches = o.points;
+  plan->patches = o.patches;
   if (plan->patches == 0)
     plan->patches = nsvcd__patches_for(mesh, o.patch_radius, area, plan->triangles);
-  if (plan->triangles && plan->patches > NSVCD_SMALL_POINTS)
+  if (plan->triangles && plan->patches > NSVCD_SMALL_PATCHES)
     plan->latents = plan->latents && o.latents;
   return NSVCD_OK;
 }
@@ -10331,7 +10330,7 @@ static void nsvcd__certify_groups(const nsvcd__proof *p, const nsvcd__search *se
     for (size_t k = 0; k < NSVCD__GROUP * NSVCD__GROUP; k++) {
       const size_t i = NSVCD__GROUP * two->g + k / NSVCD__GROUP;
       const size_t j = NSVCD__GROUP * two->h + k % NSVCD__GROUP;
-      if (i >= p->moving.body->points || j >= p->fixed.body->points)
+      if (i >= p->moving.body->patches || j >= p->fixed.body->patches)
         continue;
       NSVCD__CERTIFY(NSVCD__BY_DISC, i, j, NSVCD_NONE, NSVCD_NONE, span.t_start, span.t_end,
                      normal);
@@ -11943,7 +11942,7 @@ static int nsvcd__crossings(nsvcd__proof *p, const nsvcd__facets *f, const nsvcd
     uint32_t patches = nsvcd__patches_on_ray(f->body, ray, g);
     for (; patches && !*unclear; patches &= patches - 1) {
       const size_t i = NSVCD__GROUP * g + nsvcd__lowest_bit(patches);
-      if (i >= f->body->points)
+      if (i >= f->body->patches)
         break;
       const double margin = (double)f->quanta[i] + ray->margin;
       const size_t end = f->first_triangle[i + 1];
@@ -12028,7 +12027,7 @@ static int nsvcd__surface_is_near(nsvcd__proof *p, const nsvcd__facets *f, nsvcd
     const nsvcd__spheres members = nsvcd__spheres_from(nsvcd__body_patches(b), first);
     for (uint32_t met = nsvcd__is_around(&here, members); met; met &= met - 1) {
       const size_t i = first + nsvcd__lowest_bit(met);
-      if (i < b->points && nsvcd__patch_is_near(p, f, i, place, tolerance, distance))
+      if (i < b->patches && nsvcd__patch_is_near(p, f, i, place, tolerance, distance))
         return 1;
     }
   }
@@ -12090,7 +12089,7 @@ static int nsvcd__sticks_out(const nsvcd__facets *inner, const nsvcd__transform 
     }
     for (; out; out &= out - 1) {
       const size_t i = first + nsvcd__lowest_bit(out);
-      if (i < inner->body->points && inner->hull_counts[i])
+      if (i < inner->body->patches && inner->hull_counts[i])
         return 1;
     }
   }
@@ -12334,7 +12333,7 @@ static void nsvcd__patches_towards(const nsvcd__facets *f, nsvcd__f3 place, size
                                    size_t *end) {
   const nsvcd_body *body = f->body;
   *first = 0;
-  *end = body->points;
+  *end = body->patches;
   if (!nsvcd__is_large(body))
     return;
   size_t from = 0;
@@ -12356,11 +12355,11 @@ static void nsvcd__patches_towards(const nsvcd__facets *f, nsvcd__f3 place, size
     from = NSVCD__GROUP * nearest;
     count = NSVCD__GROUP;
   }
-  for (size_t i = from; i < from + NSVCD__GROUP && i < body->points; i++) {
+  for (size_t i = from; i < from + NSVCD__GROUP && i < body->patches; i++) {
     if (f->hull_counts[i] == 0)
       continue;
     *first = from;
-    *end = from + NSVCD__GROUP < body->points ? from + NSVCD__GROUP : body->points;
+    *end = from + NSVCD__GROUP < body->patches ? from + NSVCD__GROUP : body->patches;
   }
 }
 
@@ -12751,7 +12750,7 @@ static nsvcd__v nsvcd__clearance2(const nsvcd_body *body, size_t group, nsvcd__v
                                   nsvcd__v least) {
   const nsvcd__spheres patches = nsvcd__body_patches(body);
   const size_t next = NSVCD__GROUP * (group + 1);
-  const size_t end = next < body->points ? next : body->points;
+  const size_t end = next < body->patches ? next : body->patches;
   for (size_t i = NSVCD__GROUP * group; i < end; i++) {
     const nsvcd__sphere patch = nsvcd__sphere_of(patches, i);
     const nsvcd__v3 d = nsvcd__v3_sub(nsvcd__v3_set(patch.centre), place);
@@ -12879,7 +12878,7 @@ static void nsvcd__places_of(const nsvcd_body *body, float scale, const nsvcd__t
   const nsvcd__spheres patches = nsvcd__body_patches(body);
   for (size_t k = 0; k < NSVCD__PLACES; k++) {
     // neighbours are stored together: equal steps spread over it
-    const nsvcd__f3 own = nsvcd__centre_of(patches, k * body->points / NSVCD__PLACES);
+    const nsvcd__f3 own = nsvcd__centre_of(patches, k * body->patches / NSVCD__PLACES);
     const nsvcd__f3 turned = nsvcd__mat3_apply(&pose->rotation, own);
     const nsvcd__f3 place = nsvcd__f3_add(nsvcd__f3_scale(turned, scale), pose->position);
     nsvcd__lane_set(place, places, k);
@@ -14086,7 +14085,7 @@ static NSVCD__APART void nsvcd__search_and_judge(nsvcd__task *ask, nsvcd__query 
 static void nsvcd__answer_by_network(nsvcd__task *ask, nsvcd__query *query, nsvcd__hint *hint,
                                      nsvcd_answer *answer) {
   // checked before
-  (void)nsvcd__settings_of(ask->options, ask->moving->points, ask->fixed->points, &ask->settings);
+  (void)nsvcd__settings_of(ask->options, ask->moving->patches, ask->fixed->patches, &ask->settings);
   nsvcd__answer_free(answer);
   if (nsvcd__motion_is_far(&ask->motion, ask->lengths))
     return;
@@ -14361,7 +14360,7 @@ static nsvcd_result nsvcd__question_check(const nsvcd_question *question) {
     return NSVCD_ERROR_BODY;
 #ifndef NSVCD_NO_NETWORK
   nsvcd__settings unused;
-  return nsvcd__settings_of(options, a->points, b->points, &unused);
+  return nsvcd__settings_of(options, a->patches, b->patches, &unused);
 #else
   return NSVCD_OK;
 #endif
@@ -15410,7 +15409,7 @@ static int nsvcd__stage_of(const nsvcd_plan_stage *given, nsvcd_plan_stage defau
   if (given->iterations == NSVCD_NONE)
     stage->iterations = 0;
   stage->draws = given->samples ? given->samples : defaults.samples;
-  if (stage->via > NSVCD_MAX_VIA_POINTS || segments > NSVCD_MAX_SEGMENTS)
+  if (stage->via > NSVCD_MAX_VIA_POINTS || segments > NSVCD_MAX_PLAN_SEGMENTS)
     return 0;
   return stage->draws <= 10000 && stage->iterations <= 100000;
 }
@@ -15493,7 +15492,7 @@ static int nsvcd__planner_settings(const nsvcd_plan_problem *problem,
   const size_t finest = explores_finer ? p->explore.moments : p->refine.moments;
   o->check = o->check ? o->check : 4 * (finest - 1);
   p->check.moments = o->check + 1;
-  return o->check <= 4 * NSVCD_MAX_SEGMENTS && o->seeds <= 1000;
+  return o->check <= 4 * NSVCD_MAX_PLAN_SEGMENTS && o->seeds <= 1000;
 }
 
 // The next rows of so many floats, or doubles, of a workspace: nsvcd__take.
@@ -15642,7 +15641,7 @@ static void nsvcd__find_boxes(nsvcd__planner *p) {
     const nsvcd__spheres patches = nsvcd__body_patches(body);
     nsvcd__f3 low = nsvcd__f3_of(INFINITY, INFINITY, INFINITY);
     nsvcd__f3 high = nsvcd__f3_of(-INFINITY, -INFINITY, -INFINITY);
-    for (size_t i = 0; i < body->points; i++) {
+    for (size_t i = 0; i < body->patches; i++) {
       const nsvcd__f3 centre = nsvcd__centre_of(patches, i);
       const float r = patches.r[i];
       const nsvcd__f3 about = nsvcd__f3_of(r, r, r);

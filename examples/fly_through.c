@@ -222,7 +222,7 @@ int main(int argc, char **argv) {
     return complain("the drone was refused"), REFUSED;
   const nsvcd_body_facts facts = nsvcd_body_describe(level);
   printf("a level of %zu triangles: %zu patches, %.1f MB, encoded in %.1f s\n", facts.triangles,
-         facts.points, 1e-6 * (double)facts.size, took);
+         facts.patches, 1e-6 * (double)facts.size, took);
 
   const size_t size = nsvcd_sweep_workspace_size(NULL);
   void *workspace = allocate(size);

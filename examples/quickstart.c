@@ -34,7 +34,7 @@ static const nsvcd_body *load(const char *path, nsvcd_mesh *mesh) {
     return fprintf(stderr, "%s:%zu: %s\n", path, line, nsvcd_result_string(result)), NULL;
   nsvcd_body_facts facts = nsvcd_body_describe(body);
   printf("%-29s %zu triangles -> %zu patches, %zu bytes, in %.1f ms\n", path, mesh->triangle_count,
-         facts.points, facts.size, 1e-3 * (microseconds() - start));
+         facts.patches, facts.size, 1e-3 * (microseconds() - start));
   return body;
 }
 

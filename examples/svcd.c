@@ -243,7 +243,7 @@ static void print_costs(const session *s) {
   for (size_t i = 0; i < file->mesh_count; i++) {
     nsvcd_body_facts facts = nsvcd_body_describe(s->bodies[i].body);
     bytes += (double)facts.size / (double)file->mesh_count;
-    points += (double)facts.points / (double)file->mesh_count;
+    points += (double)facts.patches / (double)file->mesh_count;
     values[i] = 1e3 * s->bodies[i].seconds;
   }
   print_distribution("encoding a mesh", values, file->mesh_count, "ms");
@@ -298,8 +298,8 @@ static int usage(void) {
           "    are more than %d points\n"
           "svcd info FILE.body\n"
           "exit status: 0 done, 1 a file or line was refused, 2 usage\n",
-          NSVCD_MAX_POINTS, NSVCD_DEFAULT_POINTS, NSVCD_DEFAULT_NETWORK_POINTS, NSVCD_MAX_PAIRS,
-          NSVCD_DEFAULT_WORK, NSVCD_SMALL_POINTS);
+          NSVCD_MAX_PATCHES, NSVCD_DEFAULT_PATCHES, NSVCD_DEFAULT_NETWORK_PATCHES, NSVCD_MAX_PAIRS,
+          NSVCD_DEFAULT_WORK, NSVCD_SMALL_PATCHES);
   return USAGE;
 }
 static int usage_error(const char *option, const char *reason) {
@@ -331,7 +331,7 @@ static int parse_share(const char *text, float most, float *out) {
 // Returns DONE or USAGE.
 static int parse_check_option(const char *key, const char *value, check_options *options) {
   if (strcmp(key, "--points") == 0)
-    return parse_count(value, 1, NSVCD_MAX_POINTS, &options->encode.points)
+    return parse_count(value, 1, NSVCD_MAX_PATCHES, &options->encode.patches)
                ? DONE
                : usage_error(key, "out of range");
   if (strcmp(key, "--pairs") == 0)
@@ -370,7 +370,7 @@ static int recall_is_known(const nsvcd_sweep_options *options) {
   float positions[9] = {0, 0, 0, 1, 0, 0, 0, 1, 0};
   uint32_t indices[3] = {0, 1, 2};
   nsvcd_mesh mesh = {positions, indices, 3, 1};
-  nsvcd_encode_options one_point = {.points = 1};
+  nsvcd_encode_options one_point = {.patches = 1};
   const nsvcd_pose pose = {{0, 0, 0}, {0, 0, 0, 1}};
   nsvcd_answer unused;
   const nsvcd_body *body;
@@ -485,7 +485,7 @@ static void write_header(FILE *file, const char *in, const char *name, const nsv
       "__declspec(align(%d))\n"
       "#endif\n"
       "static const unsigned char %s[%zu] = {",
-      in, facts.points, name, name, NSVCD_ALIGNMENT, NSVCD_ALIGNMENT, NSVCD_ALIGNMENT,
+      in, facts.patches, name, name, NSVCD_ALIGNMENT, NSVCD_ALIGNMENT, NSVCD_ALIGNMENT,
       NSVCD_ALIGNMENT, name, facts.size);
   for (size_t i = 0; i < facts.size; i++)
     fprintf(file, "%s%d,", i % 24 ? "" : "\n    ", bytes[i]);
@@ -521,7 +521,7 @@ static void print_facts(const char *path, const nsvcd_body *body) {
     least = fminf(least, radius);
     most = fmaxf(most, radius);
   }
-  printf("%s: %zu points, %zu bytes\n", path, facts.points, facts.size);
+  printf("%s: %zu points, %zu bytes\n", path, facts.patches, facts.size);
   if (facts.triangles)
     printf("triangles: %zu, in %zu listings, within %g m\n", facts.triangles, facts.listed,
            (double)facts.quantum);
@@ -533,7 +533,7 @@ static void print_facts(const char *path, const nsvcd_body *body) {
 
 static int encode(int argc, char **argv) {
   const char *paths[2] = {NULL, NULL};
-  nsvcd_encode_options options = {.points = 0};
+  nsvcd_encode_options options = {.patches = 0};
   int path_count = 0;
   for (int i = 0; i < argc; i++) {
     const char *value = i + 1 < argc ? argv[i + 1] : "";
@@ -548,7 +548,7 @@ static int encode(int argc, char **argv) {
     } else if (strcmp(argv[i], "--latents") == 0) {
       options.latents = 1;
     } else if (strcmp(argv[i], "--points") == 0) {
-      if (!parse_count(value, 1, NSVCD_MAX_POINTS, &options.points))
+      if (!parse_count(value, 1, NSVCD_MAX_PATCHES, &options.patches))
         return usage_error(argv[i], "out of range");
       i++;
     } else if (strcmp(argv[i], "--radius") == 0) {
@@ -567,7 +567,7 @@ static int encode(int argc, char **argv) {
     return usage_error("--no-latents", "nothing would be left");
   if (options.latents && options.no_latents)
     return usage_error("--latents", "not together with --no-latents");
-  if (options.points && options.patch_radius > 0)
+  if (options.patches && options.patch_radius > 0)
     return usage_error("--radius", "not together with --points");
 
   double taken;

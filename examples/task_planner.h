@@ -47,7 +47,7 @@ PLANNER_DEF int planner_encode(const task_scene *scene, const nsvcd_body **bodie
   nsvcd_encode_options options;
   nsvcd_result result = NSVCD_OK;
   memset(&options, 0, sizeof options);
-  options.points = PLANNER_POINTS;
+  options.patches = PLANNER_POINTS;
   for (int i = 0; i < scene->body_count; i++)
     bodies[i] = NULL;
   for (int i = 0; i < scene->body_count && !result; i++)

@@ -83,7 +83,7 @@ if command -v "${CXX:-c++}" >/dev/null; then readme "${CXX:-c++}" -std=c++11 "$d
 # svcd encode, info.
 expect 0 '' build/svcd encode examples/assets/mug.obj "$dir/mug.body"
 expect 0 '' build/svcd info "$dir/mug.body"
-points=$(sed -n 's/^#define NSVCD_DEFAULT_POINTS \([0-9]*\).*/\1/p' neuralsvcd.h)
+points=$(sed -n 's/^#define NSVCD_DEFAULT_PATCHES \([0-9]*\).*/\1/p' neuralsvcd.h)
 grep -q " $points points" "$dir/out" || fail "svcd info says: $(cat "$dir/out")"
 expect 0 '' build/svcd encode examples/assets/mug.obj "$dir/9 mug-2.h" --points 40
 expect 0 '' build/svcd encode examples/assets/mug.obj "$dir/rough.body" --radius 0.03

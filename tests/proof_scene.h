@@ -354,7 +354,7 @@ static void proof_sort_listings(proof_body *b) {
 static void proof_read_body(proof_body *b) {
   const nsvcd__facets f = nsvcd__facets_of(nsvcd__triangles_of(b->body));
   shapes_rng rng = {b->triangles};
-  b->count = f.body->points;
+  b->count = f.body->patches;
   b->listed = f.listed;
   b->patches = (proof_patch *)calloc(b->count, sizeof *b->patches);
   b->listings = (proof_listing *)calloc(b->listed + 1, sizeof *b->listings);
@@ -594,7 +594,7 @@ static void proof_shape(int kind, uint64_t seed, shapes_mesh *mesh) {
 static proof_body proof_make(int kind, uint64_t seed, size_t points, double scale) {
   shapes_mesh shape;
   nsvcd_result result;
-  const nsvcd_encode_options options = {.points = points,
+  const nsvcd_encode_options options = {.patches = points,
                                         .open = kind == SHEET || kind == TRIANGLE};
   proof_shape(kind, seed, &shape);
   const proof_body out = proof_encode(&shape, scale, &options, &result);

@@ -78,8 +78,8 @@ static nsvcd_mesh query_box(double x, double y, double z) {
 
 // Encodes with `points` (0: default) into fresh memory.
 static const nsvcd_body *query_encode(const nsvcd_mesh *mesh, size_t points, query_memory *memory) {
-  nsvcd_encode_options options = {.points = points, .no_triangles = 1};
-  size_t size = nsvcd_body_size(points ? points : NSVCD_DEFAULT_NETWORK_POINTS);
+  nsvcd_encode_options options = {.patches = points, .no_triangles = 1};
+  size_t size = nsvcd_body_size(points ? points : NSVCD_DEFAULT_NETWORK_PATCHES);
   const nsvcd_body *body = NULL;
   *memory = query_reserve(size);
   CHECK_EQ(nsvcd_encode(mesh, &options, NULL, memory->at, size, &body), NSVCD_OK);

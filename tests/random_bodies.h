@@ -19,14 +19,14 @@ static char *aligned(blob *b) {
 }
 static const size_t blob_capacity = BLOB - 16;
 
-static float centres[3 * NSVCD_SMALL_POINTS], radii[NSVCD_SMALL_POINTS],
-    areas[3 * NSVCD_SMALL_POINTS];
+static float centres[3 * NSVCD_SMALL_PATCHES], radii[NSVCD_SMALL_PATCHES],
+    areas[3 * NSVCD_SMALL_PATCHES];
 
-static int8_t latents[NSVCD_SMALL_POINTS * NSVCD__LATENT];
+static int8_t latents[NSVCD_SMALL_PATCHES * NSVCD__LATENT];
 
 // Puts the patches of `centres` in order (points).
 static void put_in_order(size_t points, uint16_t *order) {
-  uint16_t spare[NSVCD_SMALL_POINTS];
+  uint16_t spare[NSVCD_SMALL_PATCHES];
   const nsvcd__f3 *at = (const nsvcd__f3 *)(const void *)centres;
   const nsvcd__ordering all = {at, order, spare, points};
   for (size_t i = 0; i < points; i++)
@@ -36,7 +36,7 @@ static void put_in_order(size_t points, uint16_t *order) {
 
 static const nsvcd_body *build(size_t points, blob *memory) {
   const nsvcd_body *body = NULL;
-  uint16_t order[NSVCD_SMALL_POINTS];
+  uint16_t order[NSVCD_SMALL_PATCHES];
   nsvcd__latents_source source;
   put_in_order(points, order);
   source.count = points;
@@ -85,7 +85,7 @@ static const nsvcd_body *shell_body(size_t points, double radius, blob *memory) 
 }
 
 static size_t body_bytes(const nsvcd_body *body) {
-  return nsvcd_body_size(body->points);
+  return nsvcd_body_size(body->patches);
 }
 
 #endif

@@ -12,7 +12,7 @@ void test_body(void);
 static void body_round_trip(void) {
   CHECK_EQ(sizeof(struct nsvcd_body), 64);
   CHECK_EQ(nsvcd_body_size(0), 0);
-  CHECK_EQ(nsvcd_body_size(NSVCD_MAX_POINTS + 1), 0);
+  CHECK_EQ(nsvcd_body_size(NSVCD_MAX_PATCHES + 1), 0);
   CHECK_LE(nsvcd_body_size(512), 65535);
   for (size_t points = 1; points <= 512; points += points < 20 ? 1 : 41) {
     const nsvcd_body *body = random_body(points, 1, 0.3, &blob_a_memory);
@@ -40,10 +40,10 @@ static void body_round_trip(void) {
 // The order visits every patch once, and neighbours end up together: groups are much smaller than
 // the body.
 static void body_order(void) {
-  uint16_t order[NSVCD_SMALL_POINTS];
+  uint16_t order[NSVCD_SMALL_PATCHES];
   for (size_t points = 1; points <= 512; points += 37) {
     const nsvcd_body *body = random_body(points, 1, 0, &blob_a_memory);
-    int seen[NSVCD_SMALL_POINTS] = {0};
+    int seen[NSVCD_SMALL_PATCHES] = {0};
     put_in_order(points, order);
     for (size_t i = 0; i < points; i++)
       seen[order[i]]++;

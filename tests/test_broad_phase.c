@@ -70,7 +70,7 @@ typedef struct tally {
 // One motion: candidates against spheres sampled densely in time.
 static void try_motion(const nsvcd_body *moving, const nsvcd_body *fixed, size_t count,
                        const nsvcd_pose *fixed_pose, size_t samples, tally *sum) {
-  static unsigned char pair_met[NSVCD_SMALL_POINTS][NSVCD_SMALL_POINTS];
+  static unsigned char pair_met[NSVCD_SMALL_PATCHES][NSVCD_SMALL_PATCHES];
   nsvcd__motion motion;
   CHECK_EQ(motion_init(poses, count, fixed_pose, &motion), NSVCD_OK);
   nsvcd__candidates all, best;
@@ -87,7 +87,7 @@ static void try_motion(const nsvcd_body *moving, const nsvcd_body *fixed, size_t
   for (size_t n = 0; n < all.count; n++) {
     const nsvcd__candidate *c = &items[n];
     CHECK(0 <= c->t_enter && c->t_enter <= c->t_least && c->t_least <= c->t_exit && c->t_exit <= 1);
-    CHECK(c->moving < moving->points && c->fixed < fixed->points);
+    CHECK(c->moving < moving->patches && c->fixed < fixed->patches);
   }
   qsort(items, all.count, sizeof *items, by_pair);
   sum->motions++;
@@ -101,13 +101,13 @@ static void try_motion(const nsvcd_body *moving, const nsvcd_body *fixed, size_t
     double t =
         n % 3 || count == 1 ? uniform(0, 1) : (double)pick(0, count - 1) / (double)(count - 1);
     pose64 at = pose_at(poses, count, t);
-    for (size_t i = 0; i < moving->points; i++) {
+    for (size_t i = 0; i < moving->patches; i++) {
       double c[3] = {(double)nsvcd__body_x(moving)[i], (double)nsvcd__body_y(moving)[i],
                      (double)nsvcd__body_z(moving)[i]};
       double p[3];
       double ri = (double)nsvcd__body_r(moving)[i];
       place64(&at, &f, c, p);
-      for (size_t j = 0; j < fixed->points; j++) {
+      for (size_t j = 0; j < fixed->patches; j++) {
         double d[3] = {p[0] - (double)nsvcd__body_x(fixed)[j],
                        p[1] - (double)nsvcd__body_y(fixed)[j],
                        p[2] - (double)nsvcd__body_z(fixed)[j]};
@@ -119,7 +119,7 @@ static void try_motion(const nsvcd_body *moving, const nsvcd_body *fixed, size_t
         sum->lost += !is_covered(items, all.count, i, j, t);
       }
     }
-    sum->tested += (size_t)moving->points * fixed->points;
+    sum->tested += (size_t)moving->patches * fixed->patches;
   }
   for (size_t n = 0; n < all.count; n++)
     sum->runs_real += pair_met[items[n].moving][items[n].fixed];

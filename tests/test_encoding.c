@@ -27,33 +27,33 @@ static void query_bodies_are_the_same_to_the_bit(void) {
 static void query_bodies_are_small(void) {
   nsvcd_mesh mesh = query_solid(3, 0.3);
   query_memory memory;
-  const nsvcd_body *body = query_encode(&mesh, NSVCD_SMALL_POINTS, &memory);
+  const nsvcd_body *body = query_encode(&mesh, NSVCD_SMALL_PATCHES, &memory);
   nsvcd_body_facts facts = nsvcd_body_describe(body);
-  CHECK_EQ(facts.points, NSVCD_SMALL_POINTS);
+  CHECK_EQ(facts.patches, NSVCD_SMALL_PATCHES);
   CHECK_LE(facts.size, 65535);
-  CHECK_LE(nsvcd_body_size(NSVCD_SMALL_POINTS), 65535);
+  CHECK_LE(nsvcd_body_size(NSVCD_SMALL_PATCHES), 65535);
   CHECK_EQ(nsvcd_body_size(0), 0);
-  CHECK_EQ(nsvcd_body_size(NSVCD_MAX_POINTS + 1), 0);
+  CHECK_EQ(nsvcd_body_size(NSVCD_MAX_PATCHES + 1), 0);
   query_release(&memory);
   nsvcd_mesh_free(&mesh, NULL);
 }
 
 static void query_patch_radius_is_honoured(void) {
   nsvcd_mesh mesh = query_solid(7, 0.3);
-  size_t fewer = NSVCD_SMALL_POINTS + 1;
+  size_t fewer = NSVCD_SMALL_PATCHES + 1;
   const float wanted[3] = {0.025f, 0.04f, 0.07f};
   for (int i = 0; i < 3; i++) {
     nsvcd_encode_options options = {.patch_radius = wanted[i], .no_triangles = 1};
-    size_t size = nsvcd_body_size(NSVCD_SMALL_POINTS);
+    size_t size = nsvcd_body_size(NSVCD_SMALL_PATCHES);
     query_memory memory = query_reserve(size);
     const nsvcd_body *body = NULL;
     CHECK_EQ(nsvcd_encode(&mesh, &options, NULL, memory.at, size, &body), NSVCD_OK);
     if (body) {
       nsvcd_body_facts facts = nsvcd_body_describe(body);
-      CHECK_LE(facts.points, fewer - 1);  // larger patches, fewer of them
+      CHECK_LE(facts.patches, fewer - 1);  // larger patches, fewer of them
       CHECK(facts.mean_patch_radius > 0.6f * wanted[i] &&
             facts.mean_patch_radius < 1.6f * wanted[i]);
-      fewer = facts.points;
+      fewer = facts.patches;
     }
     query_release(&memory);
   }
@@ -73,7 +73,7 @@ static void query_encode_refuses(const nsvcd_mesh *mesh, const nsvcd_encode_opti
 static void query_encode_allocates(void) {
   nsvcd_mesh mesh = query_box(0.1, 0.2, 0.3);
   for (int without = 0; without < 2; without++) {
-    const nsvcd_encode_options options = {.points = 64, .no_triangles = without};
+    const nsvcd_encode_options options = {.patches = 64, .no_triangles = without};
     const nsvcd_body *body = NULL;
     const nsvcd_body *same = NULL;
     CHECK_EQ(nsvcd_encode(&mesh, &options, NULL, NULL, 0, &body), NSVCD_OK);
@@ -93,9 +93,9 @@ static void query_encode_refuses_bad_input(void) {
   nsvcd_mesh mesh = query_box(0.1, 0.1, 0.1);
   nsvcd_mesh bad = mesh;
   size_t size = nsvcd_body_size(64);
-  query_memory memory = query_reserve(nsvcd_body_size(NSVCD_SMALL_POINTS) + QUERY_ALIGN);
-  nsvcd_encode_options options = {.points = 64, .no_triangles = 1};
-  nsvcd_encode_options too_many = {.points = NSVCD_MAX_POINTS + 1, .no_triangles = 1};
+  query_memory memory = query_reserve(nsvcd_body_size(NSVCD_SMALL_PATCHES) + QUERY_ALIGN);
+  nsvcd_encode_options options = {.patches = 64, .no_triangles = 1};
+  nsvcd_encode_options too_many = {.patches = NSVCD_MAX_PATCHES + 1, .no_triangles = 1};
   nsvcd_encode_options both = {.latents = 1, .no_latents = 1};
   nsvcd_encode_options negative = {.patch_radius = -1, .no_triangles = 1};
   nsvcd_encode_options nan = {.patch_radius = NAN, .no_triangles = 1};
@@ -130,7 +130,7 @@ static void query_encode_refuses_bad_input(void) {
 
 static void query_encode_survives_every_failed_allocation(void) {
   nsvcd_mesh mesh = query_solid(5, 0.3);
-  nsvcd_encode_options options = {.points = 32, .no_triangles = 1};
+  nsvcd_encode_options options = {.patches = 32, .no_triangles = 1};
   size_t size = nsvcd_body_size(32);
   query_memory memory = query_reserve(size);
   query_memory undisturbed = query_reserve(size);

@@ -49,7 +49,7 @@ static void query_facts_contain_the_mesh(void) {
       for (int k = 0; k < 3; k++)
         d += pow((double)(mesh.positions[3 * i + (size_t)k] - facts.centre[k]), 2);
       farthest = fmax(farthest, sqrt(d));
-      for (uint32_t p = 0; p < facts.points; p++) {  // every vertex lies in a patch's sphere
+      for (uint32_t p = 0; p < facts.patches; p++) {  // every vertex lies in a patch's sphere
         float centre[3] = {0, 0, 0};
         float radius = 0;
         float away = 0;
@@ -62,7 +62,7 @@ static void query_facts_contain_the_mesh(void) {
     }
     CHECK_LE(farthest, (double)facts.radius + 1e-6);
     float centre[3], radius;
-    CHECK_EQ(nsvcd_body_patch(body, (uint32_t)facts.points, centre, &radius), 0);
+    CHECK_EQ(nsvcd_body_patch(body, (uint32_t)facts.patches, centre, &radius), 0);
     CHECK_EQ(nsvcd_body_patch(NULL, 0, centre, &radius), 0);
     query_release(&memory);
     nsvcd_mesh_free(&mesh, NULL);
@@ -111,7 +111,7 @@ static void query_scaled_bodies_are_bodies_of_scaled_meshes(void) {
 static void query_scale_refuses_bad_input(void) {
   nsvcd_mesh mesh = query_box(0.1, 0.1, 0.1);
   query_memory memory;
-  query_memory out = query_reserve(nsvcd_body_size(NSVCD_DEFAULT_NETWORK_POINTS));
+  query_memory out = query_reserve(nsvcd_body_size(NSVCD_DEFAULT_NETWORK_PATCHES));
   const nsvcd_body *body = query_encode(&mesh, 0, &memory);
   const nsvcd_body *scaled = body;
   size_t size = nsvcd_body_describe(body).size;
@@ -198,7 +198,7 @@ static void proof_forge_counts(const nsvcd_body *body, const nsvcd__facets *f) {
     for (int n = 0; n < 6; n++)
       proof_expect_refusal(body, counts + 4 * k, &bad[n], 4);
   }
-  for (size_t i = 0; i <= f->body->points; i++) {
+  for (size_t i = 0; i <= f->body->patches; i++) {
     const uint32_t *firsts[3] = {f->first_vertex + i, f->first_triangle + i, f->first_byte + i};
     const uint32_t bad[3] = {0xffffffffu, 0x7fffffffu, i == 0 ? 1u : *firsts[0] - 70000u};
     for (int k = 0; k < 3; k++) {
@@ -206,14 +206,14 @@ static void proof_forge_counts(const nsvcd_body *body, const nsvcd__facets *f) {
         proof_expect_refusal(body, proof_offset(f, firsts[k]), &bad[n], 4);
     }
   }
-  for (size_t i = 0; i < f->body->points; i++) {
+  for (size_t i = 0; i < f->body->patches; i++) {
     const uint8_t bad[2] = {NSVCD__HULL + 1, f->hull_counts[i] ? 0 : 1};
     for (int n = 0; n < 2; n++)
       proof_expect_refusal(body, proof_offset(f, f->hull_counts + i), &bad[n], 1);
   }
   const unsigned char far[5] = {0xff, 0xff, 0xff, 0xff, 0x0f};
   const unsigned char endless[5] = {0x80, 0x80, 0x80, 0x80, 0x80};
-  for (size_t i = 0; i < f->body->points; i++) {
+  for (size_t i = 0; i < f->body->patches; i++) {
     const unsigned char *at = proof_numbers(f, i);
     const unsigned char *end = f->listings + f->first_byte[i + 1];
     if (end - at >= 5)
@@ -228,9 +228,9 @@ static void proof_forge_counts(const nsvcd_body *body, const nsvcd__facets *f) {
 static void proof_forge_header(const nsvcd_body *body, const nsvcd__facets *f) {
   const uint32_t bad[4] = {0, 1, 0x7fffffffu, 0xfffffff8u};
   const size_t fields[6] = {
-      offsetof(struct nsvcd_body, size),   offsetof(struct nsvcd_body, weights_id),
-      offsetof(struct nsvcd_body, points), offsetof(struct nsvcd_body, padded),
-      offsetof(struct nsvcd_body, inner),  offsetof(struct nsvcd_body, triangles)};
+      offsetof(struct nsvcd_body, size),    offsetof(struct nsvcd_body, weights_id),
+      offsetof(struct nsvcd_body, patches), offsetof(struct nsvcd_body, padded),
+      offsetof(struct nsvcd_body, inner),   offsetof(struct nsvcd_body, triangles)};
   for (int k = 0; k < 6; k++) {
     for (int n = 0; n < 4; n++) {
       uint32_t value;

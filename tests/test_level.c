@@ -21,7 +21,7 @@ void test_level(void);
 static nsvcd_encode_options level_options(size_t points) {
   nsvcd_encode_options options;
   memset(&options, 0, sizeof options);
-  options.points = points;
+  options.patches = points;
   options.no_latents = 1;
   return options;
 }
@@ -85,7 +85,7 @@ static void level_walks_find_all(void) {
   const nsvcd_body_facts facts = nsvcd_body_describe(body);
   shapes_rng rng = {1};
   CHECK_EQ(facts.latents, 0);
-  CHECK(facts.points > 4096);
+  CHECK(facts.patches > 4096);
   CHECK_EQ(nsvcd__level_count(body->padded), 3);
   for (size_t k = 1; k < nsvcd__level_count(body->padded); k++) {
     const nsvcd__level below = nsvcd__level_of(body->padded, k - 1);
@@ -388,7 +388,7 @@ static void level_latents_are_added(void) {
   const nsvcd_body *inner = nsvcd__triangles_of(body);
   const nsvcd_body *loaded = NULL;
   CHECK_EQ(facts.latents, 1);
-  CHECK_EQ(facts.points, nsvcd_body_describe(plain).points);
+  CHECK_EQ(facts.patches, nsvcd_body_describe(plain).patches);
   CHECK_EQ(inner->size, plain->size);
   CHECK(memcmp(inner, plain, plain->size) == 0);
 
@@ -403,7 +403,7 @@ static void level_latents_are_added(void) {
   CHECK_EQ(nsvcd_encode(&level_shared()->bodies[1].mesh, &options, NULL, NULL, 0, &other),
            NSVCD_OK);
   CHECK_EQ(nsvcd_body_describe(other).latents, 1);
-  CHECK_EQ(other->size, nsvcd_body_size(other->points));
+  CHECK_EQ(other->size, nsvcd_body_size(other->patches));
   nsvcd_body_free(other, NULL);
 
   nsvcd_body *copy = (nsvcd_body *)malloc(facts.size);
@@ -445,7 +445,7 @@ static void level_balls_cover(void) {
     for (int k = 0; k < 3; k++)
       place[k] = t->v[0][k] + u * (t->v[1][k] - t->v[0][k]) + v * (t->v[2][k] - t->v[0][k]);
     int covered = 0;
-    for (size_t i = 0; i < body->points && !covered; i++) {
+    for (size_t i = 0; i < body->patches && !covered; i++) {
       const double d[3] = {(double)nsvcd__body_x(body)[i] - place[0],
                            (double)nsvcd__body_y(body)[i] - place[1],
                            (double)nsvcd__body_z(body)[i] - place[2]};
@@ -480,7 +480,7 @@ static void level_winding_numbers_are_those_of_the_patches(void) {
       const float place[3] = {places[0][n], places[1][n], places[2][n]};
       double least = (double)(NSVCD__AMPLE * NSVCD__AMPLE);
       double w = 0;
-      for (size_t i = 0; i < body->points; i++) {
+      for (size_t i = 0; i < body->patches; i++) {
         const double d[3] = {(double)(nsvcd__body_x(body)[i] - place[0]),
                              (double)(nsvcd__body_y(body)[i] - place[1]),
                              (double)(nsvcd__body_z(body)[i] - place[2])};
@@ -507,7 +507,7 @@ static void level_winding_numbers_are_those_of_the_patches(void) {
 
   const nsvcd__level top = nsvcd__level_of(body->padded, nsvcd__level_count(body->padded) - 1);
   for (size_t k = 0; k < 3; k++) {
-    for (size_t i = 0; i < body->points; i++)
+    for (size_t i = 0; i < body->patches; i++)
       sums[k] += (double)areas[k * body->padded + i];
     for (size_t i = 0; i < top.slots; i++)
       sums[k] -= (double)nsvcd__level_areas(body, top)[k * top.slots + i];
@@ -574,7 +574,7 @@ static void level_containment_by_the_network(void) {
   options.no_latents = 0;
   options.no_triangles = 1;
   CHECK_EQ(nsvcd_encode(&crates.mesh, &options, NULL, NULL, 0, &crates.body), NSVCD_OK);
-  options.points = 32;
+  options.patches = 32;
   CHECK_EQ(nsvcd_encode(&ball.mesh, &options, NULL, NULL, 0, &ball.body), NSVCD_OK);
   for (int i = 0; i < 400; i += 13) {
     const float x = 0.4f * (float)(i % 20);
@@ -808,11 +808,11 @@ static void level_encoding_ends_well(void) {
   solid.mesh.positions[3 * solid.mesh.vertex_count - 1] = NAN;
   CHECK_EQ(nsvcd_encode(&solid.mesh, &options, NULL, NULL, 0, &body), NSVCD_ERROR_NUMBER);
   CHECK(body == NULL);
-  options.points = NSVCD_MAX_POINTS + 1;
+  options.patches = NSVCD_MAX_PATCHES + 1;
   CHECK_EQ(nsvcd_encode(&solid.mesh, &options, NULL, NULL, 0, &body), NSVCD_ERROR_ARGUMENT);
   options.latents = 0;
   options.no_latents = options.no_triangles = 1;  // nothing would be left
-  options.points = 10;
+  options.patches = 10;
   CHECK_EQ(nsvcd_encode(&solid.mesh, &options, NULL, NULL, 0, &body), NSVCD_ERROR_ARGUMENT);
   level_free(&solid);
 }

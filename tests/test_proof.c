@@ -1683,7 +1683,7 @@ static void proof_place_within(attack *a, shapes_rng *rng, double gap, int movin
 }
 
 static proof_body proof_of_shape(shapes_mesh *shape, double scale, size_t points) {
-  const nsvcd_encode_options options = {.points = points};
+  const nsvcd_encode_options options = {.patches = points};
   nsvcd_result result;
   const proof_body out = proof_encode(shape, scale, &options, &result);
   CHECK_EQ(result, NSVCD_OK);
@@ -1965,7 +1965,7 @@ static void proof_refuses(void) {
   options.method = (nsvcd_method)-1;
   CHECK_EQ(proof_ask_with(&a, &options), NSVCD_ERROR_ARGUMENT);
 
-  const nsvcd_encode_options bare = {.points = 8, .no_triangles = 1};
+  const nsvcd_encode_options bare = {.patches = 8, .no_triangles = 1};
   proof_shape(BOX, 1, &shape);
   float positions[3 * 200];
   nsvcd_mesh mesh = {positions, shape.indices, shape.vertices, shape.triangles};
@@ -2332,7 +2332,7 @@ static void proof_certificates_hold_at_every_scale(void) {
 // stays above.
 static nsvcd_status proof_swing(double scale, double angle, double depth, size_t count) {
   static const double down[3][3] = {{0, 0, -0.25}, {0.02, 0, 0.2}, {-0.02, 0.02, 0.2}};
-  const nsvcd_encode_options options = {.points = 1, .open = 1};
+  const nsvcd_encode_options options = {.patches = 1, .open = 1};
   const double axis[3] = {0, 1, 0};
   const double still[4] = {0, 0, 0, 1};
   shapes_mesh shape;

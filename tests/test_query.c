@@ -34,8 +34,8 @@ static void query_answers_make_sense(void) {
     CHECK(isfinite(a.logit) && fabsf(a.logit) <= NSVCD_LOGIT_CERTAIN);
     CHECK_EQ(a.collides, a.logit > 0);
     CHECK(a.contact_time >= 0 && a.contact_time <= 1);
-    CHECK(a.patch_a < nsvcd_body_describe(s.moving).points &&
-          a.patch_b < nsvcd_body_describe(s.fixed).points);
+    CHECK(a.patch_a < nsvcd_body_describe(s.moving).patches &&
+          a.patch_b < nsvcd_body_describe(s.fixed).patches);
     CHECK_EQ(a.status == NSVCD_STATUS_CERTIFIED_FREE,
              a.candidates == 0 && a.status != NSVCD_STATUS_INSIDE);
     CHECK_EQ(a.status == NSVCD_STATUS_LIMIT, a.candidates > 8 && a.status != NSVCD_STATUS_INSIDE);
@@ -173,7 +173,7 @@ static void query_inside_an_open_body(void) {
   const nsvcd_body *inner = NULL;
   const nsvcd_body *outer = NULL;
   const nsvcd_body *loaded = NULL;
-  nsvcd_encode_options open = {.points = 512, .open = 1, .no_triangles = 1};
+  nsvcd_encode_options open = {.patches = 512, .open = 1, .no_triangles = 1};
   CHECK_EQ(nsvcd_encode(&small, &open, NULL, memory[0].at, nsvcd_body_size(512), &inner), NSVCD_OK);
   CHECK_EQ(nsvcd_encode(&large, &open, NULL, memory[1].at, nsvcd_body_size(512), &outer), NSVCD_OK);
   CHECK_EQ(nsvcd_body_load(memory[1].at, nsvcd_body_size(512), &loaded), NSVCD_OK);
@@ -214,14 +214,14 @@ static void query_sizes_at_the_limits(void) {
   for (int i = 0; i < 4; i++) {
     double a = sizes[i];
     nsvcd_mesh cube = query_box(a, a, a);
-    query_memory memory[2] = {query_reserve(nsvcd_body_size(NSVCD_SMALL_POINTS)),
-                              query_reserve(nsvcd_body_size(NSVCD_SMALL_POINTS))};
+    query_memory memory[2] = {query_reserve(nsvcd_body_size(NSVCD_SMALL_PATCHES)),
+                              query_reserve(nsvcd_body_size(NSVCD_SMALL_PATCHES))};
     const nsvcd_body *body = NULL;
     const nsvcd_body *same = NULL;
     CHECK_EQ(nsvcd_encode(&cube, &query_latents, NULL, memory[0].at,
-                          nsvcd_body_size(NSVCD_SMALL_POINTS), &body),
+                          nsvcd_body_size(NSVCD_SMALL_PATCHES), &body),
              NSVCD_OK);
-    CHECK_EQ(nsvcd_body_scale(body, 1, memory[1].at, nsvcd_body_size(NSVCD_SMALL_POINTS), &same),
+    CHECK_EQ(nsvcd_body_scale(body, 1, memory[1].at, nsvcd_body_size(NSVCD_SMALL_PATCHES), &same),
              NSVCD_OK);
     nsvcd_pose through[2] = {query_pose(-0.9 * a, 0, 0), query_pose(0.9 * a, 0, 0)};
     nsvcd_pose origin = query_pose(0, 0, 0);
@@ -234,10 +234,10 @@ static void query_sizes_at_the_limits(void) {
     nsvcd_mesh_free(&cube, NULL);
   }
   nsvcd_mesh speck = query_box(1e-13, 1e-13, 1e-13);
-  query_memory memory = query_reserve(nsvcd_body_size(NSVCD_SMALL_POINTS));
+  query_memory memory = query_reserve(nsvcd_body_size(NSVCD_SMALL_PATCHES));
   const nsvcd_body *body = NULL;
   CHECK_EQ(nsvcd_encode(&speck, &query_latents, NULL, memory.at,
-                        nsvcd_body_size(NSVCD_SMALL_POINTS), &body),
+                        nsvcd_body_size(NSVCD_SMALL_PATCHES), &body),
            NSVCD_ERROR_NUMBER);
   CHECK(body == NULL);
   query_release(&memory);
@@ -659,7 +659,7 @@ static const nsvcd_body *query_scaled(const query_library *library, const char *
   for (size_t i = 0; i < library->count; i++)
     if (strcmp(library->names[i], name) == 0)
       nsvcd_body_scale(library->bodies[i], scale, memory,
-                       nsvcd_body_size(NSVCD_DEFAULT_NETWORK_POINTS), &scaled);
+                       nsvcd_body_size(NSVCD_DEFAULT_NETWORK_PATCHES), &scaled);
   return scaled;
 }
 
@@ -733,8 +733,8 @@ static void accuracy_on_a_labelled_file(void) {
   CHECK(file != NULL);  // run from the repository root
   if (!file)
     return;
-  query_memory memory[2] = {query_reserve(nsvcd_body_size(NSVCD_DEFAULT_NETWORK_POINTS)),
-                            query_reserve(nsvcd_body_size(NSVCD_DEFAULT_NETWORK_POINTS))};
+  query_memory memory[2] = {query_reserve(nsvcd_body_size(NSVCD_DEFAULT_NETWORK_PATCHES)),
+                            query_reserve(nsvcd_body_size(NSVCD_DEFAULT_NETWORK_PATCHES))};
   void *const scaled[2] = {memory[0].at, memory[1].at};
   char word[64], name[64], path[256];
   int good = 1;
@@ -774,7 +774,7 @@ static void query_sizes_are_what_is_asked(void) {
     for (size_t k = 0; k < 2; k++) {
       nsvcd_encode_options options;
       memset(&options, 0, sizeof options);
-      options.points = points[k];
+      options.patches = points[k];
       CHECK_EQ(nsvcd_encode(&mesh, &options, NULL, NULL, 0, &bodies[k]), NSVCD_OK);
     }
     for (size_t segments = 16; segments <= 64; segments += 16) {

@@ -528,7 +528,7 @@ static int reader_open(reader *r, const nsvcd_mesh *mesh, size_t points) {
   memset(r, 0, sizeof *r);
   r->mesh = mesh;
   r->tolerance = 1e-12 * surface_scale(mesh);
-  if (points <= NSVCD_SMALL_POINTS) {
+  if (points <= NSVCD_SMALL_PATCHES) {
     nsvcd__patches patches;
     CHECK_EQ(nsvcd__patches_build(mesh, points, NULL, &patches), NSVCD_OK);
     for (size_t i = 0; i < patches.count; i++)

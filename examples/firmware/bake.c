@@ -3,7 +3,7 @@
 //   bake proof|network|both POINTS OUT.h IN.obj ...
 //
 // proof: triangles, no latents. network: latents, no triangles. both: both. The array of
-// parts/my-mug.obj is named my_mug_body. BODIES_POINTS is the most patches that one of them has.
+// parts/my-mug.obj is named my_mug_body. BODIES_PATCHES is the most patches that one of them has.
 // Exit status: 0 done, 1 a file was refused, 2 usage.
 #include <ctype.h>
 #include <stdio.h>
@@ -35,7 +35,7 @@ static void write_body(FILE *file, const char *path, const char *name, const nsv
   const unsigned char *bytes = (const unsigned char *)body;
   const unsigned long words = (unsigned long)((facts.size + 7) / 8);
   fprintf(file, "\n// %s: %lu patches, %lu triangles, %lu bytes.\n", path,
-          (unsigned long)facts.points, (unsigned long)facts.triangles, (unsigned long)facts.size);
+          (unsigned long)facts.patches, (unsigned long)facts.triangles, (unsigned long)facts.size);
   fprintf(file, "static const uint64_t %s_body[%lu] = {", name, words);
   for (size_t i = 0; i < facts.size; i += 8) {
     fprintf(file, "%s0x", i % 32 ? " " : "\n    ");
@@ -66,7 +66,7 @@ static int bake(FILE *file, const char *path, const nsvcd_encode_options *option
     return 0;
   }
   write_body(file, path, name, body);
-  const size_t points = nsvcd_body_describe(body).points;
+  const size_t points = nsvcd_body_describe(body).patches;
   if (points > *most)
     *most = points;
   nsvcd_body_free(body, NULL);
@@ -81,7 +81,7 @@ int main(int argc, char **argv) {
   nsvcd_encode_options options = {0};
   options.no_latents = strcmp(argv[1], "proof") == 0;
   options.no_triangles = strcmp(argv[1], "network") == 0;
-  options.points = (size_t)strtoul(argv[2], NULL, 10);
+  options.patches = (size_t)strtoul(argv[2], NULL, 10);
   FILE *file = fopen(argv[3], "w");
   if (!file) {
     fprintf(stderr, "bake: %s: cannot be written\n", argv[3]);
@@ -94,7 +94,7 @@ int main(int argc, char **argv) {
   for (int i = 4; i < argc && good; i++) {
     good = bake(file, argv[i], &options, &most);
   }
-  fprintf(file, "\n#define BODIES_POINTS %lu\n", (unsigned long)most);
+  fprintf(file, "\n#define BODIES_PATCHES %lu\n", (unsigned long)most);
   if (fclose(file) != 0)
     good = 0;
   if (!good)

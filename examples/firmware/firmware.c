@@ -8,7 +8,7 @@
 #include "../../neuralsvcd.h"
 
 #include "board.h"
-#include "bodies.h"  // mug_body, dish_rack_body and BODIES_POINTS, by bake.c
+#include "bodies.h"  // mug_body, dish_rack_body and BODIES_PATCHES, by bake.c
 
 #define QUESTIONS 32
 #define POSES 4      // of a motion, at most
@@ -16,9 +16,10 @@
 #define PAIRS NSVCD_DEFAULT_PAIRS
 
 #ifdef NSVCD_NO_PROOF
-#define WORKSPACE_BYTES NSVCD_NETWORK_WORKSPACE_BYTES(BODIES_POINTS, BODIES_POINTS, SEGMENTS, PAIRS)
+#define WORKSPACE_BYTES \
+  NSVCD_NETWORK_WORKSPACE_BYTES(BODIES_PATCHES, BODIES_PATCHES, SEGMENTS, PAIRS)
 #else  // enough for the network, too, which needs less
-#define WORKSPACE_BYTES NSVCD_PROOF_WORKSPACE_BYTES(BODIES_POINTS, BODIES_POINTS, SEGMENTS)
+#define WORKSPACE_BYTES NSVCD_PROOF_WORKSPACE_BYTES(BODIES_PATCHES, BODIES_PATCHES, SEGMENTS)
 #endif
 static NSVCD_MEMORY(workspace, WORKSPACE_BYTES);
 

@@ -589,7 +589,7 @@ static void run_ours(table *t, const problem_set *set, const char *method,
   void *workspace = allocate(workspace_size);
   for (size_t k = 0; k < setting_count; k++) {
     row *r = new_row(t, method);
-    name_setting(&settings[k], encode->points, r->setting, sizeof r->setting);
+    name_setting(&settings[k], encode->patches, r->setting, sizeof r->setting);
     r->bytes = s.bytes;
     r->prepare = s.encode_ms;
   }
@@ -627,7 +627,7 @@ static void run_proof(table *t, const problem_set *set, const size_t *all_points
   memset(&settings, 0, sizeof settings);
   settings.method = NSVCD_METHOD_PROOF;
   for (size_t i = 0; i < count; i++) {
-    const nsvcd_encode_options encode = {.points = all_points[i]};
+    const nsvcd_encode_options encode = {.patches = all_points[i]};
     run_ours(t, set, "proof", &encode, &settings, 1);
   }
 }
@@ -635,9 +635,9 @@ static void run_proof(table *t, const problem_set *set, const size_t *all_points
 // Few methods in one run, for ratios: the hierarchy, the network's default, the proof.
 static void run_race(table *t, const problem_set *set) {
   static const query_setting settings[3] = {{16, 0}, {32, 0}, {64, 0}};
-  static const size_t points[] = {NSVCD_DEFAULT_POINTS};
+  static const size_t points[] = {NSVCD_DEFAULT_PATCHES};
   const preparation how = {0, 0};
-  const nsvcd_encode_options encode = {.points = NSVCD_DEFAULT_NETWORK_POINTS, .no_triangles = 1};
+  const nsvcd_encode_options encode = {.patches = NSVCD_DEFAULT_NETWORK_PATCHES, .no_triangles = 1};
   nsvcd_sweep_options network;
   memset(&network, 0, sizeof network);
   run_discrete(t, set, &full_mesh_method, &how, "", settings, 3);
@@ -673,7 +673,7 @@ static void run_all_neural(table *t, const problem_set *set, int quick) {
   for (size_t i = 0; i < sizeof all_points / sizeof all_points[0]; i++) {
     if (set->extreme && all_points[i] != 128 && all_points[i] != 512)
       continue;
-    const nsvcd_encode_options encode = {.points = all_points[i], .no_triangles = 1};
+    const nsvcd_encode_options encode = {.patches = all_points[i], .no_triangles = 1};
     run_ours(t, set, "NeuralSVCD", &encode, settings, count);
   }
 }
@@ -707,7 +707,7 @@ static void swept_box(const problem_set *set, size_t f, const problem *p, float 
 // What a scene requires: of the fixed mesh only the part that the moving body can reach, cut out
 // for each problem.
 static void run_neural_cut(table *t, const problem_set *set) {
-  const size_t size = nsvcd_body_size(NSVCD_DEFAULT_NETWORK_POINTS);
+  const size_t size = nsvcd_body_size(NSVCD_DEFAULT_NETWORK_PATCHES);
   const size_t workspace_size = nsvcd_sweep_workspace_size(NULL);
   double *times = (double *)allocate(set->problems * sizeof *times);
   void *memory[2];
@@ -716,7 +716,7 @@ static void run_neural_cut(table *t, const problem_set *set) {
   memory[1] = allocate(size);
   row *r = new_row(t, "NeuralSVCD");
   snprintf(r->setting, sizeof r->setting, "N %d, K %d, base, fixed mesh cut to the sweep",
-           NSVCD_DEFAULT_NETWORK_POINTS, NSVCD_DEFAULT_PAIRS);
+           NSVCD_DEFAULT_NETWORK_PATCHES, NSVCD_DEFAULT_PAIRS);
   for (size_t i = 0; i < set->problems; i++) {
     size_t f;
     const problem *p = get_problem(set, i, &f);
@@ -854,7 +854,7 @@ static int usage(void) {
 }
 
 int main(int argc, char **argv) {
-  static const size_t proof_points[] = {64, 128, NSVCD_DEFAULT_POINTS, 256, 512};
+  static const size_t proof_points[] = {64, 128, NSVCD_DEFAULT_PATCHES, 256, 512};
   int quick = 0;
   int race = 0;
   int i = 1;

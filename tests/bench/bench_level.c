@@ -137,8 +137,8 @@ int main(int argc, char **argv) {
   options.no_latents = !network;
   options.latents = network;
   if (argc > 3)
-    options.points = strtoul(argv[3], NULL, 10);
-  if (options.points == 0)
+    options.patches = strtoul(argv[3], NULL, 10);
+  if (options.patches == 0)
     options.patch_radius = triangles > NSVCD_MANY_TRIANGLES ? 0 : RADIUS;
   setvbuf(stdout, NULL, _IOLBF, 0);
   level_make_bodies(bodies);
@@ -157,7 +157,7 @@ int main(int argc, char **argv) {
       "%zu triangles, N = %zu: encoded in %.0f ms, at most %.0f bytes a triangle at a time; body "
       "%.1f MB, %.1f bytes a "
       "triangle; quantum %.1f um\n",
-      level.mesh.triangle_count, facts.points, 1e3 * took, per * (double)h.most,
+      level.mesh.triangle_count, facts.patches, 1e3 * took, per * (double)h.most,
       1e-6 * (double)facts.size, per * (double)facts.size, 1e6 * (double)facts.quantum);
 
   const size_t size = nsvcd_sweep_workspace_size(NULL);

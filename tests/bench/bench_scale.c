@@ -94,7 +94,7 @@ static row measure(kind kind, size_t triangles, size_t points, const level_solid
   const nsvcd_allocator allocator = {heap_alloc, heap_free, &h};
   nsvcd_encode_options options;
   memset(&options, 0, sizeof options);
-  options.points = points;
+  options.patches = points;
   options.no_latents = 1;
   if (kind == LEVEL && triangles <= NSVCD_MANY_TRIANGLES)
     options.patch_radius = 0.15f;
@@ -107,7 +107,7 @@ static row measure(kind kind, size_t triangles, size_t points, const level_solid
   const nsvcd_body_facts facts = nsvcd_body_describe(solid.body);
   out.kind = kind;
   out.triangles = solid.mesh.triangle_count;
-  out.points = facts.points;
+  out.points = facts.patches;
   out.bytes = facts.size;
   out.peak = h.most;
   out.query = mean_query(mover, &solid, kind != THING);

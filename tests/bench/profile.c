@@ -110,7 +110,7 @@ static int compare_doubles(const void *a, const void *b) {
 static const nsvcd_body *encode(const char *from, const char *path, size_t points, void *memory) {
   char full[4096];
   const char *slash = strrchr(from, '/');
-  nsvcd_encode_options options = {.points = points, .no_triangles = 1};
+  nsvcd_encode_options options = {.patches = points, .no_triangles = 1};
   nsvcd_mesh mesh;
   const nsvcd_body *body = NULL;
   snprintf(full, sizeof full, "%.*s%s", slash ? (int)(slash - from) + 1 : 0, from, path);
@@ -321,7 +321,7 @@ static void profile_proof(const problem_file *file, size_t points) {
   size_t size = 1;
   memset(sums, 0, sizeof sums);
   for (size_t i = 0; i < file->mesh_count; i++) {
-    const nsvcd_encode_options options = {.points = points};
+    const nsvcd_encode_options options = {.patches = points};
     char path[4096];
     nsvcd_mesh mesh;
     snprintf(path, sizeof path, "%.*s%s", slash ? (int)(slash - file->path) + 1 : 0, file->path,
@@ -410,7 +410,7 @@ static void time_preparation(void) {
          mesh.triangle_count, megabytes, megabytes / parse);
   for (size_t points = 128; points <= 512; points *= 4) {
     void *memory = allocate(nsvcd_body_size(points));
-    nsvcd_encode_options options = {.points = points, .no_triangles = 1};
+    nsvcd_encode_options options = {.patches = points, .no_triangles = 1};
     double least = 1e9;
     for (int run = 0; run < 5; run++) {
       const double start = seconds();
@@ -444,11 +444,11 @@ int main(int argc, char **argv) {
   }
   time_preparation();
   if (argc == 2)
-    profile(&file, NSVCD_DEFAULT_NETWORK_POINTS);
-  profile_proof(&file, NSVCD_DEFAULT_POINTS);
+    profile(&file, NSVCD_DEFAULT_NETWORK_PATCHES);
+  profile_proof(&file, NSVCD_DEFAULT_PATCHES);
   for (int i = 2; i < argc; i++) {
     size_t points;
-    if (!parse_count(argv[i], 1, NSVCD_MAX_POINTS, &points))
+    if (!parse_count(argv[i], 1, NSVCD_MAX_PATCHES, &points))
       return complain("%s: no N", argv[i]), USAGE;
     profile(&file, points);
   }
