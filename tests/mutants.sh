@@ -29,7 +29,7 @@ chords off the axis|nsvcd__v_add(axis_bulge, axis_turn)|axis_turn
 lanes without bulge|return nsvcd__v_fma(turn, nsvcd__v_set(reach), nsvcd__v_min(by_axis, by_way));|return nsvcd__v_fma(turn, nsvcd__v_set(0 * reach), nsvcd__v_min(by_axis, by_way));
 lanes without drift|return nsvcd__v_fma(turn, nsvcd__v_set(reach), nsvcd__v_min(by_axis, by_way));|return nsvcd__v_mul(turn, nsvcd__v_set(reach));
 disc without across|nsvcd__v_mul(disc->across, across);|nsvcd__v_mul(nsvcd__v_set(0), across);
-group of eight|for (size_t i = first; i < first + NSVCD__GROUP \&\& i < f->body->points; i++) {\n    const nsvcd__vertices|for (size_t i = first; i < first + 8 \&\& i < f->body->points; i++) {\n    const nsvcd__vertices
+group of eight|for (size_t i = first; i < first + NSVCD__GROUP \&\& i < f->body->patches; i++) {\n    const nsvcd__vertices|for (size_t i = first; i < first + 8 \&\& i < f->body->patches; i++) {\n    const nsvcd__vertices
 group's disc at the start only|nsvcd__v3_add(at_start, nsvcd__vmat3_apply_transpose(turn, n));|at_start;
 held plane without deviation|lowest - slack - nsvcd__deviation(span, p->held, reach);|lowest - slack - 0 * reach;
 held plane without slack|highest + p->fixed.slacks[j] * nsvcd__f3_length(p->held);|highest;
