@@ -635,7 +635,7 @@ NSVCDDEF nsvcd_result nsvcd_sweep(const nsvcd_question *question, void *workspac
 
 // Workspaces as constants, for arrays of a fixed size, a little larger than need be. Where one
 // workspace is for both methods, take the larger.
-//   points_a, points_b   patches of the bodies, or more
+//   patches_a, patches_b patches of the bodies, or more
 //   segments             options.segments, 16 to 64
 //   pairs                options.pairs, K
 // NSVCD_MEMORY declares an array that is aligned:
