@@ -7969,7 +7969,8 @@ static nsvcd__world_pose nsvcd__track_pose_at(const nsvcd__track *track, float t
   const size_t last = track->count - 2;
   const float at = t * (float)(last + 1);
   const size_t k = (size_t)at < last ? (size_t)at : last;
-  return nsvcd__world_pose_between(&track->poses[k], &track->poses[k + 1], (double)(at - (float)k));
+  const double share = (double)(at - (float)k);
+  return nsvcd__world_pose_between(&track->poses[k], &track->poses[k + 1], share);
 }
 
 // The moving body in the fixed body's frame at time t, clamped to [0,1]; its points are to be
@@ -8209,7 +8210,8 @@ static uint64_t *nsvcd__nearby(const nsvcd__search *search, size_t g) {
 // thousandth for the lengths. chord2: its square.
 static nsvcd__v nsvcd__v_arc_bound(nsvcd__v chord2) {
   const nsvcd__v x = nsvcd__v_scale(nsvcd__v_sqrt(chord2), 0.50025f);
-  return nsvcd__v_mul(x, nsvcd__v_fma(nsvcd__v_set(2.2832f), nsvcd__v_mul(x, x), nsvcd__v_set(4)));
+  const nsvcd__v square = nsvcd__v_mul(x, x);
+  return nsvcd__v_mul(x, nsvcd__v_fma(nsvcd__v_set(2.2832f), square, nsvcd__v_set(4)));
 }
 
 // The vector part of b a^-1, of two quaternions: the axis of the turn from a to b, times the sine
@@ -8461,7 +8463,8 @@ static void nsvcd__cut_double_arc(const nsvcd__motion *motion, const nsvcd__v_po
   const nsvcd__v way = nsvcd__v3_length(nsvcd__v3_sub(to->offset, from->offset));
   const nsvcd__v both = nsvcd__v_fma(fixed_turn, remote, nsvcd__v_add(way, way));
   const nsvcd__v metres = nsvcd__v_mul(nsvcd__v_mul(fixed_turn, both), eighth);
-  nsvcd__v_keep_most(cut->most.arc_drift + l, nsvcd__v_div(metres, nsvcd__v_set(motion->unit)));
+  const nsvcd__v drift = nsvcd__v_div(metres, nsvcd__v_set(motion->unit));
+  nsvcd__v_keep_most(cut->most.arc_drift + l, drift);
   nsvcd__v_add_to(cut->most.sum + l, fixed_turn);
 }
 
@@ -8544,7 +8547,8 @@ static void nsvcd__cut_deviations(const nsvcd__motion *motion, float lengths, si
   const nsvcd__v off_chord = nsvcd__v_sqrt(nsvcd__v_load(most->spread + l));
   const nsvcd__v drift = nsvcd__v_add(off_chord, nsvcd__v_load(most->arc_drift + l));
   const nsvcd__v arc_bulge = nsvcd__v_mul(scale, nsvcd__v_load(most->arc_bulge + l));
-  const nsvcd__v bulge = nsvcd__v_add(arc_bulge, nsvcd__v_sqrt(nsvcd__v_load(most->bulge + l)));
+  const nsvcd__v knot_bulge = nsvcd__v_sqrt(nsvcd__v_load(most->bulge + l));
+  const nsvcd__v bulge = nsvcd__v_add(arc_bulge, knot_bulge);
   nsvcd__v bulge_along_axis = bulge;
   nsvcd__v drift_along_axis = drift;
   nsvcd__v drift_off_way = drift;
@@ -9745,8 +9749,10 @@ static void nsvcd__leg_init(const nsvcd__track *track, uint32_t first, uint32_t 
   const double sign = nsvcd__poses_opposed(a, b) ? -1 : 1;
   leg->start = nsvcd__unit_rotation(a);
   leg->end = nsvcd__dquat_scale(nsvcd__unit_rotation(b), sign);
-  const double apart = nsvcd__dquat_square(nsvcd__dquat_add_scaled(leg->start, -1, leg->end));
-  const double together = nsvcd__dquat_square(nsvcd__dquat_add_scaled(leg->start, 1, leg->end));
+  const nsvcd__dquat difference = nsvcd__dquat_add_scaled(leg->start, -1, leg->end);
+  const double apart = nsvcd__dquat_square(difference);
+  const nsvcd__dquat sum = nsvcd__dquat_add_scaled(leg->start, 1, leg->end);
+  const double together = nsvcd__dquat_square(sum);
   leg->half_angle = 2 * atan2(sqrt(apart), sqrt(together));
 }
 
@@ -9930,7 +9936,8 @@ static nsvcd__span nsvcd__span_of_arc(nsvcd__proof *p, uint32_t first, double u0
   nsvcd__span span;
   span.start = nsvcd__transform_of(&start);
   span.end = nsvcd__transform_of(&end);
-  const float remote = nsvcd__f3_length(span.start.position) + nsvcd__f3_length(span.end.position);
+  const float remote_start = nsvcd__f3_length(span.start.position);
+  const float remote = remote_start + nsvcd__f3_length(span.end.position);
   span.bulge = (float)(square * arc->bulge);
   span.drift = (float)(square * arc->drift * 1.000001);
   span.rounding = NSVCD__ROUNDING * (remote + p->lengths);
@@ -10442,7 +10449,8 @@ NSVCD__INLINE nsvcd__support nsvcd__support_along(nsvcd__proof *p, nsvcd__f3 nor
     const nsvcd__v3 n = nsvcd__v3_set(normal);
     const nsvcd__v at_start = nsvcd__v3_dot(n, nsvcd__v3_load(p->hull_start, l));
     const nsvcd__v at_end = nsvcd__v3_dot(n, nsvcd__v3_load(p->hull_end, l));
-    const nsvcd__v at_rest = nsvcd__v_negate(nsvcd__v3_dot(n, nsvcd__v3_load(p->hull_rest, l)));
+    const nsvcd__v rests = nsvcd__v3_dot(n, nsvcd__v3_load(p->hull_rest, l));
+    const nsvcd__v at_rest = nsvcd__v_negate(rests);
     const nsvcd__v at_either = nsvcd__v_min(at_start, at_end);
     nsvcd__v_store(either + l, at_either);
     nsvcd__v_store(rest + l, at_rest);
@@ -11036,7 +11044,8 @@ static void nsvcd__block_load(const nsvcd__facets *f, size_t patch, size_t first
       integers.y = nsvcd__v_load_int16(places[1] + l);
       integers.z = nsvcd__v_load_int16(places[2] + l);
       const nsvcd__v step = nsvcd__v_set(f->steps[patch]);
-      nsvcd__v3_store(out->corners[k], l, nsvcd__v3_fma(step, integers, nsvcd__v3_set(centre)));
+      const nsvcd__v3 corner = nsvcd__v3_fma(step, integers, nsvcd__v3_set(centre));
+      nsvcd__v3_store(out->corners[k], l, corner);
     }
   }
   NSVCD__EACH_SLICE(l) {
@@ -11077,7 +11086,10 @@ static void nsvcd__block_box(nsvcd__proof *p, size_t ends) {
 // The least of 16 numbers, and the greatest.
 static float nsvcd__least_lane(const float *lanes) {
   float least = HUGE_VALF;
-  NSVCD__EACH_SLICE(l) least = nsvcd__least_of(least, nsvcd__v_least(nsvcd__v_load(lanes + l)));
+  NSVCD__EACH_SLICE(l) {
+    const float of_slice = nsvcd__v_least(nsvcd__v_load(lanes + l));
+    least = nsvcd__least_of(least, of_slice);
+  }
   return least;
 }
 static float nsvcd__greatest_lane(const float *lanes) {
@@ -11193,11 +11205,13 @@ NSVCD__INLINE nsvcd__v3 nsvcd__normal_to_try(nsvcd__proof *p, size_t l, nsvcd__b
   const size_t fixed_edge = k == 0 ? 0 : (k - 2) % 3;
   const size_t moving_edge = k == 0 ? 0 : (k - 2) / 3;
   const nsvcd__v3 b = nsvcd__v3_load(fixed->corners[fixed_edge], s);
-  const nsvcd__v3 edge = nsvcd__v3_sub(nsvcd__v3_load(fixed->corners[(fixed_edge + 1) % 3], s), b);
+  const nsvcd__v3 next = nsvcd__v3_load(fixed->corners[(fixed_edge + 1) % 3], s);
+  const nsvcd__v3 edge = nsvcd__v3_sub(next, b);
   if (k == 0)
     return nsvcd__v3_cross(edge, nsvcd__v3_sub(nsvcd__v3_load(fixed->corners[2], s), b));
   const nsvcd__f3 a = nsvcd__lane_of(p->posed[0][moving_edge], l);
-  const nsvcd__f3 other = nsvcd__f3_sub(nsvcd__lane_of(p->posed[0][(moving_edge + 1) % 3], l), a);
+  const nsvcd__f3 after = nsvcd__lane_of(p->posed[0][(moving_edge + 1) % 3], l);
+  const nsvcd__f3 other = nsvcd__f3_sub(after, a);
   return nsvcd__v3_cross(nsvcd__v3_set(other), edge);
 }
 
@@ -11858,7 +11872,8 @@ static uint32_t nsvcd__spheres_on_ray(const nsvcd_body *b, const nsvcd__ray *ray
     const nsvcd__v3 d = nsvcd__v3_sub(centre, nsvcd__v3_set(from));
     const nsvcd__v3 off = nsvcd__v3_cross(d, n);
     const nsvcd__v reach = nsvcd__v_plus(nsvcd__v_load(all.r + l), rounding);
-    const uint32_t near_line = nsvcd__v_le(nsvcd__v3_dot(off, off), nsvcd__v_signed_square(reach));
+    const nsvcd__v square = nsvcd__v3_dot(off, off);
+    const uint32_t near_line = nsvcd__v_le(square, nsvcd__v_signed_square(reach));
     met |= (near_line & nsvcd__v_le(nsvcd__v_negate(reach), nsvcd__v3_dot(d, n))) << l;
   }
   return met;
@@ -12082,7 +12097,8 @@ static int nsvcd__sticks_out(const nsvcd__facets *inner, const nsvcd__transform 
     NSVCD__EACH_SLICE(l) {
       const nsvcd__v3 own =
           nsvcd__v3_of(nsvcd__v_load(x + l), nsvcd__v_load(y + l), nsvcd__v_load(z + l));
-      const nsvcd__v3 d = nsvcd__v3_sub(nsvcd__v3_transform(start, own), nsvcd__v3_set(centre));
+      const nsvcd__v3 posed = nsvcd__v3_transform(start, own);
+      const nsvcd__v3 d = nsvcd__v3_sub(posed, nsvcd__v3_set(centre));
       const nsvcd__v radius = nsvcd__v_set(outer->radius + rounding);
       const nsvcd__v limit = nsvcd__v_fma(nsvcd__v_set(scale), nsvcd__v_load(r + l), radius);
       out |= nsvcd__v_lt(nsvcd__v_mul(limit, limit), nsvcd__v3_dot(d, d)) << l;
@@ -12272,7 +12288,8 @@ static void nsvcd__collect_items(nsvcd__proof *p, const nsvcd__search *search, s
     NSVCD__TALLY(tests, 1);
     if (!met)
       continue;
-    met = nsvcd__discs_meet(p, c, g, j, nsvcd__segment_span(p, search, s), search->remote, met);
+    const nsvcd__span *span = nsvcd__segment_span(p, search, s);
+    met = nsvcd__discs_meet(p, c, g, j, span, search->remote, met);
     for (; met; met &= met - 1) {
       const size_t l = nsvcd__lowest_bit(met);
       const size_t i = NSVCD__GROUP * g + l;
@@ -12722,7 +12739,8 @@ static nsvcd__sphere nsvcd__cover_places(float (*places)[NSVCD__PLACES]) {
     low = nsvcd__f3_min(low, place);
     high = nsvcd__f3_max(high, place);
   }
-  const nsvcd__f3 centre = nsvcd__f3_add(nsvcd__f3_scale(low, 0.5f), nsvcd__f3_scale(high, 0.5f));
+  const nsvcd__f3 half_low = nsvcd__f3_scale(low, 0.5f);
+  const nsvcd__f3 centre = nsvcd__f3_add(half_low, nsvcd__f3_scale(high, 0.5f));
   const nsvcd__sphere out = {centre, nsvcd__f3_length(nsvcd__f3_sub(high, centre))};
   return out;
 }
@@ -15767,7 +15785,8 @@ static void nsvcd__add_wrench(const nsvcd_body_pair *pair, const nsvcd_pose *pos
   const nsvcd__mat3 axes = nsvcd__mat3_of(nsvcd__quat_load(b->rotation));
   const nsvcd__f3 force = nsvcd__mat3_apply(&axes, seen.force);
   const nsvcd__f3 torque = nsvcd__mat3_apply(&axes, seen.torque);
-  const nsvcd__f3 arm = nsvcd__f3_sub(nsvcd__f3_load(a->position), nsvcd__f3_load(b->position));
+  const nsvcd__f3 from = nsvcd__f3_load(b->position);
+  const nsvcd__f3 arm = nsvcd__f3_sub(nsvcd__f3_load(a->position), from);
   const nsvcd__f3 back = nsvcd__f3_add(torque, nsvcd__f3_cross(arm, force));
   const nsvcd__wrench on_a = nsvcd__wrench_of(force, torque);
   const nsvcd__wrench on_b = nsvcd__wrench_of(force, back);
