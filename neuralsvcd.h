@@ -5927,15 +5927,6 @@ static size_t nsvcd__body_groups(const nsvcd_body *body) {
 static const float *nsvcd__body_floats(const nsvcd_body *body, size_t first) {
   return (const float *)(body + 1) + first;
 }
-static const float *nsvcd__body_x(const nsvcd_body *body) {
-  return nsvcd__body_floats(body, 0);
-}
-static const float *nsvcd__body_y(const nsvcd_body *body) {
-  return nsvcd__body_floats(body, body->padded);
-}
-static const float *nsvcd__body_z(const nsvcd_body *body) {
-  return nsvcd__body_floats(body, 2 * body->padded);
-}
 static const float *nsvcd__body_r(const nsvcd_body *body) {
   return nsvcd__body_floats(body, 3 * body->padded);
 }
@@ -6455,7 +6446,7 @@ static int nsvcd__spheres_fit(const nsvcd_body *body, float scale) {
   if ((double)body->radius < least)
     return 0;
   for (size_t i = 0; i < 3 * (size_t)body->padded; i++) {
-    if (fabs((double)nsvcd__body_x(body)[i]) > most)
+    if (fabs((double)nsvcd__body_patches(body).x[i]) > most)
       return 0;
   }
   // Twice the extent is over every radius and centre of a group.
@@ -7880,7 +7871,7 @@ static int nsvcd__motion_is_far(const nsvcd__motion *motion, float distance) {
 }
 
 // Is the shorter arc from a to b the one to -b?
-static int nsvcd__poses_opposed(const nsvcd_pose *a, const nsvcd_pose *b) {
+static inline int nsvcd__poses_opposed(const nsvcd_pose *a, const nsvcd_pose *b) {
   return nsvcd__quats_opposed(nsvcd__quat_load(a->rotation), nsvcd__quat_load(b->rotation));
 }
 
@@ -12086,21 +12077,18 @@ static int nsvcd__is_enclosed(nsvcd__proof *p, const nsvcd__facets *f, double un
 static int nsvcd__sticks_out(const nsvcd__facets *inner, const nsvcd__transform *start, float scale,
                              const nsvcd_body *outer) {
   const nsvcd_body *b = inner->body;
-  const nsvcd__f3 centre = nsvcd__f3_of(outer->centre[0], outer->centre[1], outer->centre[2]);
+  const nsvcd__v3 centre = nsvcd__v3_set(nsvcd__f3_load(outer->centre));
   const float rounding = 4 * NSVCD__ROUNDING * (scale * b->extent + outer->extent);
+  const nsvcd__v radius = nsvcd__v_set(outer->radius + rounding);
   for (size_t first = 0; first < b->padded; first += NSVCD__LANES) {
-    const float *x = nsvcd__body_x(b) + first;
-    const float *y = nsvcd__body_y(b) + first;
-    const float *z = nsvcd__body_z(b) + first;
-    const float *r = nsvcd__body_r(b) + first;
+    const nsvcd__spheres patches = nsvcd__spheres_from(nsvcd__body_patches(b), first);
     uint32_t out = 0;
     NSVCD__EACH_SLICE(l) {
-      const nsvcd__v3 own =
-          nsvcd__v3_of(nsvcd__v_load(x + l), nsvcd__v_load(y + l), nsvcd__v_load(z + l));
+      const nsvcd__v3 own = nsvcd__v3_centres(patches, l);
       const nsvcd__v3 posed = nsvcd__v3_transform(start, own);
-      const nsvcd__v3 d = nsvcd__v3_sub(posed, nsvcd__v3_set(centre));
-      const nsvcd__v radius = nsvcd__v_set(outer->radius + rounding);
-      const nsvcd__v limit = nsvcd__v_fma(nsvcd__v_set(scale), nsvcd__v_load(r + l), radius);
+      const nsvcd__v3 d = nsvcd__v3_sub(posed, centre);
+      const nsvcd__v own_radius = nsvcd__v_load(patches.r + l);
+      const nsvcd__v limit = nsvcd__v_fma(nsvcd__v_set(scale), own_radius, radius);
       out |= nsvcd__v_lt(nsvcd__v_mul(limit, limit), nsvcd__v3_dot(d, d)) << l;
     }
     for (; out; out &= out - 1) {

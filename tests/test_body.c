@@ -27,8 +27,8 @@ static void body_round_trip(void) {
     for (size_t i = 0; i < points; i++) {
       want += (double)(centres[3 * i] * areas[3 * i + 2] * radii[i]) *
               latents[NSVCD__LATENT * (i + 1) - 1];
-      got += (double)(nsvcd__body_x(body)[i] * nsvcd__body_areas(body)[2 * body->padded + i] *
-                      nsvcd__body_r(body)[i]) *
+      got += (double)(nsvcd__body_patches(body).x[i] *
+                      nsvcd__body_areas(body)[2 * body->padded + i] * nsvcd__body_r(body)[i]) *
              nsvcd__body_latents(body)[NSVCD__LATENT * (i + 1) - 1];
     }
     CHECK_NEAR(want, got, 1e-9 * (fabs(want) + 1));
@@ -52,9 +52,12 @@ static void body_order(void) {
     size_t groups = nsvcd__body_groups(body);
     for (size_t g = 0; g < groups; g++) {
       for (size_t i = NSVCD__GROUP * g; i < NSVCD__GROUP * (g + 1) && i < points; i++) {
-        double dx = (double)nsvcd__body_x(body)[i] - (double)nsvcd__group_spheres(body).x[g];
-        double dy = (double)nsvcd__body_y(body)[i] - (double)nsvcd__group_spheres(body).y[g];
-        double dz = (double)nsvcd__body_z(body)[i] - (double)nsvcd__group_spheres(body).z[g];
+        double dx =
+            (double)nsvcd__body_patches(body).x[i] - (double)nsvcd__group_spheres(body).x[g];
+        double dy =
+            (double)nsvcd__body_patches(body).y[i] - (double)nsvcd__group_spheres(body).y[g];
+        double dz =
+            (double)nsvcd__body_patches(body).z[i] - (double)nsvcd__group_spheres(body).z[g];
         double far = sqrt(dx * dx + dy * dy + dz * dz) + (double)nsvcd__body_r(body)[i];
         CHECK_LE(far, nsvcd__group_spheres(body).r[g]);
       }
@@ -150,7 +153,8 @@ static void body_scale(void) {
     CHECK_EQ(nsvcd_body_scale(body, scales[n], memory, blob_capacity, &scaled), NSVCD_OK);
     CHECK_EQ(nsvcd_body_load(memory, body_bytes(body), &loaded), NSVCD_OK);
     for (size_t i = 0; i < 77; i++) {
-      CHECK_NEAR(nsvcd__body_z(scaled)[i], s * (double)nsvcd__body_z(body)[i], 1e-6 * s);
+      CHECK_NEAR(nsvcd__body_patches(scaled).z[i], s * (double)nsvcd__body_patches(body).z[i],
+                 1e-6 * s);
       CHECK_NEAR(nsvcd__body_r(scaled)[i], s * (double)nsvcd__body_r(body)[i], 1e-6 * s);
       CHECK_NEAR(nsvcd__body_areas(scaled)[i], s * s * (double)nsvcd__body_areas(body)[i],
                  1e-6 * s * s);

@@ -102,15 +102,16 @@ static void try_motion(const nsvcd_body *moving, const nsvcd_body *fixed, size_t
         n % 3 || count == 1 ? uniform(0, 1) : (double)pick(0, count - 1) / (double)(count - 1);
     pose64 at = pose_at(poses, count, t);
     for (size_t i = 0; i < moving->patches; i++) {
-      double c[3] = {(double)nsvcd__body_x(moving)[i], (double)nsvcd__body_y(moving)[i],
-                     (double)nsvcd__body_z(moving)[i]};
+      double c[3] = {(double)nsvcd__body_patches(moving).x[i],
+                     (double)nsvcd__body_patches(moving).y[i],
+                     (double)nsvcd__body_patches(moving).z[i]};
       double p[3];
       double ri = (double)nsvcd__body_r(moving)[i];
       place64(&at, &f, c, p);
       for (size_t j = 0; j < fixed->patches; j++) {
-        double d[3] = {p[0] - (double)nsvcd__body_x(fixed)[j],
-                       p[1] - (double)nsvcd__body_y(fixed)[j],
-                       p[2] - (double)nsvcd__body_z(fixed)[j]};
+        double d[3] = {p[0] - (double)nsvcd__body_patches(fixed).x[j],
+                       p[1] - (double)nsvcd__body_patches(fixed).y[j],
+                       p[2] - (double)nsvcd__body_patches(fixed).z[j]};
         double r = ri + (double)nsvcd__body_r(fixed)[j];
         if (d[0] * d[0] + d[1] * d[1] + d[2] * d[2] > r * r)
           continue;

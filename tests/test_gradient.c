@@ -322,10 +322,11 @@ static int without_lean(scene *s, shapes_rng *rng, size_t n) {
     const nsvcd_body *from = pool[1][shapes_pick(rng, POOL)];
     const nsvcd__f3 none = {0, 0, 0};
     const uint16_t first = 0;
-    nsvcd__f3 centre = {0, 0, 0};
+    float at[3] = {0, 0, 0};
     float radius = 0;
     int8_t latent[NSVCD__LATENT];
-    CHECK(nsvcd_body_patch(from, 0, &centre.x, &radius));
+    CHECK(nsvcd_body_patch(from, 0, at, &radius));
+    const nsvcd__f3 centre = nsvcd__f3_load(at);
     memcpy(latent, nsvcd__body_latents(from), sizeof latent);
     for (size_t i = 0; i < 3; i++)
       latent[NSVCD_W_CHANNELS * i] = 0;

@@ -446,9 +446,9 @@ static void level_balls_cover(void) {
       place[k] = t->v[0][k] + u * (t->v[1][k] - t->v[0][k]) + v * (t->v[2][k] - t->v[0][k]);
     int covered = 0;
     for (size_t i = 0; i < body->patches && !covered; i++) {
-      const double d[3] = {(double)nsvcd__body_x(body)[i] - place[0],
-                           (double)nsvcd__body_y(body)[i] - place[1],
-                           (double)nsvcd__body_z(body)[i] - place[2]};
+      const double d[3] = {(double)nsvcd__body_patches(body).x[i] - place[0],
+                           (double)nsvcd__body_patches(body).y[i] - place[1],
+                           (double)nsvcd__body_patches(body).z[i] - place[2]};
       covered = oracle_length(d) <= (double)nsvcd__body_r(body)[i];
     }
     CHECK(covered);
@@ -481,9 +481,9 @@ static void level_winding_numbers_are_those_of_the_patches(void) {
       double least = (double)(NSVCD__AMPLE * NSVCD__AMPLE);
       double w = 0;
       for (size_t i = 0; i < body->patches; i++) {
-        const double d[3] = {(double)(nsvcd__body_x(body)[i] - place[0]),
-                             (double)(nsvcd__body_y(body)[i] - place[1]),
-                             (double)(nsvcd__body_z(body)[i] - place[2])};
+        const double d[3] = {(double)(nsvcd__body_patches(body).x[i] - place[0]),
+                             (double)(nsvcd__body_patches(body).y[i] - place[1]),
+                             (double)(nsvcd__body_patches(body).z[i] - place[2])};
         const double length = oracle_length(d);
         const double r = (double)nsvcd__body_r(body)[i];
         least = fmin(least, length * length / (r * r));
