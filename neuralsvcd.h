@@ -14257,9 +14257,12 @@ static nsvcd_status nsvcd__status_of(nsvcd__verdict verdict) {
       return NSVCD_STATUS_INSIDE;
     case NSVCD__FREE:
       return NSVCD_STATUS_CERTIFIED_FREE;
-    default:
-      return NSVCD_STATUS_UNDECIDED;
+    case NSVCD__UNDECIDED:
+    case NSVCD__TOO_LONG:
+    case NSVCD__TAKEN:
+      break;
   }
+  return NSVCD_STATUS_UNDECIDED;
 }
 
 // Proves a question whose motion has been prepared, if it can; else the answer is UNDECIDED and
@@ -14894,7 +14897,7 @@ static nsvcd__wrench nsvcd__wrench_of(nsvcd__f3 force, nsvcd__f3 torque) {
 static inline nsvcd__wrench nsvcd__wrench_load(const float *row) {
   return nsvcd__wrench_of(nsvcd__f3_load(row), nsvcd__f3_load(row + 3));
 }
-static nsvcd__wrench nsvcd__wrench_scale(nsvcd__wrench by, float s) {
+static inline nsvcd__wrench nsvcd__wrench_scale(nsvcd__wrench by, float s) {
   return nsvcd__wrench_of(nsvcd__f3_scale(by.force, s), nsvcd__f3_scale(by.torque, s));
 }
 // row (6) += by.
