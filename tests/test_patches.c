@@ -100,6 +100,7 @@ static void mesh_samples_lie_mid_stratum(void) {
 // Samples without a mesh: (n, 3) random points, some of them equal.
 static nsvcd__patches patches_of_points(size_t centres, size_t samples) {
   nsvcd__patches p;
+  memset(&p, 0, sizeof p);
   CHECK(nsvcd__patches_alloc(&p, centres, samples, NULL));
   for (size_t s = 0; s < samples; ++s) {
     p.drawn[s].x = (float)mesh_below(40);
@@ -174,6 +175,7 @@ static void mesh_patches_are_round(void) {
   for (int n = 0; n < 4; ++n) {
     nsvcd_mesh mesh = mesh_kind(2);
     nsvcd__patches p;
+    memset(&p, 0, sizeof p);
     double samples = 0;
     double balls = 0;
     CHECK_EQ(nsvcd__patches_build(&mesh, counts[n], NULL, &p), NSVCD_OK);
@@ -209,6 +211,7 @@ static void mesh_patches_cover_the_surface(void) {
     for (int n = 0; n < 5; ++n) {
       nsvcd_mesh mesh = mesh_kind(kind);
       nsvcd__patches p;
+      memset(&p, 0, sizeof p);
       CHECK_EQ(nsvcd__patches_build(&mesh, counts[n], NULL, &p), NSVCD_OK);
       CHECK(p.count >= 1 && p.count <= counts[n]);
       for (size_t s = 0; s < 6000; ++s) {  // corners, edges and insides of triangles
@@ -242,6 +245,7 @@ static void mesh_patches_are_consistent(void) {
   for (int kind = 0; kind < MESH_KINDS; ++kind) {
     nsvcd_mesh mesh = mesh_kind(kind);
     nsvcd__patches p;
+    memset(&p, 0, sizeof p);
     CHECK_EQ(nsvcd__patches_build(&mesh, 100, NULL, &p), NSVCD_OK);
     CHECK_EQ(p.sample_count, 3200);
     CHECK_EQ(p.offsets[0], 0);
@@ -294,6 +298,7 @@ static void mesh_nearest_centre_is_nearest(void) {
   for (int kind = 0; kind < MESH_KINDS; ++kind) {
     nsvcd_mesh mesh = mesh_kind(kind);
     nsvcd__patches p;
+    memset(&p, 0, sizeof p);
     CHECK_EQ(nsvcd__patches_build(&mesh, kind % 2 ? 300 : 12, NULL, &p), NSVCD_OK);
     for (int i = 0; i < 3000; ++i) {
       const float *from = &p.samples[mesh_below(p.sample_count)].x;
@@ -395,6 +400,7 @@ static void mesh_patches_edge_cases(void) {
 static void mesh_patches_of_slivers(void) {
   nsvcd_mesh mesh = mesh_fan(200000, 100, 0.1);
   nsvcd__patches p;
+  memset(&p, 0, sizeof p);
   CHECK_EQ(nsvcd__patches_build(&mesh, 256, NULL, &p), NSVCD_OK);
   printf("%d slivers, %d pieces\n", (int)mesh.triangle_count, (int)p.piece_count);
   CHECK_LE(p.piece_count, mesh.triangle_count + NSVCD__PIECES_PER_SAMPLE * p.sample_count);
