@@ -55,7 +55,7 @@ rays past half the groups|while (!*unclear \&\& nsvcd__walk_next(\&walk, \&g)) {
 block's boxes at the start only|nsvcd__block_box(p, 2);|nsvcd__block_box(p, 1);
 last triangle skipped|size_t patience) {\n  const size_t moving_end = p->moving.first_triangle[i + 1];|size_t patience) {\n  const size_t moving_end = p->moving.first_triangle[i + 1] - 1;
 containment one way|if (outer->open)\n    return 0;\n  if (e->inner->components|if (outer->open + !e->inner_moves)\n    return 0;\n  if (e->inner->components
-first arc only|at < end \&\& (double)at < p->end;) {|at < end \&\& at == work->begin[item->segment];) {
+first arc only|at < end \&\& (double)at < p->end;) {|at < end \&\& at == search->begin[item->segment];) {
 a segment dropped|        p->met = nsvcd__group_against_members(search, h, wanted, p->met_in);\n|        p->met = nsvcd__group_against_members(search, h, wanted, p->met_in);\n        for (size_t l = 0; l < NSVCD__GROUP; l++) {\n          if (p->met_in[l] \& (p->met_in[l] - 1)) p->met_in[l] \&= p->met_in[l] - 1;\n        }\n
 a full buffer forgotten|        if (p->met_in[l])\n          return 1;\n|
 passing not seen|      if (settled == NSVCD__MEETS)\n        return settled;\n|
