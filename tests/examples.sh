@@ -107,7 +107,7 @@ cat >"$dir/baked.c" <<END
 int main(void) {
   const nsvcd_body *body;
   if (nsvcd_body_load(_9_mug_2_body, sizeof _9_mug_2_body, &body) != NSVCD_OK) return 1;
-  return nsvcd_body_describe(body).points != 40;
+  return nsvcd_body_describe(body).patches != 40;
 }
 END
 cp "$dir/baked.c" "$dir/baked.cc"
