@@ -149,6 +149,7 @@
 //   chord             of a point: the straight line from its start to its end in a segment
 //   deviation         how far a point may stray from its chord: by bulge (rotation) and drift
 //   candidate         two patches and a contact interval, in which their balls meet
+//   pair              two patches, as the decoder sees them
 //   ranker            the tiny decoder, which chooses the candidates that the chosen one sees
 //   item              two patches that the proof has yet to part in a segment
 //   couple            two listed triangles, one of each body
@@ -3275,7 +3276,7 @@ typedef struct nsvcd__edge_squares {
   double ab, bc, ca;
 } nsvcd__edge_squares;
 
-static nsvcd__edge_squares nsvcd__squares_of(const nsvcd__triangle *t) {
+static inline nsvcd__edge_squares nsvcd__squares_of(const nsvcd__triangle *t) {
   nsvcd__edge_squares out;
   out.ab = nsvcd__d3_gap(t->a, t->b);
   out.bc = nsvcd__d3_gap(t->b, t->c);
@@ -5515,21 +5516,27 @@ typedef struct nsvcd__f5 {
   float v[5];
 } nsvcd__f5;
 
-static nsvcd__f5 nsvcd__f5_scale(nsvcd__f5 a, float s) {
-  for (size_t k = 0; k < 5; k++)
-    a.v[k] = s * a.v[k];
-  return a;
+// Written out, for compilers that leave a loop over five in memory.
+static inline nsvcd__f5 nsvcd__f5_scale(nsvcd__f5 a, float s) {
+  const float *v = a.v;
+  const nsvcd__f5 out = {{s * v[0], s * v[1], s * v[2], s * v[3], s * v[4]}};
+  return out;
 }
-static nsvcd__f5 nsvcd__f5_add(nsvcd__f5 a, nsvcd__f5 b) {
-  for (size_t k = 0; k < 5; k++)
-    a.v[k] += b.v[k];
-  return a;
+static inline nsvcd__f5 nsvcd__f5_add(nsvcd__f5 a, nsvcd__f5 b) {
+  nsvcd__f5 out;
+  out.v[0] = a.v[0] + b.v[0];
+  out.v[1] = a.v[1] + b.v[1];
+  out.v[2] = a.v[2] + b.v[2];
+  out.v[3] = a.v[3] + b.v[3];
+  out.v[4] = a.v[4] + b.v[4];
+  return out;
 }
-static float nsvcd__f5_dot(nsvcd__f5 a, nsvcd__f5 b) {
+static inline float nsvcd__f5_dot(nsvcd__f5 a, nsvcd__f5 b) {
   float sum = a.v[0] * b.v[0];
-  for (size_t k = 1; k < 5; k++)
-    sum += a.v[k] * b.v[k];
-  return sum;
+  sum += a.v[1] * b.v[1];
+  sum += a.v[2] * b.v[2];
+  sum += a.v[3] * b.v[3];
+  return sum + a.v[4] * b.v[4];
 }
 
 // The symmetric traceless part of a b^T, scaled so that the square of a vector has its squared
