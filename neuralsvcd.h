@@ -1734,21 +1734,6 @@ static inline nsvcd__v nsvcd__v_load_int16(const int16_t *p) {
 #define NSVCD__SLICE_MASK (((uint32_t)1 << (NSVCD__SLICE - 1) << 1) - 1)
 #define NSVCD__EACH_SLICE(l) for (size_t l = 0; l < NSVCD__LANES; l += NSVCD__SLICE)
 
-// x y + z w + ... as the sweep and the decoder need them. a, b: three vectors each.
-static inline nsvcd__v nsvcd__v_dot3(const nsvcd__v *a, const nsvcd__v *b) {
-  return nsvcd__v_fma(a[0], b[0], nsvcd__v_fma(a[1], b[1], nsvcd__v_mul(a[2], b[2])));
-}
-static inline nsvcd__v nsvcd__v_length3(const nsvcd__v *a) {
-  return nsvcd__v_sqrt(nsvcd__v_dot3(a, a));
-}
-// may not alias
-static inline void nsvcd__v_cross(const nsvcd__v *a, const nsvcd__v *b, nsvcd__v *out) {
-  for (size_t k = 0; k < 3; k++) {
-    const size_t i = (k + 1) % 3;
-    const size_t j = (k + 2) % 3;
-    out[k] = nsvcd__v_sub(nsvcd__v_mul(a[i], b[j]), nsvcd__v_mul(a[j], b[i]));
-  }
-}
 static inline nsvcd__v nsvcd__v_clamp(nsvcd__v a, float low, float high) {
   return nsvcd__v_min(nsvcd__v_max(a, nsvcd__v_set(low)), nsvcd__v_set(high));
 }
@@ -5477,6 +5462,13 @@ typedef struct nsvcd__encoder_layer {
   size_t inputs, outputs;
 } nsvcd__encoder_layer;
 
+// Filled at run time: a table of pointers would be data that a loader writes to.
+static nsvcd__encoder_layer nsvcd__encoder_layer_of(const float *w, const float *bias,
+                                                    size_t inputs, size_t outputs) {
+  const nsvcd__encoder_layer out = {w, bias, inputs, outputs};
+  return out;
+}
+
 // y = w^T x + bias; x (inputs), y (outputs), apart from each other.
 static void nsvcd__linear(nsvcd__encoder_layer layer, const float *x, float *y) {
   const size_t outputs = layer.outputs;
@@ -5634,10 +5626,12 @@ static void nsvcd__gates(const nsvcd__feature *f, const nsvcd__channels *context
     to[3 * NSVCD_W_CONTEXT] = nsvcd__f5_dot(f->qun, c2[c]);
     to[4 * NSVCD_W_CONTEXT] = nsvcd__f5_dot(f->qnn, c2[c]);
   }
-  const nsvcd__encoder_layer first = {nsvcd_w_point0, nsvcd_w_point0_bias, NSVCD__INVARIANTS,
-                                      hidden};
-  const nsvcd__encoder_layer second = {nsvcd_w_point1, nsvcd_w_point1_bias, hidden, hidden};
-  const nsvcd__encoder_layer last = {nsvcd_w_point2, nsvcd_w_point2_bias, hidden, NSVCD__GATES};
+  const nsvcd__encoder_layer first =
+      nsvcd__encoder_layer_of(nsvcd_w_point0, nsvcd_w_point0_bias, NSVCD__INVARIANTS, hidden);
+  const nsvcd__encoder_layer second =
+      nsvcd__encoder_layer_of(nsvcd_w_point1, nsvcd_w_point1_bias, hidden, hidden);
+  const nsvcd__encoder_layer last =
+      nsvcd__encoder_layer_of(nsvcd_w_point2, nsvcd_w_point2_bias, hidden, NSVCD__GATES);
   nsvcd__linear(first, x, h1);
   nsvcd__relu(hidden, h1);
   nsvcd__linear(second, h1, h2);
@@ -5673,8 +5667,10 @@ typedef struct nsvcd__mixer {
 
 // a (WIDE, size) is mixed into HIDDEN channels, gated, and mixed into z (size, CHANNELS).
 static void nsvcd__mix(nsvcd__mixer by, const float *a, float *z) {
-  const nsvcd__encoder_layer mix = {by.mix, NULL, NSVCD__WIDE, NSVCD_W_HIDDEN};
-  const nsvcd__encoder_layer out = {by.out, NULL, NSVCD_W_HIDDEN, NSVCD_W_CHANNELS};
+  const nsvcd__encoder_layer mix =
+      nsvcd__encoder_layer_of(by.mix, NULL, NSVCD__WIDE, NSVCD_W_HIDDEN);
+  const nsvcd__encoder_layer out =
+      nsvcd__encoder_layer_of(by.out, NULL, NSVCD_W_HIDDEN, NSVCD_W_CHANNELS);
   for (size_t k = 0; k < by.size; k++) {
     float x[NSVCD__WIDE], h[NSVCD_W_HIDDEN];
     for (size_t c = 0; c < NSVCD__WIDE; c++)
@@ -5704,8 +5700,10 @@ static void nsvcd__finish_latent(const nsvcd__channels *a, float *latent) {
     x[NSVCD__WIDE + c] = nsvcd__f5_dot(a->degree2[c], a->degree2[c]);
   }
   memcpy(x + 2 * NSVCD__WIDE, a->scalars, sizeof a->scalars);
-  const nsvcd__encoder_layer first = {nsvcd_w_patch0, nsvcd_w_patch0_bias, NSVCD__PATCH_IN, hidden};
-  const nsvcd__encoder_layer last = {nsvcd_w_patch1, nsvcd_w_patch1_bias, hidden, NSVCD__PATCH_OUT};
+  const nsvcd__encoder_layer first =
+      nsvcd__encoder_layer_of(nsvcd_w_patch0, nsvcd_w_patch0_bias, NSVCD__PATCH_IN, hidden);
+  const nsvcd__encoder_layer last =
+      nsvcd__encoder_layer_of(nsvcd_w_patch1, nsvcd_w_patch1_bias, hidden, NSVCD__PATCH_OUT);
   nsvcd__linear(first, x, h);
   nsvcd__relu(hidden, h);
   nsvcd__linear(last, h, y);
