@@ -5,6 +5,7 @@
 check_state check;
 
 void test_results(void);
+void test_math(void);
 void test_mesh(void);
 void test_patches(void);
 void test_surface(void);
@@ -38,6 +39,7 @@ typedef struct test_file {
 static const test_file files[] = {
     // the sections of the header, in its order
     OF(results),
+    OF(math),
     OF(mesh),
     OF(patches),
     OF(surface),
