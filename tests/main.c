@@ -6,6 +6,7 @@ check_state check;
 
 void test_results(void);
 void test_math(void);
+void test_vectors(void);
 void test_mesh(void);
 void test_patches(void);
 void test_surface(void);
@@ -40,6 +41,7 @@ static const test_file files[] = {
     // the sections of the header, in its order
     OF(results),
     OF(math),
+    OF(vectors),
     OF(mesh),
     OF(patches),
     OF(surface),
