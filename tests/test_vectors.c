@@ -77,9 +77,9 @@ static void vectors_compare(const char *name, vectors_lanes *lanes, vectors_one 
     vectors_draw(trial, a, b);
     lanes(a, b, out);
     for (size_t l = 0; l < NSVCD__LANES; l++) {
-#if NSVCD__SLICE == 4 && !defined(__SSE2__)
-      // NEON's least of a number and NaN is NaN
-      if (isnan(a[l]) || isnan(b[l]))
+#if NSVCD__SLICE > 1 && defined(__aarch64__)
+      // with NEON NaN wins, and -0 is less than 0
+      if (isnan(a[l]) || isnan(b[l]) || (a[l] == 0 && b[l] == 0))
         continue;
 #endif
       if (vectors_same(out[l], one(a[l], b[l])))
@@ -135,7 +135,7 @@ static void vectors_fma_rounds_once_or_twice(void) {
   }
   CHECK(once == 0 || twice == 0);
   CHECK_GE(once + twice, 100);
-#if NSVCD__SLICE >= 8 || defined(__aarch64__)
+#if NSVCD__SLICE >= 8 || (NSVCD__SLICE > 1 && defined(__aarch64__))
   CHECK_EQ(twice, 0);
 #endif
 }
