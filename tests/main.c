@@ -9,6 +9,7 @@ void test_math(void);
 void test_vectors(void);
 void test_mesh(void);
 void test_patches(void);
+void test_regions(void);
 void test_surface(void);
 void test_encoder(void);
 void test_latent_rotation(void);
@@ -44,6 +45,7 @@ static const test_file files[] = {
     OF(vectors),
     OF(mesh),
     OF(patches),
+    OF(regions),
     OF(surface),
     OF(encoder),
     OF(latent_rotation),
