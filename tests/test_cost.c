@@ -1,5 +1,6 @@
 // What a query costs: the bound that nsvcd_sweep states, batches, threads, numbers read, and stack.
-// Sections: broad phase, proof, query.
+// Across sections (broad phase, proof, query), and a file of its own: here the header counts what
+// it does (NSVCD__TALLY), and threads ask.
 #define _POSIX_C_SOURCE 200809L
 #define NSVCD_STATIC
 #define NEURALSVCD_IMPLEMENTATION
