@@ -429,7 +429,7 @@ typedef struct nsvcd_body_facts {
   // of the mesh; 0: none are stored
   size_t triangles;
   // triangles and parts of them that are stored, patch by patch
-  size_t listed;
+  size_t listings;
   // metres: stored triangles are within this of the mesh's
   float quantum;
   // 1: the network can answer
@@ -778,12 +778,12 @@ typedef struct nsvcd_plan_problem {
   // joints (F) -> jacobian (B, 6, F): of each body, by a joint, the displacement of its origin and
   // its rotation vector, in the world's axes. NULL: by differences of `place`
   void (*jacobian)(void *user, const float *joints, float *jacobian);
-  // Instead of the network: the cost of collision of poses (samples, B) along the trajectory, which
-  // may end at the first sum above `limit`. Sets *collides if there is a collision. Unless
-  // `gradient` is NULL, adds the cost's derivative to it, (samples, B, 6), as nsvcd_sweep_gradient
-  // has it. NULL: the network
-  float (*collision)(void *user, const nsvcd_pose *poses, size_t samples, float limit,
-                     int *collides, float *gradient);
+  // Instead of the network: the cost of collision of poses (T, B) at T times along the trajectory.
+  // It may end at the first sum above `limit`. Sets *collides if there is a collision. Unless
+  // `gradient` is NULL, adds the cost's derivative to it, (T, B, 6), as nsvcd_sweep_gradient has
+  // it. NULL: the network
+  float (*collision)(void *user, const nsvcd_pose *poses, size_t times, float limit, int *collides,
+                     float *gradient);
   // once in each iteration; not 0 cancels. May be NULL
   int (*progress)(void *user, const nsvcd_plan_progress *progress);
   void *user;
@@ -800,22 +800,25 @@ typedef struct nsvcd_plan_stage {
   size_t segments;
   // at most, up to 100000; NSVCD_NONE: leave the stage out
   size_t iterations;
-  // trajectories in an iteration of MPPI, or gradients in a bundle of L-BFGS; up to 10000
-  size_t samples;
+  // random trajectories in an iteration of MPPI, or gradients in a bundle of L-BFGS; up to 10000
+  size_t draws;
+  // their standard deviation about the trajectory, radians or metres: MPPI's at mid-motion, at
+  // first; of L-BFGS's bundle at all via points. Negative: 0
+  float noise;
 } nsvcd_plan_stage;
 
 // What is zero is the default, which stands last; weights that are negative count as zero. If an
 // exact check finds contacts, raise sweep.recall, `collision` or the bodies' number of patches; if
-// the status is LIMIT, `seeds` or explore.samples. The smoothness counts radians and metres alike:
+// the status is LIMIT, `seeds` or explore.draws. The smoothness counts radians and metres alike:
 // for ways of hundreds of metres, raise `duration` or `collision`.
 typedef struct nsvcd_plan_options {
   // of all random numbers
   uint64_t seed;
   // starts, tried until one ends free, up to 1000; 6
   size_t seeds;
-  // MPPI: 5 via points, 24 segments, 40 iterations, 100 samples
+  // MPPI: 5 via points, 24 segments, 40 iterations, 100 draws, noise 0.3
   nsvcd_plan_stage explore;
-  // L-BFGS: 10, 22, 10, 10
+  // L-BFGS: 10, 22, 10, 10, 0.01
   nsvcd_plan_stage refine;
   // weights of the means of squares over the motion: 10, 2, 10
   float velocity, acceleration, jerk;
@@ -825,10 +828,6 @@ typedef struct nsvcd_plan_options {
   float duration;
   // logits above minus this cost: 2
   float margin;
-  // of MPPI's first random trajectories, radians or metres, at mid-motion: 0.3
-  float spread;
-  // of L-BFGS's gradients: 0.01
-  float bundle;
   // 1: poses instead of sweeps
   int discrete;
   // segments of the last check; 4 times the finest stage's
@@ -889,7 +888,7 @@ NSVCDDEF size_t nsvcd_plan_workspace_size(const nsvcd_plan_problem *problem,
 // motion of each pair as seen from b between the poses of the check's segments, position linear and
 // rotation slerp. Where the proof finds a hit, the refinement goes on from there with twice the
 // margin, three times at most. It ends within seeds * (iterations of MPPI + 4 times those of
-// L-BFGS) iterations, of `samples` trajectories each, and for L-BFGS 5 more.
+// L-BFGS) iterations, of `draws` trajectories each, and for L-BFGS 5 more.
 NSVCDDEF nsvcd_result nsvcd_plan(const nsvcd_plan_problem *problem,
                                  const nsvcd_plan_options *options, void *workspace,
                                  size_t workspace_size, float *control, nsvcd_plan_answer *answer);
@@ -7344,7 +7343,7 @@ NSVCDDEF nsvcd_body_facts nsvcd_body_describe(const nsvcd_body *body) {
   if (triangles) {
     const nsvcd__facets f = nsvcd__facets_of(triangles);
     facts.triangles = triangles->triangles;
-    facts.listed = f.listed;
+    facts.listings = f.listed;
     facts.quantum = nsvcd__widest_quantum(&f);
   }
 #endif
@@ -13926,16 +13925,16 @@ static nsvcd_result nsvcd__settings_of(const nsvcd_sweep_options *options, size_
 }
 
 // Is a part of one body inside of the other at the start?
-static NSVCD__APART int nsvcd__starts_inside(const nsvcd__task *ask) {
-  const nsvcd__transform pose = nsvcd__motion_pose(&ask->motion, 0);
-  return nsvcd__is_contained(ask->moving, ask->fixed, ask->motion.scale, &pose);
+static NSVCD__APART int nsvcd__starts_inside(const nsvcd__task *task) {
+  const nsvcd__transform pose = nsvcd__motion_pose(&task->motion, 0);
+  return nsvcd__is_contained(task->moving, task->fixed, task->motion.scale, &pose);
 }
 
 // Scores candidates that have no score yet, `most` at most: the deeper ones, roughly, because a
 // heap ends with them. Returns 0, and does nothing, if there are fewer than `least`.
-static int nsvcd__score(const nsvcd__task *ask, nsvcd__candidates *kept, size_t least,
+static int nsvcd__score(const nsvcd__task *task, nsvcd__candidates *kept, size_t least,
                         size_t most) {
-  const nsvcd__settings *settings = &ask->settings;
+  const nsvcd__settings *settings = &task->settings;
   nsvcd__candidate *batch[NSVCD__BATCH];
   size_t count = 0;
   size_t left = 0;
@@ -13952,7 +13951,7 @@ static int nsvcd__score(const nsvcd__task *ask, nsvcd__candidates *kept, size_t 
     if (count < NSVCD__BATCH && count < left)
       continue;
     NSVCD__TALLY(ranked, count);
-    nsvcd__decode(ask->moving, ask->fixed, &ask->motion, batch, count, settings->ranker,
+    nsvcd__decode(task->moving, task->fixed, &task->motion, batch, count, settings->ranker,
                   settings->int8);
     left -= count;
     count = 0;
@@ -13976,15 +13975,15 @@ static void nsvcd__best_first(nsvcd__candidate *items, size_t count, size_t of) 
 }
 
 // Answers with a candidate, of which a decoder has given the score.
-static void nsvcd__answer_with(const nsvcd__task *ask, const nsvcd__candidate *candidate,
+static void nsvcd__answer_with(const nsvcd__task *task, const nsvcd__candidate *candidate,
                                const nsvcd__decoder *decoder, nsvcd_answer *answer) {
-  answer->logit = candidate->score - ask->settings.threshold;
+  answer->logit = candidate->score - task->settings.threshold;
   answer->contact_time = candidate->t_least;
   answer->patch_a = candidate->moving;
   answer->patch_b = candidate->fixed;
-  if (ask->decisive) {
-    ask->decisive->candidate = *candidate;
-    ask->decisive->decoder = decoder;
+  if (task->decisive) {
+    task->decisive->candidate = *candidate;
+    task->decisive->decoder = decoder;
   }
 }
 
@@ -13995,23 +13994,23 @@ static int nsvcd__is_harmless(const nsvcd__candidate *candidate, float threshold
 
 // Is the most suspicious of the candidates scored so far clearly a collision, or, where they are
 // all, clearly none? Then that is the answer, and no other decoder needs to look.
-static int nsvcd__is_clear(const nsvcd__task *ask, const nsvcd__candidates *kept, int all,
+static int nsvcd__is_clear(const nsvcd__task *task, const nsvcd__candidates *kept, int all,
                            nsvcd_answer *answer) {
-  const float threshold = ask->settings.threshold;
+  const float threshold = task->settings.threshold;
   const nsvcd__candidate *most = &kept->items[0];
   for (size_t k = 1; k < kept->count; k++)
     most = kept->items[k].score > most->score ? &kept->items[k] : most;
   const int yes = most->score > NSVCD__CLEAR_LOGIT + (threshold > 0 ? threshold : 0);
   const int no = all && nsvcd__is_harmless(most, threshold);
   if (yes || no)
-    nsvcd__answer_with(ask, most, ask->settings.ranker, answer);
+    nsvcd__answer_with(task, most, task->settings.ranker, answer);
   return yes || no;
 }
 
 // The verdict on the K most suspicious of the scored candidates, but for the harmless ones, a
 // portion at a time, until one is clearly positive.
-static void nsvcd__judge(const nsvcd__task *ask, nsvcd__candidates *kept, nsvcd_answer *answer) {
-  const nsvcd__settings *settings = &ask->settings;
+static void nsvcd__judge(const nsvcd__task *task, nsvcd__candidates *kept, nsvcd_answer *answer) {
+  const nsvcd__settings *settings = &task->settings;
   nsvcd__candidate *items = kept->items;
   size_t count = kept->count < settings->pairs ? kept->count : settings->pairs;
   nsvcd__best_first(items, count, kept->count);
@@ -14027,87 +14026,88 @@ static void nsvcd__judge(const nsvcd__task *ask, nsvcd__candidates *kept, nsvcd_
       portion[k] = &items[first + k];
     if (settings->decoder != settings->ranker) {
       NSVCD__TALLY(judged, size);
-      nsvcd__decode(ask->moving, ask->fixed, &ask->motion, portion, size, settings->decoder,
+      nsvcd__decode(task->moving, task->fixed, &task->motion, portion, size, settings->decoder,
                     settings->int8);
     }
     for (size_t k = 0; k < size; k++) {
       const int is_first = first + k == 0;
       if (is_first || portion[k]->score - settings->threshold > answer->logit)
-        nsvcd__answer_with(ask, portion[k], settings->decoder, answer);
+        nsvcd__answer_with(task, portion[k], settings->decoder, answer);
     }
   }
 }
 
 // Does this motion, cut already, clearly collide where the hint says?
-static NSVCD__APART int nsvcd__collides_again(const nsvcd__task *ask, const nsvcd__hint *hint,
+static NSVCD__APART int nsvcd__collides_again(const nsvcd__task *task, const nsvcd__hint *hint,
                                               nsvcd__query *query, nsvcd_answer *answer) {
-  const nsvcd__settings *settings = &ask->settings;
+  const nsvcd__settings *settings = &task->settings;
   nsvcd__candidates kept;
   nsvcd__candidates_start(&kept, query->kept, NSVCD__PORTION);
-  nsvcd__search_patch(&query->broad_phase, ask->moving, hint->moving / NSVCD__GROUP, ask->fixed,
+  nsvcd__search_patch(&query->broad_phase, task->moving, hint->moving / NSVCD__GROUP, task->fixed,
                       hint->fixed, &kept);
-  if (!nsvcd__score(ask, &kept, 1, kept.count))
+  if (!nsvcd__score(task, &kept, 1, kept.count))
     return 0;
   answer->candidates = kept.total;
   answer->status = kept.total > settings->pairs ? NSVCD_STATUS_LIMIT : NSVCD_STATUS_OK;
-  if (nsvcd__is_clear(ask, &kept, 0, answer))
+  if (nsvcd__is_clear(task, &kept, 0, answer))
     return 1;
   if (settings->decoder == settings->ranker)
     return 0;
-  nsvcd__judge(ask, &kept, answer);
+  nsvcd__judge(task, &kept, answer);
   return answer->logit >= NSVCD__CLEAR_LOGIT;
 }
 
 // Searches a motion that has been cut, looking at pairs as they are found, until one is clear or
 // all are known.
-static NSVCD__APART void nsvcd__search_and_judge(nsvcd__task *ask, nsvcd__query *query,
+static NSVCD__APART void nsvcd__search_and_judge(nsvcd__task *task, nsvcd__query *query,
                                                  nsvcd_answer *answer) {
-  const size_t shortlist = ask->settings.shortlist;
+  const size_t shortlist = task->settings.shortlist;
   nsvcd__search *search = &query->broad_phase;
   nsvcd__candidates kept;
   size_t worth = shortlist < NSVCD__FIRST_LOOK ? shortlist : NSVCD__FIRST_LOOK;
   size_t left = NSVCD__LOOKS * shortlist;
   int clear = 0;
-  int more = nsvcd__search_begin(ask->moving, ask->fixed, search);
+  int more = nsvcd__search_begin(task->moving, task->fixed, search);
   nsvcd__candidates_start(&kept, query->kept, shortlist);
   while (more && !clear) {
     more = nsvcd__search_step(search, &kept);
     // A deep collision shows early. What is scored now need not be scored later, so that looking
     // costs little.
-    if (!more || left < worth || !nsvcd__score(ask, &kept, worth, worth))
+    if (!more || left < worth || !nsvcd__score(task, &kept, worth, worth))
       continue;
     left -= worth;
-    clear = nsvcd__is_clear(ask, &kept, 0, answer);
+    clear = nsvcd__is_clear(task, &kept, 0, answer);
     if (worth == NSVCD__FIRST_LOOK)
       worth = NSVCD__BATCH;
   }
 
   answer->candidates = kept.total;
   if (kept.total > 0)
-    answer->status = kept.total > ask->settings.pairs ? NSVCD_STATUS_LIMIT : NSVCD_STATUS_OK;
+    answer->status = kept.total > task->settings.pairs ? NSVCD_STATUS_LIMIT : NSVCD_STATUS_OK;
   if (clear || kept.count == 0)
     return;
-  nsvcd__score(ask, &kept, 1, kept.count);
-  if (!nsvcd__is_clear(ask, &kept, 1, answer))
-    nsvcd__judge(ask, &kept, answer);
+  nsvcd__score(task, &kept, 1, kept.count);
+  if (!nsvcd__is_clear(task, &kept, 1, answer))
+    nsvcd__judge(task, &kept, answer);
 }
 
 // Asks the network about a motion that has been prepared. hint: NULL, or that of a batch.
-static void nsvcd__answer_by_network(nsvcd__task *ask, nsvcd__query *query, nsvcd__hint *hint,
+static void nsvcd__answer_by_network(nsvcd__task *task, nsvcd__query *query, nsvcd__hint *hint,
                                      nsvcd_answer *answer) {
   // checked before
-  (void)nsvcd__settings_of(ask->options, ask->moving->patches, ask->fixed->patches, &ask->settings);
+  (void)nsvcd__settings_of(task->options, task->moving->patches, task->fixed->patches,
+                           &task->settings);
   nsvcd__answer_free(answer);
-  if (nsvcd__motion_is_far(&ask->motion, ask->lengths))
+  if (nsvcd__motion_is_far(&task->motion, task->lengths))
     return;
-  nsvcd__cut_motion(&ask->motion, ask->lengths, &query->broad_phase);
+  nsvcd__cut_motion(&task->motion, task->lengths, &query->broad_phase);
 
   const int hinted = hint && hint->known;
-  if (!hinted || !nsvcd__collides_again(ask, hint, query, answer)) {
+  if (!hinted || !nsvcd__collides_again(task, hint, query, answer)) {
     nsvcd__answer_free(answer);
     if (hinted)
       hint->known = ++hint->misled < NSVCD__MISLEADS;
-    nsvcd__search_and_judge(ask, query, answer);
+    nsvcd__search_and_judge(task, query, answer);
   }
   if (hint && answer->logit >= NSVCD__CLEAR_LOGIT) {
     const nsvcd__hint here = {1, 0, answer->patch_a, answer->patch_b};
@@ -14115,7 +14115,7 @@ static void nsvcd__answer_by_network(nsvcd__task *ask, nsvcd__query *query, nsvc
   }
 
   // a body inside another need not touch anything
-  if (nsvcd__starts_inside(ask)) {
+  if (nsvcd__starts_inside(task)) {
     answer->status = NSVCD_STATUS_INSIDE;
     answer->logit = NSVCD_LOGIT_CERTAIN;
     answer->contact_time = 0;
@@ -14220,19 +14220,19 @@ static NSVCD__APART nsvcd__verdict nsvcd__prove_start(nsvcd__proof *p, nsvcd__se
 }
 
 // Makes the proof ready for a question whose motion has been prepared.
-static void nsvcd__proof_begin(nsvcd__task *ask, nsvcd__query *query) {
+static void nsvcd__proof_begin(nsvcd__task *task, nsvcd__query *query) {
   nsvcd__proof *p = query->proof;
   p->spans = query->spans;
-  p->motion = &ask->motion;
-  p->moving = nsvcd__facets_of(nsvcd__triangles_of(ask->moving));
-  p->fixed = nsvcd__facets_of(nsvcd__triangles_of(ask->fixed));
-  p->lengths = ask->motion.scale * p->moving.body->extent + p->fixed.body->extent;
-  p->tolerance = (double)ask->tolerance;
-  p->clearance = (double)ask->clearance;
-  p->measure = (double)ask->measure;
-  p->first = (double)ask->first;
-  p->limit = ask->work;
-  p->skin = (double)ask->skin;
+  p->motion = &task->motion;
+  p->moving = nsvcd__facets_of(nsvcd__triangles_of(task->moving));
+  p->fixed = nsvcd__facets_of(nsvcd__triangles_of(task->fixed));
+  p->lengths = task->motion.scale * p->moving.body->extent + p->fixed.body->extent;
+  p->tolerance = (double)task->tolerance;
+  p->clearance = (double)task->clearance;
+  p->measure = (double)task->measure;
+  p->first = (double)task->first;
+  p->limit = task->work;
+  p->skin = (double)task->skin;
   p->gathers = 0;
   p->work = 0;
   nsvcd__proof_restart(p);
@@ -14272,10 +14272,10 @@ static nsvcd_status nsvcd__status_of(nsvcd__verdict verdict) {
 
 // Proves a question whose motion has been prepared, if it can; else the answer is UNDECIDED and
 // says yes.
-static void nsvcd__answer_by_proof(nsvcd__task *ask, nsvcd__query *query, nsvcd_answer *answer) {
+static void nsvcd__answer_by_proof(nsvcd__task *task, nsvcd__query *query, nsvcd_answer *answer) {
   nsvcd__proof *p = query->proof;
   nsvcd__search *search = &query->broad_phase;
-  nsvcd__proof_begin(ask, query);
+  nsvcd__proof_begin(task, query);
   if (p->skin > 0)
     nsvcd__lift_motion(p, search);
   nsvcd__verdict verdict = nsvcd__prove(p, search);
@@ -14288,7 +14288,7 @@ static void nsvcd__answer_by_proof(nsvcd__task *ask, nsvcd__query *query, nsvcd_
     nsvcd__answer_with_contact(p, answer);
   nsvcd__answer_with_bounds(p, verdict, answer);
   if (p->measure > 0 && verdict != NSVCD__WITHIN && verdict != NSVCD__UNDECIDED)
-    verdict = nsvcd__verdict_of_distance(p, (double)ask->clearance);
+    verdict = nsvcd__verdict_of_distance(p, (double)task->clearance);
   nsvcd__f3_store(nsvcd__lift_of(p), answer->lift);
   answer->status = nsvcd__status_of(verdict);
   answer->collides = verdict != NSVCD__FREE;
@@ -14404,25 +14404,25 @@ static int nsvcd__is_swapped(const nsvcd_mover *a, const nsvcd_mover *b) {
 }
 
 // The task of a question that is in order.
-static void nsvcd__task_of(const nsvcd_question *question, nsvcd__task *ask) {
+static void nsvcd__task_of(const nsvcd_question *question, nsvcd__task *task) {
   const nsvcd_sweep_options *options = &question->options;
-  ask->swapped = nsvcd__is_swapped(&question->a, &question->b);
-  const nsvcd_mover *moving = ask->swapped ? &question->b : &question->a;
-  const nsvcd_mover *fixed = ask->swapped ? &question->a : &question->b;
-  nsvcd__motion_init(moving, fixed, &ask->motion);
-  ask->moving = moving->body;
-  ask->fixed = fixed->body;
-  ask->lengths = ask->motion.scale * ask->moving->extent + ask->fixed->extent;
-  ask->work = options->work ? options->work : NSVCD_DEFAULT_WORK;
-  ask->tolerance = options->tolerance / ask->motion.unit;
-  ask->clearance = options->clearance / ask->motion.unit;
-  ask->measure = options->measure / ask->motion.unit;
-  ask->skin = options->skin / ask->motion.unit;
-  ask->first = options->first;
-  ask->method = nsvcd__method_of(ask->moving, ask->fixed, options->method);
-  ask->options = options;
+  task->swapped = nsvcd__is_swapped(&question->a, &question->b);
+  const nsvcd_mover *moving = task->swapped ? &question->b : &question->a;
+  const nsvcd_mover *fixed = task->swapped ? &question->a : &question->b;
+  nsvcd__motion_init(moving, fixed, &task->motion);
+  task->moving = moving->body;
+  task->fixed = fixed->body;
+  task->lengths = task->motion.scale * task->moving->extent + task->fixed->extent;
+  task->work = options->work ? options->work : NSVCD_DEFAULT_WORK;
+  task->tolerance = options->tolerance / task->motion.unit;
+  task->clearance = options->clearance / task->motion.unit;
+  task->measure = options->measure / task->motion.unit;
+  task->skin = options->skin / task->motion.unit;
+  task->first = options->first;
+  task->method = nsvcd__method_of(task->moving, task->fixed, options->method);
+  task->options = options;
 #ifndef NSVCD_NO_NETWORK
-  ask->decisive = NULL;
+  task->decisive = NULL;
 #endif
 }
 
@@ -14506,14 +14506,14 @@ static void nsvcd__turn_answer(nsvcd_answer *answer) {
 
 #if !defined(NSVCD_NO_PROOF) && !defined(NSVCD_NO_NETWORK)
 // Adds the network's opinion, where it has one, to what a proof has left undecided.
-static void nsvcd__add_opinion(nsvcd__task *ask, nsvcd__query *query, nsvcd_answer *answer) {
-  const nsvcd_sweep_options *options = ask->options;
-  if (!ask->moving->weights_id || !ask->fixed->weights_id)
+static void nsvcd__add_opinion(nsvcd__task *task, nsvcd__query *query, nsvcd_answer *answer) {
+  const nsvcd_sweep_options *options = task->options;
+  if (!task->moving->weights_id || !task->fixed->weights_id)
     return;
   if (options->clearance > 0 || options->measure > 0 || options->skin > 0)
     return;
   const nsvcd_answer proof = *answer;
-  nsvcd__answer_by_network(ask, query, NULL, answer);
+  nsvcd__answer_by_network(task, query, NULL, answer);
   answer->status = NSVCD_STATUS_UNDECIDED;
   answer->work = proof.work;
   answer->free_until = proof.free_until;
@@ -14524,22 +14524,22 @@ static void nsvcd__add_opinion(nsvcd__task *ask, nsvcd__query *query, nsvcd_answ
 
 // Answers a question that has been checked and laid out. hint: NULL, or that of a batch, for the
 // network.
-static void nsvcd__answer_task(nsvcd__task *ask, nsvcd__query *query, nsvcd__hint *hint,
+static void nsvcd__answer_task(nsvcd__task *task, nsvcd__query *query, nsvcd__hint *hint,
                                nsvcd_answer *answer) {
 #ifndef NSVCD_NO_PROOF
-  if (ask->method == NSVCD_METHOD_PROOF)
-    nsvcd__answer_by_proof(ask, query, answer);
+  if (task->method == NSVCD_METHOD_PROOF)
+    nsvcd__answer_by_proof(task, query, answer);
 #endif
 #if !defined(NSVCD_NO_PROOF) && !defined(NSVCD_NO_NETWORK)
-  if (ask->method == NSVCD_METHOD_PROOF && answer->status == NSVCD_STATUS_UNDECIDED)
-    nsvcd__add_opinion(ask, query, answer);
+  if (task->method == NSVCD_METHOD_PROOF && answer->status == NSVCD_STATUS_UNDECIDED)
+    nsvcd__add_opinion(task, query, answer);
 #endif
 #ifndef NSVCD_NO_NETWORK
-  if (ask->method == NSVCD_METHOD_NETWORK)
-    nsvcd__answer_by_network(ask, query, hint, answer);
+  if (task->method == NSVCD_METHOD_NETWORK)
+    nsvcd__answer_by_network(task, query, hint, answer);
 #endif
   (void)hint;
-  if (ask->swapped)
+  if (task->swapped)
     nsvcd__turn_answer(answer);
 }
 
@@ -14571,13 +14571,13 @@ NSVCDDEF nsvcd_result nsvcd_sweep_batch(const nsvcd_question *questions, size_t 
   int swapped = 0;
   for (size_t k = 0; k < count; k++) {
     nsvcd__query *query = nsvcd__query_open(&questions[k], workspace);
-    nsvcd__task *ask = &query->task;
+    nsvcd__task *task = &query->task;
     // The hint is about patches of the moving body and of the fixed one.
     const int same = k > 0 && nsvcd__same_bodies(&questions[k], &questions[k - 1]);
-    if (!same || ask->swapped != swapped)
+    if (!same || task->swapped != swapped)
       hint = none;
-    swapped = ask->swapped;
-    nsvcd__answer_task(ask, query, &hint, &answers[k]);
+    swapped = task->swapped;
+    nsvcd__answer_task(task, query, &hint, &answers[k]);
   }
   return NSVCD_OK;
 }
@@ -15022,12 +15022,12 @@ typedef struct nsvcd__instants {
 } nsvcd__instants;
 
 // The instants of a candidate. time: of the segments' ends.
-static void nsvcd__instants_of(const nsvcd__task *ask, const nsvcd__candidate *candidate,
+static void nsvcd__instants_of(const nsvcd__task *task, const nsvcd__candidate *candidate,
                                const float *time, nsvcd__instants *at) {
   const float t0 = candidate->t_enter;
   const float t1 = candidate->t_exit;
-  const nsvcd__motion *motion = &ask->motion;
-  const nsvcd__f3 own = nsvcd__centre_of(nsvcd__body_patches(ask->moving), candidate->moving);
+  const nsvcd__motion *motion = &task->motion;
+  const nsvcd__f3 own = nsvcd__centre_of(nsvcd__body_patches(task->moving), candidate->moving);
   const nsvcd__v3 centre = nsvcd__v3_set(nsvcd__f3_scale(own, motion->scale));
   size_t a = 0;
   size_t b = 0;
@@ -15063,19 +15063,19 @@ static void nsvcd__instants_of(const nsvcd__task *ask, const nsvcd__candidate *c
 
 // From a force on the patch's centre at instant l, and a torque on the body. Returns the derivative
 // by the time.
-static float nsvcd__by_instant(const nsvcd__task *ask, const nsvcd__instants *at, size_t l,
+static float nsvcd__by_instant(const nsvcd__task *task, const nsvcd__instants *at, size_t l,
                                nsvcd__f3 force, nsvcd__f3 torque,
                                const nsvcd__gradients *gradients) {
   const nsvcd__f3 lever = nsvcd__f3_cross(at->arm[l], force);
   const nsvcd__wrench by = nsvcd__wrench_of(force, nsvcd__f3_add(torque, lever));
-  return nsvcd__by_motion(&ask->motion, at->t[l], by, gradients);
+  return nsvcd__by_motion(&task->motion, at->t[l], by, gradients);
 }
 
 // The adjoint of the time at which the balls meet (AT_ENTRY) or part (AT_EXIT): y = x0 + tau x - c,
 // from the chord x of the segment, is as long as the sum of the radii; so y.(dy + x dtau) = 0.
 // Balls that only graze (y across x) do so for a time whose derivative has no limit: it is bounded
 // where float32 has no digits left.
-static void nsvcd__by_contact(const nsvcd__task *ask, const nsvcd__instants *at, size_t l,
+static void nsvcd__by_contact(const nsvcd__task *task, const nsvcd__instants *at, size_t l,
                               nsvcd__f3 centre, float by_time, const nsvcd__gradients *gradients) {
   const nsvcd__f3 none = {0, 0, 0};
   const size_t s = l == NSVCD__AT_ENTRY ? NSVCD__ENTRY_BEGIN : NSVCD__EXIT_BEGIN;
@@ -15092,8 +15092,8 @@ static void nsvcd__by_contact(const nsvcd__task *ask, const nsvcd__instants *at,
   const float rate = along * by_time / (dot > least ? dot : least);
   const nsvcd__f3 before = nsvcd__f3_scale(y, (1 - tau) * rate);
   const nsvcd__f3 after = nsvcd__f3_scale(y, tau * rate);
-  nsvcd__by_instant(ask, at, s, before, none, gradients);
-  nsvcd__by_instant(ask, at, s + 1, after, none, gradients);
+  nsvcd__by_instant(task, at, s, before, none, gradients);
+  nsvcd__by_instant(task, at, s + 1, after, none, gradients);
 }
 
 // From the derivative by w, half the rotation vector of R1 R0^-1, to those by small rotations of R0
@@ -15109,7 +15109,7 @@ static void nsvcd__by_half_rotation(nsvcd__f3 w, nsvcd__f3 by, nsvcd__f3 *by0, n
 
 // The derivative of the decisive logit by the poses, added to the gradients. time: of the segments'
 // ends.
-static void nsvcd__gradient(const nsvcd__task *ask, const nsvcd__decisive *decisive,
+static void nsvcd__gradient(const nsvcd__task *task, const nsvcd__decisive *decisive,
                             const float *time, const nsvcd__gradients *gradients) {
   nsvcd__candidate candidate = decisive->candidate;
   nsvcd__candidate *one = &candidate;
@@ -15118,11 +15118,11 @@ static void nsvcd__gradient(const nsvcd__task *ask, const nsvcd__decisive *decis
   nsvcd__instants at;
   float x[NSVCD__DECODER_IN];
   float by_x[NSVCD__DECODER_IN];
-  nsvcd__pairs_of(ask->moving, ask->fixed, &ask->motion, &one, 1, &pairs);
+  nsvcd__pairs_of(task->moving, task->fixed, &task->motion, &one, 1, &pairs);
   nsvcd__invariants(&pairs, 1, x);
   nsvcd__decoder_gradient(decisive->decoder, x, by_x);
   nsvcd__by_invariants(&pairs, x, by_x, &by);
-  nsvcd__instants_of(ask, &candidate, time, &at);
+  nsvcd__instants_of(task, &candidate, time, &at);
 
   // The adjoint of nsvcd__pairs_of. v = w x arm + (x1 - x0) / 2, where arm goes from the moving
   // centre half way to the other.
@@ -15139,15 +15139,15 @@ static void nsvcd__gradient(const nsvcd__task *ask, const nsvcd__decisive *decis
   nsvcd__by_half_rotation(w, by.w, &enter_torque, &leave_torque);
 
   const float by_middle =
-      nsvcd__by_instant(ask, &at, NSVCD__AT_MIDDLE, by.p1, by.rotation, gradients);
+      nsvcd__by_instant(task, &at, NSVCD__AT_MIDDLE, by.p1, by.rotation, gradients);
   float by_enter = 0.5f * by_middle;
   float by_exit = 0.5f * by_middle;
-  by_enter += nsvcd__by_instant(ask, &at, NSVCD__AT_ENTRY, enter, enter_torque, gradients);
-  by_exit += nsvcd__by_instant(ask, &at, NSVCD__AT_EXIT, leave, leave_torque, gradients);
+  by_enter += nsvcd__by_instant(task, &at, NSVCD__AT_ENTRY, enter, enter_torque, gradients);
+  by_exit += nsvcd__by_instant(task, &at, NSVCD__AT_EXIT, leave, leave_torque, gradients);
   if (at.enters)
-    nsvcd__by_contact(ask, &at, NSVCD__AT_ENTRY, centre, by_enter, gradients);
+    nsvcd__by_contact(task, &at, NSVCD__AT_ENTRY, centre, by_enter, gradients);
   if (at.leaves)
-    nsvcd__by_contact(ask, &at, NSVCD__AT_EXIT, centre, by_exit, gradients);
+    nsvcd__by_contact(task, &at, NSVCD__AT_EXIT, centre, by_exit, gradients);
 }
 
 NSVCDDEF nsvcd_result nsvcd_sweep_gradient(const nsvcd_question *question, void *workspace,
@@ -15164,19 +15164,19 @@ NSVCDDEF nsvcd_result nsvcd_sweep_gradient(const nsvcd_question *question, void 
     return result;
 
   nsvcd__query *query = nsvcd__query_open(&by_network, workspace);
-  nsvcd__task *ask = &query->task;
+  nsvcd__task *task = &query->task;
   nsvcd__decisive decisive;
-  ask->decisive = &decisive;
-  nsvcd__answer_task(ask, query, NULL, answer);
+  task->decisive = &decisive;
+  nsvcd__answer_task(task, query, NULL, answer);
   nsvcd__gradients out;
-  out.moving = ask->swapped ? gradient_b : gradient_a;
-  out.fixed = ask->swapped ? gradient_a : gradient_b;
+  out.moving = task->swapped ? gradient_b : gradient_a;
+  out.fixed = task->swapped ? gradient_a : gradient_b;
   if (out.moving)
-    memset(out.moving, 0, 6 * ask->motion.moving.count * sizeof(float));
+    memset(out.moving, 0, 6 * task->motion.moving.count * sizeof(float));
   if (out.fixed)
-    memset(out.fixed, 0, 6 * ask->motion.fixed.count * sizeof(float));
+    memset(out.fixed, 0, 6 * task->motion.fixed.count * sizeof(float));
   if (answer->status == NSVCD_STATUS_OK || answer->status == NSVCD_STATUS_LIMIT)
-    nsvcd__gradient(ask, &decisive, query->broad_phase.time, &out);
+    nsvcd__gradient(task, &decisive, query->broad_phase.time, &out);
   return NSVCD_OK;
 }
 #endif  // NSVCD_NO_GRADIENT
@@ -15357,6 +15357,7 @@ typedef struct nsvcd__stage {
   size_t via, moments;  // M; segments + 1
   size_t iterations;
   size_t draws;      // rollouts of an iteration, or gradients in a bundle
+  float noise;       // their standard deviation, radians or metres
   double *form;      // (M + 2, M + 2): smoothness
   double *factor;    // (M, M): Cholesky's, of the rows and columns of the via points
   double deviation;  // of factor^-T times normal numbers: the greatest of a via point
@@ -15413,6 +15414,11 @@ static int nsvcd__is_free(const nsvcd__cost *cost) {
 
 // ---- memory
 
+// A weight: the default where 0 is given, 0 where it is negative.
+static float nsvcd__weight_of(float given, float otherwise) {
+  return given > 0 ? given : given < 0 ? 0 : otherwise;
+}
+
 // A stage of what the caller gave, and the defaults where that is 0. Returns 0 for what cannot be.
 static int nsvcd__stage_of(const nsvcd_plan_stage *given, nsvcd_plan_stage defaults,
                            nsvcd__stage *stage) {
@@ -15422,15 +15428,11 @@ static int nsvcd__stage_of(const nsvcd_plan_stage *given, nsvcd_plan_stage defau
   stage->iterations = given->iterations ? given->iterations : defaults.iterations;
   if (given->iterations == NSVCD_NONE)
     stage->iterations = 0;
-  stage->draws = given->samples ? given->samples : defaults.samples;
+  stage->draws = given->draws ? given->draws : defaults.draws;
+  stage->noise = nsvcd__weight_of(given->noise, defaults.noise);
   if (stage->via > NSVCD_MAX_VIA_POINTS || segments > NSVCD_MAX_PLAN_SEGMENTS)
     return 0;
   return stage->draws <= 10000 && stage->iterations <= 100000;
-}
-
-// A weight: the default where 0 is given, 0 where it is negative.
-static float nsvcd__weight_of(float given, float otherwise) {
-  return given > 0 ? given : given < 0 ? 0 : otherwise;
 }
 
 // Is the problem one that can be stated?
@@ -15456,8 +15458,9 @@ static int nsvcd__problem_is_whole(const nsvcd_plan_problem *problem) {
 
 // Are the options' numbers finite, and those of the queries in order?
 static int nsvcd__plan_options_are_valid(const nsvcd_plan_options *o) {
-  const float floats[9] = {o->velocity, o->acceleration, o->jerk,   o->collision,   o->duration,
-                           o->margin,   o->spread,       o->bundle, o->sweep.recall};
+  const float floats[9] = {o->velocity,      o->acceleration, o->jerk,
+                           o->collision,     o->duration,     o->margin,
+                           o->explore.noise, o->refine.noise, o->sweep.recall};
   for (size_t k = 0; k < 9; k++) {
     if (!nsvcd__is_finite(floats[k]))
       return 0;
@@ -15469,9 +15472,9 @@ static int nsvcd__plan_options_are_valid(const nsvcd_plan_options *o) {
 // Fills in the defaults. Returns 0 for what cannot be.
 static int nsvcd__planner_settings(const nsvcd_plan_problem *problem,
                                    const nsvcd_plan_options *options, nsvcd__planner *p) {
-  // via points, segments, iterations, draws
-  static const nsvcd_plan_stage explore = {5, 24, 40, 100};
-  static const nsvcd_plan_stage refine = {10, 22, 10, 10};
+  // via points, segments, iterations, draws, noise
+  static const nsvcd_plan_stage explore = {5, 24, 40, 100, 0.3f};
+  static const nsvcd_plan_stage refine = {10, 22, 10, 10, 0.01f};
   memset(p, 0, sizeof *p);
   if (!nsvcd__problem_is_whole(problem))
     return 0;
@@ -15498,8 +15501,6 @@ static int nsvcd__planner_settings(const nsvcd_plan_problem *problem,
   o->collision = nsvcd__weight_of(o->collision, 20);
   o->duration = o->duration > 0 ? o->duration : 20;
   o->margin = nsvcd__weight_of(o->margin, 2);
-  o->spread = nsvcd__weight_of(o->spread, 0.3f);
-  o->bundle = nsvcd__weight_of(o->bundle, 0.01f);
 
   p->check = p->refine;
   const int explores_finer = p->explore.moments > p->refine.moments;
@@ -16232,7 +16233,7 @@ static float nsvcd__kth_cost(const float *costs, size_t count, size_t k) {
 static void nsvcd__first_deviations(const nsvcd__planner *p, float *deviations) {
   for (size_t j = 0; j < p->problem->joints; j++) {
     const float quarter = 0.25f * (p->problem->high[j] - p->problem->low[j]);
-    deviations[j] = p->options.spread < quarter ? p->options.spread : quarter;
+    deviations[j] = p->explore.noise < quarter ? p->explore.noise : quarter;
   }
 }
 
@@ -16506,7 +16507,7 @@ static void nsvcd__refine(nsvcd__planner *p, nsvcd__searching *search) {
   // The same offsets at each iteration: the mean is then a function, and its gradients differ by
   // where they are taken.
   for (size_t j = 0; j < f; j++)
-    deviations[j] = p->options.bundle;
+    deviations[j] = stage->noise;
   for (size_t n = 0; n < stage->draws; n++)
     nsvcd__smooth_noise(p, stage, deviations, p->drawn + n * numbers);
 

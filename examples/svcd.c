@@ -523,7 +523,7 @@ static void print_facts(const char *path, const nsvcd_body *body) {
   }
   printf("%s: %zu points, %zu bytes\n", path, facts.patches, facts.size);
   if (facts.triangles)
-    printf("triangles: %zu, in %zu listings, within %g m\n", facts.triangles, facts.listed,
+    printf("triangles: %zu, in %zu listings, within %g m\n", facts.triangles, facts.listings,
            (double)facts.quantum);
   printf("bounding sphere: centre %g %g %g, radius %g m\n", (double)facts.centre[0],
          (double)facts.centre[1], (double)facts.centre[2], (double)facts.radius);
