@@ -900,14 +900,96 @@ NSVCDDEF nsvcd_result nsvcd_plan(const nsvcd_plan_problem *problem,
 #endif  // NEURALSVCD_H
 
 // ================================================================================== IMPLEMENTATION
-#if defined(NEURALSVCD_IMPLEMENTATION) && !defined(NEURALSVCD_IMPLEMENTED)
+// Where section *processor* takes this file in once more, for AVX2 and for AVX-512, NSVCD__ISA is
+// defined: then only those sections are compiled that use vectors, under names of their own.
+#if defined(NEURALSVCD_IMPLEMENTATION) && (!defined(NEURALSVCD_IMPLEMENTED) || defined(NSVCD__ISA))
 #define NEURALSVCD_IMPLEMENTED
 
+#ifndef NSVCD__ISA
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 #ifndef NSVCD_NO_STDIO
 #include <stdio.h>
+#endif
+
+// ----------------------------------------------------------------------------------------- strings
+// What codes and statuses say.
+
+NSVCDDEF const char *nsvcd_result_string(nsvcd_result result) {
+  switch (result) {
+    case NSVCD_OK:
+      return "ok";
+    case NSVCD_ERROR_ARGUMENT:
+      return "an argument is NULL or out of its range";
+    case NSVCD_ERROR_IO:
+      return "the file is missing or cannot be read";
+    case NSVCD_ERROR_MEMORY:
+      return "out of memory";
+    case NSVCD_ERROR_SYNTAX:
+      return "a line cannot be understood, or a face has fewer than three corners";
+    case NSVCD_ERROR_INDEX:
+      return "an index is zero or refers to no vertex";
+    case NSVCD_ERROR_NUMBER:
+      return "a coordinate is not finite or too large";
+    case NSVCD_ERROR_EMPTY:
+      return "there is no triangle, or no area";
+    case NSVCD_ERROR_TOO_LARGE:
+      return "more vertices, triangles or bytes than can be counted";
+    case NSVCD_ERROR_POSE:
+      return "a pose is not finite, or its quaternion is not of unit length";
+    case NSVCD_ERROR_SCALE:
+      return "a scale is not finite, negative or out of range, or makes a body too small or too "
+             "large";
+    case NSVCD_ERROR_TOLERANCE:
+      return "a tolerance or a clearance is negative, not finite or beyond the scene";
+    case NSVCD_ERROR_SAME:
+      return "both sides are the same body in the same motion";
+    case NSVCD_ERROR_BODY:
+      return "the body is damaged, cut short, misaligned, of another version or model, or lacks "
+             "what the method needs";
+    case NSVCD_ERROR_WORKSPACE:
+      return "the memory given is too small or misaligned";
+    case NSVCD_ERROR_CANCELLED:
+      return "cancelled";
+  }
+  return "unknown result";
+}
+
+NSVCDDEF const char *nsvcd_status_string(nsvcd_status status) {
+  switch (status) {
+    case NSVCD_STATUS_OK:
+      return "ok";
+    case NSVCD_STATUS_CERTIFIED_FREE:
+      return "certified-free";
+    case NSVCD_STATUS_INSIDE:
+      return "inside";
+    case NSVCD_STATUS_LIMIT:
+      return "limit";
+    case NSVCD_STATUS_WITNESS:
+      return "witness";
+    case NSVCD_STATUS_UNDECIDED:
+      return "undecided";
+  }
+  return "unknown status";
+}
+
+#ifndef NSVCD_NO_OPTIMIZER
+NSVCDDEF const char *nsvcd_plan_status_string(nsvcd_plan_status status) {
+  switch (status) {
+    case NSVCD_PLAN_CONVERGED:
+      return "converged";
+    case NSVCD_PLAN_LIMIT:
+      return "limit";
+    case NSVCD_PLAN_CANCELLED:
+      return "cancelled";
+    case NSVCD_PLAN_START:
+      return "infeasible start";
+    case NSVCD_PLAN_GOAL:
+      return "infeasible goal";
+  }
+  return "unknown status";
+}
 #endif
 
 // -------------------------------------------------------------------------------------------- math
@@ -1432,6 +1514,8 @@ static uint32_t nsvcd__magnitude(float x) {
   return bits & 0x7fffffffu;
 }
 
+#endif  // NSVCD__ISA
+
 // ----------------------------------------------------------------------------------------- vectors
 // 16 floats side by side, lane by lane, for the sweep and the decoder. One set of operations over
 // what the compiler was told the processor has; the plain path says what they mean. They differ in
@@ -1451,9 +1535,30 @@ static uint32_t nsvcd__magnitude(float x) {
 // function over 16 lanes goes through its slices in a loop, and keeps no more than one of them in
 // its variables; on a machine without vectors a slice is one lane.
 
-#if !defined(NSVCD_NO_SIMD) && defined(__AVX512F__)
+#ifndef NSVCD__ISA
+#if defined(NSVCD_NO_SIMD)
+#define NSVCD__SLICE 1
+#elif defined(__AVX512F__)
 #include <immintrin.h>
 #define NSVCD__SLICE 16
+#elif defined(__AVX2__) && (defined(__FMA__) || defined(_MSC_VER))
+#include <immintrin.h>
+#define NSVCD__SLICE 8
+#elif defined(__SSE2__) || defined(_M_X64)
+#include <immintrin.h>
+#define NSVCD__SLICE 4
+#elif defined(__aarch64__)
+#include <arm_neon.h>
+#define NSVCD__SLICE 4
+#else
+#define NSVCD__SLICE 1
+#endif
+#if NSVCD__SLICE == 16 && defined(__AVX512VNNI__)
+#define NSVCD__VNNI  // instructions that multiply bytes
+#endif
+#endif  // NSVCD__ISA
+
+#if NSVCD__SLICE == 16
 typedef __m512 nsvcd__v;
 static inline nsvcd__v nsvcd__v_load(const float *p) {
   return _mm512_loadu_ps(p);
@@ -1505,9 +1610,7 @@ static inline nsvcd__v nsvcd__v_load_int16(const int16_t *p) {
   return _mm512_cvtepi32_ps(_mm512_cvtepi16_epi32(packed));
 }
 
-#elif !defined(NSVCD_NO_SIMD) && defined(__AVX2__) && defined(__FMA__)
-#include <immintrin.h>
-#define NSVCD__SLICE 8
+#elif NSVCD__SLICE == 8
 typedef __m256 nsvcd__v;
 static inline nsvcd__v nsvcd__v_load(const float *p) {
   return _mm256_loadu_ps(p);
@@ -1561,9 +1664,7 @@ static inline nsvcd__v nsvcd__v_load_int16(const int16_t *p) {
   return _mm256_cvtepi32_ps(_mm256_cvtepi16_epi32(packed));
 }
 
-#elif !defined(NSVCD_NO_SIMD) && defined(__SSE2__)
-#include <emmintrin.h>
-#define NSVCD__SLICE 4
+#elif NSVCD__SLICE == 4 && !defined(__aarch64__)
 typedef __m128 nsvcd__v;
 static inline nsvcd__v nsvcd__v_load(const float *p) {
   return _mm_loadu_ps(p);
@@ -1617,9 +1718,7 @@ static inline nsvcd__v nsvcd__v_load_int16(const int16_t *p) {
   return _mm_cvtepi32_ps(_mm_srai_epi32(_mm_unpacklo_epi16(packed, packed), 16));
 }
 
-#elif !defined(NSVCD_NO_SIMD) && defined(__aarch64__)
-#include <arm_neon.h>
-#define NSVCD__SLICE 4
+#elif NSVCD__SLICE == 4
 typedef float32x4_t nsvcd__v;
 static inline nsvcd__v nsvcd__v_load(const float *p) {
   return vld1q_f32(p);
@@ -1675,7 +1774,6 @@ static inline nsvcd__v nsvcd__v_load_int16(const int16_t *p) {
 }
 
 #else
-#define NSVCD__SLICE 1
 typedef float nsvcd__v;
 static inline nsvcd__v nsvcd__v_load(const float *p) {
   return *p;
@@ -2014,48 +2112,8 @@ static inline nsvcd__vmat3 nsvcd__vmat3_of(nsvcd__vquat q) {
   return m;
 }
 
+#ifndef NSVCD__ISA
 // ------------------------------------------------------------------------------------------ memory
-
-// A sentence without a full stop, for a person; never NULL.
-NSVCDDEF const char *nsvcd_result_string(nsvcd_result result) {
-  switch (result) {
-    case NSVCD_OK:
-      return "ok";
-    case NSVCD_ERROR_ARGUMENT:
-      return "an argument is NULL or out of its range";
-    case NSVCD_ERROR_IO:
-      return "the file is missing or cannot be read";
-    case NSVCD_ERROR_MEMORY:
-      return "out of memory";
-    case NSVCD_ERROR_SYNTAX:
-      return "a line cannot be understood, or a face has fewer than three corners";
-    case NSVCD_ERROR_INDEX:
-      return "an index is zero or refers to no vertex";
-    case NSVCD_ERROR_NUMBER:
-      return "a coordinate is not finite or too large";
-    case NSVCD_ERROR_EMPTY:
-      return "there is no triangle, or no area";
-    case NSVCD_ERROR_TOO_LARGE:
-      return "more vertices, triangles or bytes than can be counted";
-    case NSVCD_ERROR_POSE:
-      return "a pose is not finite, or its quaternion is not of unit length";
-    case NSVCD_ERROR_SCALE:
-      return "a scale is not finite, negative or out of range, or makes a body too small or too "
-             "large";
-    case NSVCD_ERROR_TOLERANCE:
-      return "a tolerance or a clearance is negative, not finite or beyond the scene";
-    case NSVCD_ERROR_SAME:
-      return "both sides are the same body in the same motion";
-    case NSVCD_ERROR_BODY:
-      return "the body is damaged, cut short, misaligned, of another version or model, or lacks "
-             "what the method needs";
-    case NSVCD_ERROR_WORKSPACE:
-      return "the memory given is too small or misaligned";
-    case NSVCD_ERROR_CANCELLED:
-      return "cancelled";
-  }
-  return "unknown result";
-}
 
 #ifndef NSVCD_NO_ENCODER
 static void *nsvcd__alloc(const nsvcd_allocator *allocator, size_t size) {
@@ -5735,6 +5793,10 @@ static void nsvcd__encode_patch(const nsvcd__encoded *patch, float *latent) {
 }
 #endif  // NSVCD_NO_ENCODER
 
+#endif  // NSVCD_NO_NETWORK
+#endif  // NSVCD__ISA
+
+#ifndef NSVCD_NO_NETWORK
 // --------------------------------------------------------------------------------- latent rotation
 // D(R), block-diagonal: R itself on degree 1, the real Wigner matrix of degree 2 on degree 2
 // (appendix E). Computed from R directly, so D(R1 R2) = D(R1) D(R2) to rounding; R may be improper
@@ -5831,6 +5893,7 @@ static void nsvcd__rotate_latent(const int8_t *z, float (*turn)[NSVCD__SLICE], s
 
 #endif  // NSVCD_NO_NETWORK
 
+#ifndef NSVCD__ISA
 // -------------------------------------------------------------------------------------------- body
 // In: N patches. Out: one relocatable, checksummed blob. Patches are stored in groups of 16
 // neighbours, each group with a sphere over its members. Where there are many groups, there are
@@ -6686,31 +6749,6 @@ static nsvcd__f3 nsvcd__facet_centre(const nsvcd__facets *f, size_t patch) {
 // The same in double: what the vertices are counted from.
 static nsvcd__d3 nsvcd__facet_origin(const nsvcd__facets *f, size_t patch) {
   return nsvcd__d3_widen(nsvcd__facet_centre(f, patch));
-}
-
-// Vertices first .. first + 15 of a patch, of which `count` are wanted: the slice of them that
-// begins with lane l. The last one wanted is repeated in the lanes that are left.
-NSVCD__INLINE nsvcd__v3 nsvcd__facet_vertices(const nsvcd__facets *f, size_t patch, size_t first,
-                                              size_t count, size_t l) {
-  static const float lane[NSVCD__LANES] = {0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15};
-  const nsvcd__vertices all = nsvcd__vertices_of(f, patch);
-  const int16_t *x = all.x + first;
-  const int16_t *y = all.y + first;
-  const int16_t *z = all.z + first;
-  nsvcd__v3 q;
-  q.x = nsvcd__v_load_int16(x + l);
-  q.y = nsvcd__v_load_int16(y + l);
-  q.z = nsvcd__v_load_int16(z + l);
-  if (count < l + NSVCD__SLICE) {
-    const size_t last = count - 1;
-    const nsvcd__v end = nsvcd__v_set((float)last);
-    const nsvcd__v index = nsvcd__v_load(lane + l);
-    q.x = nsvcd__v_pick(index, end, q.x, nsvcd__v_set((float)x[last]));
-    q.y = nsvcd__v_pick(index, end, q.y, nsvcd__v_set((float)y[last]));
-    q.z = nsvcd__v_pick(index, end, q.z, nsvcd__v_set((float)z[last]));
-  }
-  const nsvcd__v step = nsvcd__v_set(f->steps[patch]);
-  return nsvcd__v3_fma(step, q, nsvcd__v3_set(nsvcd__facet_centre(f, patch)));
 }
 
 // The corners (3) of listing n of a patch, exactly.
@@ -7715,6 +7753,8 @@ NSVCDDEF void nsvcd_body_free(const nsvcd_body *body, const nsvcd_allocator *all
   nsvcd__free(allocator, memory);
 }
 #endif
+
+#endif  // NSVCD__ISA
 
 // ------------------------------------------------------------------------------------------ motion
 // In: two movers: bodies, their scales, and their poses, uniform in t in [0,1]; between poses the
@@ -9684,8 +9724,6 @@ typedef struct nsvcd__proof {
 #ifndef NSVCD__CERTIFY
 #define NSVCD__CERTIFY(kind, moving, fixed, moving_listing, fixed_listing, t_start, t_end, normal) \
   ((void)0)
-#else
-#define NSVCD__CERTIFIES
 #endif
 enum { NSVCD__BY_DISC, NSVCD__BY_HULL, NSVCD__BY_TRIANGLES };
 
@@ -10399,6 +10437,31 @@ static void nsvcd__part_groups(const nsvcd__proof *p, nsvcd__search *search) {
 }
 
 // ---- hulls
+
+// Vertices first .. first + 15 of a patch, of which `count` are wanted: the slice of them that
+// begins with lane l. The last one wanted is repeated in the lanes that are left.
+NSVCD__INLINE nsvcd__v3 nsvcd__facet_vertices(const nsvcd__facets *f, size_t patch, size_t first,
+                                              size_t count, size_t l) {
+  static const float lane[NSVCD__LANES] = {0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15};
+  const nsvcd__vertices all = nsvcd__vertices_of(f, patch);
+  const int16_t *x = all.x + first;
+  const int16_t *y = all.y + first;
+  const int16_t *z = all.z + first;
+  nsvcd__v3 q;
+  q.x = nsvcd__v_load_int16(x + l);
+  q.y = nsvcd__v_load_int16(y + l);
+  q.z = nsvcd__v_load_int16(z + l);
+  if (count < l + NSVCD__SLICE) {
+    const size_t last = count - 1;
+    const nsvcd__v end = nsvcd__v_set((float)last);
+    const nsvcd__v index = nsvcd__v_load(lane + l);
+    q.x = nsvcd__v_pick(index, end, q.x, nsvcd__v_set((float)x[last]));
+    q.y = nsvcd__v_pick(index, end, q.y, nsvcd__v_set((float)y[last]));
+    q.z = nsvcd__v_pick(index, end, q.z, nsvcd__v_set((float)z[last]));
+  }
+  const nsvcd__v step = nsvcd__v_set(f->steps[patch]);
+  return nsvcd__v3_fma(step, q, nsvcd__v3_set(nsvcd__facet_centre(f, patch)));
+}
 
 // A slice of a patch's hull, the last vertex repeated; its body's frame and units.
 NSVCD__INLINE nsvcd__v3 nsvcd__hull_of(const nsvcd__facets *f, size_t patch, size_t l) {
@@ -13434,7 +13497,7 @@ static void nsvcd__run_layer(const nsvcd__layer *layer, const float *x, size_t p
   const size_t outputs = layer->outputs;
   size_t p = 0;
   size_t o;
-#if defined(__AVX512F__) && !defined(NSVCD_NO_SIMD)
+#if NSVCD__SLICE == 16
   for (; p + 8 <= rows; p += 8) {
     const float *from = x + pitch * p;
     float *to = y + NSVCD__WIDEST * p;
@@ -13473,7 +13536,7 @@ static void nsvcd__run_layer(const nsvcd__layer *layer, const float *x, size_t p
 //   nsvcd__dot_bytes  bytes (BYTE_ROWS, inputs) -> dot (BYTE_ROWS, outputs), by weights of
 //                     (inputs / 4, outputs, 4)
 //   nsvcd__from_dots  dot (outputs) -> y (outputs)
-#if defined(__AVX512VNNI__) && !defined(NSVCD_NO_SIMD)
+#ifdef NSVCD__VNNI
 #define NSVCD__BYTE_ROWS 4
 static float nsvcd__to_bytes(const float *x, size_t inputs, uint8_t *bytes) {
   __m512 most = _mm512_set1_ps(1e-20f);
@@ -13666,24 +13729,6 @@ static void nsvcd__decoder_logits(const nsvcd__decoder *decoder, const float *x,
 //   write       what was found about moving and fixed, as facts about a and b
 //
 // A batch checks all of its questions before it answers the first one.
-
-NSVCDDEF const char *nsvcd_status_string(nsvcd_status status) {
-  switch (status) {
-    case NSVCD_STATUS_OK:
-      return "ok";
-    case NSVCD_STATUS_CERTIFIED_FREE:
-      return "certified-free";
-    case NSVCD_STATUS_INSIDE:
-      return "inside";
-    case NSVCD_STATUS_LIMIT:
-      return "limit";
-    case NSVCD_STATUS_WITNESS:
-      return "witness";
-    case NSVCD_STATUS_UNDECIDED:
-      return "undecided";
-  }
-  return "unknown status";
-}
 
 #ifndef NSVCD_NO_NETWORK
 #ifndef NSVCD_NO_BASE
@@ -14458,7 +14503,8 @@ static nsvcd__needs nsvcd__needs_of(const nsvcd_question *question) {
   return needs;
 }
 
-NSVCDDEF size_t nsvcd_sweep_workspace_size(const nsvcd_question *question) {
+// As nsvcd_sweep_workspace_size.
+static size_t nsvcd__sweep_size(const nsvcd_question *question) {
   if (question && nsvcd__question_check(question))
     return 0;
   const nsvcd__needs needs = question ? nsvcd__needs_of(question) : nsvcd__needs_most();
@@ -14548,16 +14594,10 @@ static int nsvcd__same_bodies(const nsvcd_question *p, const nsvcd_question *q) 
   return p->a.body == q->a.body && p->b.body == q->b.body;
 }
 
-NSVCDDEF nsvcd_result nsvcd_sweep(const nsvcd_question *question, void *workspace,
-                                  size_t workspace_size, nsvcd_answer *answer) {
-  if (!question)
-    return NSVCD_ERROR_ARGUMENT;
-  return nsvcd_sweep_batch(question, 1, workspace, workspace_size, answer);
-}
-
-NSVCDDEF nsvcd_result nsvcd_sweep_batch(const nsvcd_question *questions, size_t count,
-                                        void *workspace, size_t workspace_size,
-                                        nsvcd_answer *answers) {
+// As nsvcd_sweep_batch.
+static nsvcd_result nsvcd__sweep_batch(const nsvcd_question *questions, size_t count,
+                                       void *workspace, size_t workspace_size,
+                                       nsvcd_answer *answers) {
   if (count > 0 && (!questions || !answers))
     return NSVCD_ERROR_ARGUMENT;
   for (size_t k = 0; k < count; k++) {
@@ -15150,9 +15190,10 @@ static void nsvcd__gradient(const nsvcd__task *task, const nsvcd__decisive *deci
     nsvcd__by_contact(task, &at, NSVCD__AT_EXIT, centre, by_exit, gradients);
 }
 
-NSVCDDEF nsvcd_result nsvcd_sweep_gradient(const nsvcd_question *question, void *workspace,
-                                           size_t workspace_size, nsvcd_answer *answer,
-                                           float *gradient_a, float *gradient_b) {
+// As nsvcd_sweep_gradient.
+static nsvcd_result nsvcd__sweep_gradient(const nsvcd_question *question, void *workspace,
+                                          size_t workspace_size, nsvcd_answer *answer,
+                                          float *gradient_a, float *gradient_b) {
   if (!question || !answer || (!gradient_a && !gradient_b))
     return NSVCD_ERROR_ARGUMENT;
   if (question->options.method == NSVCD_METHOD_PROOF)
@@ -15180,6 +15221,698 @@ NSVCDDEF nsvcd_result nsvcd_sweep_gradient(const nsvcd_question *question, void 
   return NSVCD_OK;
 }
 #endif  // NSVCD_NO_GRADIENT
+
+#ifndef NSVCD__ISA
+// --------------------------------------------------------------------------------------- processor
+// Where the compiler's flags allow SSE2 and no more, the default on x86-64, all that a query does
+// is compiled three times: with SSE2 above, and here with AVX2 and with AVX-512. At each call the
+// processor at hand decides which of them answers. NSVCD_NO_DISPATCH leaves the first only.
+//
+// This file takes itself in for that. Of it only the sections that use vectors are compiled again.
+// Their private names are changed: nsvcd__prove is nsvcd__prove_avx2 there.
+
+#if NSVCD__SLICE == 4 && !defined(NSVCD_NO_DISPATCH)
+#if defined(__x86_64__) && (defined(__clang__) || (defined(__GNUC__) && __GNUC__ >= 8))
+#define NSVCD__DISPATCH
+#elif defined(_M_X64) && !defined(__clang__)
+#include <intrin.h>
+#define NSVCD__DISPATCH
+#endif
+#endif
+
+#ifdef NSVCD__DISPATCH
+#define NSVCD__JOIN(name, isa) name##isa
+#define NSVCD__OF_ISA(name, isa) NSVCD__JOIN(name, isa)
+#define NSVCD__AT(name) NSVCD__OF_ISA(nsvcd__##name, NSVCD__ISA)
+#define NSVCD__NUMBER_AT(name) NSVCD__OF_ISA(NSVCD__##name, NSVCD__ISA)
+
+// ---- the names, as tests/isa.py writes them
+#define NSVCD__AT_ENTRY NSVCD__NUMBER_AT(AT_ENTRY)
+#define NSVCD__AT_EXIT NSVCD__NUMBER_AT(AT_EXIT)
+#define NSVCD__AT_MIDDLE NSVCD__NUMBER_AT(AT_MIDDLE)
+#define NSVCD__BY_DISC NSVCD__NUMBER_AT(BY_DISC)
+#define NSVCD__BY_HULL NSVCD__NUMBER_AT(BY_HULL)
+#define NSVCD__BY_TRIANGLES NSVCD__NUMBER_AT(BY_TRIANGLES)
+#define NSVCD__ENTRY_BEGIN NSVCD__NUMBER_AT(ENTRY_BEGIN)
+#define NSVCD__ENTRY_END NSVCD__NUMBER_AT(ENTRY_END)
+#define NSVCD__EXIT_BEGIN NSVCD__NUMBER_AT(EXIT_BEGIN)
+#define NSVCD__EXIT_END NSVCD__NUMBER_AT(EXIT_END)
+#define NSVCD__FACTS NSVCD__NUMBER_AT(FACTS)
+#define NSVCD__FACT_CLOSEST NSVCD__NUMBER_AT(FACT_CLOSEST)
+#define NSVCD__FACT_DISTANCE NSVCD__NUMBER_AT(FACT_DISTANCE)
+#define NSVCD__FACT_RADIUS NSVCD__NUMBER_AT(FACT_RADIUS)
+#define NSVCD__FACT_SPEED NSVCD__NUMBER_AT(FACT_SPEED)
+#define NSVCD__FACT_SPIN NSVCD__NUMBER_AT(FACT_SPIN)
+#define NSVCD__FACT_TAU NSVCD__NUMBER_AT(FACT_TAU)
+#define NSVCD__FACT_TURN NSVCD__NUMBER_AT(FACT_TURN)
+#define NSVCD__FACT_VELOCITY NSVCD__NUMBER_AT(FACT_VELOCITY)
+#define NSVCD__FREE NSVCD__NUMBER_AT(FREE)
+#define NSVCD__INSTANTS NSVCD__NUMBER_AT(INSTANTS)
+#define NSVCD__MEETS NSVCD__NUMBER_AT(MEETS)
+#define NSVCD__TAKEN NSVCD__NUMBER_AT(TAKEN)
+#define NSVCD__TOO_LONG NSVCD__NUMBER_AT(TOO_LONG)
+#define NSVCD__UNDECIDED NSVCD__NUMBER_AT(UNDECIDED)
+#define NSVCD__WITHIN NSVCD__NUMBER_AT(WITHIN)
+#define nsvcd__add_along_rows NSVCD__AT(add_along_rows)
+#define nsvcd__add_dipoles NSVCD__AT(add_dipoles)
+#define nsvcd__add_level NSVCD__AT(add_level)
+#define nsvcd__add_opinion NSVCD__AT(add_opinion)
+#define nsvcd__add_turned NSVCD__AT(add_turned)
+#define nsvcd__all_in_sphere NSVCD__AT(all_in_sphere)
+#define nsvcd__all_segments NSVCD__AT(all_segments)
+#define nsvcd__answer_by_network NSVCD__AT(answer_by_network)
+#define nsvcd__answer_by_proof NSVCD__AT(answer_by_proof)
+#define nsvcd__answer_free NSVCD__AT(answer_free)
+#define nsvcd__answer_task NSVCD__AT(answer_task)
+#define nsvcd__answer_with NSVCD__AT(answer_with)
+#define nsvcd__answer_with_bounds NSVCD__AT(answer_with_bounds)
+#define nsvcd__answer_with_contact NSVCD__AT(answer_with_contact)
+#define nsvcd__apart_by_fixed_disc NSVCD__AT(apart_by_fixed_disc)
+#define nsvcd__apart_by_moving_disc NSVCD__AT(apart_by_moving_disc)
+#define nsvcd__approach NSVCD__AT(approach)
+#define nsvcd__arc NSVCD__AT(arc)
+#define nsvcd__arc_and_share NSVCD__AT(arc_and_share)
+#define nsvcd__arc_at NSVCD__AT(arc_at)
+#define nsvcd__arc_bend NSVCD__AT(arc_bend)
+#define nsvcd__arc_limit NSVCD__AT(arc_limit)
+#define nsvcd__are_opposed NSVCD__AT(are_opposed)
+#define nsvcd__at_origin NSVCD__AT(at_origin)
+#define nsvcd__bends NSVCD__AT(bends)
+#define nsvcd__best_first NSVCD__AT(best_first)
+#define nsvcd__best_lift NSVCD__AT(best_lift)
+#define nsvcd__block NSVCD__AT(block)
+#define nsvcd__block_bounds NSVCD__AT(block_bounds)
+#define nsvcd__block_box NSVCD__AT(block_box)
+#define nsvcd__block_corners NSVCD__AT(block_corners)
+#define nsvcd__block_lanes NSVCD__AT(block_lanes)
+#define nsvcd__block_load NSVCD__AT(block_load)
+#define nsvcd__block_pose NSVCD__AT(block_pose)
+#define nsvcd__box_of_lane NSVCD__AT(box_of_lane)
+#define nsvcd__box_of_way NSVCD__AT(box_of_way)
+#define nsvcd__boxes NSVCD__AT(boxes)
+#define nsvcd__boxes_grow NSVCD__AT(boxes_grow)
+#define nsvcd__boxes_of_groups NSVCD__AT(boxes_of_groups)
+#define nsvcd__by_contact NSVCD__AT(by_contact)
+#define nsvcd__by_facts NSVCD__AT(by_facts)
+#define nsvcd__by_frame NSVCD__AT(by_frame)
+#define nsvcd__by_half_rotation NSVCD__AT(by_half_rotation)
+#define nsvcd__by_instant NSVCD__AT(by_instant)
+#define nsvcd__by_invariants NSVCD__AT(by_invariants)
+#define nsvcd__by_layer NSVCD__AT(by_layer)
+#define nsvcd__by_length NSVCD__AT(by_length)
+#define nsvcd__by_motion NSVCD__AT(by_motion)
+#define nsvcd__by_pair NSVCD__AT(by_pair)
+#define nsvcd__by_poses NSVCD__AT(by_poses)
+#define nsvcd__by_view NSVCD__AT(by_view)
+#define nsvcd__candidate NSVCD__AT(candidate)
+#define nsvcd__candidates NSVCD__AT(candidates)
+#define nsvcd__candidates_add NSVCD__AT(candidates_add)
+#define nsvcd__candidates_start NSVCD__AT(candidates_start)
+#define nsvcd__certify_block NSVCD__AT(certify_block)
+#define nsvcd__certify_couple NSVCD__AT(certify_couple)
+#define nsvcd__certify_discs NSVCD__AT(certify_discs)
+#define nsvcd__certify_groups NSVCD__AT(certify_groups)
+#define nsvcd__certify_item NSVCD__AT(certify_item)
+#define nsvcd__changes_sides NSVCD__AT(changes_sides)
+#define nsvcd__check NSVCD__AT(check)
+#define nsvcd__choose_lifts NSVCD__AT(choose_lifts)
+#define nsvcd__choose_segments NSVCD__AT(choose_segments)
+#define nsvcd__chords NSVCD__AT(chords)
+#define nsvcd__chords_in_all NSVCD__AT(chords_in_all)
+#define nsvcd__chords_in_segment NSVCD__AT(chords_in_segment)
+#define nsvcd__chords_of_group NSVCD__AT(chords_of_group)
+#define nsvcd__chords_of_members NSVCD__AT(chords_of_members)
+#define nsvcd__chords_of_sphere NSVCD__AT(chords_of_sphere)
+#define nsvcd__chords_of_tile NSVCD__AT(chords_of_tile)
+#define nsvcd__chords_start NSVCD__AT(chords_start)
+#define nsvcd__chords_store NSVCD__AT(chords_store)
+#define nsvcd__chords_way NSVCD__AT(chords_way)
+#define nsvcd__clamp01 NSVCD__AT(clamp01)
+#define nsvcd__clamp_share NSVCD__AT(clamp_share)
+#define nsvcd__clearance2 NSVCD__AT(clearance2)
+#define nsvcd__clearance_of NSVCD__AT(clearance_of)
+#define nsvcd__clearances NSVCD__AT(clearances)
+#define nsvcd__clip_segment NSVCD__AT(clip_segment)
+#define nsvcd__collect NSVCD__AT(collect)
+#define nsvcd__collect_items NSVCD__AT(collect_items)
+#define nsvcd__collides_again NSVCD__AT(collides_again)
+#define nsvcd__comes_first NSVCD__AT(comes_first)
+#define nsvcd__comes_near NSVCD__AT(comes_near)
+#define nsvcd__comes_within NSVCD__AT(comes_within)
+#define nsvcd__common_divisor NSVCD__AT(common_divisor)
+#define nsvcd__contact NSVCD__AT(contact)
+#define nsvcd__contact_of NSVCD__AT(contact_of)
+#define nsvcd__couple NSVCD__AT(couple)
+#define nsvcd__couple_of NSVCD__AT(couple_of)
+#define nsvcd__couple_passes NSVCD__AT(couple_passes)
+#define nsvcd__cover_places NSVCD__AT(cover_places)
+#define nsvcd__crossings NSVCD__AT(crossings)
+#define nsvcd__cut NSVCD__AT(cut)
+#define nsvcd__cut_arc NSVCD__AT(cut_arc)
+#define nsvcd__cut_block NSVCD__AT(cut_block)
+#define nsvcd__cut_deviations NSVCD__AT(cut_deviations)
+#define nsvcd__cut_double_arc NSVCD__AT(cut_double_arc)
+#define nsvcd__cut_ends NSVCD__AT(cut_ends)
+#define nsvcd__cut_knot NSVCD__AT(cut_knot)
+#define nsvcd__cut_last_arc NSVCD__AT(cut_last_arc)
+#define nsvcd__cut_motion NSVCD__AT(cut_motion)
+#define nsvcd__cut_off_chord NSVCD__AT(cut_off_chord)
+#define nsvcd__cut_segments NSVCD__AT(cut_segments)
+#define nsvcd__cut_starts NSVCD__AT(cut_starts)
+#define nsvcd__decisive NSVCD__AT(decisive)
+#define nsvcd__decode NSVCD__AT(decode)
+#define nsvcd__decoder_by_bytes NSVCD__AT(decoder_by_bytes)
+#define nsvcd__decoder_by_floats NSVCD__AT(decoder_by_floats)
+#define nsvcd__decoder_gradient NSVCD__AT(decoder_gradient)
+#define nsvcd__decoder_logits NSVCD__AT(decoder_logits)
+#define nsvcd__deeper_than_kept NSVCD__AT(deeper_than_kept)
+#define nsvcd__degree2_torque NSVCD__AT(degree2_torque)
+#define nsvcd__deviation NSVCD__AT(deviation)
+#define nsvcd__dipoles NSVCD__AT(dipoles)
+#define nsvcd__dipoles_from NSVCD__AT(dipoles_from)
+#define nsvcd__dipoles_of_level NSVCD__AT(dipoles_of_level)
+#define nsvcd__dipoles_of_patches NSVCD__AT(dipoles_of_patches)
+#define nsvcd__discs_meet NSVCD__AT(discs_meet)
+#define nsvcd__dot_bytes NSVCD__AT(dot_bytes)
+#define nsvcd__dot_tile NSVCD__AT(dot_tile)
+#define nsvcd__edges_cross NSVCD__AT(edges_cross)
+#define nsvcd__edges_nearest NSVCD__AT(edges_nearest)
+#define nsvcd__edges_pass NSVCD__AT(edges_pass)
+#define nsvcd__edges_volume NSVCD__AT(edges_volume)
+#define nsvcd__encloses_any NSVCD__AT(encloses_any)
+#define nsvcd__encloses_seeds NSVCD__AT(encloses_seeds)
+#define nsvcd__enclosure NSVCD__AT(enclosure)
+#define nsvcd__exists NSVCD__AT(exists)
+#define nsvcd__f3_towards NSVCD__AT(f3_towards)
+#define nsvcd__face_normal NSVCD__AT(face_normal)
+#define nsvcd__facet_vertices NSVCD__AT(facet_vertices)
+#define nsvcd__farthest_axis NSVCD__AT(farthest_axis)
+#define nsvcd__find_passage NSVCD__AT(find_passage)
+#define nsvcd__find_witness NSVCD__AT(find_witness)
+#define nsvcd__find_witness_in NSVCD__AT(find_witness_in)
+#define nsvcd__first_f3 NSVCD__AT(first_f3)
+#define nsvcd__first_lane NSVCD__AT(first_lane)
+#define nsvcd__first_mat3 NSVCD__AT(first_mat3)
+#define nsvcd__first_view NSVCD__AT(first_view)
+#define nsvcd__foot_well_within NSVCD__AT(foot_well_within)
+#define nsvcd__foot_within NSVCD__AT(foot_within)
+#define nsvcd__from_dots NSVCD__AT(from_dots)
+#define nsvcd__gather_contact NSVCD__AT(gather_contact)
+#define nsvcd__gather_contacts NSVCD__AT(gather_contacts)
+#define nsvcd__gradient NSVCD__AT(gradient)
+#define nsvcd__gradients NSVCD__AT(gradients)
+#define nsvcd__greatest_height NSVCD__AT(greatest_height)
+#define nsvcd__greatest_lane NSVCD__AT(greatest_lane)
+#define nsvcd__group_against_members NSVCD__AT(group_against_members)
+#define nsvcd__group_against_tile NSVCD__AT(group_against_tile)
+#define nsvcd__group_reach NSVCD__AT(group_reach)
+#define nsvcd__groups_apart NSVCD__AT(groups_apart)
+#define nsvcd__groups_at_box NSVCD__AT(groups_at_box)
+#define nsvcd__guess_clearance NSVCD__AT(guess_clearance)
+#define nsvcd__guess_normals NSVCD__AT(guess_normals)
+#define nsvcd__height NSVCD__AT(height)
+#define nsvcd__heights NSVCD__AT(heights)
+#define nsvcd__heights_over NSVCD__AT(heights_over)
+#define nsvcd__held_again NSVCD__AT(held_again)
+#define nsvcd__hint NSVCD__AT(hint)
+#define nsvcd__hull_of NSVCD__AT(hull_of)
+#define nsvcd__hulls_are_apart NSVCD__AT(hulls_are_apart)
+#define nsvcd__inputs_of NSVCD__AT(inputs_of)
+#define nsvcd__instants NSVCD__AT(instants)
+#define nsvcd__instants_of NSVCD__AT(instants_of)
+#define nsvcd__interval_cuts NSVCD__AT(interval_cuts)
+#define nsvcd__intervals NSVCD__AT(intervals)
+#define nsvcd__intervals_are_cut NSVCD__AT(intervals_are_cut)
+#define nsvcd__intervals_close NSVCD__AT(intervals_close)
+#define nsvcd__intervals_grow NSVCD__AT(intervals_grow)
+#define nsvcd__invariants NSVCD__AT(invariants)
+#define nsvcd__inverse_placement NSVCD__AT(inverse_placement)
+#define nsvcd__is_approached NSVCD__AT(is_approached)
+#define nsvcd__is_around NSVCD__AT(is_around)
+#define nsvcd__is_clear NSVCD__AT(is_clear)
+#define nsvcd__is_contained NSVCD__AT(is_contained)
+#define nsvcd__is_enclosed NSVCD__AT(is_enclosed)
+#define nsvcd__is_harmless NSVCD__AT(is_harmless)
+#define nsvcd__is_held NSVCD__AT(is_held)
+#define nsvcd__is_inside NSVCD__AT(is_inside)
+#define nsvcd__is_itself NSVCD__AT(is_itself)
+#define nsvcd__is_large NSVCD__AT(is_large)
+#define nsvcd__is_new NSVCD__AT(is_new)
+#define nsvcd__is_on_ray NSVCD__AT(is_on_ray)
+#define nsvcd__is_shallower NSVCD__AT(is_shallower)
+#define nsvcd__is_spent NSVCD__AT(is_spent)
+#define nsvcd__is_swapped NSVCD__AT(is_swapped)
+#define nsvcd__item NSVCD__AT(item)
+#define nsvcd__item_is_parted NSVCD__AT(item_is_parted)
+#define nsvcd__judge NSVCD__AT(judge)
+#define nsvcd__keep_nearer NSVCD__AT(keep_nearer)
+#define nsvcd__knot_at NSVCD__AT(knot_at)
+#define nsvcd__knots NSVCD__AT(knots)
+#define nsvcd__knots_copy NSVCD__AT(knots_copy)
+#define nsvcd__knots_keep NSVCD__AT(knots_keep)
+#define nsvcd__knots_load NSVCD__AT(knots_load)
+#define nsvcd__knots_read NSVCD__AT(knots_read)
+#define nsvcd__lane_of NSVCD__AT(lane_of)
+#define nsvcd__lane_set NSVCD__AT(lane_set)
+#define nsvcd__lanes_near NSVCD__AT(lanes_near)
+#define nsvcd__lanes_of_slice NSVCD__AT(lanes_of_slice)
+#define nsvcd__lanes_on_ray NSVCD__AT(lanes_on_ray)
+#define nsvcd__latent_torque NSVCD__AT(latent_torque)
+#define nsvcd__layer NSVCD__AT(layer)
+#define nsvcd__layer_of NSVCD__AT(layer_of)
+#define nsvcd__layer_tile NSVCD__AT(layer_tile)
+#define nsvcd__layer_values NSVCD__AT(layer_values)
+#define nsvcd__least_height NSVCD__AT(least_height)
+#define nsvcd__least_lane NSVCD__AT(least_lane)
+#define nsvcd__least_of NSVCD__AT(least_of)
+#define nsvcd__leg NSVCD__AT(leg)
+#define nsvcd__leg_at NSVCD__AT(leg_at)
+#define nsvcd__leg_init NSVCD__AT(leg_init)
+#define nsvcd__leg_turn NSVCD__AT(leg_turn)
+#define nsvcd__lift_along NSVCD__AT(lift_along)
+#define nsvcd__lift_motion NSVCD__AT(lift_motion)
+#define nsvcd__lift_of NSVCD__AT(lift_of)
+#define nsvcd__lift_off NSVCD__AT(lift_off)
+#define nsvcd__margin_along NSVCD__AT(margin_along)
+#define nsvcd__mat3_lane NSVCD__AT(mat3_lane)
+#define nsvcd__matters NSVCD__AT(matters)
+#define nsvcd__may_be_close NSVCD__AT(may_be_close)
+#define nsvcd__mean_direction NSVCD__AT(mean_direction)
+#define nsvcd__measure_turn NSVCD__AT(measure_turn)
+#define nsvcd__meet NSVCD__AT(meet)
+#define nsvcd__meet_in NSVCD__AT(meet_in)
+#define nsvcd__meet_members NSVCD__AT(meet_members)
+#define nsvcd__meetings NSVCD__AT(meetings)
+#define nsvcd__meetings_of NSVCD__AT(meetings_of)
+#define nsvcd__members_against_patch NSVCD__AT(members_against_patch)
+#define nsvcd__method_of NSVCD__AT(method_of)
+#define nsvcd__motion NSVCD__AT(motion)
+#define nsvcd__motion_init NSVCD__AT(motion_init)
+#define nsvcd__motion_is_far NSVCD__AT(motion_is_far)
+#define nsvcd__motion_pose NSVCD__AT(motion_pose)
+#define nsvcd__motion_set_ticks NSVCD__AT(motion_set_ticks)
+#define nsvcd__mover_check NSVCD__AT(mover_check)
+#define nsvcd__moving_block_load NSVCD__AT(moving_block_load)
+#define nsvcd__nearby NSVCD__AT(nearby)
+#define nsvcd__nearest NSVCD__AT(nearest)
+#define nsvcd__nearest2 NSVCD__AT(nearest2)
+#define nsvcd__nearest_placement NSVCD__AT(nearest_placement)
+#define nsvcd__needs NSVCD__AT(needs)
+#define nsvcd__needs_most NSVCD__AT(needs_most)
+#define nsvcd__needs_of NSVCD__AT(needs_of)
+#define nsvcd__needs_proof NSVCD__AT(needs_proof)
+#define nsvcd__network_constants_hold NSVCD__AT(network_constants_hold)
+#define nsvcd__next_knot NSVCD__AT(next_knot)
+#define nsvcd__normal_to_try NSVCD__AT(normal_to_try)
+#define nsvcd__normals_part NSVCD__AT(normals_part)
+#define nsvcd__on_one_side NSVCD__AT(on_one_side)
+#define nsvcd__options_check NSVCD__AT(options_check)
+#define nsvcd__pairs NSVCD__AT(pairs)
+#define nsvcd__pairs_of NSVCD__AT(pairs_of)
+#define nsvcd__part_groups NSVCD__AT(part_groups)
+#define nsvcd__passage NSVCD__AT(passage)
+#define nsvcd__patch_is_near NSVCD__AT(patch_is_near)
+#define nsvcd__patch_reach NSVCD__AT(patch_reach)
+#define nsvcd__patches_on_ray NSVCD__AT(patches_on_ray)
+#define nsvcd__patches_towards NSVCD__AT(patches_towards)
+#define nsvcd__place_point NSVCD__AT(place_point)
+#define nsvcd__place_triangle NSVCD__AT(place_triangle)
+#define nsvcd__placed NSVCD__AT(placed)
+#define nsvcd__placed_at NSVCD__AT(placed_at)
+#define nsvcd__placement NSVCD__AT(placement)
+#define nsvcd__placement_at NSVCD__AT(placement_at)
+#define nsvcd__places_of NSVCD__AT(places_of)
+#define nsvcd__plane_parts NSVCD__AT(plane_parts)
+#define nsvcd__pose_count NSVCD__AT(pose_count)
+#define nsvcd__pose_hulls NSVCD__AT(pose_hulls)
+#define nsvcd__pose_members NSVCD__AT(pose_members)
+#define nsvcd__poses_are_valid NSVCD__AT(poses_are_valid)
+#define nsvcd__poses_opposed NSVCD__AT(poses_opposed)
+#define nsvcd__proof NSVCD__AT(proof)
+#define nsvcd__proof_begin NSVCD__AT(proof_begin)
+#define nsvcd__proof_constants_hold NSVCD__AT(proof_constants_hold)
+#define nsvcd__proof_restart NSVCD__AT(proof_restart)
+#define nsvcd__prove NSVCD__AT(prove)
+#define nsvcd__prove_in_order NSVCD__AT(prove_in_order)
+#define nsvcd__prove_segments NSVCD__AT(prove_segments)
+#define nsvcd__prove_start NSVCD__AT(prove_start)
+#define nsvcd__prove_tile_in_order NSVCD__AT(prove_tile_in_order)
+#define nsvcd__prove_tiles NSVCD__AT(prove_tiles)
+#define nsvcd__quanta_of NSVCD__AT(quanta_of)
+#define nsvcd__quat_chord NSVCD__AT(quat_chord)
+#define nsvcd__query NSVCD__AT(query)
+#define nsvcd__query_layout NSVCD__AT(query_layout)
+#define nsvcd__query_open NSVCD__AT(query_open)
+#define nsvcd__question_check NSVCD__AT(question_check)
+#define nsvcd__ray NSVCD__AT(ray)
+#define nsvcd__ray_crosses NSVCD__AT(ray_crosses)
+#define nsvcd__ray_of NSVCD__AT(ray_of)
+#define nsvcd__remember_plane NSVCD__AT(remember_plane)
+#define nsvcd__rotate_degree NSVCD__AT(rotate_degree)
+#define nsvcd__rotate_latent NSVCD__AT(rotate_latent)
+#define nsvcd__row_left NSVCD__AT(row_left)
+#define nsvcd__run_layer NSVCD__AT(run_layer)
+#define nsvcd__same_bodies NSVCD__AT(same_bodies)
+#define nsvcd__scenes NSVCD__AT(scenes)
+#define nsvcd__scenes_of NSVCD__AT(scenes_of)
+#define nsvcd__score NSVCD__AT(score)
+#define nsvcd__search NSVCD__AT(search)
+#define nsvcd__search_and_judge NSVCD__AT(search_and_judge)
+#define nsvcd__search_begin NSVCD__AT(search_begin)
+#define nsvcd__search_group NSVCD__AT(search_group)
+#define nsvcd__search_layout NSVCD__AT(search_layout)
+#define nsvcd__search_moving_tile NSVCD__AT(search_moving_tile)
+#define nsvcd__search_next_tile NSVCD__AT(search_next_tile)
+#define nsvcd__search_patch NSVCD__AT(search_patch)
+#define nsvcd__search_step NSVCD__AT(search_step)
+#define nsvcd__search_tile NSVCD__AT(search_tile)
+#define nsvcd__seeds_near NSVCD__AT(seeds_near)
+#define nsvcd__seek_item NSVCD__AT(seek_item)
+#define nsvcd__segment_count NSVCD__AT(segment_count)
+#define nsvcd__segment_span NSVCD__AT(segment_span)
+#define nsvcd__segments NSVCD__AT(segments)
+#define nsvcd__segments_apart NSVCD__AT(segments_apart)
+#define nsvcd__segments_that_matter NSVCD__AT(segments_that_matter)
+#define nsvcd__settings NSVCD__AT(settings)
+#define nsvcd__settings_of NSVCD__AT(settings_of)
+#define nsvcd__settle_arc NSVCD__AT(settle_arc)
+#define nsvcd__settle_couple NSVCD__AT(settle_couple)
+#define nsvcd__settle_item NSVCD__AT(settle_item)
+#define nsvcd__settle_items NSVCD__AT(settle_items)
+#define nsvcd__settle_row NSVCD__AT(settle_row)
+#define nsvcd__settle_short_part NSVCD__AT(settle_short_part)
+#define nsvcd__settle_triangles NSVCD__AT(settle_triangles)
+#define nsvcd__sift_down NSVCD__AT(sift_down)
+#define nsvcd__sift_items NSVCD__AT(sift_items)
+#define nsvcd__slice_against_patch NSVCD__AT(slice_against_patch)
+#define nsvcd__sort_items NSVCD__AT(sort_items)
+#define nsvcd__span NSVCD__AT(span)
+#define nsvcd__span_of_arc NSVCD__AT(span_of_arc)
+#define nsvcd__span_of_segment NSVCD__AT(span_of_segment)
+#define nsvcd__spare_boxes NSVCD__AT(spare_boxes)
+#define nsvcd__spare_chords NSVCD__AT(spare_chords)
+#define nsvcd__spheres_at_box NSVCD__AT(spheres_at_box)
+#define nsvcd__spheres_on_ray NSVCD__AT(spheres_on_ray)
+#define nsvcd__starts_inside NSVCD__AT(starts_inside)
+#define nsvcd__starts_within NSVCD__AT(starts_within)
+#define nsvcd__status_of NSVCD__AT(status_of)
+#define nsvcd__sticks_out NSVCD__AT(sticks_out)
+#define nsvcd__support NSVCD__AT(support)
+#define nsvcd__support_along NSVCD__AT(support_along)
+#define nsvcd__surface_is_near NSVCD__AT(surface_is_near)
+#define nsvcd__surroundings NSVCD__AT(surroundings)
+#define nsvcd__sweep_batch NSVCD__AT(sweep_batch)
+#define nsvcd__sweep_gradient NSVCD__AT(sweep_gradient)
+#define nsvcd__sweep_size NSVCD__AT(sweep_size)
+#define nsvcd__take_contact NSVCD__AT(take_contact)
+#define nsvcd__take_doubt NSVCD__AT(take_doubt)
+#define nsvcd__take_to_line NSVCD__AT(take_to_line)
+#define nsvcd__task NSVCD__AT(task)
+#define nsvcd__task_of NSVCD__AT(task_of)
+#define nsvcd__threshold NSVCD__AT(threshold)
+#define nsvcd__tile NSVCD__AT(tile)
+#define nsvcd__tile_fill NSVCD__AT(tile_fill)
+#define nsvcd__tile_fill_all NSVCD__AT(tile_fill_all)
+#define nsvcd__tile_groups NSVCD__AT(tile_groups)
+#define nsvcd__time_in_arc NSVCD__AT(time_in_arc)
+#define nsvcd__time_in_segment NSVCD__AT(time_in_segment)
+#define nsvcd__time_of NSVCD__AT(time_of)
+#define nsvcd__to_bytes NSVCD__AT(to_bytes)
+#define nsvcd__to_nearest_patch NSVCD__AT(to_nearest_patch)
+#define nsvcd__to_world NSVCD__AT(to_world)
+#define nsvcd__to_world_at NSVCD__AT(to_world_at)
+#define nsvcd__touch NSVCD__AT(touch)
+#define nsvcd__touch_normals NSVCD__AT(touch_normals)
+#define nsvcd__track NSVCD__AT(track)
+#define nsvcd__track_box NSVCD__AT(track_box)
+#define nsvcd__track_of NSVCD__AT(track_of)
+#define nsvcd__track_pose NSVCD__AT(track_pose)
+#define nsvcd__track_pose_at NSVCD__AT(track_pose_at)
+#define nsvcd__track_poses_at NSVCD__AT(track_poses_at)
+#define nsvcd__transform_of NSVCD__AT(transform_of)
+#define nsvcd__triangles_are_parted NSVCD__AT(triangles_are_parted)
+#define nsvcd__triangles_meet NSVCD__AT(triangles_meet)
+#define nsvcd__triangles_nearest NSVCD__AT(triangles_nearest)
+#define nsvcd__triangles_pass NSVCD__AT(triangles_pass)
+#define nsvcd__turn NSVCD__AT(turn)
+#define nsvcd__turn_answer NSVCD__AT(turn_answer)
+#define nsvcd__turn_between NSVCD__AT(turn_between)
+#define nsvcd__two_groups NSVCD__AT(two_groups)
+#define nsvcd__undoes NSVCD__AT(undoes)
+#define nsvcd__undone NSVCD__AT(undone)
+#define nsvcd__unit_rotation NSVCD__AT(unit_rotation)
+#define nsvcd__v NSVCD__AT(v)
+#define nsvcd__v3 NSVCD__AT(v3)
+#define nsvcd__v3_add NSVCD__AT(v3_add)
+#define nsvcd__v3_centres NSVCD__AT(v3_centres)
+#define nsvcd__v3_cross NSVCD__AT(v3_cross)
+#define nsvcd__v3_dot NSVCD__AT(v3_dot)
+#define nsvcd__v3_dot_add NSVCD__AT(v3_dot_add)
+#define nsvcd__v3_fma NSVCD__AT(v3_fma)
+#define nsvcd__v3_length NSVCD__AT(v3_length)
+#define nsvcd__v3_load NSVCD__AT(v3_load)
+#define nsvcd__v3_load_rows NSVCD__AT(v3_load_rows)
+#define nsvcd__v3_max NSVCD__AT(v3_max)
+#define nsvcd__v3_min NSVCD__AT(v3_min)
+#define nsvcd__v3_negate NSVCD__AT(v3_negate)
+#define nsvcd__v3_of NSVCD__AT(v3_of)
+#define nsvcd__v3_rows NSVCD__AT(v3_rows)
+#define nsvcd__v3_scale NSVCD__AT(v3_scale)
+#define nsvcd__v3_set NSVCD__AT(v3_set)
+#define nsvcd__v3_store NSVCD__AT(v3_store)
+#define nsvcd__v3_store_rows NSVCD__AT(v3_store_rows)
+#define nsvcd__v3_sub NSVCD__AT(v3_sub)
+#define nsvcd__v3_transform NSVCD__AT(v3_transform)
+#define nsvcd__v3_unit NSVCD__AT(v3_unit)
+#define nsvcd__v_abs NSVCD__AT(v_abs)
+#define nsvcd__v_across NSVCD__AT(v_across)
+#define nsvcd__v_add NSVCD__AT(v_add)
+#define nsvcd__v_add_to NSVCD__AT(v_add_to)
+#define nsvcd__v_approach NSVCD__AT(v_approach)
+#define nsvcd__v_approach_load NSVCD__AT(v_approach_load)
+#define nsvcd__v_arc NSVCD__AT(v_arc)
+#define nsvcd__v_arc_bound NSVCD__AT(v_arc_bound)
+#define nsvcd__v_bits NSVCD__AT(v_bits)
+#define nsvcd__v_clamp NSVCD__AT(v_clamp)
+#define nsvcd__v_degree2 NSVCD__AT(v_degree2)
+#define nsvcd__v_deviation NSVCD__AT(v_deviation)
+#define nsvcd__v_disc NSVCD__AT(v_disc)
+#define nsvcd__v_disc_along NSVCD__AT(v_disc_along)
+#define nsvcd__v_disc_load NSVCD__AT(v_disc_load)
+#define nsvcd__v_disc_range NSVCD__AT(v_disc_range)
+#define nsvcd__v_disc_set NSVCD__AT(v_disc_set)
+#define nsvcd__v_div NSVCD__AT(v_div)
+#define nsvcd__v_farthest_axis NSVCD__AT(v_farthest_axis)
+#define nsvcd__v_fma NSVCD__AT(v_fma)
+#define nsvcd__v_half_rotation NSVCD__AT(v_half_rotation)
+#define nsvcd__v_keep_most NSVCD__AT(v_keep_most)
+#define nsvcd__v_le NSVCD__AT(v_le)
+#define nsvcd__v_least NSVCD__AT(v_least)
+#define nsvcd__v_load NSVCD__AT(v_load)
+#define nsvcd__v_load_int16 NSVCD__AT(v_load_int16)
+#define nsvcd__v_lt NSVCD__AT(v_lt)
+#define nsvcd__v_max NSVCD__AT(v_max)
+#define nsvcd__v_min NSVCD__AT(v_min)
+#define nsvcd__v_mul NSVCD__AT(v_mul)
+#define nsvcd__v_negate NSVCD__AT(v_negate)
+#define nsvcd__v_part NSVCD__AT(v_part)
+#define nsvcd__v_part_by_fixed NSVCD__AT(v_part_by_fixed)
+#define nsvcd__v_part_by_moving NSVCD__AT(v_part_by_moving)
+#define nsvcd__v_parted NSVCD__AT(v_parted)
+#define nsvcd__v_pick NSVCD__AT(v_pick)
+#define nsvcd__v_plus NSVCD__AT(v_plus)
+#define nsvcd__v_pose NSVCD__AT(v_pose)
+#define nsvcd__v_poses NSVCD__AT(v_poses)
+#define nsvcd__v_poses_at NSVCD__AT(v_poses_at)
+#define nsvcd__v_range NSVCD__AT(v_range)
+#define nsvcd__v_scale NSVCD__AT(v_scale)
+#define nsvcd__v_seen NSVCD__AT(v_seen)
+#define nsvcd__v_set NSVCD__AT(v_set)
+#define nsvcd__v_shorter_turn_between NSVCD__AT(v_shorter_turn_between)
+#define nsvcd__v_sign NSVCD__AT(v_sign)
+#define nsvcd__v_signed_square NSVCD__AT(v_signed_square)
+#define nsvcd__v_span NSVCD__AT(v_span)
+#define nsvcd__v_span_load NSVCD__AT(v_span_load)
+#define nsvcd__v_span_set NSVCD__AT(v_span_set)
+#define nsvcd__v_sqrt NSVCD__AT(v_sqrt)
+#define nsvcd__v_store NSVCD__AT(v_store)
+#define nsvcd__v_sub NSVCD__AT(v_sub)
+#define nsvcd__v_turn_between NSVCD__AT(v_turn_between)
+#define nsvcd__v_turn_off_axis NSVCD__AT(v_turn_off_axis)
+#define nsvcd__v_unit_of_length NSVCD__AT(v_unit_of_length)
+#define nsvcd__v_unit_or NSVCD__AT(v_unit_or)
+#define nsvcd__verdict NSVCD__AT(verdict)
+#define nsvcd__verdict_of_distance NSVCD__AT(verdict_of_distance)
+#define nsvcd__vertices_apart NSVCD__AT(vertices_apart)
+#define nsvcd__view NSVCD__AT(view)
+#define nsvcd__views NSVCD__AT(views)
+#define nsvcd__views_of NSVCD__AT(views_of)
+#define nsvcd__views_set_frame NSVCD__AT(views_set_frame)
+#define nsvcd__vmat3 NSVCD__AT(vmat3)
+#define nsvcd__vmat3_apply NSVCD__AT(vmat3_apply)
+#define nsvcd__vmat3_apply_add NSVCD__AT(vmat3_apply_add)
+#define nsvcd__vmat3_apply_transpose NSVCD__AT(vmat3_apply_transpose)
+#define nsvcd__vmat3_fma NSVCD__AT(vmat3_fma)
+#define nsvcd__vmat3_load NSVCD__AT(vmat3_load)
+#define nsvcd__vmat3_mul NSVCD__AT(vmat3_mul)
+#define nsvcd__vmat3_of NSVCD__AT(vmat3_of)
+#define nsvcd__vmat3_scale NSVCD__AT(vmat3_scale)
+#define nsvcd__vmat3_set NSVCD__AT(vmat3_set)
+#define nsvcd__vmat3_square NSVCD__AT(vmat3_square)
+#define nsvcd__vmat3_store NSVCD__AT(vmat3_store)
+#define nsvcd__vmat3_sub NSVCD__AT(vmat3_sub)
+#define nsvcd__vmat3_transpose NSVCD__AT(vmat3_transpose)
+#define nsvcd__vquat NSVCD__AT(vquat)
+#define nsvcd__vquat_axis NSVCD__AT(vquat_axis)
+#define nsvcd__vquat_dot NSVCD__AT(vquat_dot)
+#define nsvcd__vquat_fma NSVCD__AT(vquat_fma)
+#define nsvcd__vquat_inverse NSVCD__AT(vquat_inverse)
+#define nsvcd__vquat_load NSVCD__AT(vquat_load)
+#define nsvcd__vquat_mul NSVCD__AT(vquat_mul)
+#define nsvcd__vquat_of NSVCD__AT(vquat_of)
+#define nsvcd__vquat_set NSVCD__AT(vquat_set)
+#define nsvcd__vquat_store NSVCD__AT(vquat_store)
+#define nsvcd__vquat_unit NSVCD__AT(vquat_unit)
+#define nsvcd__weights_at NSVCD__AT(weights_at)
+#define nsvcd__wigner NSVCD__AT(wigner)
+#define nsvcd__winding_number NSVCD__AT(winding_number)
+#define nsvcd__window_load NSVCD__AT(window_load)
+#define nsvcd__world_pose NSVCD__AT(world_pose)
+#define nsvcd__world_pose_between NSVCD__AT(world_pose_between)
+#define nsvcd__world_pose_of NSVCD__AT(world_pose_of)
+#define nsvcd__wrench NSVCD__AT(wrench)
+#define nsvcd__wrench_add NSVCD__AT(wrench_add)
+#define nsvcd__wrench_load NSVCD__AT(wrench_load)
+#define nsvcd__wrench_of NSVCD__AT(wrench_of)
+#define nsvcd__wrench_scale NSVCD__AT(wrench_scale)
+
+// ---- the passes
+
+#undef NSVCD__SLICE
+#define NSVCD__SLICE 8
+#define NSVCD__ISA _avx2
+#if defined(__clang__)
+#pragma clang attribute push(__attribute__((target("avx2,fma,bmi,bmi2,lzcnt,popcnt"))), \
+                             apply_to = function)
+#elif defined(__GNUC__)
+#pragma GCC push_options
+#pragma GCC target("avx2,fma,bmi,bmi2,lzcnt,popcnt")
+#endif
+#include "neuralsvcd.h"
+#if defined(__clang__)
+#pragma clang attribute pop
+#elif defined(__GNUC__)
+#pragma GCC pop_options
+#endif
+
+#undef NSVCD__SLICE
+#undef NSVCD__ISA
+#undef NSVCD__BYTE_ROWS
+#define NSVCD__SLICE 16
+#define NSVCD__ISA _avx512
+#define NSVCD__VNNI
+#if defined(__clang__)
+#pragma clang attribute push(                                                         \
+    __attribute__((target("avx512f,avx512vl,avx512vnni,fma,bmi,bmi2,lzcnt,popcnt"))), \
+    apply_to = function)
+#elif defined(__GNUC__)
+#pragma GCC push_options
+#pragma GCC target("avx512f,avx512vl,avx512vnni,fma,bmi,bmi2,lzcnt,popcnt")
+#endif
+#include "neuralsvcd.h"
+#if defined(__clang__)
+#pragma clang attribute pop
+#elif defined(__GNUC__)
+#pragma GCC pop_options
+#endif
+
+// from here on a name is a name again, and vectors are those above
+#undef NSVCD__SLICE
+#undef NSVCD__ISA
+#undef NSVCD__VNNI
+#define NSVCD__SLICE 4
+#undef NSVCD__AT
+#undef NSVCD__NUMBER_AT
+#define NSVCD__AT(name) nsvcd__##name
+#define NSVCD__NUMBER_AT(name) NSVCD__##name
+
+typedef enum nsvcd__isa { NSVCD__SSE2, NSVCD__AVX2, NSVCD__AVX512 } nsvcd__isa;
+
+#if defined(_MSC_VER) && !defined(__clang__)
+// What the processor and the system have.
+static nsvcd__isa nsvcd__ask_processor(void) {
+  int first[4];
+  int seventh[4];
+  __cpuid(first, 0);
+  if (first[0] < 7)
+    return NSVCD__SSE2;
+  __cpuid(first, 1);
+  __cpuidex(seventh, 7, 0);
+  const int keeps_registers = first[2] >> 27 & 1;  // the system, of vectors: OSXSAVE
+  const unsigned long long kept = keeps_registers ? _xgetbv(0) : 0;
+  const int fma = first[2] >> 12 & 1;
+  const int bmi = seventh[1] >> 3 & seventh[1] >> 8 & 1;
+  const int avx2 = seventh[1] >> 5 & 1;
+  const int avx512 = seventh[1] >> 16 & (unsigned)seventh[1] >> 31 & seventh[2] >> 11 & 1;
+  if ((kept & 6) != 6 || !fma || !bmi || !avx2)
+    return NSVCD__SSE2;
+  return (kept & 0xe0) == 0xe0 && avx512 ? NSVCD__AVX512 : NSVCD__AVX2;
+}
+
+// The same, remembered: one word, which all threads that may write it at a time write alike.
+static nsvcd__isa nsvcd__isa_at_hand(void) {
+  static volatile long known = -1;
+  if (known < 0)
+    known = nsvcd__ask_processor();
+  return (nsvcd__isa)known;
+}
+#else
+// What the processor and the system have. The compiler's own library asks them before main.
+static nsvcd__isa nsvcd__isa_at_hand(void) {
+  const int fma = __builtin_cpu_supports("fma") && __builtin_cpu_supports("bmi2");
+  if (!fma || !__builtin_cpu_supports("avx2"))
+    return NSVCD__SSE2;
+  if (__builtin_cpu_supports("avx512vl") && __builtin_cpu_supports("avx512vnni"))
+    return NSVCD__AVX512;
+  return NSVCD__AVX2;
+}
+#endif
+
+#define NSVCD__BEST(name)                                         \
+  (nsvcd__isa_at_hand() == NSVCD__AVX512 ? nsvcd__##name##_avx512 \
+   : nsvcd__isa_at_hand() == NSVCD__AVX2 ? nsvcd__##name##_avx2   \
+                                         : nsvcd__##name)
+#else
+#define NSVCD__BEST(name) nsvcd__##name
+#endif  // NSVCD__DISPATCH
+
+// ---- what is asked, handed to the best of them
+
+NSVCDDEF size_t nsvcd_sweep_workspace_size(const nsvcd_question *question) {
+  return NSVCD__BEST(sweep_size)(question);
+}
+
+NSVCDDEF nsvcd_result nsvcd_sweep(const nsvcd_question *question, void *workspace,
+                                  size_t workspace_size, nsvcd_answer *answer) {
+  if (!question)
+    return NSVCD_ERROR_ARGUMENT;
+  return NSVCD__BEST(sweep_batch)(question, 1, workspace, workspace_size, answer);
+}
+
+NSVCDDEF nsvcd_result nsvcd_sweep_batch(const nsvcd_question *questions, size_t count,
+                                        void *workspace, size_t workspace_size,
+                                        nsvcd_answer *answers) {
+  return NSVCD__BEST(sweep_batch)(questions, count, workspace, workspace_size, answers);
+}
+
+#ifndef NSVCD_NO_GRADIENT
+NSVCDDEF nsvcd_result nsvcd_sweep_gradient(const nsvcd_question *question, void *workspace,
+                                           size_t workspace_size, nsvcd_answer *answer,
+                                           float *gradient_a, float *gradient_b) {
+  return NSVCD__BEST(sweep_gradient)(question, workspace, workspace_size, answer, gradient_a,
+                                     gradient_b);
+}
+#endif
 
 #ifndef NSVCD_NO_OPTIMIZER
 // ------------------------------------------------------------------------------------------ spline
@@ -16587,22 +17320,6 @@ static int nsvcd__is_good(nsvcd__planner *p, const float *joints, nsvcd_plan_ans
   return !answer->collides;
 }
 
-NSVCDDEF const char *nsvcd_plan_status_string(nsvcd_plan_status status) {
-  switch (status) {
-    case NSVCD_PLAN_CONVERGED:
-      return "converged";
-    case NSVCD_PLAN_LIMIT:
-      return "limit";
-    case NSVCD_PLAN_CANCELLED:
-      return "cancelled";
-    case NSVCD_PLAN_START:
-      return "infeasible start";
-    case NSVCD_PLAN_GOAL:
-      return "infeasible goal";
-  }
-  return "unknown status";
-}
-
 NSVCDDEF size_t nsvcd_plan_workspace_size(const nsvcd_plan_problem *problem,
                                           const nsvcd_plan_options *options) {
   nsvcd__planner planner;
@@ -16749,6 +17466,8 @@ NSVCDDEF nsvcd_result nsvcd_plan(const nsvcd_plan_problem *problem,
   return NSVCD_OK;
 }
 #endif  // NSVCD_NO_OPTIMIZER
+
+#endif  // NSVCD__ISA
 
 #endif  // NEURALSVCD_IMPLEMENTATION
 
