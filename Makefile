@@ -306,7 +306,7 @@ format:  ## clang-format on what is written by hand
 	clang-format -i $(FORMATTED)
 # Version 14 decides, as in Debian 12: others break lines elsewhere.
 check-text:  ## the header as a text; that the tests that tests/PROMISES.md names are there; that all is formatted
-	@if command -v python3 >/dev/null; then python3 tests/text.py && python3 tests/promises.py; \
+	@if command -v python3 >/dev/null; then python3 tests/text.py && python3 tests/isa.py && python3 tests/promises.py; \
 	else echo "check-text: no python3: not tested"; fi
 	@if clang-format --version 2>/dev/null | grep -q 'version 14'; then \
 	  clang-format --dry-run -Werror $(FORMATTED); \

@@ -24,13 +24,13 @@ def names_of(text: str) -> list[str]:
         for enum in re.findall(r"^(?:typedef )?enum[^{;]*\{(.*?)\}", body, flags=re.MULTILINE | re.DOTALL):
             code = re.sub(r"//.*", "", enum)
             names.update(re.findall(r"\b(?:nsvcd|NSVCD)__(\w+)\b(?=\s*(?:,|=|$))", code))
+        names.update(re.findall(r"^typedef char\s+nsvcd__(\w+)", body, flags=re.MULTILINE))
         for line in body.splitlines():
             for pattern in (
                 r"(?:static|NSVCD__INLINE)\b[^(=;]*\bnsvcd__(\w+)\(",
                 r"static const [^(=;]*\bnsvcd__(\w+)(?:\[.*\])* =",
                 r"typedef [^;{]*\bnsvcd__(\w+)(?:\(.*\))?;",
                 r"typedef struct nsvcd__(\w+) \{",
-                r"typedef char nsvcd__(\w+)",
                 r"\} nsvcd__(\w+);",
             ):
                 match = re.match(pattern, line)
