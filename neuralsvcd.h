@@ -46,15 +46,16 @@
 // Or plan a motion that hits nothing: nsvcd_plan, below.
 //
 // What can fail returns a nsvcd_result: 0 is success, and on failure the outputs are left as they
-// were. But for sizes and nsvcd_body_patch, which return 0 where there is none, and nsvcd_spline,
-// which writes nothing. examples/quickstart.c is the whole program.
+// were. Exceptions are sizes and nsvcd_body_patch, which return 0 where there is none, and
+// nsvcd_spline, which then writes nothing. examples/quickstart.c is a larger program.
 //
 // OPTIONS, defined before the implementation is included
 //   NSVCD_STATIC      all functions static
 //   NSVCD_NO_STDIO    no file access: nsvcd_obj_load goes, nsvcd_obj_parse stays
 //   NSVCD_NO_OBJ      no OBJ reader at all
-//   NSVCD_NO_ENCODER  no nsvcd_encode and no OBJ reader: bodies come from nsvcd_body_load
-//   NSVCD_NO_PROOF    no proof: the network answers, and bodies have no triangles
+//   NSVCD_NO_ENCODER  no nsvcd_encode, no nsvcd_mesh_cut and no OBJ reader: bodies come from
+//                     nsvcd_body_load
+//   NSVCD_NO_PROOF    no proof: the network answers; triangles are neither stored nor looked at
 //   NSVCD_NO_NETWORK  no network, and weights.h is not needed: the proof alone; no gradient, no
 //                     optimizer
 //   NSVCD_NO_SMALL, NSVCD_NO_BASE   without these decoders; the default is the largest that is left
@@ -68,9 +69,9 @@
 //   Metres, radians, right-handed; quaternions x y z w of unit length; time in [0,1]; arrays
 //   row-major with their shape beside the pointer. Meshes are triangles, counter-clockwise seen
 //   from outside: the winding gives the normals, and flipping it costs accuracy. Options are
-//   structs whose zero value means the defaults. Functions are re-entrant, there are no globals,
-//   and memory is the caller's, or comes from the caller's allocator in the two functions that take
-//   one.
+//   structs whose zero value means the defaults. Functions are re-entrant, there are no global
+//   variables, and memory is the caller's, or, in the functions that take an allocator, comes from
+//   that.
 //
 // WHAT AN ANSWER IS WORTH
 //   By proof, the default, WITNESS, CERTIFIED_FREE and INSIDE are facts, not opinions; the theorem
@@ -88,7 +89,8 @@
 //
 // NUMERIC ROBUSTNESS, as measured by `make race`, `make bench`, tests/test_proof.c and
 // tests/bench/extremes.sh
-//   All numbers are float32, but where couples of triangles meet: there, double.
+//   A query reckons in float32, but with couples of triangles and with what is inside of what in
+//   double.
 //   Range         coordinates up to NSVCD_MAX_COORDINATE; bodies from NSVCD_MIN_RADIUS, below which
 //                 squares underflow. Proofs are tested from 3e-11 to 3e5 m.
 //   Quantum       a stored triangle is off by this: a few micrometres at most on bodies of 0.3 m.
@@ -140,11 +142,15 @@
 //   sample            a point of the surface, with its normal, drawn to find the patches
 //   piece             a triangle, or a part of one, that belongs to one patch
 //   ball              of a patch: a sphere that contains it
-//   group, level      16 neighbouring patches; spheres over 16 groups each, 16 of these, ...
+//   group             16 neighbouring patches
+//   level             of spheres: over 16 groups each, over 16 of these, ...; and a large body,
+//                     which has such levels
 //   tile              up to 32 groups of a body that are searched together
 //   lane, slice       one of 16 numbers that are worked on together; those that fill a register
+//   block             16 segments of a motion, or 16 triangles of a patch, one in each lane
 //   latent            what the encoder makes of a patch: vectors of degree 1 and 2, and scalars
-//   moving, fixed     the bodies of a query: all is reckoned in the fixed one's frame
+//   moving, fixed     the bodies of a query: all is reckoned in the frame of the fixed one, which
+//                     is also said to rest
 //   segment           a part of the motion, up to 20 degrees of turn; 64 at most
 //   chord             of a point: the straight line from its start to its end in a segment
 //   deviation         how far a point may stray from its chord: by bulge (rotation) and drift
@@ -156,9 +162,11 @@
 //   disc              of a patch: what it reaches along a normal, and across
 //   hull, slack       of a patch: 16 vertices at most, and how far the surface sticks out
 //   listing           a triangle, or a part of one, that a patch stores
+//   facets            what a body stores for the proof: discs, hulls, listings
 //   quantum           how far a stored triangle may be off the mesh's
 //   span              a segment, or a part of one, as the proof bounds its motion
-//   knot, tick        where one of the poses given is reached; the motion's whole number of time
+//   knot, arc         when one of the poses given is reached; the motion from a knot to the next
+//   tick              the unit of a motion's time: every knot is at a whole number of ticks
 //   work              units that a proof takes
 #ifndef NEURALSVCD_H
 #define NEURALSVCD_H
@@ -211,7 +219,7 @@ typedef enum nsvcd_result {
   NSVCD_ERROR_SYNTAX,
   // an index that is zero, or refers to no vertex
   NSVCD_ERROR_INDEX,
-  // a coordinate is not finite, or larger than NSVCD_MAX_COORDINATE
+  // a coordinate is not finite, or larger than NSVCD_MAX_COORDINATE; a mesh is too small
   NSVCD_ERROR_NUMBER,
   // no triangle, or no area
   NSVCD_ERROR_EMPTY,
@@ -289,7 +297,8 @@ NSVCDDEF nsvcd_result nsvcd_obj_load(const char *path, const nsvcd_allocator *al
 // For a large mesh that changes all the time, or that the network is to judge, whose patches must
 // not be much larger than the gap in question: encode what the moving body can reach, the box over
 // its sweep grown a little, as an `open` body. A mesh that stays is better encoded whole, once.
-//   low, high  the box in the mesh's frame, metres, not NULL, finite, low < high
+//   mesh       not NULL
+//   low, high  the box in the mesh's frame, metres, not NULL, finite, low < high on each axis
 //   allocator  NULL: malloc and free
 //   part       not NULL; nsvcd_mesh_free gives it back; left as it was on failure
 //   allocates  the part
@@ -402,6 +411,7 @@ NSVCDDEF nsvcd_result nsvcd_body_load(const void *memory, size_t size, const nsv
 // is it a body of this version and these weights, and is all of it there? For an array baked into
 // the program, and for a large mapped file that was loaded once before: its pages are then read as
 // queries need them. Bytes that were changed since do harm: wrong answers, or reads anywhere.
+// Arguments and errors are those of nsvcd_body_load.
 NSVCDDEF nsvcd_result nsvcd_body_trust(const void *memory, size_t size, const nsvcd_body **body);
 
 // Writes a copy of a body, scaled about its origin: for a planner's bodies, or to bake one; a
@@ -450,7 +460,7 @@ NSVCDDEF int nsvcd_body_patch(const nsvcd_body *body, uint32_t patch, float cent
 
 // ----------------------------------------------------------------------------------------- queries
 
-// a -> rotation a + position, from the body's frame to the world.
+// Takes a point x of the body's frame to the world: rotation x + position.
 typedef struct nsvcd_pose {
   float position[3];  // metres
   float rotation[4];  // unit quaternion x y z w
@@ -517,7 +527,8 @@ typedef struct nsvcd_sweep_options {
   // a motion is cut into at most so many, a multiple of 16 up to 64; 0: 64. Fewer take less memory;
   // what turns by more than 20 degrees in one of them takes longer to prove
   size_t segments;
-  // metres: surfaces that come closer than this, and do not meet, may be left undecided
+  // metres: surfaces that come closer than this, and do not meet, may be left undecided. With
+  // `first`, where a contact follows, they may be taken for its beginning: see clearance_high
   float tolerance;
 
   // By proof only:
@@ -560,14 +571,14 @@ typedef struct nsvcd_question {
 typedef struct nsvcd_answer {
   // of collision; positive is yes. By the network: the greatest of the pairs looked at, less the
   // threshold that options.recall asks for; the search ends at the first above 3. Where the tiny
-  // decoder, which ranks the pairs, is clear (beyond +-3), it is the one that answers. By proof:
+  // decoder, which ranks the pairs, is clear (beyond +-3), that one answers. By proof:
   // +-NSVCD_LOGIT_CERTAIN; where it is undecided, the network's
   float logit;
   // logit > 0. UNDECIDED: the network's opinion on whether they meet, or yes where there is none or
   // something else is asked
   int collides;
   // in [0,1]. WITNESS: when the triangles meet; with options.first that is the first contact, and 0
-  // if they meet at the start. INSIDE: 0. By the network: where the most suspicious pair comes
+  // if they meet at the start. INSIDE: 0. By the network: when the most suspicious pair comes
   // closest
   float contact_time;
   // in [0,1]. By proof: no contact is before this. CERTIFIED_FREE: 1. WITNESS: 0, or with
@@ -586,12 +597,14 @@ typedef struct nsvcd_answer {
   // by the network: pairs of patches whose spheres meet, each counted once for each stretch of
   // time, until the search ends
   size_t candidates;
-  // metres, world. WITNESS: where the triangles meet at that time. INSIDE: what is inside
+  // metres, world. WITNESS: where the triangles meet at that time, or on one of them where they are
+  // nearest. INSIDE: a point of what is inside
   float point[3];
-  // world. WITNESS: unit normal of one of the triangles, from b to a. Otherwise, and where that
-  // triangle has no area, 0
+  // world. WITNESS: unit normal of one of the triangles, from b to a, or, where they are apart, the
+  // direction of that from b's to a's. Otherwise, and where that triangle has no area, 0
   float normal[3];
-  // WITNESS: as numbered in the caller's meshes. Otherwise NSVCD_NO_TRIANGLE
+  // WITNESS: as numbered in the caller's meshes. Otherwise NSVCD_NO_TRIANGLE. With options.measure
+  // these, point and normal are those of the nearest triangles found, whatever the status
   uint32_t triangle_a;
   uint32_t triangle_b;
   // metres, world, at the start: by what a was lifted off b for options.skin; it turns with b. The
@@ -793,7 +806,7 @@ typedef struct nsvcd_plan_problem {
 
 // What is zero is the stage's default.
 typedef struct nsvcd_plan_stage {
-  // M
+  // M, up to NSVCD_MAX_VIA_POINTS
   size_t via_points;
   // of the trajectory, each swept as one motion; with `discrete`, their ends are looked at; up to
   // NSVCD_MAX_PLAN_SEGMENTS
@@ -831,7 +844,7 @@ typedef struct nsvcd_plan_options {
   float bundle;
   // 1: poses instead of sweeps
   int discrete;
-  // segments of the last check; 4 times the finest stage's
+  // segments of the last check, up to 4 NSVCD_MAX_PLAN_SEGMENTS; 4 times the finest stage's
   size_t check;
   // of all queries; recall = 0.999f keeps more distance. The search asks the network. `method` is
   // that of start, goal and the last check, and so are `clearance`, `skin` and the like
@@ -947,8 +960,7 @@ static inline int nsvcd__is_finite(float x) {
   return (bits & 0x7f800000u) != 0x7f800000u;
 }
 
-// Vectors as values: f3 of floats, d3 of doubles. A difference of floats, and all that is built of
-// a few of them, is as good as exact in double.
+// A difference of floats, and all that is built of a few of them, is as good as exact in double.
 typedef struct nsvcd__f3 {
   float x, y, z;
 } nsvcd__f3;
@@ -1098,7 +1110,7 @@ static inline nsvcd__d3 nsvcd__d3_widen(nsvcd__f3 a) {
   return nsvcd__d3_of((double)a.x, (double)a.y, (double)a.z);
 }
 
-// ---- the same in double
+// ---- quaternions and matrices of doubles
 
 typedef struct nsvcd__dquat {
   double x, y, z, w;
@@ -1238,13 +1250,12 @@ static inline void nsvcd__disc_store(nsvcd__disc disc, float *discs, size_t stri
   d[5 * stride] = disc.across;
 }
 
-// ---- quaternions and rotation matrices, as values
+// ---- quaternions and matrices of floats
 
 typedef struct nsvcd__quat {
   float x, y, z, w;
 } nsvcd__quat;
 
-// A matrix by its rows.
 typedef struct nsvcd__mat3 {
   nsvcd__f3 x, y, z;
 } nsvcd__mat3;
@@ -1330,7 +1341,7 @@ static inline nsvcd__f3 nsvcd__quat_turn(nsvcd__quat a, nsvcd__quat b) {
   return nsvcd__f3_of(turn.x, turn.y, turn.z);
 }
 
-// a, b: unit to 1e-4.
+// A share u of the way from a to b, on the shorter arc. a, b: unit to 1e-4.
 static inline nsvcd__quat nsvcd__quat_slerp(nsvcd__quat a, nsvcd__quat b, float u) {
   const int opposed = nsvcd__quats_opposed(a, b);
   const nsvcd__quat start = nsvcd__quat_unit(a);
@@ -1752,7 +1763,7 @@ static inline nsvcd__v nsvcd__v_abs(nsvcd__v a) {
   return nsvcd__v_max(a, nsvcd__v_negate(a));
 }
 
-// 16 vectors as a value, lane by lane.
+// A slice of vectors as a value, lane by lane.
 typedef struct nsvcd__v3 {
   nsvcd__v x, y, z;
 } nsvcd__v3;
@@ -1830,7 +1841,7 @@ NSVCD__INLINE nsvcd__v3 nsvcd__v3_load(float (*p)[NSVCD__LANES], size_t l) {
   return nsvcd__v3_of(nsvcd__v_load(p[0] + l), nsvcd__v_load(p[1] + l), nsvcd__v_load(p[2] + l));
 }
 
-// Of each lane alone: the one in lane l of p (3, LANES).
+// One lane alone: the vector in lane l of (3, LANES).
 static inline nsvcd__f3 nsvcd__lane_of(float (*lanes)[NSVCD__LANES], size_t l) {
   return nsvcd__f3_of(lanes[0][l], lanes[1][l], lanes[2][l]);
 }
@@ -1839,7 +1850,7 @@ static inline void nsvcd__lane_set(nsvcd__f3 a, float (*lanes)[NSVCD__LANES], si
   lanes[1][l] = a.y;
   lanes[2][l] = a.z;
 }
-// Vectors over their lengths; x where there is none.
+// Vectors over their lengths; the x axis where that is 0.
 static inline nsvcd__v3 nsvcd__v3_unit(nsvcd__v3 a) {
   const nsvcd__v zero = nsvcd__v_set(0);
   const nsvcd__v one = nsvcd__v_set(1);
@@ -2182,7 +2193,7 @@ static nsvcd__clipped nsvcd__clip(const nsvcd__clipped *polygon, size_t axis, do
   return out;
 }
 
-// The part of triangle t within the box: 0, or 3 to 9 corners.
+// The part of triangle t within the box: 0, or 3 to 9 corners, but for roundings.
 static nsvcd__clipped nsvcd__cut_triangle(const nsvcd_mesh *mesh, size_t t, const float *low,
                                           const float *high) {
   const uint32_t *corners = mesh->indices + 3 * t;
@@ -2376,7 +2387,7 @@ static int nsvcd__polygon_is_ear(const nsvcd__polygon *polygon, uint32_t i) {
   return 1;
 }
 
-// Makes a ring of the corners, and of each one that may be an ear.
+// Makes a ring of the corners, and puts all of them into the queue.
 static nsvcd__polygon nsvcd__polygon_of(nsvcd__corner *corners, uint32_t count,
                                         const float *positions) {
   nsvcd__polygon polygon = {corners, count, 0, 0, 0, 0};
@@ -2497,7 +2508,7 @@ static int nsvcd__obj_has_token(nsvcd__obj *obj) {
   return obj->at < obj->end && *obj->at != '\n' && *obj->at != '#';
 }
 
-// To the begin of the next line that does not continue this statement.
+// To the beginning of the next line that does not continue this statement.
 static void nsvcd__obj_skip_statement(nsvcd__obj *obj) {
   int comment = obj->at < obj->end && *obj->at == '#';
   for (int continued = 1; continued && obj->at < obj->end; obj->line++) {
@@ -2586,8 +2597,9 @@ static int nsvcd__obj_exponent(nsvcd__obj *obj, int64_t *exponent) {
   return 1;
 }
 
-// A decimal number, to double within 2^-52: rounded to float it is the nearest, unless two are
-// equally near to that. NUMBER if float cannot hold it.
+// A decimal number, as a double: within 2^-52 of it, or a few of these where its exponent is beyond
+// +-22. Rounded to float it is the nearest, unless two floats are as near. NUMBER if float cannot
+// hold it.
 static nsvcd_result nsvcd__obj_number(nsvcd__obj *obj, double *value) {
   const double greatest = 3.4028234663852886e38;  // FLT_MAX
   const int negative = nsvcd__obj_minus(obj);
@@ -2616,7 +2628,7 @@ static nsvcd_result nsvcd__obj_number(nsvcd__obj *obj, double *value) {
   return NSVCD_OK;
 }
 
-// v x y z, then nothing, a weight w, a colour r g b, or both: skipped, but they must be numbers.
+// v x y z, then up to five more: a weight, a colour. These are skipped, but must be numbers.
 static nsvcd_result nsvcd__obj_vertex(nsvcd__obj *obj, float *position) {
   int count = 0;
   for (; nsvcd__obj_has_token(obj); count++) {
@@ -2820,7 +2832,6 @@ static nsvcd_result nsvcd__read_file(FILE *file, const nsvcd_allocator *allocato
   return NSVCD_OK;
 }
 
-// nsvcd_obj_parse on the contents of a file.
 NSVCDDEF nsvcd_result nsvcd_obj_load(const char *path, const nsvcd_allocator *allocator,
                                      nsvcd_mesh *mesh, size_t *error_line) {
   if (error_line)
@@ -2852,7 +2863,7 @@ NSVCDDEF nsvcd_result nsvcd_obj_load(const char *path, const nsvcd_allocator *al
 #define NSVCD__SAMPLES_PER_PATCH 32
 #define NSVCD__NO_SAMPLE 0xffffffffu
 #define NSVCD__LLOYD_STEPS 3
-// of each centre, kept for the search of the nearest centre
+// of each centre, for the search of the nearest centre
 #define NSVCD__NEIGHBOURS 16
 // longest edge of a piece, in mean sample radii
 #define NSVCD__PIECE_SIZE 0.25
@@ -3397,8 +3408,8 @@ static void nsvcd__cover(nsvcd__patches *p, const nsvcd_mesh *mesh) {
   }
   for (size_t i = 0; i < p->count; i++) {
     const nsvcd__patch_sum *sum = &p->sums[i];
-    // A patch may own samples but, its border being finer, only some small piece: its ball holds
-    // both.
+    // A piece goes to one patch as a whole, and so a patch's samples may lie beyond its pieces: its
+    // ball holds both.
     const float radius = nsvcd__radius_above(sum->squared_reach);
     p->radii[i] = fmaxf(radius, p->sample_radii[i]);
     p->areas[i] = (float)sum->weight;
@@ -3406,7 +3417,7 @@ static void nsvcd__cover(nsvcd__patches *p, const nsvcd_mesh *mesh) {
   }
 }
 
-// ---- all of it
+// ---- all of a mesh
 
 // Splits the surface of a checked mesh into at most `count` patches, 1..NSVCD_SMALL_PATCHES: fewer
 // where samples coincide or a patch loses all of its samples. On success release *patches with
@@ -3610,7 +3621,7 @@ static size_t nsvcd__edges_of(const nsvcd__topology *topology, size_t t, nsvcd__
 
 // All edges, listed at their lesser ends. A component is closed if its edges cancel.
 typedef struct nsvcd__edges {
-  // (vertices + 1) edges of a vertex
+  // (vertices + 1) where a vertex's edges begin; one more while they are sorted
   size_t *first;
   // (3 triangles) the greater end
   uint32_t *ends;
@@ -4115,13 +4126,13 @@ static void nsvcd__region_end(nsvcd__regions *r, nsvcd__region *region) {
 // ball, disc and swollen hull convex: what contains the corners contains the piece. The corners
 // themselves are off by roundings of double: all bounds are wider by NSVCD__SURFACE_MARGIN.
 
-// mean sample radii: so far a piece may extend into another cell
+// mean sample radii: how far a piece may extend into another cell
 #define NSVCD__SURFACE_OVERLAP 0.5
 // mean sample radii: with a longer edge a triangle is listed in parts
 #define NSVCD__SURFACE_WHOLE 16.0
 // of the mesh's greatest coordinate
 #define NSVCD__SURFACE_MARGIN 1e-13
-// metres, added to that: keeps off what float cannot hold
+// metres, added to that: keeps clear of what float cannot hold
 #define NSVCD__SURFACE_TINY 1e-30
 // of the radius: a hull as near as this to all corners is good
 #define NSVCD__HULL_SHARE 1e-4
@@ -4245,7 +4256,7 @@ typedef struct nsvcd__pieces {
   nsvcd__convex *waiting;  // (NSVCD__WAITING)
   size_t waiting_count;
   size_t cuts_left;
-  // metres: so far a piece may extend beyond its cell
+  // metres: how far a piece may extend beyond its cell
   double overlap;
   // metres: a triangle with a longer edge is listed in parts
   double longest_edge;
@@ -4891,8 +4902,9 @@ static int nsvcd__simplex_settle(nsvcd__simplex *s) {
   }
 }
 
-// The distance of a point from a point of the convex hull of some vertices: a bound on that from
-// the hull. It is no more than a thousandth above that, unless it is below `enough`.
+// The distance of a point from some point of the convex hull of vertices: no less than that from
+// the hull, and no more than two thousandths above it, but for roundings or where it is below
+// `enough`.
 static double nsvcd__hull_distance(nsvcd__points hull, nsvcd__d3 point, double enough) {
   nsvcd__simplex s;
   s.points[0] = nsvcd__d3_sub(hull.at[hull.count - 1], point);
@@ -5148,8 +5160,8 @@ static void nsvcd__take_seed(const nsvcd__region *region, uint32_t point, size_t
   surface->seed_patches[surface->seed_count++] = (uint32_t)to;
 }
 
-// Ball, disc and hull of patch i of the region, which is `to` of all. The slack does not know of
-// the integers yet.
+// Ball, disc and hull of patch i of the region, which is `to` of all. What the vertices will be off
+// by as integers is not in the slack yet.
 static void nsvcd__describe_patch(nsvcd__sorted *sorted, size_t i, nsvcd__surface *surface) {
   const nsvcd__pieces *pieces = sorted->pieces;
   const size_t to = surface->done + i;
@@ -5476,7 +5488,7 @@ static void nsvcd__linear(nsvcd__encoder_layer layer, const float *x, float *y) 
   size_t left = layer.inputs;
   for (size_t o = 0; o < outputs; o++)
     y[o] = layer.bias ? layer.bias[o] : 0;
-  // four rows at a time: y is the traffic
+  // four rows at a time: reading and writing y takes longest
   for (; left >= 4; left -= 4) {
     const float *r1 = w + outputs;
     const float *r2 = r1 + outputs;
@@ -5738,8 +5750,8 @@ static void nsvcd__encode_patch(const nsvcd__encoded *patch, float *latent) {
 
 // --------------------------------------------------------------------------------- latent rotation
 // D(R), block-diagonal: R itself on degree 1, the real Wigner matrix of degree 2 on degree 2
-// (appendix E). Computed from R directly, so D(R1 R2) = D(R1) D(R2) to rounding; R may be improper
-// (a mirror): both degrees are polynomial.
+// (NeuralSVCD, appendix E). Computed from R directly, so D(R1 R2) = D(R1) D(R2) to rounding; R may
+// be improper (a mirror): both degrees are polynomial.
 
 // numbers of a latent's vectors: (3, CHANNELS), then (5, CHANNELS)
 #define NSVCD__VECTORS (8 * NSVCD_W_CHANNELS)
@@ -5810,7 +5822,7 @@ NSVCD__INLINE void nsvcd__rotate_degree(const float *latent, float (*turn)[NSVCD
   }
 }
 
-// A stored latent, turned by D (WIGNER, SLICE) of lane l, to its place of two (0, 1) in a row of
+// Turns a stored latent by D (WIGNER, SLICE) of lane l, and writes it to place 0 or 1 of a row of
 // the decoder's inputs: vectors (2, 8, CHANNELS), then scalars (2, SCALARS).
 static void nsvcd__rotate_latent(const int8_t *z, float (*turn)[NSVCD__SLICE], size_t l,
                                  size_t place, float *row) {
@@ -6362,7 +6374,7 @@ static int nsvcd__covers(nsvcd__sphere sphere, nsvcd__spheres all, size_t count)
   return nsvcd__reach_of_spheres(all, count, sphere.centre, &farthest) <= sphere.radius;
 }
 
-// Are spheres from .. to - 1 exactly what padding is?
+// Are the spheres `from` to `to` - 1 exactly what padding is?
 static int nsvcd__is_padding(nsvcd__spheres all, size_t from, size_t to) {
   for (size_t i = from; i < to; i++) {
     if (all.x[i] != 0 || all.y[i] != 0 || all.z[i] != 0)
@@ -6373,7 +6385,7 @@ static int nsvcd__is_padding(nsvcd__spheres all, size_t from, size_t to) {
   return 1;
 }
 
-// Are the first `count` of (4, slots) spheres, finite and within bounds, their radii not negative,
+// Are the first `count` of (4, slots) spheres finite and within bounds, their radii not negative,
 // and the others padding? most: of the coordinates.
 static int nsvcd__are_spheres(nsvcd__spheres all, size_t count, size_t slots, float most) {
   if (!nsvcd__all_within(all.x, 3 * slots, most))
@@ -6402,9 +6414,9 @@ static int nsvcd__level_covers(nsvcd__spheres above, size_t count, nsvcd__sphere
   return 1;
 }
 
-// The spheres of a blob whose layout is right: finite, bounded, radii not negative, each one above
-// covering its 16. A checksum stops accidents; this stops a blob made to harm: a lying sphere would
-// hide collisions.
+// Are the spheres of a blob, whose layout is right, finite and bounded, their radii not negative,
+// and does each one above cover its 16? A checksum stops accidents; this stops a blob made to harm:
+// a lying sphere would hide collisions.
 static int nsvcd__spheres_are_sound(const nsvcd_body *body) {
   const nsvcd__spheres patches = nsvcd__body_patches(body);
   const nsvcd__sphere about_origin = {nsvcd__f3_of(0, 0, 0), body->extent};
@@ -6434,7 +6446,7 @@ static int nsvcd__spheres_are_sound(const nsvcd_body *body) {
          nsvcd__covers(about_origin, patches, body->patches);
 }
 
-// Multiplies the spheres that both kinds of bodies begin with.
+// Multiplies the patches' spheres, with which both kinds of bodies begin.
 static void nsvcd__scale_spheres(nsvcd_body *body, float scale) {
   float *floats = (float *)(body + 1);
   for (size_t i = 0; i < 3 * (size_t)body->padded; i++)
@@ -7041,7 +7053,7 @@ static int nsvcd__numbers_are_sound(const nsvcd__facets *f, size_t from, size_t 
   return at == end;
 }
 
-// Are counts and indices of a patch right? What stands before it is.
+// Are counts and indices of a patch right? Those of the patches before it are.
 static int nsvcd__patch_is_laid_out(const nsvcd__facets *f, size_t i) {
   const uint32_t *vertex = f->first_vertex + i;
   const uint32_t *triangle = f->first_triangle + i;
@@ -7188,7 +7200,7 @@ static int nsvcd__header_is_sound(const nsvcd_body *b, size_t size) {
   return b->size >= nsvcd__spheres_size(b->padded) && b->size % NSVCD_ALIGNMENT == 0;
 }
 
-// All of a body of triangles, of at most `size` bytes, its header known to be sound.
+// Is all of a body of triangles sound? It has at most `size` bytes, and a sound header.
 static int nsvcd__triangles_are_sound(const nsvcd_body *b, size_t size) {
 #ifndef NSVCD_NO_PROOF
   if (b->inner != 0 || !nsvcd__spheres_are_sound(b))
@@ -7201,7 +7213,7 @@ static int nsvcd__triangles_are_sound(const nsvcd_body *b, size_t size) {
 #endif
 }
 
-// The body of triangles within a body of latents.
+// Is the body of triangles within a body of latents sound?
 static int nsvcd__inner_is_sound(const nsvcd_body *b) {
   const char *at = (const char *)b + b->inner;
   const nsvcd_body *within = (const nsvcd_body *)(const void *)at;
@@ -7215,7 +7227,7 @@ static int nsvcd__inner_is_sound(const nsvcd_body *b) {
   return nsvcd__triangles_are_sound(within, left);
 }
 
-// All of a body, its header known to be sound, but for the checksum.
+// Is all of a body sound, but for the checksum? Its header is.
 static int nsvcd__body_is_sound(const nsvcd_body *b) {
   if (b->weights_id == 0) {
 #ifndef NSVCD_NO_PROOF
@@ -7362,8 +7374,8 @@ NSVCDDEF int nsvcd_body_patch(const nsvcd_body *body, uint32_t patch, float cent
 }
 
 // ---------------------------------------------------------------------------------------- encoding
-// In: a mesh. Out: a body. Region by region the surface becomes patches, and these latents and
-// triangles; then all of them one blob, neighbours side by side.
+// In: a mesh. Out: a body. Region by region the surface becomes patches, and these become latents
+// and triangles; then all of them become one blob, neighbours side by side.
 
 #ifndef NSVCD_NO_ENCODER
 // What is to be encoded, and how, with the defaults filled in.
@@ -7541,7 +7553,7 @@ static nsvcd_result nsvcd__parts_build(const nsvcd__plan *plan, nsvcd__parts *pa
 }
 
 #ifndef NSVCD_NO_NETWORK
-// Writes the body of latents to the begin of the blob, its patches in the given order (N).
+// Writes the body of latents to the beginning of the blob, its patches in the given order (N).
 static nsvcd_result nsvcd__parts_write_latents(const nsvcd__parts *parts, const uint16_t *order,
                                                void *memory) {
   nsvcd__latents_source source;
