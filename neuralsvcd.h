@@ -151,7 +151,8 @@
 //   latent            what the encoder makes of a patch: vectors of degree 1 and 2, and scalars
 //   moving, fixed     the bodies of a query: all is reckoned in the frame of the fixed one, which
 //                     is also said to rest
-//   segment           a part of the motion, up to 20 degrees of turn; 64 at most
+//   segment           a part of the motion, up to 20 degrees of turn; 64 at most. The planner has
+//                     its own: see section *optimizer*
 //   chord             of a point: the straight line from its start to its end in a segment
 //   deviation         how far a point may stray from its chord: by bulge (rotation) and drift
 //   candidate         two patches and a contact interval, in which their balls meet
@@ -901,8 +902,8 @@ NSVCDDEF size_t nsvcd_plan_workspace_size(const nsvcd_plan_problem *problem,
 // Start, goal and the trajectory at the end are proven free where bodies have triangles: for the
 // motion of each pair as seen from b between the poses of the check's segments, position linear and
 // rotation slerp. Where the proof finds a hit, the refinement goes on from there with twice the
-// margin, three times at most. It ends within seeds * (iterations of MPPI + 4 times those of
-// L-BFGS) iterations, of `samples` trajectories each, and for L-BFGS 5 more.
+// margin and a little more, three times at most. It ends within seeds * (iterations of MPPI + 4
+// times those of L-BFGS) iterations, each of `samples` trajectories, and for L-BFGS of 5 more.
 NSVCDDEF nsvcd_result nsvcd_plan(const nsvcd_plan_problem *problem,
                                  const nsvcd_plan_options *options, void *workspace,
                                  size_t workspace_size, float *control, nsvcd_plan_answer *answer);
@@ -8033,7 +8034,7 @@ static nsvcd__transform nsvcd__motion_pose(const nsvcd__motion *motion, float t)
 // above the groups finds those that the other body comes near, and they are searched tile after
 // tile: each moving tile against all tiles of the fixed body.
 
-// as long as no segment then turns by more than NSVCD__SEGMENT_TURN
+// of a motion, as long as none then turns by more than NSVCD__SEGMENT_TURN
 #define NSVCD__SEGMENTS 16
 // reached at 1280 degrees; beyond, segments turn more: still proven, only looser
 #define NSVCD__MAX_SEGMENTS 64
@@ -8199,8 +8200,8 @@ static void nsvcd__search_layout(const nsvcd__needs *needs, char *base, uint64_t
   search->fixed_tile.gathered = (float *)nsvcd__take(base, used, gathered, sizeof(float));
 }
 
-// What the members of a group will be posed in serves until then, so that it need not come from the
-// stack.
+// Memory for chords, and for boxes, that need not come from the stack: where the members of a group
+// will be posed later.
 static nsvcd__chords *nsvcd__spare_chords(const nsvcd__search *search) {
   return &search->members[0];
 }
@@ -8311,7 +8312,7 @@ static size_t nsvcd__segment_count(const nsvcd__motion *motion, size_t greatest,
   return ticks * *parts;
 }
 
-// The caller's own poses, of one body: no need to ask.
+// Where one body moves and every tick is one of its poses: these, as the caller gave them.
 static void nsvcd__knots_copy(const nsvcd__motion *motion, const uint32_t *ticks, size_t count,
                               nsvcd__knots *out) {
   for (size_t l = 0; l < count; l++) {
@@ -8414,7 +8415,7 @@ static NSVCD__APART void nsvcd__cut_starts(const nsvcd__motion *motion, const ui
   }
 }
 
-// And at their ends, of which the starts are known.
+// The same at their ends; the starts are known.
 static NSVCD__APART void nsvcd__cut_ends(const nsvcd__motion *motion, nsvcd__segments *out,
                                          nsvcd__cut *cut) {
   const nsvcd__v scale = nsvcd__v_set(motion->scale);
@@ -8505,7 +8506,7 @@ static NSVCD__APART void nsvcd__cut_last_arc(const nsvcd__motion *motion, nsvcd_
   }
 }
 
-// Adds what a knot is off its segment's chord by, of which a share of u lies before it.
+// Adds what a knot is off its segment's chord by. A share u of the segment lies before it.
 static void nsvcd__cut_off_chord(const nsvcd__motion *motion, nsvcd__v u, const nsvcd__v_pose *seen,
                                  size_t l, nsvcd__segments *out, nsvcd__cut *cut) {
   const nsvcd__vmat3 start = nsvcd__vmat3_load(out->rotation, l);
@@ -8582,7 +8583,8 @@ static void nsvcd__cut_deviations(const nsvcd__motion *motion, float lengths, si
   nsvcd__v_store(out->spread + l, nsvcd__v_add(rounding, drift));
 }
 
-// 16 segments, of which `count` exist; `begin`: (17) their ends in ticks. turn: arc of each.
+// Cuts 16 segments, of which `count` exist. begin: (17) ticks at which they begin, and the last one
+// ends. turn: (16) the angle by which each turns.
 static void nsvcd__cut_block(const nsvcd__motion *motion, const uint32_t *begin, size_t count,
                              float lengths, nsvcd__segments *out, nsvcd__cut *cut, float *turn) {
   uint32_t ticks[NSVCD__LANES];
@@ -8631,7 +8633,7 @@ static void nsvcd__choose_segments(nsvcd__motion *motion, nsvcd__search *search)
   search->time[segments] = 1;
 }
 
-// Fills workspace: the chosen segments' poses in the fixed body's frame, and deviations. `lengths`:
+// Fills the blocks: the chosen segments' poses in the fixed body's frame, and deviations. lengths:
 // the bodies' extents; clearance: spheres that come so near are to count as meeting.
 static void nsvcd__cut_segments(const nsvcd__motion *motion, float lengths, float clearance,
                                 nsvcd__search *search) {
@@ -8688,8 +8690,10 @@ static void nsvcd__chords_of_sphere(nsvcd__segments *b, nsvcd__sphere sphere, ns
   }
 }
 
-// Chords of 16 spheres in one segment: lane s of a block. No centre is farther from the body's
-// origin than `remote`, in that body's own frame, as all that is given; scale: of the body.
+// Chords of 16 spheres in one segment: lane s of a block. The patches that they contain are no
+// farther than `remote` from the body's origin, in its own frame and units; scale: of the body. The
+// centre of a sphere over patches may be farther: on their chords points of a body do not move
+// apart, so that it is enough to allow for what the patches deviate.
 static void nsvcd__chords_of_members(nsvcd__segments *b, size_t s, nsvcd__spheres members,
                                      float scale, float remote, nsvcd__chords *out) {
   const nsvcd__v deviation = nsvcd__v_set(b->spread[s] + b->bulge[s] * remote);
@@ -9058,8 +9062,7 @@ static void nsvcd__chords_of_group(nsvcd__search *search, size_t g) {
   nsvcd__chords_in_all(search, nsvcd__sphere_of(nsvcd__group_spheres(search->moving), g));
 }
 
-// Chords of 16 spheres of the moving body in segment s; none of their centres is farther from its
-// origin than `remote`.
+// Chords of 16 spheres of the moving body in segment s. remote: as nsvcd__chords_of_members has it.
 static void nsvcd__chords_in_segment(const nsvcd__search *search, size_t s, nsvcd__spheres spheres,
                                      float remote, nsvcd__chords *out) {
   nsvcd__segments *block = &search->blocks[s / NSVCD__LANES];
@@ -9105,7 +9108,7 @@ static void nsvcd__boxes_of_groups(const nsvcd__search *search, size_t first, ui
   }
 }
 
-// 16 spheres that touch a box.
+// Lanes of 16 spheres that touch a box.
 static uint32_t nsvcd__spheres_at_box(nsvcd__box box, nsvcd__spheres all) {
   const nsvcd__v3 none = nsvcd__v3_set(nsvcd__f3_of(0, 0, 0));
   uint32_t touched = 0;
@@ -9204,7 +9207,9 @@ static void nsvcd__tile_fill_all(nsvcd__tile *tile, const nsvcd_body *body) {
   tile->spheres = nsvcd__group_spheres(body);
 }
 
-// Filters of a walk, given the workspace. All spheres that there are.
+// ---- filters of a walk, which are given the search
+
+// All spheres that there are.
 static uint32_t nsvcd__exists(const void *what, nsvcd__spheres all) {
   uint32_t exists = 0;
   (void)what;
@@ -9479,14 +9484,14 @@ static void nsvcd__candidates_start(nsvcd__candidates *kept, nsvcd__candidate *i
 // triangles come closer than their quanta and the tolerance without meeting, or the limit of work
 // was reached.
 //
-// FIRST CONTACT. Contacts end the motion: whenever one is found, only what is more than the
-// tolerance before it matters from then on, and is proven free or gives an earlier contact.
-// Segments are searched some at a time, in their order, so that the first ones found are early
-// ones.
+// FIRST CONTACT. Contacts end the motion: whenever one is found, only what is more than `first`
+// before it matters from then on, and is proven free or gives an earlier contact. A couple that
+// was in doubt before a contact stands for its beginning. Segments are searched some at a time, in
+// their order, so that the first ones found are early ones.
 //
 // THE LEAST DISTANCE. Contacts lower the clearance: it begins as a distance that two vertices
-// have, and whenever triangles are found nearer than that, it becomes their distance less the
-// tolerance. What has been parted stays parted, by more than that. So both are one search whose
+// have, and whenever triangles are found nearer than that, it becomes their distance less
+// `measure`. What has been parted stays parted, by more than that. So both are one search whose
 // question shrinks, and in the end all of the motion that matters is proven free at the clearance
 // that matters.
 //
@@ -9935,7 +9940,7 @@ static const nsvcd__span *nsvcd__segment_span(nsvcd__proof *p, const nsvcd__sear
   return &p->spans[s];
 }
 
-// From u0 to u1 of an arc.
+// The span from u0 to u1 of the arc that begins at the knot `first`.
 static nsvcd__span nsvcd__span_of_arc(nsvcd__proof *p, uint32_t first, double u0, double u1) {
   const nsvcd__arc *arc = nsvcd__arc_at(p, first);
   const nsvcd__placement start = nsvcd__placement_at(arc, u0);
@@ -10418,7 +10423,7 @@ NSVCD__INLINE nsvcd__v3 nsvcd__hull_of(const nsvcd__facets *f, size_t patch, siz
   return nsvcd__facet_vertices(f, patch, 0, f->hull_counts[patch], l);
 }
 
-// The hulls of an item's patches, posed, into the workspace.
+// Poses the hulls of an item's patches, into the proof's memory.
 static void nsvcd__pose_hulls(nsvcd__proof *p, size_t i, size_t j, const nsvcd__span *span) {
   NSVCD__EACH_SLICE(l) {
     const nsvcd__v3 moving = nsvcd__hull_of(&p->moving, i, l);
@@ -10523,9 +10528,9 @@ static void nsvcd__remember_plane(nsvcd__proof *p, nsvcd__f3 normal) {
   p->plane++;
 }
 
-// Is there a plane between two patches over the whole span? After the guesses Gilbert's iteration
-// (1966) towards the point nearest to 0 of the differences of the two hulls; each of its directions
-// is tried. p->held is what held.
+// Is there a plane between two patches over the whole span? After the guesses, Gilbert's iteration
+// (1966) goes towards the point nearest to 0 of the differences of the two hulls; each of its
+// directions is tried. p->held is the one that held.
 static NSVCD__APART int nsvcd__hulls_are_apart(nsvcd__proof *p, size_t i, size_t j,
                                                const nsvcd__span *span) {
   const float slacks = p->motion->scale * p->moving.slacks[i] + p->fixed.slacks[j];
@@ -10559,7 +10564,7 @@ static NSVCD__APART int nsvcd__hulls_are_apart(nsvcd__proof *p, size_t i, size_t
 
 // ---- couples: a triangle of each body, in double
 
-// The normal of a triangle (3 corners), twice as long as its area is large.
+// The normal of a triangle (3 corners); its length is twice the area.
 static nsvcd__d3 nsvcd__face_normal(const nsvcd__d3 *t) {
   return nsvcd__d3_cross(nsvcd__d3_sub(t[1], t[0]), nsvcd__d3_sub(t[2], t[0]));
 }
@@ -11288,8 +11293,8 @@ static NSVCD__APART uint32_t nsvcd__row_left(nsvcd__proof *p, size_t i, size_t j
 
 // ---- witnesses
 
-// The nearest points of a posed triangle and another, if they come within the clearance; NULL
-// square: HUGE_VAL if not.
+// The nearest points of a posed triangle and another, if they come within the clearance; if not,
+// `square` is HUGE_VAL.
 static nsvcd__nearest nsvcd__contact_of(const nsvcd__proof *p, const nsvcd__d3 *posed,
                                         const nsvcd__couple *couple) {
   nsvcd__nearest out = {HUGE_VAL, {0, 0, 0}, {0, 0, 0}};
@@ -11433,7 +11438,7 @@ static nsvcd__verdict nsvcd__find_witness(nsvcd__proof *p, size_t i, size_t j, u
   return NSVCD__FREE;
 }
 
-// The last knot that is not after a tick before the end.
+// The last knot that is not after a tick; that tick is before the end of the motion.
 static uint32_t nsvcd__knot_at(const nsvcd__motion *motion, uint32_t tick) {
   const uint32_t past_a = tick % motion->moving.ticks;
   const uint32_t past_b = tick % motion->fixed.ticks;
@@ -11562,8 +11567,8 @@ static void nsvcd__certify_item(const nsvcd__proof *p, const nsvcd__span *span,
   (void)item;
 }
 
-// An item from u0 to u1 of an arc, or from halves to halves of that: by a plane that fits it, or by
-// its triangles.
+// Settles an item from u0 to u1 of an arc, which is halved as often as need be: by a plane between
+// the hulls, or by its triangles.
 static nsvcd__verdict nsvcd__settle_arc(nsvcd__proof *p, const nsvcd__item *item, uint32_t first,
                                         double u0, double u1) {
   double *ends = p->arc_ends;
@@ -11600,7 +11605,7 @@ static nsvcd__verdict nsvcd__settle_arc(nsvcd__proof *p, const nsvcd__item *item
   return verdict;
 }
 
-// An item that no plane parts over its segment, arc by arc.
+// Settles an item that no plane parts over its segment, arc by arc.
 static nsvcd__verdict nsvcd__settle_item(nsvcd__proof *p, const nsvcd__search *search,
                                          const nsvcd__item *item) {
   const uint32_t end = search->begin[item->segment + 1u];
@@ -11752,7 +11757,7 @@ static NSVCD__APART void nsvcd__clip_segment(nsvcd__proof *p, nsvcd__search *sea
   p->plane += p->plane > 0;
 }
 
-// Settles the items that no plane parts, the best first.
+// Settles the items that no plane parts, in the order of nsvcd__comes_first.
 static NSVCD__APART nsvcd__verdict nsvcd__settle_items(nsvcd__proof *p, nsvcd__search *search) {
   nsvcd__sort_items(p, p->of.items, p->count);
   for (size_t n = 0; n < p->count; n++) {
@@ -11772,9 +11777,9 @@ static NSVCD__APART nsvcd__verdict nsvcd__settle_items(nsvcd__proof *p, nsvcd__s
   return nsvcd__is_spent(p) ? NSVCD__UNDECIDED : NSVCD__FREE;
 }
 
-// Looks at fresh items, the best first: parts those that planes can part, looks for a witness in
-// the others, and keeps them. The last plane that held is tried on all before anything else: it
-// often holds for neighbours.
+// Looks at fresh items, in that order: parts those that planes can part, looks for a witness in the
+// others, and keeps them. The last plane that held is tried on all before anything else: it often
+// holds for neighbours.
 static NSVCD__APART nsvcd__verdict nsvcd__sift_items(nsvcd__proof *p, nsvcd__search *search) {
   size_t count = 0;
   nsvcd__clip_segment(p, search);
@@ -11818,7 +11823,7 @@ static NSVCD__APART nsvcd__verdict nsvcd__sift_items(nsvcd__proof *p, nsvcd__sea
 
 // ---- containment
 
-// A component's point that is within the other body.
+// A ray from a place of a body's frame, in that frame: does the body enclose the place?
 typedef struct nsvcd__ray {
   nsvcd__d3 from, direction;
   double margin;  // a ray that passes an edge within this tells nothing
@@ -12385,7 +12390,7 @@ static void nsvcd__patches_towards(const nsvcd__facets *f, nsvcd__f3 place, size
   }
 }
 
-// The moving body's placement where a segment begins or ends, there where the centres are nearest.
+// The moving body's placement at the ends of the segments: the one where the centres are nearest.
 static nsvcd__placement nsvcd__nearest_placement(nsvcd__proof *p, const nsvcd__search *search) {
   const nsvcd__d3 moving = nsvcd__d3_load(p->moving.body->centre);
   const nsvcd__d3 fixed = nsvcd__d3_load(p->fixed.body->centre);
@@ -12427,7 +12432,8 @@ static void nsvcd__to_nearest_patch(const nsvcd__facets *f, const nsvcd__transfo
   }
 }
 
-// The least distance between the vertices of patch i of the moving body and patch j of the fixed.
+// The least distance between the hulls' vertices of patch i of the moving body and patch j of the
+// fixed one.
 static double nsvcd__vertices_apart(const nsvcd__proof *p, const nsvcd__transform *pose, size_t i,
                                     size_t j) {
   float lanes[3][NSVCD__LANES];
@@ -12467,7 +12473,7 @@ static NSVCD__APART double nsvcd__guess_clearance(nsvcd__proof *p, const nsvcd__
   return 1.0001 * nsvcd__vertices_apart(p, &pose, i, j) + rounding;
 }
 
-// All that has been found in the segments that are wanted.
+// Proves what the search finds in the segments that are wanted.
 static nsvcd__verdict nsvcd__prove_segments(nsvcd__proof *p, nsvcd__search *search) {
   nsvcd__verdict verdict = NSVCD__FREE;
   for (int more = 1; more && verdict == NSVCD__FREE;) {
@@ -12486,7 +12492,7 @@ static nsvcd__verdict nsvcd__prove_tiles(nsvcd__proof *p, nsvcd__search *search)
   return verdict;
 }
 
-// Some segments after the other, until there is a contact: then it is the first one of the tile.
+// Proves a tile, some segments at a time, until there is a contact: it is the first of the tile.
 static nsvcd__verdict nsvcd__prove_tile_in_order(nsvcd__proof *p, nsvcd__search *search) {
   const uint64_t few = ((uint64_t)1 << NSVCD__IN_ORDER) - 1;
   nsvcd__verdict verdict = NSVCD__FREE;
@@ -12550,7 +12556,8 @@ static nsvcd__verdict nsvcd__prove(nsvcd__proof *p, nsvcd__search *search) {
     return NSVCD__UNDECIDED;
   return p->within ? NSVCD__WITHIN : p->has_contact ? NSVCD__MEETS : NSVCD__FREE;
 }
-// A proof that knows nothing yet of its motion.
+
+// Makes a proof forget all that it knew of a motion.
 static void nsvcd__proof_restart(nsvcd__proof *p) {
   p->end = p->clipped_end = p->unsure = NSVCD__NEVER;
   p->clipped = 0;
@@ -12608,8 +12615,8 @@ static size_t nsvcd__undone(const nsvcd__proof *p, nsvcd__d3 n) {
   return count;
 }
 
-// Of the normals of what touches, and across an edge of each, one that undoes the most; `best` as
-// it is if none undoes any.
+// Of the normals of what touches, and the directions across an edge of each, the one that undoes
+// the most touches: *best, as it was if none undoes any. Returns how many.
 static size_t nsvcd__best_lift(const nsvcd__proof *p, nsvcd__d3 *best) {
   const nsvcd__d3 none = nsvcd__d3_of(0, 0, 0);
   size_t most = 0;
@@ -12957,8 +12964,9 @@ static int nsvcd__is_contained(const nsvcd_body *moving, const nsvcd_body *fixed
 // Out: a logit each.
 //
 // The motion is linearised about the middle of the interval; then everything is expressed in a
-// frame that moves with the pair, in units of r1 + r2 (appendix F), so the logit is invariant to
-// rigid motion and scale. The symmetries that are left are removed by convention, not learned:
+// frame that moves with the pair, in units of r1 + r2 (NeuralSVCD, appendix F), so the logit is
+// invariant to rigid motion and scale. The symmetries that are left are removed by convention, not
+// learned:
 //   swap           the larger patch comes first
 //   axis 1         the line between the centres
 //   axis 2         the velocity across the line, plus a twentieth of the lean (the difference of
@@ -13244,7 +13252,7 @@ static void nsvcd__views_set_frame(nsvcd__views *view) {
   view->w = nsvcd__v3_scale(view->w, sign);
   const nsvcd__v3 forward = nsvcd__v3_scale(v_across, sign);
   const nsvcd__v3 ref = nsvcd__v3_fma(nsvcd__v_set(NSVCD__LEAN), lean_across, forward);
-  // somewhere
+  // where the reference vanishes in some lane
   if (nsvcd__v_le(nsvcd__v3_length(ref), nsvcd__v_set(1e-7f))) {
     const nsvcd__v3 axis = nsvcd__v_across(nsvcd__v_farthest_axis(e1), e1);
     instead = nsvcd__v_unit_or(axis, 1e-9f, x_axis);
@@ -13333,7 +13341,7 @@ static NSVCD__APART void nsvcd__scenes_of(const nsvcd__pairs *pairs, size_t coun
   nsvcd__v_store(facts[NSVCD__FACT_SPIN], nsvcd__v3_length(view.w));
 }
 
-// Appendix F: the inputs of the decoder for the first `count` pairs of a slice, x (count,
+// The inputs of the decoder (appendix F) for the first `count` pairs of a slice, x (count,
 // DECODER_IN): vectors of the larger patch and of the other, their scalars, and the facts.
 static NSVCD__APART void nsvcd__invariants(const nsvcd__pairs *pairs, size_t count, float *x) {
   nsvcd__scenes scene;
