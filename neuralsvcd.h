@@ -586,9 +586,9 @@ typedef struct nsvcd_answer {
   // options.first no less than contact_time - first. UNDECIDED with options.first: when doubt
   // begins
   float free_until;
-  // metres. By proof: they stay farther apart than `low` until free_until, and come as near as
-  // `high`, at contact_time. What stored triangles are off by is allowed for, and so `high` is not
-  // 0 where they meet. HUGE_VALF where it is not known
+  // metres. By proof: they stay farther apart than clearance_low until free_until, and come as near
+  // as clearance_high, at contact_time. What stored triangles are off by is allowed for, and so
+  // clearance_high is not 0 where they meet; it is HUGE_VALF where it is not known
   float clearance_low;
   float clearance_high;
   // the pair that decided; 0, 0 where there is none
@@ -3280,7 +3280,7 @@ static inline nsvcd__edge_squares nsvcd__squares_of(const nsvcd__triangle *t) {
   out.ca = nsvcd__d3_gap(t->c, t->a);
   return out;
 }
-// Which edge is the longest: 0 for ab, 1 for bc, 2 for ca. Of equals bc, but ab before all.
+// Which edge is the longest: 0 for ab, 1 for bc, 2 for ca; of equal ones the first.
 static int nsvcd__longest_of(nsvcd__edge_squares e) {
   if (e.bc > e.ab && e.bc >= e.ca)
     return 1;
@@ -3418,7 +3418,7 @@ static void nsvcd__cover(nsvcd__patches *p, const nsvcd_mesh *mesh) {
   }
 }
 
-// ---- all of a mesh
+// ---- all of it
 
 // Splits the surface of a checked mesh into at most `count` patches, 1..NSVCD_SMALL_PATCHES: fewer
 // where samples coincide or a patch loses all of its samples. On success release *patches with
@@ -12698,7 +12698,7 @@ static NSVCD__APART void nsvcd__lift_motion(nsvcd__proof *p, nsvcd__search *sear
   p->clearance += 0.05 * p->skin;
   p->gathers = 1;
   int liftable = 1;
-  // as many times as there are too many contacts to look at at once
+  // as many times as there are too many contacts to look at together
   for (int more = 1; more && liftable;) {
     nsvcd__proof_restart(p);
     nsvcd__gather_contacts(p, search);
