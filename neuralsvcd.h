@@ -15814,7 +15814,7 @@ static void nsvcd__add_wrench(const nsvcd_body_pair *pair, const nsvcd_pose *pos
 typedef struct nsvcd__worst {
   float logit, time;
   size_t pair;
-  int proven;  // a proof has found it
+  int proven;  // a proof has found it, or could not rule it out
 } nsvcd__worst;
 
 static nsvcd__worst nsvcd__worst_at_first(void) {
