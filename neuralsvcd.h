@@ -46,15 +46,16 @@
 // Or plan a motion that hits nothing: nsvcd_plan, below.
 //
 // What can fail returns a nsvcd_result: 0 is success, and on failure the outputs are left as they
-// were. But for sizes and nsvcd_body_patch, which return 0 where there is none, and nsvcd_spline,
-// which writes nothing. examples/quickstart.c is the whole program.
+// were. Exceptions are sizes and nsvcd_body_patch, which return 0 where there is none, and
+// nsvcd_spline, which then writes nothing. examples/quickstart.c is a larger program.
 //
 // OPTIONS, defined before the implementation is included
 //   NSVCD_STATIC      all functions static
 //   NSVCD_NO_STDIO    no file access: nsvcd_obj_load goes, nsvcd_obj_parse stays
 //   NSVCD_NO_OBJ      no OBJ reader at all
-//   NSVCD_NO_ENCODER  no nsvcd_encode and no OBJ reader: bodies come from nsvcd_body_load
-//   NSVCD_NO_PROOF    no proof: the network answers, and bodies have no triangles
+//   NSVCD_NO_ENCODER  no nsvcd_encode, no nsvcd_mesh_cut and no OBJ reader: bodies come from
+//                     nsvcd_body_load
+//   NSVCD_NO_PROOF    no proof: the network answers; triangles are neither stored nor looked at
 //   NSVCD_NO_NETWORK  no network, and weights.h is not needed: the proof alone; no gradient, no
 //                     optimizer
 //   NSVCD_NO_SMALL, NSVCD_NO_BASE   without these decoders; the default is the largest that is left
@@ -71,9 +72,9 @@
 //   Metres, radians, right-handed; quaternions x y z w of unit length; time in [0,1]; arrays
 //   row-major with their shape beside the pointer. Meshes are triangles, counter-clockwise seen
 //   from outside: the winding gives the normals, and flipping it costs accuracy. Options are
-//   structs whose zero value means the defaults. Functions are re-entrant, there are no globals,
-//   and memory is the caller's, or comes from the caller's allocator in the two functions that take
-//   one.
+//   structs whose zero value means the defaults. Functions are re-entrant, there are no global
+//   variables, and memory is the caller's, or, in the functions that take an allocator, comes from
+//   that.
 //
 // WHAT AN ANSWER IS WORTH
 //   By proof, the default, WITNESS, CERTIFIED_FREE and INSIDE are facts, not opinions; the theorem
@@ -91,7 +92,8 @@
 //
 // NUMERIC ROBUSTNESS, as measured by `make race`, `make bench`, tests/test_proof.c and
 // tests/bench/extremes.sh
-//   All numbers are float32, but where couples of triangles meet: there, double.
+//   A query reckons in float32, but with couples of triangles and with what is inside of what in
+//   double.
 //   Range         coordinates up to NSVCD_MAX_COORDINATE; bodies from NSVCD_MIN_RADIUS, below which
 //                 squares underflow. Proofs are tested from 3e-11 to 3e5 m.
 //   Quantum       a stored triangle is off by this: a few micrometres at most on bodies of 0.3 m.
@@ -145,12 +147,17 @@
 //   sample            a point of the surface, with its normal, drawn to find the patches
 //   piece             a triangle, or a part of one, that belongs to one patch
 //   ball              of a patch: a sphere that contains it
-//   group, level      16 neighbouring patches; spheres over 16 groups each, 16 of these, ...
+//   group             16 neighbouring patches
+//   level             of spheres: over 16 groups each, over 16 of these, ...; and a large body,
+//                     which has such levels
 //   tile              up to 32 groups of a body that are searched together
 //   lane, slice       one of 16 numbers that are worked on together; those that fill a register
+//   block             16 segments of a motion, or 16 triangles of a patch, one in each lane
 //   latent            what the encoder makes of a patch: vectors of degree 1 and 2, and scalars
-//   moving, fixed     the bodies of a query: all is reckoned in the fixed one's frame
-//   segment           a part of the motion, up to 20 degrees of turn; 64 at most
+//   moving, fixed     the bodies of a query: all is reckoned in the frame of the fixed one, which
+//                     is also said to rest
+//   segment           a part of the motion, up to 20 degrees of turn; 64 at most. The planner has
+//                     its own: see section *optimizer*
 //   chord             of a point: the straight line from its start to its end in a segment
 //   deviation         how far a point may stray from its chord: by bulge (rotation) and drift
 //   candidate         two patches and a contact interval, in which their balls meet
@@ -161,9 +168,11 @@
 //   disc              of a patch: what it reaches along a normal, and across
 //   hull, slack       of a patch: 16 vertices at most, and how far the surface sticks out
 //   listing           a triangle, or a part of one, that a patch stores
+//   facets            what a body stores for the proof: discs, hulls, listings
 //   quantum           how far a stored triangle may be off the mesh's
 //   span              a segment, or a part of one, as the proof bounds its motion
-//   knot, tick        where one of the poses given is reached; the motion's whole number of time
+//   knot, arc         when one of the poses given is reached; the motion from a knot to the next
+//   tick              the unit of a motion's time: every knot is at a whole number of ticks
 //   work              units that a proof takes
 #ifndef NEURALSVCD_H
 #define NEURALSVCD_H
@@ -216,7 +225,7 @@ typedef enum nsvcd_result {
   NSVCD_ERROR_SYNTAX,
   // an index that is zero, or refers to no vertex
   NSVCD_ERROR_INDEX,
-  // a coordinate is not finite, or larger than NSVCD_MAX_COORDINATE
+  // a coordinate is not finite, or larger than NSVCD_MAX_COORDINATE; a mesh is too small
   NSVCD_ERROR_NUMBER,
   // no triangle, or no area
   NSVCD_ERROR_EMPTY,
@@ -294,7 +303,8 @@ NSVCDDEF nsvcd_result nsvcd_obj_load(const char *path, const nsvcd_allocator *al
 // For a large mesh that changes all the time, or that the network is to judge, whose patches must
 // not be much larger than the gap in question: encode what the moving body can reach, the box over
 // its sweep grown a little, as an `open` body. A mesh that stays is better encoded whole, once.
-//   low, high  the box in the mesh's frame, metres, not NULL, finite, low < high
+//   mesh       not NULL
+//   low, high  the box in the mesh's frame, metres, not NULL, finite, low < high on each axis
 //   allocator  NULL: malloc and free
 //   part       not NULL; nsvcd_mesh_free gives it back; left as it was on failure
 //   allocates  the part
@@ -407,6 +417,7 @@ NSVCDDEF nsvcd_result nsvcd_body_load(const void *memory, size_t size, const nsv
 // is it a body of this version and these weights, and is all of it there? For an array baked into
 // the program, and for a large mapped file that was loaded once before: its pages are then read as
 // queries need them. Bytes that were changed since do harm: wrong answers, or reads anywhere.
+// Arguments and errors are those of nsvcd_body_load.
 NSVCDDEF nsvcd_result nsvcd_body_trust(const void *memory, size_t size, const nsvcd_body **body);
 
 // Writes a copy of a body, scaled about its origin: for a planner's bodies, or to bake one; a
@@ -455,7 +466,7 @@ NSVCDDEF int nsvcd_body_patch(const nsvcd_body *body, uint32_t patch, float cent
 
 // ----------------------------------------------------------------------------------------- queries
 
-// a -> rotation a + position, from the body's frame to the world.
+// Takes a point x of the body's frame to the world: rotation x + position.
 typedef struct nsvcd_pose {
   float position[3];  // metres
   float rotation[4];  // unit quaternion x y z w
@@ -522,7 +533,8 @@ typedef struct nsvcd_sweep_options {
   // a motion is cut into at most so many, a multiple of 16 up to 64; 0: 64. Fewer take less memory;
   // what turns by more than 20 degrees in one of them takes longer to prove
   size_t segments;
-  // metres: surfaces that come closer than this, and do not meet, may be left undecided
+  // metres: surfaces that come closer than this, and do not meet, may be left undecided. With
+  // `first`, where a contact follows, they may be taken for its beginning: see clearance_high
   float tolerance;
 
   // By proof only:
@@ -565,23 +577,23 @@ typedef struct nsvcd_question {
 typedef struct nsvcd_answer {
   // of collision; positive is yes. By the network: the greatest of the pairs looked at, less the
   // threshold that options.recall asks for; the search ends at the first above 3. Where the tiny
-  // decoder, which ranks the pairs, is clear (beyond +-3), it is the one that answers. By proof:
+  // decoder, which ranks the pairs, is clear (beyond +-3), that one answers. By proof:
   // +-NSVCD_LOGIT_CERTAIN; where it is undecided, the network's
   float logit;
   // logit > 0. UNDECIDED: the network's opinion on whether they meet, or yes where there is none or
   // something else is asked
   int collides;
   // in [0,1]. WITNESS: when the triangles meet; with options.first that is the first contact, and 0
-  // if they meet at the start. INSIDE: 0. By the network: where the most suspicious pair comes
+  // if they meet at the start. INSIDE: 0. By the network: when the most suspicious pair comes
   // closest
   float contact_time;
   // in [0,1]. By proof: no contact is before this. CERTIFIED_FREE: 1. WITNESS: 0, or with
   // options.first no less than contact_time - first. UNDECIDED with options.first: when doubt
   // begins
   float free_until;
-  // metres. By proof: they stay farther apart than `low` until free_until, and come as near as
-  // `high`, at contact_time. What stored triangles are off by is allowed for, and so `high` is not
-  // 0 where they meet. HUGE_VALF where it is not known
+  // metres. By proof: they stay farther apart than clearance_low until free_until, and come as near
+  // as clearance_high, at contact_time. What stored triangles are off by is allowed for, and so
+  // clearance_high is not 0 where they meet; it is HUGE_VALF where it is not known
   float clearance_low;
   float clearance_high;
   // the pair that decided; 0, 0 where there is none
@@ -591,12 +603,14 @@ typedef struct nsvcd_answer {
   // by the network: pairs of patches whose spheres meet, each counted once for each stretch of
   // time, until the search ends
   size_t candidates;
-  // metres, world. WITNESS: where the triangles meet at that time. INSIDE: what is inside
+  // metres, world. WITNESS: where the triangles meet at that time, or on one of them where they are
+  // nearest. INSIDE: a point of what is inside
   float point[3];
-  // world. WITNESS: unit normal of one of the triangles, from b to a. Otherwise, and where that
-  // triangle has no area, 0
+  // world. WITNESS: unit normal of one of the triangles, from b to a, or, where they are apart, the
+  // direction of that from b's to a's. Otherwise, and where that triangle has no area, 0
   float normal[3];
-  // WITNESS: as numbered in the caller's meshes. Otherwise NSVCD_NO_TRIANGLE
+  // WITNESS: as numbered in the caller's meshes. Otherwise NSVCD_NO_TRIANGLE. With options.measure
+  // these, point and normal are those of the nearest triangles found, whatever the status
   uint32_t triangle_a;
   uint32_t triangle_b;
   // metres, world, at the start: by what a was lifted off b for options.skin; it turns with b. The
@@ -798,7 +812,7 @@ typedef struct nsvcd_plan_problem {
 
 // What is zero is the stage's default.
 typedef struct nsvcd_plan_stage {
-  // M
+  // M, up to NSVCD_MAX_VIA_POINTS
   size_t via_points;
   // of the trajectory, each swept as one motion; with `discrete`, their ends are looked at; up to
   // NSVCD_MAX_PLAN_SEGMENTS
@@ -835,7 +849,7 @@ typedef struct nsvcd_plan_options {
   float margin;
   // 1: poses instead of sweeps
   int discrete;
-  // segments of the last check; 4 times the finest stage's
+  // segments of the last check, up to 4 NSVCD_MAX_PLAN_SEGMENTS; 4 times the finest stage's
   size_t check;
   // of all queries; recall = 0.999f keeps more distance. The search asks the network. `method` is
   // that of start, goal and the last check, and so are `clearance`, `skin` and the like
@@ -892,8 +906,8 @@ NSVCDDEF size_t nsvcd_plan_workspace_size(const nsvcd_plan_problem *problem,
 // Start, goal and the trajectory at the end are proven free where bodies have triangles: for the
 // motion of each pair as seen from b between the poses of the check's segments, position linear and
 // rotation slerp. Where the proof finds a hit, the refinement goes on from there with twice the
-// margin, three times at most. It ends within seeds * (iterations of MPPI + 4 times those of
-// L-BFGS) iterations, of `draws` trajectories each, and for L-BFGS 5 more.
+// margin and a little more, three times at most. It ends within seeds * (iterations of MPPI + 4
+// times those of L-BFGS) iterations, each of `draws` trajectories, and for L-BFGS of 5 more.
 NSVCDDEF nsvcd_result nsvcd_plan(const nsvcd_plan_problem *problem,
                                  const nsvcd_plan_options *options, void *workspace,
                                  size_t workspace_size, float *control, nsvcd_plan_answer *answer);
@@ -1033,8 +1047,7 @@ static inline int nsvcd__is_finite(float x) {
   return (bits & 0x7f800000u) != 0x7f800000u;
 }
 
-// Vectors as values: f3 of floats, d3 of doubles. A difference of floats, and all that is built of
-// a few of them, is as good as exact in double.
+// A difference of floats, and all that is built of a few of them, is as good as exact in double.
 typedef struct nsvcd__f3 {
   float x, y, z;
 } nsvcd__f3;
@@ -1184,7 +1197,7 @@ static inline nsvcd__d3 nsvcd__d3_widen(nsvcd__f3 a) {
   return nsvcd__d3_of((double)a.x, (double)a.y, (double)a.z);
 }
 
-// ---- the same in double
+// ---- quaternions and matrices of doubles
 
 typedef struct nsvcd__dquat {
   double x, y, z, w;
@@ -1324,13 +1337,12 @@ static inline void nsvcd__disc_store(nsvcd__disc disc, float *discs, size_t stri
   d[5 * stride] = disc.across;
 }
 
-// ---- quaternions and rotation matrices, as values
+// ---- quaternions and matrices of floats
 
 typedef struct nsvcd__quat {
   float x, y, z, w;
 } nsvcd__quat;
 
-// A matrix by its rows.
 typedef struct nsvcd__mat3 {
   nsvcd__f3 x, y, z;
 } nsvcd__mat3;
@@ -1416,7 +1428,7 @@ static inline nsvcd__f3 nsvcd__quat_turn(nsvcd__quat a, nsvcd__quat b) {
   return nsvcd__f3_of(turn.x, turn.y, turn.z);
 }
 
-// a, b: unit to 1e-4.
+// A share u of the way from a to b, on the shorter arc. a, b: unit to 1e-4.
 static inline nsvcd__quat nsvcd__quat_slerp(nsvcd__quat a, nsvcd__quat b, float u) {
   const int opposed = nsvcd__quats_opposed(a, b);
   const nsvcd__quat start = nsvcd__quat_unit(a);
@@ -1863,7 +1875,7 @@ static inline nsvcd__v nsvcd__v_abs(nsvcd__v a) {
   return nsvcd__v_max(a, nsvcd__v_negate(a));
 }
 
-// 16 vectors as a value, lane by lane.
+// A slice of vectors as a value, lane by lane.
 typedef struct nsvcd__v3 {
   nsvcd__v x, y, z;
 } nsvcd__v3;
@@ -1941,7 +1953,7 @@ NSVCD__INLINE nsvcd__v3 nsvcd__v3_load(float (*p)[NSVCD__LANES], size_t l) {
   return nsvcd__v3_of(nsvcd__v_load(p[0] + l), nsvcd__v_load(p[1] + l), nsvcd__v_load(p[2] + l));
 }
 
-// Of each lane alone: the one in lane l of p (3, LANES).
+// One lane alone: the vector in lane l of (3, LANES).
 static inline nsvcd__f3 nsvcd__lane_of(float (*lanes)[NSVCD__LANES], size_t l) {
   return nsvcd__f3_of(lanes[0][l], lanes[1][l], lanes[2][l]);
 }
@@ -1950,7 +1962,7 @@ static inline void nsvcd__lane_set(nsvcd__f3 a, float (*lanes)[NSVCD__LANES], si
   lanes[1][l] = a.y;
   lanes[2][l] = a.z;
 }
-// Vectors over their lengths; x where there is none.
+// Vectors over their lengths; the x axis where that is 0.
 static inline nsvcd__v3 nsvcd__v3_unit(nsvcd__v3 a) {
   const nsvcd__v zero = nsvcd__v_set(0);
   const nsvcd__v one = nsvcd__v_set(1);
@@ -2253,7 +2265,7 @@ static nsvcd__clipped nsvcd__clip(const nsvcd__clipped *polygon, size_t axis, do
   return out;
 }
 
-// The part of triangle t within the box: 0, or 3 to 9 corners.
+// The part of triangle t within the box: 0, or 3 to 9 corners, but for roundings.
 static nsvcd__clipped nsvcd__cut_triangle(const nsvcd_mesh *mesh, size_t t, const float *low,
                                           const float *high) {
   const uint32_t *corners = mesh->indices + 3 * t;
@@ -2447,7 +2459,7 @@ static int nsvcd__polygon_is_ear(const nsvcd__polygon *polygon, uint32_t i) {
   return 1;
 }
 
-// Makes a ring of the corners, and of each one that may be an ear.
+// Makes a ring of the corners, and puts all of them into the queue.
 static nsvcd__polygon nsvcd__polygon_of(nsvcd__corner *corners, uint32_t count,
                                         const float *positions) {
   nsvcd__polygon polygon = {corners, count, 0, 0, 0, 0};
@@ -2568,7 +2580,7 @@ static int nsvcd__obj_has_token(nsvcd__obj *obj) {
   return obj->at < obj->end && *obj->at != '\n' && *obj->at != '#';
 }
 
-// To the begin of the next line that does not continue this statement.
+// To the beginning of the next line that does not continue this statement.
 static void nsvcd__obj_skip_statement(nsvcd__obj *obj) {
   int comment = obj->at < obj->end && *obj->at == '#';
   for (int continued = 1; continued && obj->at < obj->end; obj->line++) {
@@ -2657,8 +2669,9 @@ static int nsvcd__obj_exponent(nsvcd__obj *obj, int64_t *exponent) {
   return 1;
 }
 
-// A decimal number, to double within 2^-52: rounded to float it is the nearest, unless two are
-// equally near to that. NUMBER if float cannot hold it.
+// A decimal number, as a double: within 2^-52 of it, or a few of these where its exponent is beyond
+// +-22. Rounded to float it is the nearest, unless two floats are as near. NUMBER if float cannot
+// hold it.
 static nsvcd_result nsvcd__obj_number(nsvcd__obj *obj, double *value) {
   const double greatest = 3.4028234663852886e38;  // FLT_MAX
   const int negative = nsvcd__obj_minus(obj);
@@ -2687,7 +2700,7 @@ static nsvcd_result nsvcd__obj_number(nsvcd__obj *obj, double *value) {
   return NSVCD_OK;
 }
 
-// v x y z, then nothing, a weight w, a colour r g b, or both: skipped, but they must be numbers.
+// v x y z, then up to five more: a weight, a colour. These are skipped, but must be numbers.
 static nsvcd_result nsvcd__obj_vertex(nsvcd__obj *obj, float *position) {
   int count = 0;
   for (; nsvcd__obj_has_token(obj); count++) {
@@ -2891,7 +2904,6 @@ static nsvcd_result nsvcd__read_file(FILE *file, const nsvcd_allocator *allocato
   return NSVCD_OK;
 }
 
-// nsvcd_obj_parse on the contents of a file.
 NSVCDDEF nsvcd_result nsvcd_obj_load(const char *path, const nsvcd_allocator *allocator,
                                      nsvcd_mesh *mesh, size_t *error_line) {
   if (error_line)
@@ -2923,7 +2935,7 @@ NSVCDDEF nsvcd_result nsvcd_obj_load(const char *path, const nsvcd_allocator *al
 #define NSVCD__SAMPLES_PER_PATCH 32
 #define NSVCD__NO_SAMPLE 0xffffffffu
 #define NSVCD__LLOYD_STEPS 3
-// of each centre, kept for the search of the nearest centre
+// of each centre, for the search of the nearest centre
 #define NSVCD__NEIGHBOURS 16
 // longest edge of a piece, in mean sample radii
 #define NSVCD__PIECE_SIZE 0.25
@@ -3339,7 +3351,7 @@ static inline nsvcd__edge_squares nsvcd__squares_of(const nsvcd__triangle *t) {
   out.ca = nsvcd__d3_gap(t->c, t->a);
   return out;
 }
-// Which edge is the longest: 0 for ab, 1 for bc, 2 for ca. Of equals bc, but ab before all.
+// Which edge is the longest: 0 for ab, 1 for bc, 2 for ca; of equal ones the first.
 static int nsvcd__longest_of(nsvcd__edge_squares e) {
   if (e.bc > e.ab && e.bc >= e.ca)
     return 1;
@@ -3468,8 +3480,8 @@ static void nsvcd__cover(nsvcd__patches *p, const nsvcd_mesh *mesh) {
   }
   for (size_t i = 0; i < p->count; i++) {
     const nsvcd__patch_sum *sum = &p->sums[i];
-    // A patch may own samples but, its border being finer, only some small piece: its ball holds
-    // both.
+    // A piece goes to one patch as a whole, and so a patch's samples may lie beyond its pieces: its
+    // ball holds both.
     const float radius = nsvcd__radius_above(sum->squared_reach);
     p->radii[i] = fmaxf(radius, p->sample_radii[i]);
     p->areas[i] = (float)sum->weight;
@@ -3681,7 +3693,7 @@ static size_t nsvcd__edges_of(const nsvcd__topology *topology, size_t t, nsvcd__
 
 // All edges, listed at their lesser ends. A component is closed if its edges cancel.
 typedef struct nsvcd__edges {
-  // (vertices + 1) edges of a vertex
+  // (vertices + 1) where a vertex's edges begin; one more while they are sorted
   size_t *first;
   // (3 triangles) the greater end
   uint32_t *ends;
@@ -4186,13 +4198,13 @@ static void nsvcd__region_end(nsvcd__regions *r, nsvcd__region *region) {
 // ball, disc and swollen hull convex: what contains the corners contains the piece. The corners
 // themselves are off by roundings of double: all bounds are wider by NSVCD__SURFACE_MARGIN.
 
-// mean sample radii: so far a piece may extend into another cell
+// mean sample radii: how far a piece may extend into another cell
 #define NSVCD__SURFACE_OVERLAP 0.5
 // mean sample radii: with a longer edge a triangle is listed in parts
 #define NSVCD__SURFACE_WHOLE 16.0
 // of the mesh's greatest coordinate
 #define NSVCD__SURFACE_MARGIN 1e-13
-// metres, added to that: keeps off what float cannot hold
+// metres, added to that: keeps clear of what float cannot hold
 #define NSVCD__SURFACE_TINY 1e-30
 // of the radius: a hull as near as this to all corners is good
 #define NSVCD__HULL_SHARE 1e-4
@@ -4316,7 +4328,7 @@ typedef struct nsvcd__pieces {
   nsvcd__convex *waiting;  // (NSVCD__WAITING)
   size_t waiting_count;
   size_t cuts_left;
-  // metres: so far a piece may extend beyond its cell
+  // metres: how far a piece may extend beyond its cell
   double overlap;
   // metres: a triangle with a longer edge is listed in parts
   double longest_edge;
@@ -4962,8 +4974,9 @@ static int nsvcd__simplex_settle(nsvcd__simplex *s) {
   }
 }
 
-// The distance of a point from a point of the convex hull of some vertices: a bound on that from
-// the hull. It is no more than a thousandth above that, unless it is below `enough`.
+// The distance of a point from some point of the convex hull of vertices: no less than that from
+// the hull, and no more than two thousandths above it, but for roundings or where it is below
+// `enough`.
 static double nsvcd__hull_distance(nsvcd__points hull, nsvcd__d3 point, double enough) {
   nsvcd__simplex s;
   s.points[0] = nsvcd__d3_sub(hull.at[hull.count - 1], point);
@@ -5219,8 +5232,8 @@ static void nsvcd__take_seed(const nsvcd__region *region, uint32_t point, size_t
   surface->seed_patches[surface->seed_count++] = (uint32_t)to;
 }
 
-// Ball, disc and hull of patch i of the region, which is `to` of all. The slack does not know of
-// the integers yet.
+// Ball, disc and hull of patch i of the region, which is `to` of all. What the vertices will be off
+// by as integers is not in the slack yet.
 static void nsvcd__describe_patch(nsvcd__sorted *sorted, size_t i, nsvcd__surface *surface) {
   const nsvcd__pieces *pieces = sorted->pieces;
   const size_t to = surface->done + i;
@@ -5547,7 +5560,7 @@ static void nsvcd__linear(nsvcd__encoder_layer layer, const float *x, float *y) 
   size_t left = layer.inputs;
   for (size_t o = 0; o < outputs; o++)
     y[o] = layer.bias ? layer.bias[o] : 0;
-  // four rows at a time: y is the traffic
+  // four rows at a time: reading and writing y takes longest
   for (; left >= 4; left -= 4) {
     const float *r1 = w + outputs;
     const float *r2 = r1 + outputs;
@@ -5806,15 +5819,14 @@ static void nsvcd__encode_patch(const nsvcd__encoded *patch, float *latent) {
   nsvcd__finish_latent(&channels, latent);
 }
 #endif  // NSVCD_NO_ENCODER
-
 #endif  // NSVCD_NO_NETWORK
 #endif  // NSVCD__ISA
 
 #ifndef NSVCD_NO_NETWORK
 // --------------------------------------------------------------------------------- latent rotation
 // D(R), block-diagonal: R itself on degree 1, the real Wigner matrix of degree 2 on degree 2
-// (appendix E). Computed from R directly, so D(R1 R2) = D(R1) D(R2) to rounding; R may be improper
-// (a mirror): both degrees are polynomial.
+// (NeuralSVCD, appendix E). Computed from R directly, so D(R1 R2) = D(R1) D(R2) to rounding; R may
+// be improper (a mirror): both degrees are polynomial.
 
 // numbers of a latent's vectors: (3, CHANNELS), then (5, CHANNELS)
 #define NSVCD__VECTORS (8 * NSVCD_W_CHANNELS)
@@ -5885,7 +5897,7 @@ NSVCD__INLINE void nsvcd__rotate_degree(const float *latent, float (*turn)[NSVCD
   }
 }
 
-// A stored latent, turned by D (WIGNER, SLICE) of lane l, to its place of two (0, 1) in a row of
+// Turns a stored latent by D (WIGNER, SLICE) of lane l, and writes it to place 0 or 1 of a row of
 // the decoder's inputs: vectors (2, 8, CHANNELS), then scalars (2, SCALARS).
 static void nsvcd__rotate_latent(const int8_t *z, float (*turn)[NSVCD__SLICE], size_t l,
                                  size_t place, float *row) {
@@ -6438,7 +6450,7 @@ static int nsvcd__covers(nsvcd__sphere sphere, nsvcd__spheres all, size_t count)
   return nsvcd__reach_of_spheres(all, count, sphere.centre, &farthest) <= sphere.radius;
 }
 
-// Are spheres from .. to - 1 exactly what padding is?
+// Are the spheres `from` to `to` - 1 exactly what padding is?
 static int nsvcd__is_padding(nsvcd__spheres all, size_t from, size_t to) {
   for (size_t i = from; i < to; i++) {
     if (all.x[i] != 0 || all.y[i] != 0 || all.z[i] != 0)
@@ -6449,7 +6461,7 @@ static int nsvcd__is_padding(nsvcd__spheres all, size_t from, size_t to) {
   return 1;
 }
 
-// Are the first `count` of (4, slots) spheres, finite and within bounds, their radii not negative,
+// Are the first `count` of (4, slots) spheres finite and within bounds, their radii not negative,
 // and the others padding? most: of the coordinates.
 static int nsvcd__are_spheres(nsvcd__spheres all, size_t count, size_t slots, float most) {
   if (!nsvcd__all_within(all.x, 3 * slots, most))
@@ -6478,9 +6490,9 @@ static int nsvcd__level_covers(nsvcd__spheres above, size_t count, nsvcd__sphere
   return 1;
 }
 
-// The spheres of a blob whose layout is right: finite, bounded, radii not negative, each one above
-// covering its 16. A checksum stops accidents; this stops a blob made to harm: a lying sphere would
-// hide collisions.
+// Are the spheres of a blob, whose layout is right, finite and bounded, their radii not negative,
+// and does each one above cover its 16? A checksum stops accidents; this stops a blob made to harm:
+// a lying sphere would hide collisions.
 static int nsvcd__spheres_are_sound(const nsvcd_body *body) {
   const nsvcd__spheres patches = nsvcd__body_patches(body);
   const nsvcd__sphere about_origin = {nsvcd__f3_of(0, 0, 0), body->extent};
@@ -6510,7 +6522,7 @@ static int nsvcd__spheres_are_sound(const nsvcd_body *body) {
          nsvcd__covers(about_origin, patches, body->patches);
 }
 
-// Multiplies the spheres that both kinds of bodies begin with.
+// Multiplies the patches' spheres, with which both kinds of bodies begin.
 static void nsvcd__scale_spheres(nsvcd_body *body, float scale) {
   float *floats = (float *)(body + 1);
   for (size_t i = 0; i < 3 * (size_t)body->padded; i++)
@@ -7092,7 +7104,7 @@ static int nsvcd__numbers_are_sound(const nsvcd__facets *f, size_t from, size_t 
   return at == end;
 }
 
-// Are counts and indices of a patch right? What stands before it is.
+// Are counts and indices of a patch right? Those of the patches before it are.
 static int nsvcd__patch_is_laid_out(const nsvcd__facets *f, size_t i) {
   const uint32_t *vertex = f->first_vertex + i;
   const uint32_t *triangle = f->first_triangle + i;
@@ -7239,7 +7251,7 @@ static int nsvcd__header_is_sound(const nsvcd_body *b, size_t size) {
   return b->size >= nsvcd__spheres_size(b->padded) && b->size % NSVCD_ALIGNMENT == 0;
 }
 
-// All of a body of triangles, of at most `size` bytes, its header known to be sound.
+// Is all of a body of triangles sound? It has at most `size` bytes, and a sound header.
 static int nsvcd__triangles_are_sound(const nsvcd_body *b, size_t size) {
 #ifndef NSVCD_NO_PROOF
   if (b->inner != 0 || !nsvcd__spheres_are_sound(b))
@@ -7252,7 +7264,7 @@ static int nsvcd__triangles_are_sound(const nsvcd_body *b, size_t size) {
 #endif
 }
 
-// The body of triangles within a body of latents.
+// Is the body of triangles within a body of latents sound?
 static int nsvcd__inner_is_sound(const nsvcd_body *b) {
   const char *at = (const char *)b + b->inner;
   const nsvcd_body *within = (const nsvcd_body *)(const void *)at;
@@ -7266,7 +7278,7 @@ static int nsvcd__inner_is_sound(const nsvcd_body *b) {
   return nsvcd__triangles_are_sound(within, left);
 }
 
-// All of a body, its header known to be sound, but for the checksum.
+// Is all of a body sound, but for the checksum? Its header is.
 static int nsvcd__body_is_sound(const nsvcd_body *b) {
   if (b->weights_id == 0) {
 #ifndef NSVCD_NO_PROOF
@@ -7413,8 +7425,8 @@ NSVCDDEF int nsvcd_body_patch(const nsvcd_body *body, uint32_t patch, float cent
 }
 
 // ---------------------------------------------------------------------------------------- encoding
-// In: a mesh. Out: a body. Region by region the surface becomes patches, and these latents and
-// triangles; then all of them one blob, neighbours side by side.
+// In: a mesh. Out: a body. Region by region the surface becomes patches, and these become latents
+// and triangles; then all of them become one blob, neighbours side by side.
 
 #ifndef NSVCD_NO_ENCODER
 // What is to be encoded, and how, with the defaults filled in.
@@ -7592,7 +7604,7 @@ static nsvcd_result nsvcd__parts_build(const nsvcd__plan *plan, nsvcd__parts *pa
 }
 
 #ifndef NSVCD_NO_NETWORK
-// Writes the body of latents to the begin of the blob, its patches in the given order (N).
+// Writes the body of latents to the beginning of the blob, its patches in the given order (N).
 static nsvcd_result nsvcd__parts_write_latents(const nsvcd__parts *parts, const uint16_t *order,
                                                void *memory) {
   nsvcd__latents_source source;
@@ -8074,7 +8086,7 @@ static nsvcd__transform nsvcd__motion_pose(const nsvcd__motion *motion, float t)
 // above the groups finds those that the other body comes near, and they are searched tile after
 // tile: each moving tile against all tiles of the fixed body.
 
-// as long as no segment then turns by more than NSVCD__SEGMENT_TURN
+// of a motion, as long as none then turns by more than NSVCD__SEGMENT_TURN
 #define NSVCD__SEGMENTS 16
 // reached at 1280 degrees; beyond, segments turn more: still proven, only looser
 #define NSVCD__MAX_SEGMENTS 64
@@ -8240,8 +8252,8 @@ static void nsvcd__search_layout(const nsvcd__needs *needs, char *base, uint64_t
   search->fixed_tile.gathered = (float *)nsvcd__take(base, used, gathered, sizeof(float));
 }
 
-// What the members of a group will be posed in serves until then, so that it need not come from the
-// stack.
+// Memory for chords, and for boxes, that need not come from the stack: where the members of a group
+// will be posed later.
 static nsvcd__chords *nsvcd__spare_chords(const nsvcd__search *search) {
   return &search->members[0];
 }
@@ -8352,7 +8364,7 @@ static size_t nsvcd__segment_count(const nsvcd__motion *motion, size_t greatest,
   return ticks * *parts;
 }
 
-// The caller's own poses, of one body: no need to ask.
+// Where one body moves and every tick is one of its poses: these, as the caller gave them.
 static void nsvcd__knots_copy(const nsvcd__motion *motion, const uint32_t *ticks, size_t count,
                               nsvcd__knots *out) {
   for (size_t l = 0; l < count; l++) {
@@ -8455,7 +8467,7 @@ static NSVCD__APART void nsvcd__cut_starts(const nsvcd__motion *motion, const ui
   }
 }
 
-// And at their ends, of which the starts are known.
+// The same at their ends; the starts are known.
 static NSVCD__APART void nsvcd__cut_ends(const nsvcd__motion *motion, nsvcd__segments *out,
                                          nsvcd__cut *cut) {
   const nsvcd__v scale = nsvcd__v_set(motion->scale);
@@ -8546,7 +8558,7 @@ static NSVCD__APART void nsvcd__cut_last_arc(const nsvcd__motion *motion, nsvcd_
   }
 }
 
-// Adds what a knot is off its segment's chord by, of which a share of u lies before it.
+// Adds what a knot is off its segment's chord by. A share u of the segment lies before it.
 static void nsvcd__cut_off_chord(const nsvcd__motion *motion, nsvcd__v u, const nsvcd__v_pose *seen,
                                  size_t l, nsvcd__segments *out, nsvcd__cut *cut) {
   const nsvcd__vmat3 start = nsvcd__vmat3_load(out->rotation, l);
@@ -8623,7 +8635,8 @@ static void nsvcd__cut_deviations(const nsvcd__motion *motion, float lengths, si
   nsvcd__v_store(out->spread + l, nsvcd__v_add(rounding, drift));
 }
 
-// 16 segments, of which `count` exist; `begin`: (17) their ends in ticks. turn: arc of each.
+// Cuts 16 segments, of which `count` exist. begin: (17) ticks at which they begin, and the last one
+// ends. turn: (16) the angle by which each turns.
 static void nsvcd__cut_block(const nsvcd__motion *motion, const uint32_t *begin, size_t count,
                              float lengths, nsvcd__segments *out, nsvcd__cut *cut, float *turn) {
   uint32_t ticks[NSVCD__LANES];
@@ -8672,7 +8685,7 @@ static void nsvcd__choose_segments(nsvcd__motion *motion, nsvcd__search *search)
   search->time[segments] = 1;
 }
 
-// Fills workspace: the chosen segments' poses in the fixed body's frame, and deviations. `lengths`:
+// Fills the blocks: the chosen segments' poses in the fixed body's frame, and deviations. lengths:
 // the bodies' extents; clearance: spheres that come so near are to count as meeting.
 static void nsvcd__cut_segments(const nsvcd__motion *motion, float lengths, float clearance,
                                 nsvcd__search *search) {
@@ -8729,8 +8742,10 @@ static void nsvcd__chords_of_sphere(nsvcd__segments *b, nsvcd__sphere sphere, ns
   }
 }
 
-// Chords of 16 spheres in one segment: lane s of a block. No centre is farther from the body's
-// origin than `remote`, in that body's own frame, as all that is given; scale: of the body.
+// Chords of 16 spheres in one segment: lane s of a block. The patches that they contain are no
+// farther than `remote` from the body's origin, in its own frame and units; scale: of the body. The
+// centre of a sphere over patches may be farther: on their chords points of a body do not move
+// apart, so that it is enough to allow for what the patches deviate.
 static void nsvcd__chords_of_members(nsvcd__segments *b, size_t s, nsvcd__spheres members,
                                      float scale, float remote, nsvcd__chords *out) {
   const nsvcd__v deviation = nsvcd__v_set(b->spread[s] + b->bulge[s] * remote);
@@ -9099,8 +9114,7 @@ static void nsvcd__chords_of_group(nsvcd__search *search, size_t g) {
   nsvcd__chords_in_all(search, nsvcd__sphere_of(nsvcd__group_spheres(search->moving), g));
 }
 
-// Chords of 16 spheres of the moving body in segment s; none of their centres is farther from its
-// origin than `remote`.
+// Chords of 16 spheres of the moving body in segment s. remote: as nsvcd__chords_of_members has it.
 static void nsvcd__chords_in_segment(const nsvcd__search *search, size_t s, nsvcd__spheres spheres,
                                      float remote, nsvcd__chords *out) {
   nsvcd__segments *block = &search->blocks[s / NSVCD__LANES];
@@ -9146,7 +9160,7 @@ static void nsvcd__boxes_of_groups(const nsvcd__search *search, size_t first, ui
   }
 }
 
-// 16 spheres that touch a box.
+// Lanes of 16 spheres that touch a box.
 static uint32_t nsvcd__spheres_at_box(nsvcd__box box, nsvcd__spheres all) {
   const nsvcd__v3 none = nsvcd__v3_set(nsvcd__f3_of(0, 0, 0));
   uint32_t touched = 0;
@@ -9245,7 +9259,9 @@ static void nsvcd__tile_fill_all(nsvcd__tile *tile, const nsvcd_body *body) {
   tile->spheres = nsvcd__group_spheres(body);
 }
 
-// Filters of a walk, given the workspace. All spheres that there are.
+// ---- filters of a walk, which are given the search
+
+// All spheres that there are.
 static uint32_t nsvcd__exists(const void *what, nsvcd__spheres all) {
   uint32_t exists = 0;
   (void)what;
@@ -9520,14 +9536,14 @@ static void nsvcd__candidates_start(nsvcd__candidates *kept, nsvcd__candidate *i
 // triangles come closer than their quanta and the tolerance without meeting, or the limit of work
 // was reached.
 //
-// FIRST CONTACT. Contacts end the motion: whenever one is found, only what is more than the
-// tolerance before it matters from then on, and is proven free or gives an earlier contact.
-// Segments are searched some at a time, in their order, so that the first ones found are early
-// ones.
+// FIRST CONTACT. Contacts end the motion: whenever one is found, only what is more than `first`
+// before it matters from then on, and is proven free or gives an earlier contact. A couple that
+// was in doubt before a contact stands for its beginning. Segments are searched some at a time, in
+// their order, so that the first ones found are early ones.
 //
 // THE LEAST DISTANCE. Contacts lower the clearance: it begins as a distance that two vertices
-// have, and whenever triangles are found nearer than that, it becomes their distance less the
-// tolerance. What has been parted stays parted, by more than that. So both are one search whose
+// have, and whenever triangles are found nearer than that, it becomes their distance less
+// `measure`. What has been parted stays parted, by more than that. So both are one search whose
 // question shrinks, and in the end all of the motion that matters is proven free at the clearance
 // that matters.
 //
@@ -9974,7 +9990,7 @@ static const nsvcd__span *nsvcd__segment_span(nsvcd__proof *p, const nsvcd__sear
   return &p->spans[s];
 }
 
-// From u0 to u1 of an arc.
+// The span from u0 to u1 of the arc that begins at the knot `first`.
 static nsvcd__span nsvcd__span_of_arc(nsvcd__proof *p, uint32_t first, double u0, double u1) {
   const nsvcd__arc *arc = nsvcd__arc_at(p, first);
   const nsvcd__placement start = nsvcd__placement_at(arc, u0);
@@ -10482,7 +10498,7 @@ NSVCD__INLINE nsvcd__v3 nsvcd__hull_of(const nsvcd__facets *f, size_t patch, siz
   return nsvcd__facet_vertices(f, patch, 0, f->hull_counts[patch], l);
 }
 
-// The hulls of an item's patches, posed, into the workspace.
+// Poses the hulls of an item's patches, into the proof's memory.
 static void nsvcd__pose_hulls(nsvcd__proof *p, size_t i, size_t j, const nsvcd__span *span) {
   NSVCD__EACH_SLICE(l) {
     const nsvcd__v3 moving = nsvcd__hull_of(&p->moving, i, l);
@@ -10587,9 +10603,9 @@ static void nsvcd__remember_plane(nsvcd__proof *p, nsvcd__f3 normal) {
   p->plane++;
 }
 
-// Is there a plane between two patches over the whole span? After the guesses Gilbert's iteration
-// (1966) towards the point nearest to 0 of the differences of the two hulls; each of its directions
-// is tried. p->held is what held.
+// Is there a plane between two patches over the whole span? After the guesses, Gilbert's iteration
+// (1966) goes towards the point nearest to 0 of the differences of the two hulls; each of its
+// directions is tried. p->held is the one that held.
 static NSVCD__APART int nsvcd__hulls_are_apart(nsvcd__proof *p, size_t i, size_t j,
                                                const nsvcd__span *span) {
   const float slacks = p->motion->scale * p->moving.slacks[i] + p->fixed.slacks[j];
@@ -10623,7 +10639,7 @@ static NSVCD__APART int nsvcd__hulls_are_apart(nsvcd__proof *p, size_t i, size_t
 
 // ---- couples: a triangle of each body, in double
 
-// The normal of a triangle (3 corners), twice as long as its area is large.
+// The normal of a triangle (3 corners); its length is twice the area.
 static nsvcd__d3 nsvcd__face_normal(const nsvcd__d3 *t) {
   return nsvcd__d3_cross(nsvcd__d3_sub(t[1], t[0]), nsvcd__d3_sub(t[2], t[0]));
 }
@@ -11352,8 +11368,8 @@ static NSVCD__APART uint32_t nsvcd__row_left(nsvcd__proof *p, size_t i, size_t j
 
 // ---- witnesses
 
-// The nearest points of a posed triangle and another, if they come within the clearance; NULL
-// square: HUGE_VAL if not.
+// The nearest points of a posed triangle and another, if they come within the clearance; if not,
+// `square` is HUGE_VAL.
 static nsvcd__nearest nsvcd__contact_of(const nsvcd__proof *p, const nsvcd__d3 *posed,
                                         const nsvcd__couple *couple) {
   nsvcd__nearest out = {HUGE_VAL, {0, 0, 0}, {0, 0, 0}};
@@ -11497,7 +11513,7 @@ static nsvcd__verdict nsvcd__find_witness(nsvcd__proof *p, size_t i, size_t j, u
   return NSVCD__FREE;
 }
 
-// The last knot that is not after a tick before the end.
+// The last knot that is not after a tick; that tick is before the end of the motion.
 static uint32_t nsvcd__knot_at(const nsvcd__motion *motion, uint32_t tick) {
   const uint32_t past_a = tick % motion->moving.ticks;
   const uint32_t past_b = tick % motion->fixed.ticks;
@@ -11626,8 +11642,8 @@ static void nsvcd__certify_item(const nsvcd__proof *p, const nsvcd__span *span,
   (void)item;
 }
 
-// An item from u0 to u1 of an arc, or from halves to halves of that: by a plane that fits it, or by
-// its triangles.
+// Settles an item from u0 to u1 of an arc, which is halved as often as need be: by a plane between
+// the hulls, or by its triangles.
 static nsvcd__verdict nsvcd__settle_arc(nsvcd__proof *p, const nsvcd__item *item, uint32_t first,
                                         double u0, double u1) {
   double *ends = p->arc_ends;
@@ -11664,7 +11680,7 @@ static nsvcd__verdict nsvcd__settle_arc(nsvcd__proof *p, const nsvcd__item *item
   return verdict;
 }
 
-// An item that no plane parts over its segment, arc by arc.
+// Settles an item that no plane parts over its segment, arc by arc.
 static nsvcd__verdict nsvcd__settle_item(nsvcd__proof *p, const nsvcd__search *search,
                                          const nsvcd__item *item) {
   const uint32_t end = search->begin[item->segment + 1u];
@@ -11816,7 +11832,7 @@ static NSVCD__APART void nsvcd__clip_segment(nsvcd__proof *p, nsvcd__search *sea
   p->plane += p->plane > 0;
 }
 
-// Settles the items that no plane parts, the best first.
+// Settles the items that no plane parts, in the order of nsvcd__comes_first.
 static NSVCD__APART nsvcd__verdict nsvcd__settle_items(nsvcd__proof *p, nsvcd__search *search) {
   nsvcd__sort_items(p, p->of.items, p->count);
   for (size_t n = 0; n < p->count; n++) {
@@ -11836,9 +11852,9 @@ static NSVCD__APART nsvcd__verdict nsvcd__settle_items(nsvcd__proof *p, nsvcd__s
   return nsvcd__is_spent(p) ? NSVCD__UNDECIDED : NSVCD__FREE;
 }
 
-// Looks at fresh items, the best first: parts those that planes can part, looks for a witness in
-// the others, and keeps them. The last plane that held is tried on all before anything else: it
-// often holds for neighbours.
+// Looks at fresh items, in that order: parts those that planes can part, looks for a witness in the
+// others, and keeps them. The last plane that held is tried on all before anything else: it often
+// holds for neighbours.
 static NSVCD__APART nsvcd__verdict nsvcd__sift_items(nsvcd__proof *p, nsvcd__search *search) {
   size_t count = 0;
   nsvcd__clip_segment(p, search);
@@ -11882,7 +11898,7 @@ static NSVCD__APART nsvcd__verdict nsvcd__sift_items(nsvcd__proof *p, nsvcd__sea
 
 // ---- containment
 
-// A component's point that is within the other body.
+// A ray from a place of a body's frame, in that frame: does the body enclose the place?
 typedef struct nsvcd__ray {
   nsvcd__d3 from, direction;
   double margin;  // a ray that passes an edge within this tells nothing
@@ -12449,7 +12465,7 @@ static void nsvcd__patches_towards(const nsvcd__facets *f, nsvcd__f3 place, size
   }
 }
 
-// The moving body's placement where a segment begins or ends, there where the centres are nearest.
+// The moving body's placement at the ends of the segments: the one where the centres are nearest.
 static nsvcd__placement nsvcd__nearest_placement(nsvcd__proof *p, const nsvcd__search *search) {
   const nsvcd__d3 moving = nsvcd__d3_load(p->moving.body->centre);
   const nsvcd__d3 fixed = nsvcd__d3_load(p->fixed.body->centre);
@@ -12491,7 +12507,8 @@ static void nsvcd__to_nearest_patch(const nsvcd__facets *f, const nsvcd__transfo
   }
 }
 
-// The least distance between the vertices of patch i of the moving body and patch j of the fixed.
+// The least distance between the hulls' vertices of patch i of the moving body and patch j of the
+// fixed one.
 static double nsvcd__vertices_apart(const nsvcd__proof *p, const nsvcd__transform *pose, size_t i,
                                     size_t j) {
   float lanes[3][NSVCD__LANES];
@@ -12531,7 +12548,7 @@ static NSVCD__APART double nsvcd__guess_clearance(nsvcd__proof *p, const nsvcd__
   return 1.0001 * nsvcd__vertices_apart(p, &pose, i, j) + rounding;
 }
 
-// All that has been found in the segments that are wanted.
+// Proves what the search finds in the segments that are wanted.
 static nsvcd__verdict nsvcd__prove_segments(nsvcd__proof *p, nsvcd__search *search) {
   nsvcd__verdict verdict = NSVCD__FREE;
   for (int more = 1; more && verdict == NSVCD__FREE;) {
@@ -12550,7 +12567,7 @@ static nsvcd__verdict nsvcd__prove_tiles(nsvcd__proof *p, nsvcd__search *search)
   return verdict;
 }
 
-// Some segments after the other, until there is a contact: then it is the first one of the tile.
+// Proves a tile, some segments at a time, until there is a contact: it is the first of the tile.
 static nsvcd__verdict nsvcd__prove_tile_in_order(nsvcd__proof *p, nsvcd__search *search) {
   const uint64_t few = ((uint64_t)1 << NSVCD__IN_ORDER) - 1;
   nsvcd__verdict verdict = NSVCD__FREE;
@@ -12614,7 +12631,8 @@ static nsvcd__verdict nsvcd__prove(nsvcd__proof *p, nsvcd__search *search) {
     return NSVCD__UNDECIDED;
   return p->within ? NSVCD__WITHIN : p->has_contact ? NSVCD__MEETS : NSVCD__FREE;
 }
-// A proof that knows nothing yet of its motion.
+
+// Makes a proof forget all that it knew of a motion.
 static void nsvcd__proof_restart(nsvcd__proof *p) {
   p->end = p->clipped_end = p->unsure = NSVCD__NEVER;
   p->clipped = 0;
@@ -12672,8 +12690,8 @@ static size_t nsvcd__undone(const nsvcd__proof *p, nsvcd__d3 n) {
   return count;
 }
 
-// Of the normals of what touches, and across an edge of each, one that undoes the most; `best` as
-// it is if none undoes any.
+// Of the normals of what touches, and the directions across an edge of each, the one that undoes
+// the most touches: *best, as it was if none undoes any. Returns how many.
 static size_t nsvcd__best_lift(const nsvcd__proof *p, nsvcd__d3 *best) {
   const nsvcd__d3 none = nsvcd__d3_of(0, 0, 0);
   size_t most = 0;
@@ -12755,7 +12773,7 @@ static NSVCD__APART void nsvcd__lift_motion(nsvcd__proof *p, nsvcd__search *sear
   p->clearance += 0.05 * p->skin;
   p->gathers = 1;
   int liftable = 1;
-  // as many times as there are too many contacts to look at at once
+  // as many times as there are too many contacts to look at together
   for (int more = 1; more && liftable;) {
     nsvcd__proof_restart(p);
     nsvcd__gather_contacts(p, search);
@@ -13021,8 +13039,9 @@ static int nsvcd__is_contained(const nsvcd_body *moving, const nsvcd_body *fixed
 // Out: a logit each.
 //
 // The motion is linearised about the middle of the interval; then everything is expressed in a
-// frame that moves with the pair, in units of r1 + r2 (appendix F), so the logit is invariant to
-// rigid motion and scale. The symmetries that are left are removed by convention, not learned:
+// frame that moves with the pair, in units of r1 + r2 (NeuralSVCD, appendix F), so the logit is
+// invariant to rigid motion and scale. The symmetries that are left are removed by convention, not
+// learned:
 //   swap           the larger patch comes first
 //   axis 1         the line between the centres
 //   axis 2         the velocity across the line, plus a twentieth of the lean (the difference of
@@ -13308,7 +13327,7 @@ static void nsvcd__views_set_frame(nsvcd__views *view) {
   view->w = nsvcd__v3_scale(view->w, sign);
   const nsvcd__v3 forward = nsvcd__v3_scale(v_across, sign);
   const nsvcd__v3 ref = nsvcd__v3_fma(nsvcd__v_set(NSVCD__LEAN), lean_across, forward);
-  // somewhere
+  // where the reference vanishes in some lane
   if (nsvcd__v_le(nsvcd__v3_length(ref), nsvcd__v_set(1e-7f))) {
     const nsvcd__v3 axis = nsvcd__v_across(nsvcd__v_farthest_axis(e1), e1);
     instead = nsvcd__v_unit_or(axis, 1e-9f, x_axis);
@@ -13397,7 +13416,7 @@ static NSVCD__APART void nsvcd__scenes_of(const nsvcd__pairs *pairs, size_t coun
   nsvcd__v_store(facts[NSVCD__FACT_SPIN], nsvcd__v3_length(view.w));
 }
 
-// Appendix F: the inputs of the decoder for the first `count` pairs of a slice, x (count,
+// The inputs of the decoder (appendix F) for the first `count` pairs of a slice, x (count,
 // DECODER_IN): vectors of the larger patch and of the other, their scalars, and the facts.
 static NSVCD__APART void nsvcd__invariants(const nsvcd__pairs *pairs, size_t count, float *x) {
   nsvcd__scenes scene;
@@ -16544,7 +16563,7 @@ static void nsvcd__add_wrench(const nsvcd_body_pair *pair, const nsvcd_pose *pos
 typedef struct nsvcd__worst {
   float logit, time;
   size_t pair;
-  int proven;  // a proof has found it
+  int proven;  // a proof has found it, or could not rule it out
 } nsvcd__worst;
 
 static nsvcd__worst nsvcd__worst_at_first(void) {
