@@ -30,6 +30,7 @@ COUNT ?= 200
 endif
 
 .PHONY: all demo preview assets help format clean firmware weights problems accuracy
+.PHONY: shared static release install uninstall check-packages
 .PHONY: test check-text check-header check-examples check-gradient check-tiles check-32 check-firmware
 .PHONY: check-motions check-problems check-extremes mutants
 .PHONY: bench bench-asks bench-level bench-scale bench-plan race profile instructions sizes
@@ -62,6 +63,54 @@ preview: build/tasks_preview  ## the planning tasks as pictures: build/task_*.sv
 assets: build/make_assets  ## writes examples/assets/*.obj, which are in the repository, anew
 	build/make_assets examples/assets
 
+# ---------------------------------------------------------------------------------------------------------- packages
+
+PREFIX ?= /usr/local
+VERSION := $(shell sed -n '1s/.* v\([0-9.]*\) .*/\1/p' neuralsvcd.h)
+LIBRARY_CFLAGS ?= -O2
+ifeq ($(shell uname -s),Darwin)
+SHARED = build/libneuralsvcd.dylib
+SONAME = -install_name $(PREFIX)/lib/libneuralsvcd.dylib
+else
+SHARED = build/libneuralsvcd.so
+SONAME = -Wl,-soname,libneuralsvcd.so.$(VERSION)
+endif
+
+build/library.o: $(LIBRARY) | build
+	printf '#define NEURALSVCD_IMPLEMENTATION\n#include "neuralsvcd.h"\n' >build/library.c
+	$(CC) $(LIBRARY_CFLAGS) -std=c99 -fPIC -I. -c -o $@ build/library.c
+$(SHARED): build/library.o
+	$(CC) -shared $(SONAME) -o $@ $< -lm
+build/libneuralsvcd.a: build/library.o
+	$(AR) rcs $@ $<
+shared: $(SHARED)  ## a shared library, build/libneuralsvcd.so
+static: build/libneuralsvcd.a  ## a static one
+# The name must stay: the header takes itself in.
+release: build/release/neuralsvcd.h  ## one file that holds neuralsvcd.h and weights.h
+build/release/neuralsvcd.h: $(LIBRARY)
+	@mkdir -p $(@D)
+	sed -e '/^#include "weights.h"$$/{r weights.h' -e 'd;}' neuralsvcd.h >$@
+
+# DESTDIR=folder is put before PREFIX.
+install: shared static  ## PREFIX=/usr/local: the headers, libraries, pkg-config, a CMake package
+	mkdir -p $(DESTDIR)$(PREFIX)/include/neuralsvcd $(DESTDIR)$(PREFIX)/lib/pkgconfig \
+	  $(DESTDIR)$(PREFIX)/lib/cmake/neuralsvcd
+	cp $(LIBRARY) $(DESTDIR)$(PREFIX)/include/neuralsvcd/
+	cp build/libneuralsvcd.a $(DESTDIR)$(PREFIX)/lib/
+	if test -f build/libneuralsvcd.dylib; then cp build/libneuralsvcd.dylib $(DESTDIR)$(PREFIX)/lib/; else \
+	  cp $(SHARED) $(DESTDIR)$(PREFIX)/lib/libneuralsvcd.so.$(VERSION); \
+	  ln -sf libneuralsvcd.so.$(VERSION) $(DESTDIR)$(PREFIX)/lib/libneuralsvcd.so; fi
+	for name in neuralsvcd neuralsvcd-library; do \
+	  sed 's|@PREFIX@|$(PREFIX)|; s|@VERSION@|$(VERSION)|' examples/packages/$$name.pc.in \
+	    >$(DESTDIR)$(PREFIX)/lib/pkgconfig/$$name.pc; done
+	cp examples/packages/neuralsvcdConfig.cmake $(DESTDIR)$(PREFIX)/lib/cmake/neuralsvcd/
+	printf 'set(PACKAGE_VERSION $(VERSION))\nif(PACKAGE_FIND_VERSION VERSION_LESS_EQUAL PACKAGE_VERSION)\n  set(PACKAGE_VERSION_COMPATIBLE TRUE)\nendif()\n' \
+	  >$(DESTDIR)$(PREFIX)/lib/cmake/neuralsvcd/neuralsvcdConfigVersion.cmake
+uninstall:  ## takes it away again
+	rm -rf $(DESTDIR)$(PREFIX)/include/neuralsvcd $(DESTDIR)$(PREFIX)/lib/cmake/neuralsvcd \
+	  $(DESTDIR)$(PREFIX)/lib/libneuralsvcd.* $(DESTDIR)$(PREFIX)/lib/pkgconfig/neuralsvcd.pc \
+	  $(DESTDIR)$(PREFIX)/lib/pkgconfig/neuralsvcd-library.pc
+
 # ------------------------------------------------------------------------------------------------------------- tests
 
 HELPERS = $(wildcard tests/*.h tests/data/*.h)
@@ -86,6 +135,8 @@ check-header: | build  # as C99 to C++17, strictly, and what it leaves in the na
 	CC="$(CC)" CXX="$(CXX)" tests/header.sh
 check-examples: all build/make_assets  # they run, and they say no as examples/FORMATS.md demands
 	tests/examples.sh
+check-packages:  # installed, found by pkg-config and CMake, as one file, in a project's folder
+	CC="$(CC)" tests/packages.sh
 check-problems: build/problems build/svcd  # every set that the generator can make
 	tests/bench/problems.sh
 
@@ -142,7 +193,7 @@ check-motions: build/check_motions build/game build/problems build/svcd
 check-extremes: build/problems build/svcd  # tiny, huge, far, thin, spinning ...
 	tests/bench/extremes.sh
 
-CHECKS = text header gradient examples tiles 32 firmware motions problems extremes
+CHECKS = text header packages gradient examples tiles 32 firmware motions problems extremes
 test: build/tests $(CHECKS:%=check-%)  ## everything; the last line is `N passed, N failed`
 	build/tests
 
@@ -302,7 +353,7 @@ weights: $(CHECKPOINT) $(CALIBRATED)  ## trains anew on a GPU, calibrates, write
 	cd train && $(PYTHON) calibrate.py ../$(CHECKPOINT) ../build/svcd $(CALIBRATED:%=../%)
 	cd train && $(PYTHON) export.py ../$(CHECKPOINT) ../weights.h ../tests/data/golden.h
 
-WRITTEN = examples examples/scenery examples/firmware tests tests/bench
+WRITTEN = examples examples/packages/project examples/scenery examples/firmware tests tests/bench
 FORMATTED = neuralsvcd.h $(wildcard $(WRITTEN:%=%/*.[ch]))
 format:  ## clang-format on what is written by hand
 	clang-format -i $(FORMATTED)
