@@ -33,7 +33,7 @@ endif
 .PHONY: shared static release install uninstall check-packages
 .PHONY: test check-text check-header check-examples check-gradient check-tiles check-32 check-firmware
 .PHONY: check-motions check-problems check-extremes mutants
-.PHONY: bench bench-asks bench-level bench-scale bench-plan race profile instructions sizes
+.PHONY: bench bench-asks bench-flags bench-level bench-scale bench-plan race profile instructions sizes
 .DELETE_ON_ERROR:
 
 PLANNERS = build/dish_insertion build/bimanual_insertion build/mining_site
@@ -325,6 +325,8 @@ profile: build/profile $(TIMED) $(call files,hollow rest)  ## where a query's ti
 	build/profile $(DATA)/rest.txt 256
 instructions: $(TIMED)  ## what a query executes, counted by callgrind
 	CC="$(CC)" tests/bench/instructions.sh $(TIMED) 64 512
+bench-flags: build/problems $(call files,standard hollow rest)  ## -O2 against -O3 -march=native; ALL=1: more builds
+	CC="$(CC)" ALL="$(ALL)" tests/bench/flags.sh $(call files,standard hollow rest)
 sizes:  ## code and data that each compile-time switch leaves out, host and Cortex-M
 	CC="$(CC)" tests/bench/sizes.sh
 
