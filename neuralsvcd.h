@@ -1553,12 +1553,17 @@ static uint32_t nsvcd__magnitude(float x) {
 // its variables; on a machine without vectors a slice is one lane.
 
 #ifndef NSVCD__ISA
+// gcc on Windows puts what is wider than 16 bytes where the stack is not aligned for it, and the
+// program ends there: its bug 54412.
+#if defined(_WIN32) && defined(__GNUC__) && !defined(__clang__)
+#define NSVCD__NARROW
+#endif
 #if defined(NSVCD_NO_SIMD)
 #define NSVCD__SLICE 1
-#elif defined(__AVX512F__)
+#elif defined(__AVX512F__) && !defined(NSVCD__NARROW)
 #include <immintrin.h>
 #define NSVCD__SLICE 16
-#elif defined(__AVX2__) && (defined(__FMA__) || defined(_MSC_VER))
+#elif defined(__AVX2__) && (defined(__FMA__) || defined(_MSC_VER)) && !defined(NSVCD__NARROW)
 #include <immintrin.h>
 #define NSVCD__SLICE 8
 #elif defined(__SSE2__) || defined(_M_X64)
@@ -15265,7 +15270,7 @@ static nsvcd_result nsvcd__sweep_gradient(const nsvcd_question *question, void *
 // This file takes itself in for that. Of it only the sections that use vectors are compiled again.
 // Their private names are changed: nsvcd__prove is nsvcd__prove_avx2 there.
 
-#if NSVCD__SLICE == 4 && !defined(NSVCD_NO_DISPATCH)
+#if NSVCD__SLICE == 4 && !defined(NSVCD_NO_DISPATCH) && !defined(NSVCD__NARROW)
 #if defined(__x86_64__) && (defined(__clang__) || (defined(__GNUC__) && __GNUC__ >= 8))
 #define NSVCD__DISPATCH
 #elif defined(_M_X64) && !defined(__clang__)
