@@ -248,9 +248,9 @@ class Error(Exception):
         return ": ".join([*place, _library.nsvcd_result_string(self.code).decode()])
 
 
-def _check(code: int, where: str = "") -> None:
+def _check(code: int) -> None:
     if code:
-        raise Error(code, where)
+        raise Error(code)
 
 
 # -------------------------------------------------------------------------------------------- from Python to C, checked
@@ -765,16 +765,18 @@ def sweep_batch(a: Bodies, b: Bodies, poses_a: Optional[ArrayLike] = None, poses
     answers["status"] one of Status as numbers, answers["point"] (n, 3); triangles may be NO_TRIANGLE. One after another
     on the same two bodies: the network is first asked where the motion before collided; see nsvcd_sweep_batch.
     """
-    sides = _side("a", a, poses_a, scale_a), _side("b", b, poses_b, scale_b)
-    lengths = sides[0].lengths() | sides[1].lengths()
+    side_a, side_b = _side("a", a, poses_a, scale_a), _side("b", b, poses_b, scale_b)
+    if poses_b is poses_a:
+        side_b = side_b._replace(motions=side_a.motions)  # as in _question
+    lengths = side_a.lengths() | side_b.lengths()
     if len(lengths) != 1:
         raise ValueError(f"lengths differ: {sorted(lengths)}" if lengths else "nothing says how many motions there are")
     questions = np.zeros(lengths.pop(), _QUESTIONS)
     answers = np.zeros(len(questions), _ANSWERS)
     if not len(questions):
         return answers
-    sides[0].write(questions["a"])
-    sides[1].write(questions["b"])
+    side_a.write(questions["a"])
+    side_b.write(questions["b"])
     questions["options"] = np.frombuffer(options._c, _QUESTIONS["options"])[0]
     code = _library.nsvcd_sweep_batch(_address(questions), len(questions), _workspace.address, _workspace.size,
                                       _address(answers))

@@ -1,8 +1,13 @@
 #!/usr/bin/env python3
-"""What a question costs from Python: one by one, in a batch, and in batches on threads. Run it where `make python` was
-run. Motions of a mug about a dish rack; of each figure the best of five runs."""
+"""What a question costs from Python: one by one, in a batch, and in batches on threads. Motions of a mug about a dish
+rack; of each figure the best of 50 runs.
+
+    examples/python/overhead.py [MOTIONS]     after `make python`
+"""
 import os
+import sys
 import time
+from collections import deque
 from collections.abc import Callable
 from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
@@ -12,14 +17,14 @@ import numpy as np
 import neuralsvcd as nsvcd
 
 ASSETS = Path(__file__).resolve().parent.parent / "assets"
-COUNT = 10000
+COUNT = int(sys.argv[1]) if len(sys.argv) > 1 else 1000
 POSES = 9
 
 
 def best(run: Callable[[], object]) -> float:
     """Seconds."""
     times = []
-    for _ in range(5):
+    for _ in range(50):
         start = time.perf_counter()
         run()
         times.append(time.perf_counter() - start)
@@ -46,7 +51,7 @@ def main() -> None:
     for name, distance in (("about the rack", 0.1), ("far above it", 10)):
         paths = motions(distance)
         parts = np.array_split(paths, 8 * threads)
-        single = best(lambda: [nsvcd.sweep(mug, rack, path) for path in paths])
+        single = best(lambda: deque((nsvcd.sweep(mug, rack, path) for path in paths), maxlen=0))
         batch = best(lambda: nsvcd.sweep_batch(mug, rack, paths))
         with ThreadPoolExecutor(threads) as pool:
             shared = best(lambda: list(pool.map(lambda part: nsvcd.sweep_batch(mug, rack, part), parts)))

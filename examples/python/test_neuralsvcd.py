@@ -271,6 +271,8 @@ class Batches(unittest.TestCase):
         error = raised(nsvcd.sweep_batch, MUG, RACK, self.paths)
         self.assertEqual((error.code, error.index), (Code.POSE, 37))
         self.assertIn("motion 37", str(error))
+        same = self.paths[:9]
+        self.assertEqual(raised(nsvcd.sweep_batch, MUG, MUG, same, same).code, Code.SAME)
         error = raised(nsvcd.sweep_batch, [MUG, RACK, MUG], MUG, scale_a=[2, 1, 1])
         self.assertEqual((error.code, error.index), (Code.SAME, 2))
         for arguments in ((MUG, RACK), (MUG, RACK, self.paths, self.paths[1:]), ([MUG], RACK, self.paths),
