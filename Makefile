@@ -32,7 +32,7 @@ endif
 .PHONY: all demo preview assets help format clean firmware weights problems accuracy
 .PHONY: shared static release install uninstall check-packages
 .PHONY: test check-text check-header check-examples check-gradient check-tiles check-32 check-firmware
-.PHONY: check-motions check-problems check-extremes mutants
+.PHONY: check-motions check-problems check-extremes check-python python mutants
 .PHONY: bench bench-asks bench-flags bench-level bench-scale bench-plan race profile instructions sizes
 .DELETE_ON_ERROR:
 
@@ -53,6 +53,11 @@ EXAMPLES = $(patsubst examples/%.c,build/%,$(wildcard examples/*.c))
 $(EXAMPLES): build/%: examples/%.c $(wildcard examples/*.h) $(SCENERY) $(LIBRARY) | build
 	$(CC) $(ALL_CFLAGS) -o $@ $< -lm
 build/game build/fly_through: WARNINGS += -Wno-unused-function  # of problem_file.h
+
+# What the module of examples/python opens.
+build/_neuralsvcd.so: examples/python/_neuralsvcd.c $(LIBRARY) | build
+	$(CC) $(ALL_CFLAGS) -fPIC -shared -o $@ $< -lm
+python: build/_neuralsvcd.so  ## the library for examples/python/neuralsvcd.py
 
 demo: $(DEMOS)  ## the examples, seconds each: what they find, and a picture each in build/
 	@for demo in $(DEMOS); do echo $$demo; $$demo || exit 1; done
@@ -170,6 +175,12 @@ check-firmware: | build
 	$(MAKE) -C examples/firmware LEVELS=O2 run
 firmware: | build  ## Cortex-M under QEMU: answers as on the host; flash, RAM, stack and instructions as a table
 	$(MAKE) -C examples/firmware run table
+# The module for Python, where there is one with numpy: Debian's numpy is for Debian's Python.
+check-python:
+	@for python in $(PYTHON) /usr/bin/python3; do \
+	  $$python -c 'import numpy' 2>/dev/null || continue; \
+	  $(MAKE) build/svcd build/_neuralsvcd.so && cd examples/python && exec $$python -B -m unittest; exit 1; \
+	done; echo "check-python: no python3 with numpy: not tested"
 mutants:  ## the header with one mistake at a time: the tests of the proof must catch each; minutes
 	CC="$(CC)" tests/mutants.sh
 
@@ -193,7 +204,7 @@ check-motions: build/check_motions build/game build/problems build/svcd
 check-extremes: build/problems build/svcd  # tiny, huge, far, thin, spinning ...
 	tests/bench/extremes.sh
 
-CHECKS = text header packages gradient examples tiles 32 firmware motions problems extremes
+CHECKS = text header packages gradient examples tiles 32 firmware motions problems extremes python
 test: build/tests $(CHECKS:%=check-%)  ## everything; the last line is `N passed, N failed`
 	build/tests
 
@@ -355,7 +366,7 @@ weights: $(CHECKPOINT) $(CALIBRATED)  ## trains anew on a GPU, calibrates, write
 	cd train && $(PYTHON) calibrate.py ../$(CHECKPOINT) ../build/svcd $(CALIBRATED:%=../%)
 	cd train && $(PYTHON) export.py ../$(CHECKPOINT) ../weights.h ../tests/data/golden.h
 
-WRITTEN = examples examples/packages/project examples/scenery examples/firmware tests tests/bench
+WRITTEN = examples examples/packages/project examples/scenery examples/firmware examples/python tests tests/bench
 FORMATTED = neuralsvcd.h $(wildcard $(WRITTEN:%=%/*.[ch]))
 format:  ## clang-format on what is written by hand
 	clang-format -i $(FORMATTED)
