@@ -11,6 +11,7 @@
 // these call problem_file.h's
 #include "scenery/load.h"
 #include "scenery/options.h"
+#include "scenery/problem_summary.h"
 #include "scenery/sweep_motion.h"
 // and these the oracle
 #include "scenery/poses.h"
@@ -71,11 +72,6 @@ static int usage_error(const char *what, const char *reason) {
 
 // ------------------------------------------------------------------------------------------- check
 
-typedef struct encoded {
-  const nsvcd_body *body;  // in the units of its file
-  double seconds;          // that encoding took
-} encoded;
-
 // Every mesh once, in the units of its file: a question has its scale. bodies: (mesh_count),
 // zeroed.
 static int encode_meshes(const problem_file *file, const nsvcd_encode_options *options,
@@ -98,17 +94,6 @@ static int encode_meshes(const problem_file *file, const nsvcd_encode_options *o
   }
   return 1;
 }
-
-typedef struct outcome {  // of a problem
-  nsvcd_answer answer;
-  double microseconds;
-} outcome;
-
-typedef struct session {
-  problem_file file;
-  encoded *bodies;    // (file.mesh_count)
-  outcome *outcomes;  // (file.problem_count)
-} session;
 
 // Answers one problem: once to warm up, then --repeat times by the clock. The shortest time counts:
 // what is longer is the machine doing something else.
@@ -153,150 +138,6 @@ static int print_answers(const session *s) {
     return 1;
   return complain("standard output: %s", strerror(errno));
 }
-
-// ----------------------------------------------------------------------------------------- summary
-
-static void print_share(const char *name, size_t hits, size_t count, const char *of) {
-  double low, high;
-  if (!count)
-    return;
-  wilson(hits, count, &low, &high);
-  fprintf(stderr, "%-20s %7.2f %%  [%.2f, %.2f]  %zu of %zu %s\n", name,
-          100.0 * (double)hits / (double)count, 100 * low, 100 * high, hits, count, of);
-}
-
-#define BANDS 6
-static const double band_edges[BANDS] = {0.001, 0.0025, 0.005, 0.010, 0.020, HUGE_VAL};  // metres
-static const char *const band_names[BANDS + 1] = {"0 - 1",   "1 - 2.5", "2.5 - 5", "5 - 10",
-                                                  "10 - 20", "> 20",    "nan"};
-
-static size_t band_of(double margin) {  // BANDS if unknown
-  size_t band = 0;
-  if (isnan(margin))
-    return BANDS;
-  while (fabs(margin) > band_edges[band])
-    band++;
-  return band;
-}
-
-// Counts by band (BANDS: no margin), truth and verdict.
-typedef struct tally {
-  size_t at[BANDS + 1][2][2];
-} tally;
-
-static size_t tally_sum(const tally *t, int label, int verdict) {
-  size_t sum = 0;
-  for (size_t band = 0; band <= BANDS; band++)
-    sum += t->at[band][label][verdict];
-  return sum;
-}
-static void print_ratio(size_t right, size_t count) {
-  if (!count)
-    fprintf(stderr, "  %20s", "-     ");
-  else
-    fprintf(stderr, "  %6.2f %6zu/%-6zu", 100.0 * (double)right / (double)count, right, count);
-}
-static void print_bands(const tally *t) {
-  fprintf(stderr, "\n%-12s  %20s  %20s  %20s\n", "|margin| mm", "colliding: found, %",
-          "free: cleared, %", "both, %");
-  for (size_t band = 0; band <= BANDS; band++) {
-    const size_t(*at)[2] = t->at[band];
-    size_t collide = at[1][0] + at[1][1];
-    size_t clear = at[0][0] + at[0][1];
-    if (collide + clear == 0)
-      continue;
-    fprintf(stderr, "%-12s", band_names[band]);
-    print_ratio(at[1][1], collide);
-    print_ratio(at[0][0], clear);
-    print_ratio(at[1][1] + at[0][0], collide + clear);
-    fprintf(stderr, "\n");
-  }
-}
-static void print_accuracy(const session *s) {
-  tally t;
-  memset(&t, 0, sizeof t);
-  for (size_t i = 0; i < s->file.problem_count; i++) {
-    const problem *p = &s->file.problems[i];
-    if (p->label >= 0)
-      t.at[band_of(p->margin)][p->label][s->outcomes[i].answer.collides]++;
-  }
-  size_t missed = tally_sum(&t, 1, 0);
-  size_t found = tally_sum(&t, 1, 1);
-  size_t cleared = tally_sum(&t, 0, 0);
-  size_t alarms = tally_sum(&t, 0, 1);
-  if (missed + found + cleared + alarms == 0)
-    return;
-  print_share("accuracy", found + cleared, missed + found + cleared + alarms, "right");
-  print_share("false negatives", missed, missed + found, "collisions missed");
-  print_share("false positives", alarms, alarms + cleared, "free motions stopped");
-  print_bands(&t);
-}
-
-static void print_statuses(const session *s) {
-  fprintf(stderr, "\nstatus:");
-  for (int status = NSVCD_STATUS_OK; status <= NSVCD_STATUS_UNDECIDED; status++) {
-    size_t count = 0;
-    for (size_t i = 0; i < s->file.problem_count; i++)
-      count += (int)s->outcomes[i].answer.status == status;
-    fprintf(stderr, "%s %s %.1f %%", status ? "," : "", nsvcd_status_string((nsvcd_status)status),
-            100.0 * (double)count / (double)s->file.problem_count);
-  }
-  fprintf(stderr, "\n");
-}
-
-static int compare_doubles(const void *a, const void *b) {
-  double x = *(const double *)a;
-  double y = *(const double *)b;
-  return (x > y) - (x < y);
-}
-// Sorts, and prints median, mean, 99th percentile and worst.
-static void print_distribution(const char *name, double *values, size_t count, const char *unit) {
-  double sum = 0;
-  if (!count)
-    return;
-  qsort(values, count, sizeof *values, compare_doubles);
-  for (size_t i = 0; i < count; i++)
-    sum += values[i];
-  fprintf(stderr, "%s: median %.1f, mean %.1f, 99th percentile %.1f, worst %.1f %s\n", name,
-          (values[(count - 1) / 2] + values[count / 2]) / 2, sum / (double)count,
-          values[(size_t)ceil(0.99 * (double)count) - 1], values[count - 1], unit);
-}
-static void print_costs(const session *s) {
-  const problem_file *file = &s->file;
-  size_t most = file->problem_count > file->mesh_count ? file->problem_count : file->mesh_count;
-  double *values = (double *)allocate(most * sizeof(double));
-  double bytes = 0;
-  double points = 0;
-  for (size_t i = 0; i < file->problem_count; i++)
-    values[i] = s->outcomes[i].microseconds;
-  print_distribution("a query", values, file->problem_count, "us");
-  for (size_t i = 0; i < file->mesh_count; i++) {
-    nsvcd_body_facts facts = nsvcd_body_describe(s->bodies[i].body);
-    bytes += (double)facts.size / (double)file->mesh_count;
-    points += (double)facts.patches / (double)file->mesh_count;
-    values[i] = 1e3 * s->bodies[i].seconds;
-  }
-  print_distribution("encoding a mesh", values, file->mesh_count, "ms");
-  if (file->mesh_count)
-    fprintf(stderr, "a body: %.0f bytes, %.1f points (mean)\n", bytes, points);
-  free(values);
-}
-
-static void print_summary(const session *s) {
-  const problem_file *file = &s->file;
-  size_t labels[3] = {0, 0, 0};  // -1, 0, 1
-  for (size_t i = 0; i < file->problem_count; i++)
-    labels[file->problems[i].label + 1]++;
-  fprintf(stderr, "%s: %zu problems (%zu collide, %zu free, %zu without a label), %zu meshes\n",
-          file->path, file->problem_count, labels[2], labels[1], labels[0], file->mesh_count);
-  if (!file->problem_count)
-    return;
-  print_accuracy(s);
-  print_statuses(s);
-  print_costs(s);
-}
-
-// ------------------------------------------------------------------------------------ check itself
 
 // The library knows which recalls it was calibrated for: ask it before any work is done. A body of
 // one triangle serves.
@@ -474,7 +315,8 @@ static int encode(settings *options) {
 
 static void print_mesh(const thing *t) {
   const mesh_report *r = &t->report;
-  printf("%s: an OBJ: %zu triangles, %zu vertices\n", t->path, r->triangles, r->vertices);
+  printf("%s: an OBJ: %zu triangle%s, %zu vertices\n", t->path, r->triangles,
+         r->triangles == 1 ? "" : "s", r->vertices);
   printf("box: %.4g x %.4g x %.4g m, from %.4g %.4g %.4g to %.4g %.4g %.4g\n",
          r->high[0] - r->low[0], r->high[1] - r->low[1], r->high[2] - r->low[2], r->low[0],
          r->low[1], r->low[2], r->high[0], r->high[1], r->high[2]);
@@ -496,6 +338,7 @@ static int info_of_mesh(const settings *options) {
   int good = load_obj(options->paths[0], scales[0], &t);
   if (good) {
     print_mesh(&t);
+    fflush(stdout);
     good = encode_thing(&t, &defaults);
     for (int i = 0; i < t.fault_count; i++)
       printf("wrong: %s\n", t.faults[i]);
@@ -533,25 +376,37 @@ typedef struct sweep_job {
   int by_proof;
   void *workspace;
   nsvcd_answer answer;
-  nsvcd_answer nearest;  // where --measure asks for it and they are free of each other
-  double microseconds;   // median
+  nsvcd_answer nearest;       // where --measure asks for it and they are free of each other
+  double microseconds;        // median, to know whether they meet
+  double microseconds_first;  // and when
 } sweep_job;
 
 // The network answers where a body holds no triangles: then nothing may be asked that it does not
-// know. Returns 0 after a complaint.
+// know. Returns a status.
 static int sweep_method(sweep_job *job, nsvcd_sweep_options *sweep) {
   const thing *bare = nsvcd_body_describe(job->a.body).triangles ? &job->b : &job->a;
   const int proof = sweep->method != NSVCD_METHOD_NETWORK;
   job->by_proof = proof && nsvcd_body_describe(bare->body).triangles;
   if (job->by_proof)
-    return 1;
-  if (sweep->method == NSVCD_METHOD_PROOF)
-    return complain("%s: it holds no triangles, and so there is no proof", bare->path);
-  if (sweep->clearance > 0 || sweep->measure > 0 || sweep->skin > 0)
-    return complain("%s: the network knows neither --clearance, --measure nor --skin",
-                    proof ? bare->path : "--method network");
+    return DONE;
+  if (sweep->method == NSVCD_METHOD_PROOF) {
+    complain("%s: it holds no triangles, and so there is no proof", bare->path);
+    return REFUSED;
+  }
+  if (sweep->clearance > 0 || sweep->measure > 0 || sweep->skin > 0) {
+    complain("%s: the network knows neither --clearance, --measure nor --skin",
+             proof ? bare->path : "--method network");
+    return proof ? REFUSED : USAGE;
+  }
+  for (int i = 0; i < 2; i++) {
+    const thing *t = i ? &job->b : &job->a;
+    if (!nsvcd_body_describe(t->body).latents) {
+      complain("%s: it holds nothing for the network", t->path);
+      return REFUSED;
+    }
+  }
   sweep->first = 0;
-  return 1;
+  return DONE;
 }
 
 // Returns 0 after a complaint.
@@ -561,21 +416,20 @@ static int sweep_once(sweep_job *job, nsvcd_answer *answer) {
   return result ? complain("%s", reason_of(result)) : 1;
 }
 
-// Once to warm up, and then by the clock.
-static int sweep_timed(sweep_job *job, size_t repeat) {
+// Once to warm up, and then by the clock: the median, in microseconds. Negative after a complaint.
+static double sweep_timed(sweep_job *job, size_t repeat, nsvcd_answer *answer) {
   double *times = (double *)allocate(repeat * sizeof *times);
-  int good = sweep_once(job, &job->answer);
+  int good = sweep_once(job, answer);
   for (size_t i = 0; good && i < repeat; i++) {
     const double start = seconds();
-    good = sweep_once(job, &job->answer);
+    good = sweep_once(job, answer);
     times[i] = 1e6 * (seconds() - start);
   }
-  if (good) {
+  if (good)
     qsort(times, repeat, sizeof *times, compare_doubles);
-    job->microseconds = (times[(repeat - 1) / 2] + times[repeat / 2]) / 2;
-  }
+  const double median = good ? (times[(repeat - 1) / 2] + times[repeat / 2]) / 2 : -1;
   free(times);
-  return good;
+  return median;
 }
 
 // The answer, and, where they are free of each other, how near they come.
@@ -591,68 +445,98 @@ static int sweep_ask(sweep_job *job, const settings *options) {
   question->options.measure = 0;
   for (size_t i = 0; i < job->motion.count; i++)
     job->poses[i] = pose_rounded(&job->motion.poses[i]);
-  if (!sweep_timed(job, options->repeat))
+  question->options.first = 0;
+  job->microseconds = sweep_timed(job, options->repeat, &job->answer);
+  if (job->microseconds < 0)
     return 0;
+  if (job->answer.status != NSVCD_STATUS_CERTIFIED_FREE && options->sweep.first > 0) {
+    question->options.first = options->sweep.first;
+    job->microseconds_first = sweep_timed(job, options->repeat, &job->answer);
+  }
   if (!(options->sweep.measure > 0) || job->answer.collides)
-    return 1;
+    return job->microseconds_first >= 0;
   question->options.first = 0;
   question->options.clearance = 0;
   question->options.measure = options->sweep.measure;
   return sweep_once(job, &job->nearest);
 }
 
-static const char *sweep_reason(const sweep_job *job) {
+// How it was decided.
+static void sweep_reason(const sweep_job *job, const settings *options, char *out, size_t size) {
   const int proof = job->by_proof;
-  switch (job->answer.status) {
-    case NSVCD_STATUS_WITNESS:
-      return "proven, two triangles meet";
-    case NSVCD_STATUS_CERTIFIED_FREE:
-      return proof ? "proven, the surfaces never meet" : "proven, spheres about them never meet";
-    case NSVCD_STATUS_INSIDE:
-      return proof ? "proven, one is inside of the other at the start"
+  const char *reason = "the network's opinion";
+  if (job->answer.status == NSVCD_STATUS_WITNESS)
+    reason = options->sweep.clearance > 0 ? "proven, two triangles come so near"
+                                          : "proven, two triangles meet";
+  if (job->answer.status == NSVCD_STATUS_CERTIFIED_FREE)
+    reason = proof ? "proven, the surfaces never meet" : "proven, spheres about them never meet";
+  if (job->answer.status == NSVCD_STATUS_INSIDE)
+    reason = proof ? "proven, one is inside of the other at the start"
                    : "estimated, one is inside of the other at the start";
-    case NSVCD_STATUS_UNDECIDED:
-      return "undecided: closer than triangles are stored, or more work than --work allows";
-    default:
-      return "the network's opinion";
-  }
+  if (job->answer.status == NSVCD_STATUS_UNDECIDED)
+    reason = "nearer than triangles are stored, or more work than --work allows";
+  snprintf(out, size, "%s", reason);
+  if (job->answer.status == NSVCD_STATUS_OK || job->answer.status == NSVCD_STATUS_LIMIT)
+    snprintf(out, size, "%s, logit %.3g", reason, (double)job->answer.logit);
 }
 
-// "hit at t = 0.4, proven, ...".
+// "hit at t = 0.4, the first contact: proven, two triangles meet".
 static void sweep_verdict(const sweep_job *job, const settings *options, char *out, size_t size) {
   const nsvcd_answer *a = &job->answer;
   const nsvcd_sweep_options *asked = &options->sweep;
-  char when[40] = "";
+  const char *word = a->collides ? "hit" : "free";
+  char when[60] = "";
   char near_by[60] = "";
+  char reason[120];
   if (a->collides)
-    snprintf(when, sizeof when, " at t = %.4g", (double)a->contact_time);
+    snprintf(when, sizeof when, " at t = %.4f%s", (double)a->contact_time,
+             asked->first > 0 ? ", the first contact" : "");
+  if (a->status == NSVCD_STATUS_UNDECIDED) {
+    word = a->collides ? "undecided, taken as a hit" : "undecided, taken as free";
+    snprintf(when, sizeof when, "; free until t = %.4f", (double)a->free_until);
+  }
   if (asked->clearance > 0)
     snprintf(near_by, sizeof near_by, ", %s %g m", a->collides ? "as near as" : "never as near as",
              (double)asked->clearance);
-  snprintf(out, size, "%s%s%s: %s", a->collides ? "hit" : "free", when, near_by, sweep_reason(job));
+  sweep_reason(job, options, reason, sizeof reason);
+  snprintf(out, size, "%s%s%s: %s", word, when, near_by, reason);
 }
 
-static void print_vector(const char *name, const float *v, const char *unit) {
-  printf("%-10s %.6g %.6g %.6g%s\n", name, (double)v[0], (double)v[1], (double)v[2], unit);
+// size: what is less than a millionth of it is rounding, and printed as 0.
+static void print_vector(const char *name, const float *v, double size, const char *unit) {
+  printf("%-10s", name);
+  for (int k = 0; k < 3; k++)
+    printf(" %.5g", fabs((double)v[k]) < 1e-6 * size ? 0.0 : (double)v[k]);
+  printf("%s\n", unit);
 }
 
 static void print_answer(const sweep_job *job, const settings *options) {
   const nsvcd_answer *a = &job->answer;
   char verdict[256];
+  double size = 0;
+  for (int k = 0; k < 3; k++)
+    size = fmax(size, job->b.high[k] - job->b.low[k]);
   sweep_verdict(job, options, verdict, sizeof verdict);
   printf("%s\n", verdict);
   if (a->status == NSVCD_STATUS_WITNESS || a->status == NSVCD_STATUS_INSIDE)
-    print_vector("point", a->point, " m");
+    print_vector("point", a->point, size, " m");
   if (a->status == NSVCD_STATUS_WITNESS) {
-    print_vector("normal", a->normal, ", from B to A");
+    print_vector("normal", a->normal, 1, ", from B to A");
     printf("triangles  %lu of A, %lu of B, counted from 0\n", (unsigned long)a->triangle_a,
            (unsigned long)a->triangle_b);
   }
   if (job->nearest.clearance_high > 0)
-    printf("clearance  %.4g to %.4g m, at t = %.4g\n", (double)job->nearest.clearance_low,
+    printf("clearance  %.4g to %.4g m, at t = %.4f\n", (double)job->nearest.clearance_low,
            (double)job->nearest.clearance_high, (double)job->nearest.contact_time);
   print_motion(&job->motion);
-  printf("time       %.1f us, median of %zu\n", job->microseconds, options->repeat);
+  printf("time       %.1f us", job->microseconds);
+  if (job->microseconds_first > 0)
+    printf(", and %.1f us for the first contact", job->microseconds_first);
+  printf(" (median of %zu)", options->repeat);
+  if (job->a.taken + job->b.taken > 0)
+    printf("; encoding %.1f ms", 1e3 * (job->a.taken + job->b.taken));
+  printf("\n");
+  fflush(stdout);
 }
 
 // ------------------------------------------------------------------------------------ its picture
@@ -722,7 +606,10 @@ static int sweep_run(sweep_job *job, settings *options, const float *scales) {
     return REFUSED;
   if (!take_motion(&told, &job->a, &job->b, &job->motion))
     return USAGE;
-  if (!sweep_method(job, ask) || !sweep_ask(job, options))
+  const int status = sweep_method(job, ask);
+  if (status != DONE)
+    return status;
+  if (!sweep_ask(job, options))
     return REFUSED;
   print_answer(job, options);
   return !options->picture || draw_job(job, options) ? DONE : REFUSED;

@@ -48,11 +48,11 @@ static size_t edit_distance(const char *a, const char *b) {
   return row[m];
 }
 
-// Takes `name` for *meant if it is like `word`, and more so than what was found before; *distance
-// begins at 3.
+// Takes `name` for *meant if less than half of `word` is wrong, and less than what was found before;
+// *distance begins at 3.
 static void consider(const char *word, const char *name, const char **meant, size_t *distance) {
   const size_t d = edit_distance(word, name);
-  if (d < *distance) {
+  if (d < *distance && 2 * d < strlen(word)) {
     *meant = name;
     *distance = d;
   }
@@ -93,9 +93,13 @@ static int take_value(const option *o, const char *value, void *settings) {
 }
 
 static int refuse_value(const option *o, const char *value) {
+  char words[64];
   const char *limit = o->text ? o->text : "";
+  snprintf(words, sizeof words, "%s", limit);
+  for (char *c = words; *c; c++)
+    *c = *c == '|' ? ' ' : *c;
   if (o->kind == OPTION_WORD)
-    complain("%s %s: none of %s", o->name, value, o->text);
+    complain("%s %s: none of: %s", o->name, value, words);
   else
     complain("%s %s: out of range: not a %s in %.9g..%.9g%s%s%s", o->name, value,
              o->kind == OPTION_COUNT ? "whole number" : "number", o->low, o->high,

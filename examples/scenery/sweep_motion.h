@@ -125,12 +125,16 @@ static int take_motion(const motion_told *told, const thing *a, const thing *b, 
 }
 
 static void print_motion(const motion *m) {
-  const double *from = m->poses[0].position;
-  const double *to = m->poses[m->count - 1].position;
-  printf("motion     A from %.4g %.4g %.4g to %.4g %.4g %.4g", from[0], from[1], from[2], to[0],
-         to[1], to[2]);
+  const oracle_pose *from = &m->poses[0];
+  const oracle_pose *to = &m->poses[m->count - 1];
+  double axis[3];
+  const double arc = oracle_quat_arc(from->rotation, to->rotation, axis) * 180 / SHAPES_PI;
+  printf("motion     A from %.6g %.6g %.6g to %.6g %.6g %.6g", from->position[0], from->position[1],
+         from->position[2], to->position[0], to->position[1], to->position[2]);
   if (m->degrees != 0)
     printf(", turning %g degrees about %c", m->degrees, axes[m->turn]);
+  else if (arc > 1e-6)
+    printf(", turning %.4g degrees about %.3g %.3g %.3g", arc, axis[0], axis[1], axis[2]);
   if (m->through >= 0)
     printf(": straight through B along %c, where it is thinnest", axes[m->through]);
   printf("\n");
