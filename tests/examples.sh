@@ -167,10 +167,10 @@ expect 1 'x.stl: svcd reads OBJ and .body files' build/svcd info "$dir/x.stl"
 
 # svcd sweep: verdicts that are known. verdict TEXT ARGUMENTS...: what the first line says.
 verdict() {
-  text=$1
+  wanted=$1
   shift
   expect 0 '' build/svcd sweep --repeat 1 "$@"
-  head -1 "$dir/out" | grep -q -e "$text" || fail "no '$text': sweep $*: $(cat "$dir/out" "$dir/err")"
+  head -1 "$dir/out" | grep -q -e "$wanted" || fail "no '$wanted': sweep $*: $(cat "$dir/out" "$dir/err")"
 }
 line() { grep -q -e "$1" "$dir/out" || fail "no '$1': $(cat "$dir/out")"; }
 verdict '^hit at t = 0.4[0-9]*, the first contact: proven, two triangles meet$' "$dir/cube.obj" "$dir/cube.obj" \
@@ -199,7 +199,7 @@ verdict '^hit' "$dir/cube.obj" "$dir/cube.obj" --from 0.5,2.2,0 --to 0.5,2.2,0,0
 line 'turning 135 degrees about'
 # Without a motion: through B where it is thinnest, from outside to outside; two cubes side by side leave a way.
 verdict '^free' "$dir/cube.obj" "$dir/two.obj"
-line 'through B along y, where it is thinnest'
+line '^motion *A from 1.5 1.9 0 to 1.5 -1.9 0: straight through B along y, where it is thinnest$'
 verdict '^hit' "$dir/cube.obj" "$dir/two.obj" --scale 2.1,1
 verdict '^hit' "$dir/mm.obj" "$dir/cube.obj" --scale 0.001,1
 test ! -s "$dir/err" || fail "184 mm are warned of: $(cat "$dir/err")"
@@ -207,8 +207,10 @@ verdict '^hit' "$dir/mm.obj" "$dir/cube.obj"
 grep -q 'warning: .*mm.obj: a body of 184 m' "$dir/err" || fail "no warning of 184 m: $(cat "$dir/err")"
 # .body files, and the network.
 expect 0 '' build/svcd encode "$dir/cube.obj" "$dir/cube.body"
-verdict '^free: proven' "$dir/cube.body" "$dir/cube.body" --from 2,0,5 --to 2,0,-5 --scale 0.9
-verdict '^hit .*proven' "$dir/cube.body" "$dir/cube.body" --from 2,0,5 --to 2,0,-5 --scale 2.1
+verdict '^free: proven' "$dir/cube.body" "$dir/cube.obj" --from -2,0,5 --to -2,0,-5 --scale 1.9,1
+verdict '^hit .*proven' "$dir/cube.body" "$dir/cube.obj" --from -2,0,5 --to -2,0,-5 --scale 2.1,1
+verdict '^free: proven' "$dir/cube.obj" "$dir/cube.body" --from 2,0,5 --to 2,0,-5 --scale 1,1.9
+verdict '^hit .*proven' "$dir/cube.obj" "$dir/cube.body" --from 2,0,5 --to 2,0,-5 --scale 1,2.1
 verdict "^hit .*: the network's opinion, logit" "$dir/latents.body" "$dir/cube.obj"
 verdict "^hit .*: the network's opinion, logit" "$dir/cube.obj" "$dir/cube.obj" --method network
 expect 1 'latents.body: the network knows neither' build/svcd sweep "$dir/latents.body" "$dir/cube.obj" --measure 0.1
