@@ -31,7 +31,7 @@ endif
 
 .PHONY: all demo preview assets help format clean firmware weights problems accuracy
 .PHONY: shared static release install uninstall check-packages
-.PHONY: test check-text check-header check-examples check-gradient check-tiles check-32 check-firmware
+.PHONY: test check-text check-header check-examples check-gradient check-tiles check-32 check-mingw check-firmware
 .PHONY: check-motions check-problems check-extremes check-python python mutants
 .PHONY: bench bench-asks bench-flags bench-level bench-scale bench-plan race profile instructions sizes
 .DELETE_ON_ERROR:
@@ -181,6 +181,13 @@ check-python:
 	  $$python -c 'import numpy' 2>/dev/null || continue; \
 	  $(MAKE) build/svcd build/_neuralsvcd.so && cd examples/python && exec $$python -B -m unittest; exit 1; \
 	done; echo "check-python: no python3 with numpy: not tested"
+# The examples for Windows, where MinGW is there (Debian: gcc-mingw-w64-x86-64).
+MINGW = x86_64-w64-mingw32-gcc
+$(EXAMPLES:%=%.exe): build/%.exe: examples/%.c $(wildcard examples/*.h) $(SCENERY) $(LIBRARY) | build
+	$(MINGW) -O1 -std=c99 $(WARNINGS) -Werror -Wno-unused-function -o $@ $< -lm
+check-mingw:
+	@if command -v $(MINGW) >/dev/null; then $(MAKE) $(EXAMPLES:%=%.exe); \
+	else echo "check-mingw: no $(MINGW): not tested"; fi
 mutants:  ## the header with one mistake at a time: the tests of the proof must catch each; minutes
 	CC="$(CC)" tests/mutants.sh
 
@@ -204,7 +211,7 @@ check-motions: build/check_motions build/game build/problems build/svcd
 check-extremes: build/problems build/svcd  # tiny, huge, far, thin, spinning ...
 	tests/bench/extremes.sh
 
-CHECKS = text header packages gradient examples tiles 32 firmware motions problems extremes python
+CHECKS = text header packages gradient examples tiles 32 mingw firmware motions problems extremes python
 test: build/tests $(CHECKS:%=check-%)  ## everything; the last line is `N passed, N failed`
 	build/tests
 
