@@ -728,7 +728,7 @@ NSVCDDEF nsvcd_result nsvcd_sweep_gradient(const nsvcd_question *question, void 
 //   control    (via_points + 2, joints), not NULL
 //   via_points M, up to NSVCD_MAX_VIA_POINTS; of more, nothing is written
 //   t          taken into [0,1]
-//   derivative 0: the joints; 1, 2, 3: velocity, acceleration, jerk
+//   derivative 0: the joints; 1, 2, 3: velocity, acceleration, jerk; of more, nothing is written
 //   out        (joints), not NULL
 //   allocates  nothing
 //   source     quintic Hermite interpolation, as the paper's authors use it
@@ -14411,7 +14411,9 @@ static nsvcd_method nsvcd__method_of(const nsvcd_body *moving, const nsvcd_body 
 static int nsvcd__is_itself(const nsvcd_question *question) {
   const nsvcd_mover *a = &question->a;
   const nsvcd_mover *b = &question->b;
-  const int same_size = !(a->scale < b->scale) && !(b->scale < a->scale);
+  const float size_a = a->scale > 0 ? a->scale : 1;
+  const float size_b = b->scale > 0 ? b->scale : 1;
+  const int same_size = !(size_a < size_b) && !(size_b < size_a);
   return a->body == b->body && a->poses == b->poses && a->count == b->count && same_size;
 }
 
@@ -16007,7 +16009,7 @@ static void nsvcd__spline_weights(size_t via, double t, size_t derivative, doubl
 NSVCDDEF void nsvcd_spline(const float *control, size_t via_points, size_t joints, float t,
                            size_t derivative, float *out) {
   double weights[NSVCD_MAX_VIA_POINTS + 2];
-  if (via_points > NSVCD_MAX_VIA_POINTS)
+  if (via_points > NSVCD_MAX_VIA_POINTS || derivative > 3)
     return;
   nsvcd__spline_weights(via_points, (double)t, derivative, weights);
   for (size_t j = 0; j < joints; j++) {
