@@ -1,7 +1,7 @@
 #!/bin/sh
 # What compiler flags cost: the medians of a query on problem files, by proof and by the network, and of the game's frame.
-# All builds are asked in turn, five times; a figure is the median of five. Ratios are to -O3 -march=native.
-#   tests/bench/flags.sh FILE...     ALL=1: more builds, and queries alone
+# All builds are asked in turn, ROUNDS times; a figure is the median of these. Ratios are to -O3 -march=native.
+#   tests/bench/flags.sh FILE...     ALL=1: more builds, and queries alone; ROUNDS=5
 set -eu
 CC=${CC:-cc}
 dir=$(mktemp -d)
@@ -32,7 +32,7 @@ done <"$dir/builds"
 wait
 
 median() { sort -n | awk '{ x[NR] = $1 } END { print x[int((NR + 1) / 2)] }'; }
-for round in 1 2 3 4 5; do
+for round in $(seq "${ROUNDS:-5}"); do
   while IFS='|' read -r name _; do
     for method in proof network; do
       for file in "$@"; do
