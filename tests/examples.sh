@@ -100,7 +100,8 @@ test ! -e "$dir/x.body" || fail "a refused mesh left a body behind"
 
 # svcd info on meshes by hand, and what is wrong with each. cube FILE FLIP SIZE X FACES: FACES of a cube's six, added.
 cube() {
-  awk -v flip="$2" -v s="$3" -v x="$4" -v faces="$5" -v first="$(grep -c '^v' "$1" 2>/dev/null)" 'BEGIN {
+  first=$(grep -c '^v' "$1" 2>/dev/null)
+  awk -v flip="$2" -v s="$3" -v x="$4" -v faces="$5" -v first="$first" 'BEGIN {
     for (i = 0; i < 8; i++) print "v", x + s * (i % 2), s * (int(i / 2) % 2), s * int(i / 4)
     split("1342 5687 1265 3784 1573 2486", face, " ")
     for (f = 1; f <= faces; f++) {
@@ -243,7 +244,7 @@ expect 2 'did you mean --from' build/svcd sweep "$dir/cube.obj" "$dir/cube.obj" 
 expect 2 'did you mean --from' build/svcd sweep "$dir/cube.obj" "$dir/cube.obj" --form=1,2,3
 expect 2 'the length 2, not 1' build/svcd sweep "$dir/cube.obj" "$dir/cube.obj" --to 1,2,3,0,0,0,2
 expect 2 'not together with another rotation' build/svcd sweep "$dir/cube.obj" "$dir/cube.obj" --to 1,2,3,0,0,1,0 --rotate z,9
-for option in --from=1,2 --from=1,2,x --from=1,2,nan --from=1,2,3,4 --from=1,2,2e6 --from=1,2,3, --to= --rotate=w,9 --rotate=z, \
+for option in --from=1,2 --from=1,2,x --from=1,2,nan --from=1,2,3,4 --from=1,2,2e6 '--from=1,2,3,' --to= --rotate=w,9 '--rotate=z,' \
   --rotate=z,99999 --scale=1,2,3 --scale=0 --measure=0 --measure=-1 --clearance=2e6 --skin=-1 --points=0 --method=magic --picture; do
   expect 2 "${option%%=*}" build/svcd sweep "$dir/cube.obj" "$dir/cube.obj" "$option"
 done
