@@ -519,7 +519,9 @@ static void print_answer(const sweep_job *job, const settings *options) {
   if (a->status == NSVCD_STATUS_WITNESS || a->status == NSVCD_STATUS_INSIDE)
     print_vector("point", a->point, size, " m");
   if (a->status == NSVCD_STATUS_WITNESS) {
-    print_vector("normal", a->normal, 1, ", from B to A");
+    // what is met of a sheet has a normal by its winding, on whichever side A is
+    const int sure = is_solid(&job->a) && is_solid(&job->b);
+    print_vector("normal", a->normal, 1, sure ? ", from B to A" : "");
     printf("triangles  %lu of A, %lu of B, counted from 0\n", (unsigned long)a->triangle_a,
            (unsigned long)a->triangle_b);
   }
@@ -546,7 +548,7 @@ static int picture_body(const thing *t, sweep_body *out) {
   memset(&balls, 0, sizeof balls);
   out->name = t->path;
   out->pale = t->memory ? 0.12 : 0.35;  // balls overlap
-  out->sheet = !t->memory && (t->report.closed < t->report.components || t->report.volume <= 0);
+  out->sheet = !t->memory && !is_solid(t);
   for (uint32_t i = 0; t->memory && nsvcd_body_patch(t->body, i, centre, &radius); i++) {
     const size_t first = balls.vertices;
     shapes_ellipsoid(&balls, (double)radius, (double)radius, (double)radius, 6);

@@ -150,6 +150,11 @@ static int load_obj(const char *path, float scale, thing *t) {
   return 1;
 }
 
+// Is it closed, all of it, and the right way out? Of a .body file that is not known.
+static int is_solid(const thing *t) {
+  return !t->memory && t->report.closed == t->report.components && t->report.volume > 0;
+}
+
 // Makes the body. Returns 0 after a complaint.
 static int encode_thing(thing *t, const nsvcd_encode_options *options) {
   t->body = encode_mesh("", t->path, &t->mesh, options, &t->taken);
