@@ -76,8 +76,7 @@ static int usage_error(const char *what, const char *reason) {
 // zeroed.
 static int encode_meshes(const problem_file *file, const nsvcd_encode_options *options,
                          encoded *bodies) {
-  const char *slash = strrchr(file->path, '/');
-  size_t folder = slash ? (size_t)(slash - file->path) + 1 : 0;
+  const size_t folder = (size_t)(file_name(file->path) - file->path);
   for (size_t i = 0; i < file->mesh_count; i++) {
     const mesh_entry *mesh = &file->meshes[i];
     char from[1024], path[4096];
@@ -206,8 +205,7 @@ static int check(settings *options) {
 
 // "parts/my-mug.h" -> "my_mug_body".
 static void array_name(const char *path, char *name, size_t size) {
-  const char *slash = strrchr(path, '/');
-  const char *base = slash ? slash + 1 : path;
+  const char *base = file_name(path);
   int digit = isdigit((unsigned char)base[0]);  // no C name begins with one
   snprintf(name, size, "%s%.*s_body", digit ? "_" : "",
            (int)(strlen(base) < 40 ? strlen(base) - 2 : 40), base);
@@ -521,7 +519,9 @@ static void print_answer(const sweep_job *job, const settings *options) {
   if (a->status == NSVCD_STATUS_WITNESS || a->status == NSVCD_STATUS_INSIDE)
     print_vector("point", a->point, size, " m");
   if (a->status == NSVCD_STATUS_WITNESS) {
-    print_vector("normal", a->normal, 1, ", from B to A");
+    // what is met of a sheet has a normal by its winding, on whichever side A is
+    const int sure = is_solid(&job->a) && is_solid(&job->b);
+    print_vector("normal", a->normal, 1, sure ? ", from B to A" : "");
     printf("triangles  %lu of A, %lu of B, counted from 0\n", (unsigned long)a->triangle_a,
            (unsigned long)a->triangle_b);
   }
@@ -539,7 +539,7 @@ static void print_answer(const sweep_job *job, const settings *options) {
   fflush(stdout);
 }
 
-// ------------------------------------------------------------------------------------ its picture
+// ------------------------------------------------------------------------------------- its picture
 
 // The mesh, or, of a .body file, the balls of its patches. Returns 0 after a complaint.
 static int picture_body(const thing *t, sweep_body *out) {
@@ -548,7 +548,7 @@ static int picture_body(const thing *t, sweep_body *out) {
   memset(&balls, 0, sizeof balls);
   out->name = t->path;
   out->pale = t->memory ? 0.12 : 0.35;  // balls overlap
-  out->sheet = t->report.closed < t->report.components || t->report.volume <= 0;
+  out->sheet = !t->memory && !is_solid(t);
   for (uint32_t i = 0; t->memory && nsvcd_body_patch(t->body, i, centre, &radius); i++) {
     const size_t first = balls.vertices;
     shapes_ellipsoid(&balls, (double)radius, (double)radius, (double)radius, 6);
@@ -573,6 +573,9 @@ static int draw_job(const sweep_job *job, const settings *options) {
   char verdict[256];
   memset(&p, 0, sizeof p);
   sweep_verdict(job, options, verdict, sizeof verdict);
+  p.title = a->collides ? "A hits B" : "A is free of B";
+  if (a->status == NSVCD_STATUS_UNDECIDED)
+    p.title = "Undecided";
   p.verdict = verdict;
   p.poses = job->motion.poses;
   p.count = job->motion.count;
@@ -641,8 +644,8 @@ static void help_sweep(FILE *out) {
       "           [--picture OUT.svg] [--clearance METRES] [--measure METRES] [--skin METRES]\n"
       "           [--first T] [--method proof|network] [--points N] [--work N] [--repeat R]\n"
       "A moves, B rests where its file has it: do they hit each other? A and B are OBJ or .body\n"
-      "files. Without --from and --to A passes straight through the middle of B's box, along\n"
-      "the axis along which B is thinnest.\n"
+      "files. Without --from and --to A passes straight through the middle of B's box, from\n"
+      "outside to outside, downwards along the axis along which B is thinnest.\n"
       "  --from, --to POSE  x,y,z[,qx,qy,qz,qw]: where A's origin is at t = 0 and t = 1, and how\n"
       "                     it is turned; one that is not given: as the file has it\n"
       "  --rotate AXIS,DEG  turn on the way, about A's origin: z,90\n"
@@ -657,7 +660,7 @@ static void help_sweep(FILE *out) {
       "  --points N         patches of a body, 1..%d (%d and more; %d for the network)\n"
       "  --work N           units that a proof may take (%d)\n"
       "  --repeat R         timed queries, of which the median is printed (101)\n"
-      "Prints `hit ...` or `free ...` on the first line. Exit status 0 for both.\n",
+      "The first line begins with hit, free or undecided; the exit status is 0 for all of them.\n",
       NSVCD_MAX_PATCHES, NSVCD_DEFAULT_PATCHES, NSVCD_DEFAULT_NETWORK_PATCHES, NSVCD_DEFAULT_WORK);
 }
 
@@ -736,8 +739,8 @@ static void usage(FILE *out) {
           "  svcd encode IN.obj OUT.body       a body, ready to be loaded, or a C array OUT.h\n"
           "  svcd check PROBLEMS.txt           answers a file of problems\n"
           "  svcd COMMAND --help               its options\n"
-          "Exit status: 0 done, 1 a file or a line was refused, 2 usage. Formats:\n"
-          "examples/FORMATS.md.\n");
+          "Exit status: 0 done, 1 a file or a line was refused, 2 usage.\n"
+          "What it reads and prints: examples/FORMATS.md.\n");
 }
 
 static const command *find_command(const char *name) {

@@ -100,7 +100,8 @@ test ! -e "$dir/x.body" || fail "a refused mesh left a body behind"
 
 # svcd info on meshes by hand, and what is wrong with each. cube FILE FLIP SIZE X FACES: FACES of a cube's six, added.
 cube() {
-  awk -v flip="$2" -v s="$3" -v x="$4" -v faces="$5" -v first="$(grep -c '^v' "$1" 2>/dev/null)" 'BEGIN {
+  first=$(grep -c '^v' "$1" 2>/dev/null)
+  awk -v flip="$2" -v s="$3" -v x="$4" -v faces="$5" -v first="$first" 'BEGIN {
     for (i = 0; i < 8; i++) print "v", x + s * (i % 2), s * (int(i / 2) % 2), s * int(i / 4)
     split("1342 5687 1265 3784 1573 2486", face, " ")
     for (f = 1; f <= faces; f++) {
@@ -189,7 +190,9 @@ verdict '^hit at t = 0.0000, .*one is inside of the other' "$dir/cube.obj" "$dir
 verdict '^free' "$dir/cube.obj" "$dir/cube.obj" --from 0,0,1 --to 0,0,5 --skin 0.001
 verdict '^hit at t = 0.0000' "$dir/cube.obj" "$dir/cube.obj" --from 0,0,1 --to 0,0,5
 verdict '^undecided, taken as a hit; free until t = 0.[0-9]*: ' "$dir/cube.obj" "$dir/cube.obj" --work 1
-# A turns on its way: by half a turn about z it sweeps what it passes by otherwise. 450 degrees are more than a turn.
+verdict '^hit' "$dir/cube.obj" "$dir/open.obj"
+! grep -q 'from B to A' "$dir/out" || fail "the side of a sheet is not known: $(cat "$dir/out")"
+# A turns on its way, and reaches B where it turns far enough that way; a whole turn is not none.
 verdict '^free' "$dir/cube.obj" "$dir/cube.obj" --from 0.5,2.2,0 --to 0.5,2.2,0
 verdict '^hit' "$dir/cube.obj" "$dir/cube.obj" --from 0.5,2.2,0 --to 0.5,2.2,0 --rotate z,-135
 line 'turning -135 degrees about z'
@@ -240,9 +243,10 @@ expect 1 'none.obj: the file is missing' build/svcd sweep "$dir/cube.obj" "$dir/
 expect 1 "bad.obj:4: an index .*: 'f 1 2 4'" build/svcd sweep "$dir/bad.obj" "$dir/cube.obj"
 expect 1 'bad.body: the body is damaged' build/svcd sweep "$dir/cube.obj" "$dir/bad.body"
 expect 2 'did you mean --from' build/svcd sweep "$dir/cube.obj" "$dir/cube.obj" --form 1,2,3
+expect 2 'did you mean --from' build/svcd sweep "$dir/cube.obj" "$dir/cube.obj" --form=1,2,3
 expect 2 'the length 2, not 1' build/svcd sweep "$dir/cube.obj" "$dir/cube.obj" --to 1,2,3,0,0,0,2
 expect 2 'not together with another rotation' build/svcd sweep "$dir/cube.obj" "$dir/cube.obj" --to 1,2,3,0,0,1,0 --rotate z,9
-for option in --from=1,2 --from=1,2,x --from=1,2,nan --from=1,2,3,4 --from=1,2,2e6 --from=1,2,3, --to= --rotate=w,9 --rotate=z, \
+for option in --from=1,2 --from=1,2,x --from=1,2,nan --from=1,2,3,4 --from=1,2,2e6 '--from=1,2,3,' --to= --rotate=w,9 '--rotate=z,' \
   --rotate=z,99999 --scale=1,2,3 --scale=0 --measure=0 --measure=-1 --clearance=2e6 --skin=-1 --points=0 --method=magic --picture; do
   expect 2 "${option%%=*}" build/svcd sweep "$dir/cube.obj" "$dir/cube.obj" "$option"
 done

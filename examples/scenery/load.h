@@ -1,5 +1,5 @@
-// load.h - files that a person names: OBJ and .body, with messages that say what is wrong with them.
-// Include neuralsvcd.h and problem_file.h first.
+// load.h - files that a person names, OBJ and .body, with messages that say what is wrong with
+// them. Include neuralsvcd.h and problem_file.h first.
 #ifndef NSVCD_SCENERY_LOAD_H
 #define NSVCD_SCENERY_LOAD_H
 
@@ -33,6 +33,20 @@ static void quote_line(const char *path, size_t line, char *out, size_t size) {
   out[n] = 0;
   if (file)
     fclose(file);
+}
+
+// What follows the folder in a path.
+static const char *file_name(const char *path) {
+#if defined(_WIN32)
+  const char *ends = "/\\";
+#else
+  const char *ends = "/";
+#endif
+  const char *name = path;
+  for (; *path; path++)
+    if (strchr(ends, *path))
+      name = path + 1;
+  return name;
 }
 
 // Formats that people have, and svcd does not read.
@@ -134,6 +148,11 @@ static int load_obj(const char *path, float scale, thing *t) {
   memcpy(t->low, t->report.low, sizeof t->low);
   memcpy(t->high, t->report.high, sizeof t->high);
   return 1;
+}
+
+// Is it closed, all of it, and the right way out? Of a .body file that is not known.
+static int is_solid(const thing *t) {
+  return !t->memory && t->report.closed == t->report.components && t->report.volume > 0;
 }
 
 // Makes the body. Returns 0 after a complaint.

@@ -87,7 +87,7 @@ MESH_DEF int mesh_parts_init(mesh_parts *parts, const nsvcd_mesh *mesh, double s
   return 1;
 }
 
-// ------------------------------------------------------------------------------- triangles, edges
+// -------------------------------------------------------------------------------- triangles, edges
 
 // The welded corners of triangle t, and its component.
 MESH_DEF mesh_component *mesh_corners(mesh_parts *parts, const nsvcd_mesh *mesh, size_t t,
@@ -247,8 +247,8 @@ MESH_DEF int mesh_find_count(size_t count, const char *one, const char *many, co
   return count > 0;
 }
 
-// Are there triangles much larger than the patches of the body that was made of it, which follow the
-// area, and so leave few to the small ones?
+// Are there triangles much larger than the patches of the body that was made of it? These follow
+// the area, and so leave few to the small ones.
 MESH_DEF int mesh_find_large(const nsvcd_mesh *mesh, const nsvcd_body_facts *facts, char *line) {
   const double limit = 16 * (double)facts->mean_patch_radius;
   size_t large = 0;

@@ -48,8 +48,8 @@ static size_t edit_distance(const char *a, const char *b) {
   return row[m];
 }
 
-// Takes `name` for *meant if less than half of `word` is wrong, and less than what was found before;
-// *distance begins at 3.
+// Takes `name` for *meant if less than half of `word` is wrong, and less than what was found
+// before; *distance begins at 3.
 static void consider(const char *word, const char *name, const char **meant, size_t *distance) {
   const size_t d = edit_distance(word, name);
   if (d < *distance && 2 * d < strlen(word)) {
@@ -58,7 +58,7 @@ static void consider(const char *word, const char *name, const char **meant, siz
   }
 }
 
-// ---------------------------------------------------------------------------------------- the table
+// --------------------------------------------------------------------------------------- the table
 
 static int take_word(const option *o, const char *value, int *out) {
   const size_t length = strlen(value);
@@ -126,7 +126,9 @@ static const option *find_option(const command_line *line, const char *name, siz
   return NULL;
 }
 
-static int refuse_option(const command_line *line, const char *name) {
+static int refuse_option(const command_line *line, const char *argument) {
+  char name[64];
+  snprintf(name, sizeof name, "%.*s", (int)strcspn(argument, "="), argument);
   const char *meant = NULL;
   size_t distance = 3;
   for (size_t i = 0; i < line->option_count; i++)

@@ -14,7 +14,7 @@ typedef struct sweep_body {
 
 typedef struct sweep_picture {
   sweep_body a, b;
-  const char *verdict;
+  const char *title, *verdict;
   const oracle_pose *poses;  // (count) of a
   size_t count;
   int collides;
@@ -228,7 +228,7 @@ static void sweep_legend(FILE *svg, const sweep_picture *p, const char *colour) 
           sweep_escape(p->b.name, b, sizeof b));
 }
 
-// ---------------------------------------------------------------------------------------- drawing
+// ----------------------------------------------------------------------------------------- drawing
 
 static void sweep_scene(FILE *svg, const draw_view *view, const sweep_picture *p) {
   const oracle_pose origin = {{0, 0, 0}, {0, 0, 0, 1}};
@@ -260,8 +260,7 @@ static void sweep_scene(FILE *svg, const draw_view *view, const sweep_picture *p
 static int sweep_draw(const char *path, const sweep_picture *p) {
   char verdict[SWEEP_NAME];
   const draw_view view = sweep_fit(p);
-  FILE *svg = draw_open(path, SWEEP_WIDTH + 2 * SWEEP_LEFT, SWEEP_TOP + SWEEP_HEIGHT + 64,
-                        p->collides ? "A hits B" : "A is free of B",
+  FILE *svg = draw_open(path, SWEEP_WIDTH + 2 * SWEEP_LEFT, SWEEP_TOP + SWEEP_HEIGHT + 64, p->title,
                         sweep_escape(p->verdict, verdict, sizeof verdict));
   if (!svg)
     return 0;
