@@ -510,7 +510,7 @@ static void print_vector(const char *name, const float *v, double size, const ch
 
 static void print_answer(const sweep_job *job, const settings *options) {
   const nsvcd_answer *a = &job->answer;
-  char verdict[256];
+  char verdict[320];
   double size = 0;
   for (int k = 0; k < 3; k++)
     size = fmax(size, job->b.high[k] - job->b.low[k]);
@@ -570,7 +570,7 @@ static int picture_body(const thing *t, sweep_body *out) {
 static int draw_job(const sweep_job *job, const settings *options) {
   const nsvcd_answer *a = &job->answer;
   sweep_picture p;
-  char verdict[256];
+  char verdict[320];
   memset(&p, 0, sizeof p);
   sweep_verdict(job, options, verdict, sizeof verdict);
   p.title = a->collides ? "A hits B" : "A is free of B";
