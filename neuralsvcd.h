@@ -606,8 +606,9 @@ typedef struct nsvcd_answer {
   // metres, world. WITNESS: where the triangles meet at that time, or on one of them where they are
   // nearest. INSIDE: a point of what is inside
   float point[3];
-  // world. WITNESS: unit normal of one of the triangles, from b to a, or, where they are apart, the
-  // direction of that from b's to a's. Otherwise, and where that triangle has no area, 0
+  // world. WITNESS: unit normal of one of the triangles, from b to a (an open surface met from
+  // behind: as it is wound), or, where they are apart, the direction from b's to a's. Otherwise,
+  // and where that triangle has no area, 0
   float normal[3];
   // WITNESS: as numbered in the caller's meshes. Otherwise NSVCD_NO_TRIANGLE. With options.measure
   // these, point and normal are those of the nearest triangles found, whatever the status
