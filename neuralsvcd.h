@@ -832,7 +832,8 @@ typedef struct nsvcd_plan_options {
   float bundle;
   // 1: poses instead of sweeps
   int discrete;
-  // segments of the last check; 4 times the finest stage's
+  // segments of the last check; 4 times the finest stage's. Limits are looked at between these and
+  // at via points
   size_t check;
   // of all queries; recall = 0.999f keeps more distance. The search asks the network. `method` is
   // that of start, goal and the last check, and so are `clearance`, `skin` and the like
@@ -16212,6 +16213,17 @@ static int nsvcd__leaves_limits(const nsvcd_plan_problem *problem, size_t joint,
   return value < problem->low[joint] - rounding || value > problem->high[joint] + rounding;
 }
 
+// A joint that leaves its limits at a via point, or NSVCD_NONE: moments may be few, and miss it.
+static size_t nsvcd__joint_beyond(const nsvcd_plan_problem *problem, size_t via,
+                                  const float *control) {
+  const size_t f = problem->joints;
+  for (size_t k = f; k < (via + 1) * f; k++) {
+    if (nsvcd__leaves_limits(problem, k % f, control[k]))
+      return k % f;
+  }
+  return NSVCD_NONE;
+}
+
 // Fills p->path with the joints at the moments of a trajectory, and adds what leaving the limits
 // costs. gradient: (M + 2, F), added to, or NULL.
 static void nsvcd__add_limits(nsvcd__planner *p, const nsvcd__stage *stage, const float *control,
@@ -16219,6 +16231,7 @@ static void nsvcd__add_limits(nsvcd__planner *p, const nsvcd__stage *stage, cons
   const size_t f = p->problem->joints;
   const size_t all = stage->via + 2;
   const float share = NSVCD__LIMIT_COST / (float)stage->moments;
+  cost->joint = nsvcd__joint_beyond(p->problem, stage->via, control);
   for (size_t s = 0; s < stage->moments; s++) {
     const float *w = stage->weights + s * all;
     for (size_t j = 0; j < f; j++) {
@@ -16707,7 +16720,8 @@ static void nsvcd__smoothest(nsvcd__planner *p, const nsvcd__stage *stage, float
   memcpy(control + (via + 1) * f, p->problem->goal, f * sizeof *control);
 }
 
-// Turns p->best into nearly the same curve through another number of via points.
+// Turns p->best into nearly the same curve through another number of via points. These are taken
+// into the limits, for a curve may leave them between two points.
 static void nsvcd__resample(nsvcd__planner *p, size_t from, size_t to) {
   const size_t f = p->problem->joints;
   if (from == to)
@@ -16716,7 +16730,7 @@ static void nsvcd__resample(nsvcd__planner *p, size_t from, size_t to) {
     const float t = (float)k / (float)(to + 1);
     nsvcd_spline(p->best, from, f, t, 0, p->trial + k * f);
   }
-  memcpy(p->best, p->trial, (to + 2) * f * sizeof *p->best);
+  nsvcd__change(p, to, p->trial, p->trial, 0, p->best);
 }
 
 // Are the joints within the limits, and free of collision? Fills in the answer's facts if not.
