@@ -1441,7 +1441,9 @@ static uint32_t nsvcd__magnitude(float x) {
 // rounding only: fma rounds once or twice. NSVCD_NO_SIMD takes the plain path.
 
 #define NSVCD__LANES 16
-#define NSVCD__NOWHERE (-1e15f)  // radius of padding: meets nothing, and its square is still finite
+// Radius of padding: meets nothing, and its square is still finite. A float to the last digit, for
+// it is looked for in blobs, also where constants are reckoned in double (FLT_EVAL_METHOD).
+#define NSVCD__NOWHERE (-999999986991104.0f)
 #define NSVCD__HULL NSVCD__LANES     // vertices of a patch's hull, at most
 #define NSVCD__ENCLOSES 0x80000000u  // of a listing: its triangle belongs to a closed component
 
