@@ -226,8 +226,8 @@ typedef enum nsvcd_result {
   NSVCD_ERROR_TOLERANCE,
   // both sides of a question are the same body in the same motion: something was passed twice
   NSVCD_ERROR_SAME,
-  // a blob is damaged, cut short, misaligned, or of another version or model; or a body lacks
-  // what the method needs
+  // a blob is damaged, cut short, misaligned, or of another version, model or byte order; or a body
+  // lacks what the method needs
   NSVCD_ERROR_BODY,
   // the memory given is too small, or not aligned to NSVCD_ALIGNMENT bytes
   NSVCD_ERROR_WORKSPACE,
@@ -308,8 +308,10 @@ NSVCDDEF void nsvcd_mesh_free(nsvcd_mesh *mesh, const nsvcd_allocator *allocator
 // ------------------------------------------------------------------------------------------ bodies
 
 // An encoded body: one relocatable blob without pointers, aligned to NSVCD_ALIGNMENT. Copy it with
-// memcpy, write it with fwrite, map it, or bake it into flash as a const array. Little-endian,
-// IEEE 754. nsvcd_body_facts.size is its size. Threads may share it.
+// memcpy, write it with fwrite, map it, or bake it into flash as a const array. IEEE 754, in the
+// byte order of the machine that encoded it, and refused by one of the other order: it begins with
+// "NSVB" where that is little-endian, with "BVSN" where it is big-endian. nsvcd_body_facts.size is
+// its size. Threads may share it.
 typedef struct nsvcd_body nsvcd_body;
 
 #define NSVCD_ALIGNMENT 8
@@ -2052,8 +2054,8 @@ NSVCDDEF const char *nsvcd_result_string(nsvcd_result result) {
     case NSVCD_ERROR_SAME:
       return "both sides are the same body in the same motion";
     case NSVCD_ERROR_BODY:
-      return "the body is damaged, cut short, misaligned, of another version or model, or lacks "
-             "what the method needs";
+      return "the body is damaged, cut short, misaligned, of another version, model or byte "
+             "order, or lacks what the method needs";
     case NSVCD_ERROR_WORKSPACE:
       return "the memory given is too small or misaligned";
     case NSVCD_ERROR_CANCELLED:
@@ -6026,7 +6028,7 @@ static void nsvcd__rotate_latent(const int8_t *z, float (*turn)[NSVCD__SLICE], s
 #define NSVCD__LEVELS 3  // of spheres above the patches, at most
 // metres, over every radius and distance that coordinates within bounds can give
 #define NSVCD__MAX_LENGTH 1.6e7f
-#define NSVCD__BODY_MAGIC 0x4256534eu  // "NSVB"
+#define NSVCD__BODY_MAGIC 0x4256534eu  // "NSVB", or "BVSN": the mark of the byte order
 #define NSVCD__BODY_VERSION 5u
 
 struct nsvcd_body {

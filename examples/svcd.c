@@ -470,23 +470,22 @@ static void array_name(const char *path, char *name, size_t size) {
 static void write_header(FILE *file, const char *in, const char *name, const nsvcd_body *body) {
   nsvcd_body_facts facts = nsvcd_body_describe(body);
   const unsigned char *bytes = (const unsigned char *)body;
-  fprintf(
-      file,
-      "// %s, encoded for neuralsvcd.h by `svcd encode`: %zu points. Little-endian hosts only.\n"
-      "//   const nsvcd_body *body;\n"
-      "//   nsvcd_result result = nsvcd_body_load(%s, sizeof %s, &body);\n"
-      "#if defined(__cplusplus)\n"
-      "alignas(%d)\n"
-      "#elif defined(__STDC_VERSION__) && __STDC_VERSION__ >= 201112L\n"
-      "_Alignas(%d)\n"
-      "#elif defined(__GNUC__)\n"
-      "__attribute__((aligned(%d)))\n"
-      "#elif defined(_MSC_VER)\n"
-      "__declspec(align(%d))\n"
-      "#endif\n"
-      "static const unsigned char %s[%zu] = {",
-      in, facts.patches, name, name, NSVCD_ALIGNMENT, NSVCD_ALIGNMENT, NSVCD_ALIGNMENT,
-      NSVCD_ALIGNMENT, name, facts.size);
+  fprintf(file,
+          "// %s, encoded for neuralsvcd.h by `svcd encode`: %zu points. For %s-endian hosts.\n"
+          "//   const nsvcd_body *body;\n"
+          "//   nsvcd_result result = nsvcd_body_load(%s, sizeof %s, &body);\n"
+          "#if defined(__cplusplus)\n"
+          "alignas(%d)\n"
+          "#elif defined(__STDC_VERSION__) && __STDC_VERSION__ >= 201112L\n"
+          "_Alignas(%d)\n"
+          "#elif defined(__GNUC__)\n"
+          "__attribute__((aligned(%d)))\n"
+          "#elif defined(_MSC_VER)\n"
+          "__declspec(align(%d))\n"
+          "#endif\n"
+          "static const unsigned char %s[%zu] = {",
+          in, facts.patches, bytes[0] == 'N' ? "little" : "big", name, name, NSVCD_ALIGNMENT,
+          NSVCD_ALIGNMENT, NSVCD_ALIGNMENT, NSVCD_ALIGNMENT, name, facts.size);
   for (size_t i = 0; i < facts.size; i++)
     fprintf(file, "%s%d,", i % 24 ? "" : "\n    ", bytes[i]);
   fprintf(file, "\n};\n");
@@ -581,6 +580,13 @@ static int encode(int argc, char **argv) {
   return good ? DONE : REFUSED;
 }
 
+// A blob begins with "NSVB", or, from a big-endian machine, with "BVSN".
+static int has_other_byte_order(const char *memory, size_t size) {
+  const uint16_t one = 1;
+  const char *other = *(const char *)&one ? "BVSN" : "NSVB";
+  return size >= 4 && memcmp(memory, other, 4) == 0;
+}
+
 static int info(int argc, char **argv) {
   if (argc != 1)
     return usage();
@@ -591,7 +597,9 @@ static int info(int argc, char **argv) {
   const nsvcd_body *body;
   nsvcd_result result = nsvcd_body_load(memory, size, &body);
   if (result)
-    complain("%s: %s", argv[0], nsvcd_result_string(result));
+    complain("%s: %s", argv[0],
+             has_other_byte_order(memory, size) ? "encoded on a machine of the other byte order"
+                                                : nsvcd_result_string(result));
   if (!result)
     print_facts(argv[0], body);
   free(memory);
