@@ -213,7 +213,7 @@ typedef enum nsvcd_result {
   NSVCD_ERROR_INDEX,
   // a coordinate is not finite, or larger than NSVCD_MAX_COORDINATE
   NSVCD_ERROR_NUMBER,
-  // no triangle, or no area
+  // no triangle, no area, or all of it within NSVCD_MIN_RADIUS
   NSVCD_ERROR_EMPTY,
   // more vertices, triangles or bytes than can be counted
   NSVCD_ERROR_TOO_LARGE,
@@ -261,8 +261,9 @@ typedef struct nsvcd_mesh {
 } nsvcd_mesh;
 
 #ifndef NSVCD_NO_OBJ
-// Reads OBJ text into a mesh. Only lines v and f matter. A face may refer to vertices further down.
-// Faces of any number of corners are cut into triangles, concave ones too.
+// Reads OBJ text into a mesh. Only lines v and f matter; they end in LF, CR or CR LF. Corners of a
+// face are v, v/vt, v//vn or v/vt/vn, and may refer to vertices further down. Faces of any number
+// of corners are cut into triangles, concave ones too.
 //   text       (size) characters, not NULL; they need not end in a NUL or a newline
 //   allocator  NULL: malloc and free
 //   mesh       not NULL; nsvcd_mesh_free gives it back; left as it was on failure
@@ -2039,9 +2040,9 @@ NSVCDDEF const char *nsvcd_result_string(nsvcd_result result) {
     case NSVCD_ERROR_INDEX:
       return "an index is zero or refers to no vertex";
     case NSVCD_ERROR_NUMBER:
-      return "a coordinate is not finite or too large";
+      return "a coordinate is not finite, or beyond a million metres";
     case NSVCD_ERROR_EMPTY:
-      return "there is no triangle, or no area";
+      return "there is no triangle, or no area, or the mesh is smaller than 1e-12 metres";
     case NSVCD_ERROR_TOO_LARGE:
       return "more vertices, triangles or bytes than can be counted";
     case NSVCD_ERROR_POSE:
@@ -2593,7 +2594,8 @@ static void nsvcd__polygon_triangulate(nsvcd__polygon *polygon, const float *pos
 // ---- OBJ (Wavefront, "Object Files", version 3.0): v and f count, all else is skipped
 // Three passes over the text: count, vertices, faces. A face may refer to any vertex of the file by
 // its number, also to a later one; negative numbers count back from the last vertex so far. Locale
-// plays no part.
+// plays no part. Keywords that are skipped are letters, and digits behind two of them: curv2 is
+// one, f1 is a mistake.
 
 typedef struct nsvcd__obj {
   const char *at, *end;
@@ -2611,18 +2613,23 @@ enum {
   NSVCD__OBJ_BAD  // not a keyword
 };
 
+// Length of the line's end at p; 0: there is none.
+static size_t nsvcd__obj_newline(const char *p, const char *end) {
+  if (p == end || (*p != '\n' && *p != '\r'))
+    return 0;
+  return end - p >= 2 && p[0] == '\r' && p[1] == '\n' ? 2 : 1;
+}
 // Length of the blank at p: a backslash before the line's end continues the statement on the next
 // line.
 static size_t nsvcd__obj_blank(const char *p, const char *end) {
   if (p == end)
     return 0;
-  if (*p == ' ' || *p == '\t' || *p == '\r' || *p == '\v' || *p == '\f')
+  if (*p == ' ' || *p == '\t' || *p == '\v' || *p == '\f')
     return 1;
   if (*p != '\\')
     return 0;
-  if (end - p >= 2 && p[1] == '\n')
-    return 2;
-  return end - p >= 3 && p[1] == '\r' && p[2] == '\n' ? 3 : 0;
+  const size_t newline = nsvcd__obj_newline(p + 1, end);
+  return newline > 0 ? 1 + newline : 0;
 }
 static int nsvcd__obj_is_digit(const nsvcd__obj *obj) {
   return obj->at < obj->end && *obj->at >= '0' && *obj->at <= '9';
@@ -2633,8 +2640,11 @@ static int nsvcd__obj_accept(nsvcd__obj *obj, char c) {
     obj->at++;
   return is_there;
 }
+static int nsvcd__obj_line_ends(const nsvcd__obj *obj) {
+  return obj->at == obj->end || *obj->at == '\n' || *obj->at == '\r';
+}
 static int nsvcd__obj_token_ends(const nsvcd__obj *obj) {
-  if (obj->at == obj->end || *obj->at == '\n')
+  if (nsvcd__obj_line_ends(obj))
     return 1;
   return nsvcd__obj_blank(obj->at, obj->end) > 0;
 }
@@ -2651,20 +2661,19 @@ static int nsvcd__obj_has_token(nsvcd__obj *obj) {
     obj->at += blank;
     blank = nsvcd__obj_blank(obj->at, obj->end);
   }
-  return obj->at < obj->end && *obj->at != '\n' && *obj->at != '#';
+  return !nsvcd__obj_line_ends(obj) && *obj->at != '#';
 }
 
 // To the begin of the next line that does not continue this statement.
 static void nsvcd__obj_skip_statement(nsvcd__obj *obj) {
   int comment = obj->at < obj->end && *obj->at == '#';
   for (int continued = 1; continued && obj->at < obj->end; obj->line++) {
-    const char *start = obj->at;
-    const char *newline = (const char *)memchr(start, '\n', (size_t)(obj->end - start));
-    const char *last = newline ? newline : obj->end;
-    obj->at = newline ? newline + 1 : obj->end;
-    if (last > start && last[-1] == '\r')
-      last--;
-    continued = newline && !comment && last > start && last[-1] == '\\';
+    const char *end = obj->at;
+    while (end < obj->end && *end != '\n' && *end != '\r')
+      end++;
+    const int escaped = end > obj->at && end[-1] == '\\';
+    continued = escaped && !comment && end < obj->end;
+    obj->at = end + nsvcd__obj_newline(end, obj->end);
   }
 }
 
@@ -2679,7 +2688,9 @@ static int nsvcd__obj_keyword(nsvcd__obj *obj) {
   if (obj->at - start == 1 && *start == 'f')
     return NSVCD__OBJ_FACE;
   for (const char *p = start; p < obj->at; p++) {
-    if (!((*p >= 'a' && *p <= 'z') || (*p >= 'A' && *p <= 'Z') || *p == '_'))
+    const int letter = (*p >= 'a' && *p <= 'z') || (*p >= 'A' && *p <= 'Z') || *p == '_';
+    const int digit = *p >= '0' && *p <= '9';
+    if (!letter && !(digit && p - start >= 2))
       return NSVCD__OBJ_BAD;
   }
   return NSVCD__OBJ_OTHER;
@@ -2804,7 +2815,11 @@ static nsvcd_result nsvcd__obj_corner(nsvcd__obj *obj, uint32_t vertex_count, ui
       number = 10 * number + (uint64_t)(*obj->at - '0');
   }
   for (int i = 0; i < 2 && nsvcd__obj_accept(obj, '/'); i++) {
+    if (i == 0 && obj->at < obj->end && *obj->at == '/')
+      continue;  // v//vn
     nsvcd__obj_accept(obj, '-');
+    if (!nsvcd__obj_is_digit(obj))
+      return NSVCD_ERROR_SYNTAX;
     while (nsvcd__obj_is_digit(obj))
       obj->at++;
   }
@@ -6480,7 +6495,7 @@ static int nsvcd__source_is_sound(const nsvcd__latents_source *source) {
 }
 
 // Builds a body of latents in `memory`. On success it is *body. NUMBER if something is out of
-// bounds.
+// bounds, EMPTY if it is too small.
 static nsvcd_result nsvcd__body_build(const nsvcd__latents_source *source, void *memory,
                                       size_t capacity, const nsvcd_body **body) {
   const size_t size = nsvcd_body_size(source->count);
@@ -6509,7 +6524,7 @@ static nsvcd_result nsvcd__body_build(const nsvcd__latents_source *source, void 
     return NSVCD_ERROR_NUMBER;
   nsvcd__body_finish(b);
   if (b->radius < NSVCD_MIN_RADIUS)
-    return NSVCD_ERROR_NUMBER;
+    return NSVCD_ERROR_EMPTY;
   *body = b;
   return NSVCD_OK;
 }
@@ -7155,8 +7170,8 @@ typedef struct nsvcd__facets_source {
   int open;
 } nsvcd__facets_source;
 
-// Builds a body of triangles of `size` bytes in `memory`. NUMBER if it would be too large or too
-// small.
+// Builds a body of triangles of `size` bytes in `memory`. NUMBER if it would be too large, EMPTY if
+// it would be too small.
 static nsvcd_result nsvcd__facets_build(const nsvcd__facets_source *source, void *memory,
                                         size_t size) {
   const nsvcd__surface *surface = source->surface;
@@ -7174,7 +7189,7 @@ static nsvcd_result nsvcd__facets_build(const nsvcd__facets_source *source, void
   if (!nsvcd__all_within(nsvcd__body_r(b), b->patches, 4 * NSVCD_MAX_COORDINATE))
     return NSVCD_ERROR_NUMBER;
   nsvcd__facets_finish(b);
-  return b->radius < NSVCD_MIN_RADIUS ? NSVCD_ERROR_NUMBER : NSVCD_OK;
+  return b->radius < NSVCD_MIN_RADIUS ? NSVCD_ERROR_EMPTY : NSVCD_OK;
 }
 #endif
 

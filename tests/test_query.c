@@ -238,7 +238,9 @@ static void query_sizes_at_the_limits(void) {
   const nsvcd_body *body = NULL;
   CHECK_EQ(nsvcd_encode(&speck, &query_latents, NULL, memory.at,
                         nsvcd_body_size(NSVCD_SMALL_PATCHES), &body),
-           NSVCD_ERROR_NUMBER);
+           NSVCD_ERROR_EMPTY);
+  nsvcd_encode_options of_triangles = {.no_latents = 1};
+  CHECK_EQ(nsvcd_encode(&speck, &of_triangles, NULL, NULL, 0, &body), NSVCD_ERROR_EMPTY);
   CHECK(body == NULL);
   query_release(&memory);
   nsvcd_mesh_free(&speck, NULL);
