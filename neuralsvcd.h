@@ -105,6 +105,18 @@
 //                 proof, the size of patches decides only what an answer costs.
 //   Bad numbers   NaN and infinity are refused on their bits, also under -ffast-math.
 //
+// DETERMINISM
+//   One binary on one processor gives the same blob of a mesh, the same answer to a question and
+//   the same plan, to the bit, whatever the workspace held, and in any thread. Only what
+//   nsvcd_sweep_batch answers may depend on the question before.
+//   Another compiler, other flags, vectors or libm round otherwise. Of the same blobs, what one
+//   build proves no other refutes: by the theorem each verdict of a proof is true. But one may
+//   leave undecided what another proves, and times, points, patches and work differ.
+//   Logits differ, and by more than rounding: the search ends at the first pair that is clear, and
+//   a pair near that bound, or near another in rank, lets another pair or another decoder answer.
+//   So `collides` of the network may differ, where logits are near 0 or that of the ranker near its
+//   bounds of +-3. The same holds for bodies that two builds encode, and for plans.
+//
 // CONTENTS: a section's name ends a line of dashes. Each calls only those above it.
 //   results           codes, and what they say
 //   allocation        the caller's allocator
@@ -376,7 +388,7 @@ NSVCDDEF size_t nsvcd_body_size(size_t patches);
 
 #ifndef NSVCD_NO_ENCODER
 // Encodes a mesh into a body. The body may have fewer patches than asked, where the surface has too
-// few points to tell apart. Deterministic: same mesh, same bytes, in one build.
+// few points to tell apart. Same mesh, same bytes, in one build: see DETERMINISM above.
 //   mesh       not NULL; not kept
 //   options    NULL: the defaults, triangles for the proof and latents for the network
 //   allocator  NULL: malloc and free
@@ -611,7 +623,8 @@ typedef struct nsvcd_answer {
 //   question   NULL: enough for any question
 NSVCDDEF size_t nsvcd_sweep_workspace_size(const nsvcd_question *question);
 
-// Answers a question. Deterministic, and the same verdict whichever body is a and which b.
+// Answers a question. The same question, the same answer, in one build: see DETERMINISM above; and
+// the same verdict whichever body is a and which b.
 //   question   not NULL
 //   workspace  (workspace_size) bytes, nsvcd_sweep_workspace_size(question) or more, not NULL,
 //              aligned to NSVCD_ALIGNMENT
@@ -873,7 +886,8 @@ typedef struct nsvcd_plan_answer {
 NSVCDDEF size_t nsvcd_plan_workspace_size(const nsvcd_plan_problem *problem,
                                           const nsvcd_plan_options *options);
 
-// Finds a smooth trajectory from start to goal on which no pair meets. Deterministic.
+// Finds a smooth trajectory from start to goal on which no pair meets. The same problem, the same
+// trajectory, in one build: see DETERMINISM above.
 //   problem    not NULL
 //   options    NULL: the defaults
 //   workspace  (workspace_size) bytes, nsvcd_plan_workspace_size(problem, options) or more, not

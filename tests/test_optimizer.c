@@ -622,6 +622,7 @@ static plan_outcome plan_run(plan_scene *s) {
   const size_t bundle = o->refine.samples ? o->refine.samples : 10;
   query_memory memory = query_reserve(size + PLAN_GUARD);
   size_t written = 0;
+  memset(memory.at, s->filling, size);
   s->reports = s->disorders = s->out_of_place = s->placed = s->again = 0;
   memset(&out, untouched, sizeof out);
   out.via = o->refine.iterations == NSVCD_NONE ? (o->explore.via_points ? o->explore.via_points : 5)
@@ -756,6 +757,7 @@ static void plan_is_deterministic(void) {
   s.options.explore.iterations = 10;
   s.options.explore.samples = 50;
   const plan_outcome first = plan_run(&s);
+  s.filling = 0xff;
   const plan_outcome second = plan_run(&s);
   CHECK_EQ(first.result, NSVCD_OK);
   CHECK(plan_same(&first, &second, 3));
