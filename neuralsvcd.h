@@ -50,7 +50,7 @@
 // which writes nothing. examples/quickstart.c is the whole program.
 //
 // OPTIONS, defined before the implementation is included
-//   NSVCD_STATIC      all functions static
+//   NSVCD_STATIC      all functions static, in a file that has the implementation
 //   NSVCD_NO_STDIO    no file access: nsvcd_obj_load goes, nsvcd_obj_parse stays
 //   NSVCD_NO_OBJ      no OBJ reader at all
 //   NSVCD_NO_ENCODER  no nsvcd_encode and no OBJ reader: bodies come from nsvcd_body_load
@@ -199,7 +199,9 @@
 #include <stddef.h>
 #include <stdint.h>
 
-#ifdef NSVCD_STATIC
+#if defined(NSVCD_STATIC) && (defined(__GNUC__) || defined(__clang__))
+#define NSVCDDEF static __attribute__((unused))  // nobody calls all of them
+#elif defined(NSVCD_STATIC)
 #define NSVCDDEF static
 #else
 #define NSVCDDEF extern
