@@ -50,7 +50,7 @@
 // nsvcd_spline, which then writes nothing. examples/quickstart.c is a larger program.
 //
 // OPTIONS, defined before the implementation is included
-//   NSVCD_STATIC      all functions static
+//   NSVCD_STATIC      all functions static, in a file that has the implementation
 //   NSVCD_NO_STDIO    no file access: nsvcd_obj_load goes, nsvcd_obj_parse stays
 //   NSVCD_NO_OBJ      no OBJ reader at all
 //   NSVCD_NO_ENCODER  no nsvcd_encode, no nsvcd_mesh_cut and no OBJ reader: bodies come from
@@ -109,6 +109,18 @@
 //                 large mesh cut to what the motion can reach (nsvcd_mesh_cut), in 99 %. For the
 //                 proof, the size of patches decides only what an answer costs.
 //   Bad numbers   NaN and infinity are refused on their bits, also under -ffast-math.
+//
+// DETERMINISM
+//   One binary on one processor gives the same blob of a mesh, the same answer to a question and
+//   the same plan, to the bit, whatever the workspace held, and in any thread. Only what
+//   nsvcd_sweep_batch answers may depend on the question before.
+//   Another compiler, other flags, vectors or libm round otherwise. Of the same blobs, what one
+//   build proves no other refutes: by the theorem each verdict of a proof is true. But one may
+//   leave undecided what another proves, and times, points, patches and work differ.
+//   Logits differ, and by more than rounding: the search ends at the first pair that is clear, and
+//   a pair near that bound, or near another in rank, lets another pair or another decoder answer.
+//   So `collides` of the network may differ, where logits are near 0 or that of the ranker near its
+//   bounds of +-3. The same holds for bodies that two builds encode, and for plans.
 //
 // CONTENTS: a section's name ends a line of dashes. Each calls only those above it.
 //   results           codes, and what they say
@@ -201,7 +213,9 @@
 #include <stddef.h>
 #include <stdint.h>
 
-#ifdef NSVCD_STATIC
+#if defined(NSVCD_STATIC) && (defined(__GNUC__) || defined(__clang__))
+#define NSVCDDEF static __attribute__((unused))  // nobody calls all of them
+#elif defined(NSVCD_STATIC)
 #define NSVCDDEF static
 #else
 #define NSVCDDEF extern
@@ -227,7 +241,7 @@ typedef enum nsvcd_result {
   NSVCD_ERROR_INDEX,
   // a coordinate is not finite, or larger than NSVCD_MAX_COORDINATE; a mesh is too small
   NSVCD_ERROR_NUMBER,
-  // no triangle, or no area
+  // no triangle, no area, or all of it within NSVCD_MIN_RADIUS
   NSVCD_ERROR_EMPTY,
   // more vertices, triangles or bytes than can be counted
   NSVCD_ERROR_TOO_LARGE,
@@ -240,8 +254,8 @@ typedef enum nsvcd_result {
   NSVCD_ERROR_TOLERANCE,
   // both sides of a question are the same body in the same motion: something was passed twice
   NSVCD_ERROR_SAME,
-  // a blob is damaged, cut short, misaligned, or of another version or model; or a body lacks
-  // what the method needs
+  // a blob is damaged, cut short, misaligned, or of another version, model or byte order; or a body
+  // lacks what the method needs
   NSVCD_ERROR_BODY,
   // the memory given is too small, or not aligned to NSVCD_ALIGNMENT bytes
   NSVCD_ERROR_WORKSPACE,
@@ -275,14 +289,16 @@ typedef struct nsvcd_mesh {
 } nsvcd_mesh;
 
 #ifndef NSVCD_NO_OBJ
-// Reads OBJ text into a mesh. Only lines v and f matter. A face may refer to vertices further down.
-// Faces of any number of corners are cut into triangles, concave ones of up to 4096 corners.
+// Reads OBJ text into a mesh. Only lines v and f matter; they end in LF, CR or CR LF. Corners of a
+// face are v, v/vt, v//vn or v/vt/vn, and may refer to vertices further down. Faces of any number
+// of corners are cut into triangles, concave ones too.
 //   text       (size) characters, not NULL; they need not end in a NUL or a newline
 //   allocator  NULL: malloc and free
 //   mesh       not NULL; nsvcd_mesh_free gives it back; left as it was on failure
 //   error_line NULL, or set to the line at fault, from 1; 0 where no line is at fault
 //   allocates  the mesh, and working memory that is given back; time is linear in size, but for
-//              concave faces
+//              concave faces of thousands of corners: of n corners, n^1.5 in the worst shapes that
+//              tests/test_mesh.c tries
 //   errors     ARGUMENT, MEMORY, SYNTAX, INDEX, NUMBER, EMPTY, TOO_LARGE. Of several faults the
 //              one that is found first: statements and counts come before vertices, these before
 //              faces
@@ -322,8 +338,10 @@ NSVCDDEF void nsvcd_mesh_free(nsvcd_mesh *mesh, const nsvcd_allocator *allocator
 // ------------------------------------------------------------------------------------------ bodies
 
 // An encoded body: one relocatable blob without pointers, aligned to NSVCD_ALIGNMENT. Copy it with
-// memcpy, write it with fwrite, map it, or bake it into flash as a const array. Little-endian,
-// IEEE 754. nsvcd_body_facts.size is its size. Threads may share it.
+// memcpy, write it with fwrite, map it, or bake it into flash as a const array. IEEE 754, in the
+// byte order of the machine that encoded it, and refused by one of the other order: it begins with
+// "NSVB" where that is little-endian, with "BVSN" where it is big-endian. nsvcd_body_facts.size is
+// its size. Threads may share it.
 typedef struct nsvcd_body nsvcd_body;
 
 #define NSVCD_ALIGNMENT 8
@@ -387,7 +405,7 @@ NSVCDDEF size_t nsvcd_body_size(size_t patches);
 
 #ifndef NSVCD_NO_ENCODER
 // Encodes a mesh into a body. The body may have fewer patches than asked, where the surface has too
-// few points to tell apart. Deterministic: same mesh, same bytes, in one build.
+// few points to tell apart. Same mesh, same bytes, in one build: see DETERMINISM above.
 //   mesh       not NULL; not kept
 //   options    NULL: the defaults, triangles for the proof and latents for the network
 //   allocator  NULL: malloc and free
@@ -627,7 +645,8 @@ typedef struct nsvcd_answer {
 //   question   NULL: enough for any question
 NSVCDDEF size_t nsvcd_sweep_workspace_size(const nsvcd_question *question);
 
-// Answers a question. Deterministic, and the same verdict whichever body is a and which b.
+// Answers a question. The same question, the same answer, in one build: see DETERMINISM above; and
+// the same verdict whichever body is a and which b.
 //   question   not NULL
 //   workspace  (workspace_size) bytes, nsvcd_sweep_workspace_size(question) or more, not NULL,
 //              aligned to NSVCD_ALIGNMENT
@@ -850,7 +869,8 @@ typedef struct nsvcd_plan_options {
   float margin;
   // 1: poses instead of sweeps
   int discrete;
-  // segments of the last check, up to 4 NSVCD_MAX_PLAN_SEGMENTS; 4 times the finest stage's
+  // segments of the last check, up to 4 NSVCD_MAX_PLAN_SEGMENTS; 4 times the finest stage's. Limits
+  // are looked at between these and at via points
   size_t check;
   // of all queries; recall = 0.999f keeps more distance. The search asks the network. `method` is
   // that of start, goal and the last check, and so are `clearance`, `skin` and the like
@@ -887,7 +907,8 @@ typedef struct nsvcd_plan_answer {
 NSVCDDEF size_t nsvcd_plan_workspace_size(const nsvcd_plan_problem *problem,
                                           const nsvcd_plan_options *options);
 
-// Finds a smooth trajectory from start to goal on which no pair meets. Deterministic.
+// Finds a smooth trajectory from start to goal on which no pair meets. The same problem, the same
+// trajectory, in one build: see DETERMINISM above.
 //   problem    not NULL
 //   options    NULL: the defaults
 //   workspace  (workspace_size) bytes, nsvcd_plan_workspace_size(problem, options) or more, not
@@ -951,9 +972,9 @@ NSVCDDEF const char *nsvcd_result_string(nsvcd_result result) {
     case NSVCD_ERROR_INDEX:
       return "an index is zero or refers to no vertex";
     case NSVCD_ERROR_NUMBER:
-      return "a coordinate is not finite or too large";
+      return "a coordinate is not finite, or beyond a million metres";
     case NSVCD_ERROR_EMPTY:
-      return "there is no triangle, or no area";
+      return "there is no triangle, or no area, or the mesh is smaller than 1e-12 metres";
     case NSVCD_ERROR_TOO_LARGE:
       return "more vertices, triangles or bytes than can be counted";
     case NSVCD_ERROR_POSE:
@@ -966,8 +987,8 @@ NSVCDDEF const char *nsvcd_result_string(nsvcd_result result) {
     case NSVCD_ERROR_SAME:
       return "both sides are the same body in the same motion";
     case NSVCD_ERROR_BODY:
-      return "the body is damaged, cut short, misaligned, of another version or model, or lacks "
-             "what the method needs";
+      return "the body is damaged, cut short, misaligned, of another version, model or byte "
+             "order, or lacks what the method needs";
     case NSVCD_ERROR_WORKSPACE:
       return "the memory given is too small or misaligned";
     case NSVCD_ERROR_CANCELLED:
@@ -1540,7 +1561,9 @@ static uint32_t nsvcd__magnitude(float x) {
 // rounding only: fma rounds once or twice. NSVCD_NO_SIMD takes the plain path.
 
 #define NSVCD__LANES 16
-#define NSVCD__NOWHERE (-1e15f)  // radius of padding: meets nothing, and its square is still finite
+// Radius of padding: meets nothing, and its square is still finite. A float to the last digit, for
+// it is looked for in blobs, also where constants are reckoned in double (FLT_EVAL_METHOD).
+#define NSVCD__NOWHERE (-999999986991104.0f)
 #define NSVCD__HULL NSVCD__LANES     // vertices of a patch's hull, at most
 #define NSVCD__ENCLOSES 0x80000000u  // of a listing: its triangle belongs to a closed component
 
@@ -2350,13 +2373,21 @@ NSVCDDEF nsvcd_result nsvcd_mesh_cut(const nsvcd_mesh *mesh, const float low[3],
 // A face becomes corners - 2 triangles whose vector areas always sum to the polygon's. A simple
 // polygon, concave or with holes cut open by a bridge, is covered without overlap; any other
 // (crossing itself, no area) is cut somehow.
+//
+// An ear is a corner whose triangle holds no reflex corner. So that faces may have many corners,
+// these are not all looked at: corners are sorted along a Z curve (Morton 1966), and each run of 8
+// has a box, as have two boxes side by side, and so on up to one about all.
 
-// Ear clipping takes corners * reflex corners steps: this bounds the time per byte.
-#define NSVCD__MAX_CONCAVE_CORNERS 4096
+#define NSVCD__RUN 8
+
+// In the polygon's plane.
+typedef struct nsvcd__d2 {
+  double x, y;
+} nsvcd__d2;
 
 typedef struct nsvcd__corner {
-  // in the polygon's plane, counter-clockwise
-  double x, y;
+  // the polygon is counter-clockwise
+  nsvcd__d2 at;
   uint32_t vertex;
   // the ring of corners not yet clipped
   uint32_t previous, next;
@@ -2364,32 +2395,73 @@ typedef struct nsvcd__corner {
   uint32_t queued, queue_next;
   // 1: the inner angle exceeds 180 degrees
   uint32_t reflex;
+  // the box of its run
+  uint32_t box;
 } nsvcd__corner;
+
+typedef struct nsvcd__corner_box {
+  nsvcd__d2 low, high;
+  // corners in it that are reflex
+  uint32_t reflex;
+} nsvcd__corner_box;
 
 typedef struct nsvcd__polygon {
   nsvcd__corner *corners;
-  uint32_t count;
-  uint32_t reflex_count;
+  uint32_t *order;           // (count): corners along the Z curve
+  nsvcd__corner_box *boxes;  // (2 runs): box k is about boxes 2 k and 2 k + 1, the last are runs'
+  uint32_t count, runs;      // a power of two
   uint32_t queue_first, queue_last, queue_length;
 } nsvcd__polygon;
 
+// Runs of so many corners, rounded up to a power of two.
+static uint32_t nsvcd__runs_of(uint32_t corners) {
+  uint32_t runs = 1;
+  while (NSVCD__RUN * (uint64_t)runs < corners)
+    runs *= 2;
+  return runs;
+}
+
+static void nsvcd__polygon_free(nsvcd__polygon *polygon, const nsvcd_allocator *allocator) {
+  nsvcd__free(allocator, polygon->corners);
+  nsvcd__free(allocator, polygon->order);
+  nsvcd__free(allocator, polygon->boxes);
+}
+// Room for polygons of up to so many corners. 0 without memory; nsvcd__polygon_free in either case.
+static int nsvcd__polygon_alloc(nsvcd__polygon *polygon, uint32_t corners,
+                                const nsvcd_allocator *allocator) {
+  const size_t boxes = 2 * (size_t)nsvcd__runs_of(corners);
+  memset(polygon, 0, sizeof *polygon);
+  polygon->corners = (nsvcd__corner *)nsvcd__alloc_array(allocator, corners, sizeof(nsvcd__corner));
+  polygon->order = nsvcd__alloc_words(allocator, corners);
+  polygon->boxes =
+      (nsvcd__corner_box *)nsvcd__alloc_array(allocator, boxes, sizeof(nsvcd__corner_box));
+  return polygon->corners && polygon->order && polygon->boxes;
+}
+
 // Twice the area of abc, positive if counter-clockwise. In double a difference of floats is as good
 // as exact.
-static double nsvcd__corner_cross(const nsvcd__corner *a, const nsvcd__corner *b,
-                                  const nsvcd__corner *c) {
-  return (b->x - a->x) * (c->y - b->y) - (b->y - a->y) * (c->x - b->x);
+static double nsvcd__d2_cross(nsvcd__d2 a, nsvcd__d2 b, nsvcd__d2 c) {
+  return (b.x - a.x) * (c.y - b.y) - (b.y - a.y) * (c.x - b.x);
 }
-static int nsvcd__same_place(const nsvcd__corner *a, const nsvcd__corner *b) {
-  return !(a->x < b->x || a->x > b->x || a->y < b->y || a->y > b->y);
+static nsvcd__d2 nsvcd__d2_min(nsvcd__d2 a, nsvcd__d2 b) {
+  const nsvcd__d2 out = {a.x < b.x ? a.x : b.x, a.y < b.y ? a.y : b.y};
+  return out;
+}
+static nsvcd__d2 nsvcd__d2_max(nsvcd__d2 a, nsvcd__d2 b) {
+  const nsvcd__d2 out = {a.x > b.x ? a.x : b.x, a.y > b.y ? a.y : b.y};
+  return out;
+}
+static int nsvcd__same_place(nsvcd__d2 a, nsvcd__d2 b) {
+  return !(a.x < b.x || a.x > b.x || a.y < b.y || a.y > b.y);
 }
 
 // Twice the area times the normal of a polygon in space (Newell's).
-static nsvcd__d3 nsvcd__polygon_normal(const nsvcd__corner *corners, uint32_t count,
-                                       const float *positions) {
+static nsvcd__d3 nsvcd__polygon_normal(const nsvcd__polygon *polygon, const float *positions) {
+  const nsvcd__corner *corners = polygon->corners;
   const nsvcd__d3 origin = nsvcd__d3_row(positions, corners[0].vertex);
   nsvcd__d3 normal = nsvcd__d3_of(0, 0, 0);
-  for (uint32_t i = 0; i < count; i++) {
-    const uint32_t next = corners[(i + 1) % count].vertex;
+  for (uint32_t i = 0; i < polygon->count; i++) {
+    const uint32_t next = corners[(i + 1) % polygon->count].vertex;
     const nsvcd__d3 p = nsvcd__d3_row(positions, corners[i].vertex);
     const nsvcd__d3 q = nsvcd__d3_row(positions, next);
     const nsvcd__d3 area = nsvcd__d3_cross(nsvcd__d3_sub(p, origin), nsvcd__d3_sub(q, origin));
@@ -2400,30 +2472,84 @@ static nsvcd__d3 nsvcd__polygon_normal(const nsvcd__corner *corners, uint32_t co
 
 // Places the corners in a plane: drops the axis along which the normal is longest, and so keeps the
 // coordinates exact.
-static void nsvcd__polygon_project(nsvcd__corner *corners, uint32_t count, const float *positions) {
-  const nsvcd__d3 normal = nsvcd__polygon_normal(corners, count, positions);
+static void nsvcd__polygon_project(nsvcd__polygon *polygon, const float *positions) {
+  const nsvcd__d3 normal = nsvcd__polygon_normal(polygon, positions);
   size_t axis = fabs(normal.y) > fabs(normal.x) ? 1 : 0;
   if (fabs(normal.z) > fabs(nsvcd__d3_axis(normal, axis)))
     axis = 2;
   const int turned = nsvcd__d3_axis(normal, axis) < 0;
   const size_t u = (axis + (turned ? 2 : 1)) % 3;
   const size_t v = (axis + (turned ? 1 : 2)) % 3;
-  for (uint32_t i = 0; i < count; i++) {
-    const float *p = positions + 3 * (size_t)corners[i].vertex;
-    corners[i].x = (double)p[u];
-    corners[i].y = (double)p[v];
+  for (uint32_t i = 0; i < polygon->count; i++) {
+    nsvcd__corner *c = &polygon->corners[i];
+    const float *p = positions + 3 * (size_t)c->vertex;
+    c->at.x = (double)p[u];
+    c->at.y = (double)p[v];
   }
+}
+
+// A number that grows with a coordinate, which is a float.
+static uint32_t nsvcd__z_key(double coordinate) {
+  const float x = (float)coordinate;
+  uint32_t bits;
+  memcpy(&bits, &x, sizeof bits);
+  return bits >> 31 ? ~bits : bits | 0x80000000u;
+}
+
+// Sorts corners along the Z curve, by this bit of it and those below: the bits of x and y in turn.
+static void nsvcd__z_sort(const nsvcd__corner *corners, uint32_t *order, uint32_t count, int bit) {
+  if (count <= NSVCD__RUN || bit < 0)
+    return;
+  uint32_t ones = count;  // where those begin that have the bit
+  for (uint32_t i = 0; i < ones;) {
+    const uint32_t corner = order[i];
+    const nsvcd__d2 at = corners[corner].at;
+    const uint32_t key = nsvcd__z_key(bit % 2 ? at.x : at.y);
+    if (key >> bit / 2 & 1) {
+      order[i] = order[--ones];
+      order[ones] = corner;
+    } else {
+      i++;
+    }
+  }
+  nsvcd__z_sort(corners, order, ones, bit - 1);
+  nsvcd__z_sort(corners, order + ones, count - ones, bit - 1);
+}
+
+// Puts the corners into boxes. None is known to be reflex yet.
+static void nsvcd__polygon_box(nsvcd__polygon *polygon) {
+  nsvcd__corner_box *boxes = polygon->boxes;
+  const nsvcd__corner_box none = {{HUGE_VAL, HUGE_VAL}, {-HUGE_VAL, -HUGE_VAL}, 0};
+  polygon->runs = nsvcd__runs_of(polygon->count);
+  for (uint32_t k = 0; k < 2 * polygon->runs; k++)
+    boxes[k] = none;
+  for (uint32_t i = 0; i < polygon->count; i++)
+    polygon->order[i] = i;
+  nsvcd__z_sort(polygon->corners, polygon->order, polygon->count, 63);
+  for (uint32_t i = 0; i < polygon->count; i++) {
+    nsvcd__corner *c = &polygon->corners[polygon->order[i]];
+    c->box = polygon->runs + i / NSVCD__RUN;
+    for (uint32_t k = c->box; k > 0; k /= 2) {
+      boxes[k].low = nsvcd__d2_min(boxes[k].low, c->at);
+      boxes[k].high = nsvcd__d2_max(boxes[k].high, c->at);
+    }
+  }
+}
+
+static void nsvcd__polygon_set_reflex(nsvcd__polygon *polygon, uint32_t i, uint32_t reflex) {
+  nsvcd__corner *c = &polygon->corners[i];
+  for (uint32_t k = c->box; k > 0 && c->reflex != reflex; k /= 2)
+    polygon->boxes[k].reflex += reflex - c->reflex;
+  c->reflex = reflex;
 }
 
 // Looks at corner i again, after a neighbour of it has changed.
 static void nsvcd__polygon_update(nsvcd__polygon *polygon, uint32_t i) {
   nsvcd__corner *corners = polygon->corners;
   nsvcd__corner *c = &corners[i];
-  const nsvcd__corner *previous = &corners[c->previous];
-  const nsvcd__corner *next = &corners[c->next];
-  const uint32_t reflex = nsvcd__corner_cross(previous, c, next) < 0;
-  polygon->reflex_count += reflex - c->reflex;
-  c->reflex = reflex;
+  const nsvcd__d2 previous = corners[c->previous].at;
+  const nsvcd__d2 next = corners[c->next].at;
+  nsvcd__polygon_set_reflex(polygon, i, nsvcd__d2_cross(previous, c->at, next) < 0);
   if (c->queued)
     return;
   c->queued = 1;
@@ -2436,73 +2562,122 @@ static void nsvcd__polygon_update(nsvcd__polygon *polygon, uint32_t i) {
   polygon->queue_last = i;
 }
 
-// Is corner p within abc, and not at the place of one of these?
-static int nsvcd__corner_is_within(const nsvcd__corner *p, const nsvcd__corner *a,
-                                   const nsvcd__corner *b, const nsvcd__corner *c) {
-  if (nsvcd__corner_cross(a, b, p) < 0)
+// A triangle of three neighbours, counter-clockwise, and the box about it.
+typedef struct nsvcd__ear {
+  nsvcd__d2 a, b, c;
+  nsvcd__d2 low, high;
+} nsvcd__ear;
+
+// Is a place within an ear, and not at one of its corners?
+static int nsvcd__ear_holds(const nsvcd__ear *ear, nsvcd__d2 p) {
+  if (nsvcd__d2_cross(ear->a, ear->b, p) < 0)
     return 0;
-  if (nsvcd__corner_cross(b, c, p) < 0 || nsvcd__corner_cross(c, a, p) < 0)
+  if (nsvcd__d2_cross(ear->b, ear->c, p) < 0 || nsvcd__d2_cross(ear->c, ear->a, p) < 0)
     return 0;
-  if (nsvcd__same_place(p, a) || nsvcd__same_place(p, b))
+  if (nsvcd__same_place(p, ear->a) || nsvcd__same_place(p, ear->b))
     return 0;
-  return !nsvcd__same_place(p, c);
+  return !nsvcd__same_place(p, ear->c);
+}
+
+// Is all of a box to the right of the line from a to b? Its farthest corner to the left tells.
+static int nsvcd__is_right_of(const nsvcd__corner_box *box, nsvcd__d2 a, nsvcd__d2 b) {
+  nsvcd__d2 left;
+  left.x = b.y > a.y ? box->low.x : box->high.x;
+  left.y = b.x > a.x ? box->high.y : box->low.y;
+  return nsvcd__d2_cross(a, b, left) < 0;
+}
+
+// May an ear hold a corner in a box?
+static int nsvcd__ear_meets(const nsvcd__ear *ear, const nsvcd__corner_box *box) {
+  if (nsvcd__same_place(box->low, box->high))
+    return nsvcd__ear_holds(ear, box->low);
+  if (ear->high.x < box->low.x || ear->high.y < box->low.y)
+    return 0;
+  if (ear->low.x > box->high.x || ear->low.y > box->high.y)
+    return 0;
+  if (nsvcd__is_right_of(box, ear->a, ear->b) || nsvcd__is_right_of(box, ear->b, ear->c))
+    return 0;
+  return !nsvcd__is_right_of(box, ear->c, ear->a);
+}
+
+// Does an ear hold a reflex corner of run k?
+static int nsvcd__ear_holds_one(const nsvcd__polygon *polygon, const nsvcd__ear *ear, uint32_t k) {
+  const uint32_t first = NSVCD__RUN * (k - polygon->runs);
+  for (uint32_t i = first; i < first + NSVCD__RUN && i < polygon->count; i++) {
+    const nsvcd__corner *p = &polygon->corners[polygon->order[i]];
+    if (p->reflex && nsvcd__ear_holds(ear, p->at))
+      return 1;
+  }
+  return 0;
 }
 
 // An ear is a convex corner whose triangle holds no other corner; only reflex ones need a look.
 static int nsvcd__polygon_is_ear(const nsvcd__polygon *polygon, uint32_t i) {
   const nsvcd__corner *corners = polygon->corners;
-  const nsvcd__corner *b = &corners[i];
-  const nsvcd__corner *a = &corners[b->previous];
-  const nsvcd__corner *c = &corners[b->next];
-  if (nsvcd__corner_cross(a, b, c) <= 0)
+  const nsvcd__corner *middle = &corners[i];
+  nsvcd__ear ear;
+  ear.a = corners[middle->previous].at;
+  ear.b = middle->at;
+  ear.c = corners[middle->next].at;
+  if (nsvcd__d2_cross(ear.a, ear.b, ear.c) <= 0)
     return 0;
-  if (polygon->reflex_count == 0 || polygon->count > NSVCD__MAX_CONCAVE_CORNERS)
-    return 1;
-  for (const nsvcd__corner *p = &corners[c->next]; p != a; p = &corners[p->next]) {
-    if (p->reflex && nsvcd__corner_is_within(p, a, b, c))
+  ear.low = nsvcd__d2_min(nsvcd__d2_min(ear.a, ear.b), ear.c);
+  ear.high = nsvcd__d2_max(nsvcd__d2_max(ear.a, ear.b), ear.c);
+  for (uint32_t k = 1; k > 0;) {
+    const nsvcd__corner_box *box = &polygon->boxes[k];
+    const int meets = box->reflex > 0 && nsvcd__ear_meets(&ear, box);
+    NSVCD__TALLY(boxes, 1);
+    if (meets && k < polygon->runs) {
+      k *= 2;
+      continue;
+    }
+    if (meets && nsvcd__ear_holds_one(polygon, &ear, k))
       return 0;
+    // to the next box that is not within this one; 0: there is none
+    while (k % 2)
+      k /= 2;
+    k += k > 0;
   }
   return 1;
 }
 
-// Makes a ring of the corners, and puts all of them into the queue.
-static nsvcd__polygon nsvcd__polygon_of(nsvcd__corner *corners, uint32_t count,
-                                        const float *positions) {
-  nsvcd__polygon polygon = {corners, count, 0, 0, 0, 0};
-  if (count > 3)
-    nsvcd__polygon_project(corners, count, positions);
+// Makes a ring of the corners, and a queue of all: each may be an ear.
+static void nsvcd__polygon_begin(nsvcd__polygon *polygon, const float *positions) {
+  nsvcd__corner *corners = polygon->corners;
+  const uint32_t count = polygon->count;
+  polygon->queue_length = 0;
   for (uint32_t i = 0; i < count; i++) {
     corners[i].previous = (i + count - 1) % count;
     corners[i].next = (i + 1) % count;
     corners[i].queued = 0;
     corners[i].reflex = 0;
   }
-  for (uint32_t i = 0; count > 3 && i < count; i++)
-    nsvcd__polygon_update(&polygon, i);
-  return polygon;
+  if (count == 3)
+    return;
+  nsvcd__polygon_project(polygon, positions);
+  nsvcd__polygon_box(polygon);
+  for (uint32_t i = 0; i < count; i++)
+    nsvcd__polygon_update(polygon, i);
 }
 
-// corners: (count) with their vertices set, count >= 3. triangles: (count - 2, 3). TOO_LARGE if
-// there are too many corners for a concave face.
-static nsvcd_result nsvcd__polygon_triangulate(nsvcd__corner *corners, uint32_t count,
-                                               const float *positions, uint32_t *triangles) {
-  nsvcd__polygon polygon = nsvcd__polygon_of(corners, count, positions);
-  if (polygon.reflex_count > 0 && count > NSVCD__MAX_CONCAVE_CORNERS)
-    return NSVCD_ERROR_TOO_LARGE;
-
+// polygon: its corners, 3 or more, with their vertices set. triangles: (count - 2, 3).
+static void nsvcd__polygon_triangulate(nsvcd__polygon *polygon, const float *positions,
+                                       uint32_t *triangles) {
+  nsvcd__corner *corners = polygon->corners;
+  nsvcd__polygon_begin(polygon, positions);
   uint32_t at = 0;  // some corner of what is left
-  for (uint32_t left = count; left > 3;) {
+  for (uint32_t left = polygon->count; left > 3;) {
     // An empty queue means that no corner is an ear: not a simple polygon. Cut any corner off and
     // go on.
-    const int stuck = polygon.queue_length == 0;
-    const uint32_t i = stuck ? at : polygon.queue_first;
+    const int stuck = polygon->queue_length == 0;
+    const uint32_t i = stuck ? at : polygon->queue_first;
     nsvcd__corner *c = &corners[i];
     if (!stuck) {
-      polygon.queue_first = c->queue_next;
-      polygon.queue_length--;
+      polygon->queue_first = c->queue_next;
+      polygon->queue_length--;
       c->queued = 0;
     }
-    if (!stuck && !nsvcd__polygon_is_ear(&polygon, i))
+    if (!stuck && !nsvcd__polygon_is_ear(polygon, i))
       continue;
     triangles[0] = corners[c->previous].vertex;
     triangles[1] = c->vertex;
@@ -2511,21 +2686,21 @@ static nsvcd_result nsvcd__polygon_triangulate(nsvcd__corner *corners, uint32_t 
     left--;
     corners[c->previous].next = c->next;
     corners[c->next].previous = c->previous;
-    polygon.reflex_count -= c->reflex;
-    nsvcd__polygon_update(&polygon, c->previous);
-    nsvcd__polygon_update(&polygon, c->next);
+    nsvcd__polygon_set_reflex(polygon, i, 0);
+    nsvcd__polygon_update(polygon, c->previous);
+    nsvcd__polygon_update(polygon, c->next);
     at = c->next;
   }
   triangles[0] = corners[at].vertex;
   triangles[1] = corners[corners[at].next].vertex;
   triangles[2] = corners[corners[at].previous].vertex;
-  return NSVCD_OK;
 }
 
 // ---- OBJ (Wavefront, "Object Files", version 3.0): v and f count, all else is skipped
 // Three passes over the text: count, vertices, faces. A face may refer to any vertex of the file by
 // its number, also to a later one; negative numbers count back from the last vertex so far. Locale
-// plays no part.
+// plays no part. Keywords that are skipped are letters, and digits behind two of them: curv2 is
+// one, f1 is a mistake.
 
 typedef struct nsvcd__obj {
   const char *at, *end;
@@ -2543,18 +2718,23 @@ enum {
   NSVCD__OBJ_BAD  // not a keyword
 };
 
+// Length of the line's end at p; 0: there is none.
+static size_t nsvcd__obj_newline(const char *p, const char *end) {
+  if (p == end || (*p != '\n' && *p != '\r'))
+    return 0;
+  return end - p >= 2 && p[0] == '\r' && p[1] == '\n' ? 2 : 1;
+}
 // Length of the blank at p: a backslash before the line's end continues the statement on the next
 // line.
 static size_t nsvcd__obj_blank(const char *p, const char *end) {
   if (p == end)
     return 0;
-  if (*p == ' ' || *p == '\t' || *p == '\r' || *p == '\v' || *p == '\f')
+  if (*p == ' ' || *p == '\t' || *p == '\v' || *p == '\f')
     return 1;
   if (*p != '\\')
     return 0;
-  if (end - p >= 2 && p[1] == '\n')
-    return 2;
-  return end - p >= 3 && p[1] == '\r' && p[2] == '\n' ? 3 : 0;
+  const size_t newline = nsvcd__obj_newline(p + 1, end);
+  return newline > 0 ? 1 + newline : 0;
 }
 static int nsvcd__obj_is_digit(const nsvcd__obj *obj) {
   return obj->at < obj->end && *obj->at >= '0' && *obj->at <= '9';
@@ -2565,8 +2745,11 @@ static int nsvcd__obj_accept(nsvcd__obj *obj, char c) {
     obj->at++;
   return is_there;
 }
+static int nsvcd__obj_line_ends(const nsvcd__obj *obj) {
+  return obj->at == obj->end || *obj->at == '\n' || *obj->at == '\r';
+}
 static int nsvcd__obj_token_ends(const nsvcd__obj *obj) {
-  if (obj->at == obj->end || *obj->at == '\n')
+  if (nsvcd__obj_line_ends(obj))
     return 1;
   return nsvcd__obj_blank(obj->at, obj->end) > 0;
 }
@@ -2583,20 +2766,19 @@ static int nsvcd__obj_has_token(nsvcd__obj *obj) {
     obj->at += blank;
     blank = nsvcd__obj_blank(obj->at, obj->end);
   }
-  return obj->at < obj->end && *obj->at != '\n' && *obj->at != '#';
+  return !nsvcd__obj_line_ends(obj) && *obj->at != '#';
 }
 
 // To the beginning of the next line that does not continue this statement.
 static void nsvcd__obj_skip_statement(nsvcd__obj *obj) {
   int comment = obj->at < obj->end && *obj->at == '#';
   for (int continued = 1; continued && obj->at < obj->end; obj->line++) {
-    const char *start = obj->at;
-    const char *newline = (const char *)memchr(start, '\n', (size_t)(obj->end - start));
-    const char *last = newline ? newline : obj->end;
-    obj->at = newline ? newline + 1 : obj->end;
-    if (last > start && last[-1] == '\r')
-      last--;
-    continued = newline && !comment && last > start && last[-1] == '\\';
+    const char *end = obj->at;
+    while (end < obj->end && *end != '\n' && *end != '\r')
+      end++;
+    const int escaped = end > obj->at && end[-1] == '\\';
+    continued = escaped && !comment && end < obj->end;
+    obj->at = end + nsvcd__obj_newline(end, obj->end);
   }
 }
 
@@ -2611,7 +2793,9 @@ static int nsvcd__obj_keyword(nsvcd__obj *obj) {
   if (obj->at - start == 1 && *start == 'f')
     return NSVCD__OBJ_FACE;
   for (const char *p = start; p < obj->at; p++) {
-    if (!((*p >= 'a' && *p <= 'z') || (*p >= 'A' && *p <= 'Z') || *p == '_'))
+    const int letter = (*p >= 'a' && *p <= 'z') || (*p >= 'A' && *p <= 'Z') || *p == '_';
+    const int digit = *p >= '0' && *p <= '9';
+    if (!letter && !(digit && p - start >= 2))
       return NSVCD__OBJ_BAD;
   }
   return NSVCD__OBJ_OTHER;
@@ -2737,7 +2921,11 @@ static nsvcd_result nsvcd__obj_corner(nsvcd__obj *obj, uint32_t vertex_count, ui
       number = 10 * number + (uint64_t)(*obj->at - '0');
   }
   for (int i = 0; i < 2 && nsvcd__obj_accept(obj, '/'); i++) {
+    if (i == 0 && obj->at < obj->end && *obj->at == '/')
+      continue;  // v//vn
     nsvcd__obj_accept(obj, '-');
+    if (!nsvcd__obj_is_digit(obj))
+      return NSVCD_ERROR_SYNTAX;
     while (nsvcd__obj_is_digit(obj))
       obj->at++;
   }
@@ -2803,30 +2991,32 @@ static nsvcd_result nsvcd__obj_vertices(nsvcd__obj *obj, float *positions) {
   return NSVCD_OK;
 }
 
-// One face: its triangles, (corners - 2, 3). corners: room for those of any face.
+// One face: its triangles, (corners - 2, 3). polygon: with room for any face.
 static nsvcd_result nsvcd__obj_face(nsvcd__obj *obj, const nsvcd_mesh *mesh,
-                                    nsvcd__corner *corners) {
+                                    nsvcd__polygon *polygon) {
   const uint32_t vertices = (uint32_t)mesh->vertex_count;
   uint32_t *triangles = mesh->indices + 3 * (size_t)obj->triangles;
-  uint32_t count = 0;
+  polygon->count = 0;
   while (nsvcd__obj_has_token(obj)) {
-    const nsvcd_result result = nsvcd__obj_corner(obj, vertices, &corners[count++].vertex);
+    uint32_t *vertex = &polygon->corners[polygon->count++].vertex;
+    const nsvcd_result result = nsvcd__obj_corner(obj, vertices, vertex);
     if (result)
       return result;
   }
-  obj->triangles += count - 2;
-  return nsvcd__polygon_triangulate(corners, count, mesh->positions, triangles);
+  obj->triangles += polygon->count - 2;
+  nsvcd__polygon_triangulate(polygon, mesh->positions, triangles);
+  return NSVCD_OK;
 }
 
 // Third pass: the mesh's indices.
 static nsvcd_result nsvcd__obj_faces(nsvcd__obj *obj, const nsvcd_mesh *mesh,
-                                     nsvcd__corner *corners) {
+                                     nsvcd__polygon *polygon) {
   int keyword = nsvcd__obj_keyword(obj);
   for (; keyword != NSVCD__OBJ_END; keyword = nsvcd__obj_next(obj)) {
     obj->vertices += keyword == NSVCD__OBJ_VERTEX;
     if (keyword != NSVCD__OBJ_FACE)
       continue;
-    const nsvcd_result result = nsvcd__obj_face(obj, mesh, corners);
+    const nsvcd_result result = nsvcd__obj_face(obj, mesh, polygon);
     if (result)
       return result;
   }
@@ -2845,18 +3035,18 @@ static nsvcd_result nsvcd__obj_read(nsvcd__obj *obj, const char *text, size_t si
     return NSVCD_ERROR_EMPTY;
   if (!nsvcd__mesh_alloc(mesh, obj->vertices, obj->triangles, allocator))
     return NSVCD_ERROR_MEMORY;
-  nsvcd__corner *corners =
-      (nsvcd__corner *)nsvcd__alloc_array(allocator, obj->max_corners, sizeof(nsvcd__corner));
-  if (!corners)
-    return NSVCD_ERROR_MEMORY;
-
-  nsvcd__obj_begin(obj, text, size);
-  result = nsvcd__obj_vertices(obj, mesh->positions);
+  nsvcd__polygon polygon;
+  if (!nsvcd__polygon_alloc(&polygon, obj->max_corners, allocator))
+    result = NSVCD_ERROR_MEMORY;
   if (!result) {
     nsvcd__obj_begin(obj, text, size);
-    result = nsvcd__obj_faces(obj, mesh, corners);
+    result = nsvcd__obj_vertices(obj, mesh->positions);
   }
-  nsvcd__free(allocator, corners);
+  if (!result) {
+    nsvcd__obj_begin(obj, text, size);
+    result = nsvcd__obj_faces(obj, mesh, &polygon);
+  }
+  nsvcd__polygon_free(&polygon, allocator);
   return result;
 }
 
@@ -5963,7 +6153,7 @@ static void nsvcd__rotate_latent(const int8_t *z, float (*turn)[NSVCD__SLICE], s
 #define NSVCD__LEVELS 3  // of spheres above the patches, at most
 // metres, over every radius and distance that coordinates within bounds can give
 #define NSVCD__MAX_LENGTH 1.6e7f
-#define NSVCD__BODY_MAGIC 0x4256534eu  // "NSVB"
+#define NSVCD__BODY_MAGIC 0x4256534eu  // "NSVB", or "BVSN": the mark of the byte order
 #define NSVCD__BODY_VERSION 5u
 
 struct nsvcd_body {
@@ -6415,7 +6605,7 @@ static int nsvcd__source_is_sound(const nsvcd__latents_source *source) {
 }
 
 // Builds a body of latents in `memory`. On success it is *body. NUMBER if something is out of
-// bounds.
+// bounds, EMPTY if it is too small.
 static nsvcd_result nsvcd__body_build(const nsvcd__latents_source *source, void *memory,
                                       size_t capacity, const nsvcd_body **body) {
   const size_t size = nsvcd_body_size(source->count);
@@ -6444,7 +6634,7 @@ static nsvcd_result nsvcd__body_build(const nsvcd__latents_source *source, void 
     return NSVCD_ERROR_NUMBER;
   nsvcd__body_finish(b);
   if (b->radius < NSVCD_MIN_RADIUS)
-    return NSVCD_ERROR_NUMBER;
+    return NSVCD_ERROR_EMPTY;
   *body = b;
   return NSVCD_OK;
 }
@@ -7065,8 +7255,8 @@ typedef struct nsvcd__facets_source {
   int open;
 } nsvcd__facets_source;
 
-// Builds a body of triangles of `size` bytes in `memory`. NUMBER if it would be too large or too
-// small.
+// Builds a body of triangles of `size` bytes in `memory`. NUMBER if it would be too large, EMPTY if
+// it would be too small.
 static nsvcd_result nsvcd__facets_build(const nsvcd__facets_source *source, void *memory,
                                         size_t size) {
   const nsvcd__surface *surface = source->surface;
@@ -7084,7 +7274,7 @@ static nsvcd_result nsvcd__facets_build(const nsvcd__facets_source *source, void
   if (!nsvcd__all_within(nsvcd__body_r(b), b->patches, 4 * NSVCD_MAX_COORDINATE))
     return NSVCD_ERROR_NUMBER;
   nsvcd__facets_finish(b);
-  return b->radius < NSVCD_MIN_RADIUS ? NSVCD_ERROR_NUMBER : NSVCD_OK;
+  return b->radius < NSVCD_MIN_RADIUS ? NSVCD_ERROR_EMPTY : NSVCD_OK;
 }
 #endif
 
@@ -16835,6 +17025,17 @@ static int nsvcd__leaves_limits(const nsvcd_plan_problem *problem, size_t joint,
   return value < problem->low[joint] - rounding || value > problem->high[joint] + rounding;
 }
 
+// A joint that leaves its limits at a via point, or NSVCD_NONE: moments may be few, and miss it.
+static size_t nsvcd__joint_beyond(const nsvcd_plan_problem *problem, size_t via,
+                                  const float *control) {
+  const size_t f = problem->joints;
+  for (size_t k = f; k < (via + 1) * f; k++) {
+    if (nsvcd__leaves_limits(problem, k % f, control[k]))
+      return k % f;
+  }
+  return NSVCD_NONE;
+}
+
 // Fills p->path with the joints at the moments of a trajectory, and adds what leaving the limits
 // costs. gradient: (M + 2, F), added to, or NULL.
 static void nsvcd__add_limits(nsvcd__planner *p, const nsvcd__stage *stage, const float *control,
@@ -16842,6 +17043,7 @@ static void nsvcd__add_limits(nsvcd__planner *p, const nsvcd__stage *stage, cons
   const size_t f = p->problem->joints;
   const size_t all = stage->via + 2;
   const float share = NSVCD__LIMIT_COST / (float)stage->moments;
+  cost->joint = nsvcd__joint_beyond(p->problem, stage->via, control);
   for (size_t s = 0; s < stage->moments; s++) {
     const float *w = stage->weights + s * all;
     for (size_t j = 0; j < f; j++) {
@@ -17330,7 +17532,8 @@ static void nsvcd__smoothest(nsvcd__planner *p, const nsvcd__stage *stage, float
   memcpy(control + (via + 1) * f, p->problem->goal, f * sizeof *control);
 }
 
-// Turns p->best into nearly the same curve through another number of via points.
+// Turns p->best into nearly the same curve through another number of via points. These are taken
+// into the limits, for a curve may leave them between two points.
 static void nsvcd__resample(nsvcd__planner *p, size_t from, size_t to) {
   const size_t f = p->problem->joints;
   if (from == to)
@@ -17339,7 +17542,7 @@ static void nsvcd__resample(nsvcd__planner *p, size_t from, size_t to) {
     const float t = (float)k / (float)(to + 1);
     nsvcd_spline(p->best, from, f, t, 0, p->trial + k * f);
   }
-  memcpy(p->best, p->trial, (to + 2) * f * sizeof *p->best);
+  nsvcd__change(p, to, p->trial, p->trial, 0, p->best);
 }
 
 // Are the joints within the limits, and free of collision? Fills in the answer's facts if not.

@@ -217,23 +217,22 @@ static void array_name(const char *path, char *name, size_t size) {
 static void write_header(FILE *file, const char *in, const char *name, const nsvcd_body *body) {
   nsvcd_body_facts facts = nsvcd_body_describe(body);
   const unsigned char *bytes = (const unsigned char *)body;
-  fprintf(
-      file,
-      "// %s, encoded for neuralsvcd.h by `svcd encode`: %zu points. Little-endian hosts only.\n"
-      "//   const nsvcd_body *body;\n"
-      "//   nsvcd_result result = nsvcd_body_load(%s, sizeof %s, &body);\n"
-      "#if defined(__cplusplus)\n"
-      "alignas(%d)\n"
-      "#elif defined(__STDC_VERSION__) && __STDC_VERSION__ >= 201112L\n"
-      "_Alignas(%d)\n"
-      "#elif defined(__GNUC__)\n"
-      "__attribute__((aligned(%d)))\n"
-      "#elif defined(_MSC_VER)\n"
-      "__declspec(align(%d))\n"
-      "#endif\n"
-      "static const unsigned char %s[%zu] = {",
-      in, facts.patches, name, name, NSVCD_ALIGNMENT, NSVCD_ALIGNMENT, NSVCD_ALIGNMENT,
-      NSVCD_ALIGNMENT, name, facts.size);
+  fprintf(file,
+          "// %s, encoded for neuralsvcd.h by `svcd encode`: %zu points. For %s-endian hosts.\n"
+          "//   const nsvcd_body *body;\n"
+          "//   nsvcd_result result = nsvcd_body_load(%s, sizeof %s, &body);\n"
+          "#if defined(__cplusplus)\n"
+          "alignas(%d)\n"
+          "#elif defined(__STDC_VERSION__) && __STDC_VERSION__ >= 201112L\n"
+          "_Alignas(%d)\n"
+          "#elif defined(__GNUC__)\n"
+          "__attribute__((aligned(%d)))\n"
+          "#elif defined(_MSC_VER)\n"
+          "__declspec(align(%d))\n"
+          "#endif\n"
+          "static const unsigned char %s[%zu] = {",
+          in, facts.patches, bytes[0] == 'N' ? "little" : "big", name, name, NSVCD_ALIGNMENT,
+          NSVCD_ALIGNMENT, NSVCD_ALIGNMENT, NSVCD_ALIGNMENT, name, facts.size);
   for (size_t i = 0; i < facts.size; i++)
     fprintf(file, "%s%d,", i % 24 ? "" : "\n    ", bytes[i]);
   fprintf(file, "\n};\n");

@@ -6,7 +6,7 @@
 #include <stddef.h>
 static struct {
   size_t tests, ranked, judged, planes, pairs, tries, numbers;
-  size_t collision;  // of no interest here
+  size_t collision, boxes;  // of no interest here
 } tally;
 #define NSVCD__TALLY(what, amount) (tally.what += (amount))
 #include "../neuralsvcd.h"

@@ -238,7 +238,9 @@ static void query_sizes_at_the_limits(void) {
   const nsvcd_body *body = NULL;
   CHECK_EQ(nsvcd_encode(&speck, &query_latents, NULL, memory.at,
                         nsvcd_body_size(NSVCD_SMALL_PATCHES), &body),
-           NSVCD_ERROR_NUMBER);
+           NSVCD_ERROR_EMPTY);
+  nsvcd_encode_options of_triangles = {.no_latents = 1};
+  CHECK_EQ(nsvcd_encode(&speck, &of_triangles, NULL, NULL, 0, &body), NSVCD_ERROR_EMPTY);
   CHECK(body == NULL);
   query_release(&memory);
   nsvcd_mesh_free(&speck, NULL);
@@ -461,6 +463,52 @@ static void query_recall_raises_the_logit(void) {
     previous = a.logit;
   }
   query_scene_close(&s);
+}
+
+// What a query about bodies of so many patches subtracts from its logits.
+static double query_threshold(size_t model, size_t column, size_t a, size_t b) {
+  nsvcd_sweep_options options = query_options(8, NSVCD_MODEL_BASE, nsvcd_w_recall[column]);
+  nsvcd__settings settings;
+  options.model = (nsvcd_model)(NSVCD_MODEL_TINY + model);
+  CHECK_EQ(nsvcd__settings_of(&options, a, b, &settings), NSVCD_OK);
+  return (double)settings.threshold;
+}
+
+// Thresholds are those of weights.h where bodies have a calibrated number of patches, N = 32 to 512.
+// Between, they follow log2 N, of two bodies its mean; beyond, they stay.
+static void query_thresholds_are_interpolated(void) {
+  for (size_t n = 0; n < 3 * NSVCD_W_RECALLS; n++) {
+    const size_t model = n / NSVCD_W_RECALLS;
+    const size_t k = n % NSVCD_W_RECALLS;
+    const float(*rows)[NSVCD_W_RECALLS] = nsvcd_w_threshold[model];
+    for (size_t row = 0; row < NSVCD_W_SIZES; row++) {
+      const size_t size = (size_t)32 << row;
+      const double at = (double)rows[row][k];
+      CHECK_NEAR(query_threshold(model, k, size, size), at, 1e-6);
+      CHECK_NEAR(query_threshold(model, k, size / 2, 2 * size), at, 1e-6);
+      if (row + 1 == NSVCD_W_SIZES)
+        continue;
+      const double next = (double)rows[row + 1][k];
+      double before = at;
+      for (size_t between = size + 1; between < 2 * size; between++) {
+        const double share = log2((double)between / (double)size);
+        const double found = query_threshold(model, k, between, between);
+        CHECK_NEAR(found, at + share * (next - at), 1e-5);
+        CHECK_GE((found - before) * (next - at), 0);
+        before = found;
+      }
+      // of two bodies
+      CHECK_NEAR(query_threshold(model, k, size, 2 * size), 0.5 * (at + next), 1e-6);
+      CHECK_NEAR(query_threshold(model, k, 2 * size, size), 0.5 * (at + next), 1e-6);
+    }
+    const double least = (double)rows[0][k];
+    const double most = (double)rows[NSVCD_W_SIZES - 1][k];
+    CHECK_NEAR(query_threshold(model, k, 1, 1), least, 1e-6);
+    CHECK_NEAR(query_threshold(model, k, 31, 32), least, 1e-6);
+    CHECK_NEAR(query_threshold(model, k, 1, 512), least, 0);
+    CHECK_NEAR(query_threshold(model, k, 512, 513), most, 1e-6);
+    CHECK_NEAR(query_threshold(model, k, NSVCD_MAX_PATCHES, NSVCD_MAX_PATCHES), most, 1e-6);
+  }
 }
 
 // ------------------------------------------------------------------------------------------ errors
@@ -887,6 +935,7 @@ void test_query(void) {
   RUN(query_all_pairs_are_enough);
   RUN(query_more_pairs_never_lose_a_collision);
   RUN(query_recall_raises_the_logit);
+  RUN(query_thresholds_are_interpolated);
   RUN(query_refuses_bad_arguments);
   RUN(query_refuses_bad_questions);
   RUN(query_refuses_bad_poses);

@@ -182,7 +182,15 @@ static int is_body_file(const char *path) {
   const size_t size = file ? fread(begin, 1, sizeof begin, file) : 0;
   if (file)
     fclose(file);
-  return ends_with(path, ".body") || (size == 4 && memcmp(begin, "NSVB", 4) == 0);
+  const int is_blob = memcmp(begin, "NSVB", 4) == 0 || memcmp(begin, "BVSN", 4) == 0;
+  return ends_with(path, ".body") || (size == 4 && is_blob);
+}
+
+// A blob begins with "NSVB", or, from a big-endian machine, with "BVSN".
+static int has_other_byte_order(const void *memory, size_t size) {
+  const uint16_t one = 1;
+  const char *other = *(const char *)&one ? "BVSN" : "NSVB";
+  return size >= 4 && memcmp(memory, other, 4) == 0;
 }
 
 // The box about the balls of a body's patches.
@@ -208,6 +216,8 @@ static int load_body(const char *path, float scale, thing *t) {
   if (!t->memory)
     return 0;
   const nsvcd_result result = nsvcd_body_load(t->memory, size, &t->body);
+  if (result && has_other_byte_order(t->memory, size))
+    return complain("%s: encoded on a machine of the other byte order", path);
   if (result)
     return complain("%s: %s", path, reason_of(result));
   box_of_balls(t);
