@@ -2754,8 +2754,11 @@ static int nsvcd__obj_token_ends(const nsvcd__obj *obj) {
   return nsvcd__obj_blank(obj->at, obj->end) > 0;
 }
 static void nsvcd__obj_skip_token(nsvcd__obj *obj) {
-  while (!nsvcd__obj_token_ends(obj))
-    obj->at++;
+  for (; !nsvcd__obj_token_ends(obj); obj->at++) {
+    // what can be nothing else, quickly
+    while (obj->at + 1 < obj->end && (unsigned char)obj->at[1] > ' ' && obj->at[1] != '\\')
+      obj->at++;
+  }
 }
 
 // Skips blanks; 0 where the statement ends instead.
@@ -2769,17 +2772,15 @@ static int nsvcd__obj_has_token(nsvcd__obj *obj) {
   return !nsvcd__obj_line_ends(obj) && *obj->at != '#';
 }
 
-// To the beginning of the next line that does not continue this statement.
+// To the beginning of the next line that does not continue this statement. Token by token, as all
+// passes read it: what one takes for a comment, which nothing continues, all do.
 static void nsvcd__obj_skip_statement(nsvcd__obj *obj) {
-  int comment = obj->at < obj->end && *obj->at == '#';
-  for (int continued = 1; continued && obj->at < obj->end; obj->line++) {
-    const char *end = obj->at;
-    while (end < obj->end && *end != '\n' && *end != '\r')
-      end++;
-    const int escaped = end > obj->at && end[-1] == '\\';
-    continued = escaped && !comment && end < obj->end;
-    obj->at = end + nsvcd__obj_newline(end, obj->end);
-  }
+  while (nsvcd__obj_has_token(obj))
+    nsvcd__obj_skip_token(obj);
+  while (!nsvcd__obj_line_ends(obj))
+    obj->at++;
+  obj->at += nsvcd__obj_newline(obj->at, obj->end);
+  obj->line++;
 }
 
 // Reads the keyword that a statement begins with.
