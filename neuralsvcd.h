@@ -428,7 +428,8 @@ NSVCDDEF nsvcd_result nsvcd_body_trust(const void *memory, size_t size, const ns
 //   memory     (capacity) bytes, not NULL, aligned to NSVCD_ALIGNMENT; may be where the body is
 //   scaled     not NULL; set to the copy; left as it was on failure
 //   allocates  nothing
-//   errors     ARGUMENT (also if the copy were smaller or larger than a body may be), WORKSPACE
+//   errors     ARGUMENT (also if the copy were smaller or larger than a body may be), WORKSPACE; with
+//              NSVCD_NO_PROOF also BODY: it has triangles, which that cannot scale
 NSVCDDEF nsvcd_result nsvcd_body_scale(const nsvcd_body *body, float scale, void *memory,
                                        size_t capacity, const nsvcd_body **scaled);
 
@@ -6049,7 +6050,6 @@ static size_t nsvcd__spheres_size(size_t padded) {
   return sizeof(struct nsvcd_body) + 16 * nsvcd__sphere_slots(padded);
 }
 
-#ifndef NSVCD_NO_NETWORK
 // Area vectors with their padding: one for each sphere, but where there are no levels above the
 // groups, of patches alone.
 static size_t nsvcd__area_slots(size_t padded) {
@@ -6063,6 +6063,12 @@ static float *nsvcd__areas_to_write(nsvcd_body *body) {
   char *at = (char *)body + nsvcd__spheres_size(body->padded);
   return (float *)(void *)at;
 }
+// Bytes of a body of latents up to these.
+static size_t nsvcd__areas_end(size_t padded) {
+  return nsvcd__spheres_size(padded) + 12 * nsvcd__area_slots(padded);
+}
+
+#ifndef NSVCD_NO_NETWORK
 // The sums over the spheres of a level of a body that has some above the groups, (3, slots): they
 // lie as the spheres do.
 static const float *nsvcd__level_areas(const nsvcd_body *body, nsvcd__level level) {
@@ -6078,10 +6084,8 @@ NSVCDDEF size_t nsvcd_body_size(size_t patches) {
   if (patches < 1 || patches > NSVCD_MAX_PATCHES)
     return 0;
   const size_t padded = nsvcd__round_up(patches, NSVCD__GROUP);
-  const size_t areas = 12 * nsvcd__area_slots(padded);
   const size_t latents = patches * NSVCD__LATENT;
-  const size_t size = nsvcd__spheres_size(padded) + areas + latents;
-  return nsvcd__round_up(size, NSVCD_ALIGNMENT);
+  return nsvcd__round_up(nsvcd__areas_end(padded) + latents, NSVCD_ALIGNMENT);
 }
 #endif
 
@@ -6348,7 +6352,6 @@ static int nsvcd__all_within(const float *values, size_t count, float most) {
   return 1;
 }
 
-#ifndef NSVCD_NO_NETWORK
 // Numbers in the area vectors.
 static size_t nsvcd__area_numbers(const nsvcd_body *body) {
   return 3 * nsvcd__area_slots(body->padded);
@@ -6359,7 +6362,6 @@ static int nsvcd__areas_are_sound(const nsvcd_body *body) {
   return nsvcd__all_within(nsvcd__body_areas(body), nsvcd__area_numbers(body),
                            NSVCD__MAX_LENGTH * NSVCD__MAX_LENGTH);
 }
-#endif
 
 #if !defined(NSVCD_NO_ENCODER) && !defined(NSVCD_NO_NETWORK)
 // Fills the area vectors of the levels from those of the patches.
@@ -7287,13 +7289,15 @@ static int nsvcd__body_is_sound(const nsvcd_body *b) {
     return 0;
 #endif
   }
-  if (!nsvcd__spheres_are_sound(b))
+  if (b->size < nsvcd__areas_end(b->padded))
+    return 0;
+  if (!nsvcd__spheres_are_sound(b) || !nsvcd__areas_are_sound(b))
     return 0;
 #ifndef NSVCD_NO_NETWORK
   if (b->weights_id != NSVCD_WEIGHTS_ID)
     return 0;
   const size_t latents = nsvcd_body_size(b->patches);
-  if (b->size < latents || !nsvcd__areas_are_sound(b))
+  if (b->size < latents)
     return 0;
   if (b->inner == 0)
     return b->size == latents && b->triangles == 0;
@@ -7302,7 +7306,7 @@ static int nsvcd__body_is_sound(const nsvcd_body *b) {
 #else
   if (b->inner % NSVCD_ALIGNMENT || b->inner >= b->size)
     return 0;
-  if (b->inner < nsvcd__spheres_size(b->padded))
+  if (b->inner < nsvcd__areas_end(b->padded))
     return 0;
 #endif
   return nsvcd__inner_is_sound(b);
@@ -7338,13 +7342,11 @@ NSVCDDEF nsvcd_result nsvcd_body_trust(const void *memory, size_t size, const ns
 static int nsvcd__body_fits(const nsvcd_body *body, float scale) {
   if (!nsvcd__spheres_fit(body, scale))
     return 0;
-#ifndef NSVCD_NO_NETWORK
   const double most = (double)NSVCD__MAX_LENGTH / (double)scale;
   for (size_t i = 0; body->weights_id && i < nsvcd__area_numbers(body); i++) {
     if (fabs((double)nsvcd__body_areas(body)[i]) > most * most)
       return 0;
   }
-#endif
 #ifndef NSVCD_NO_PROOF
   const nsvcd_body *triangles = nsvcd__triangles_of(body);
   if (triangles && !nsvcd__spheres_fit(triangles, scale))
@@ -7363,13 +7365,11 @@ static void nsvcd__scale_part(nsvcd_body *b, float scale) {
 #endif
     return;
   }
-#ifndef NSVCD_NO_NETWORK
   float *areas = nsvcd__areas_to_write(b);
   for (size_t i = 0; i < nsvcd__area_numbers(b); i++) {
     areas[i] *= scale;
     areas[i] *= scale;
   }
-#endif
   nsvcd__body_finish(b);
 }
 
@@ -7379,6 +7379,11 @@ NSVCDDEF nsvcd_result nsvcd_body_scale(const nsvcd_body *body, float scale, void
     return NSVCD_ERROR_ARGUMENT;
   if (capacity < body->size || !nsvcd__is_aligned(memory))
     return NSVCD_ERROR_WORKSPACE;
+#ifdef NSVCD_NO_PROOF
+  // The triangles would keep their size; nor were they looked at when the body was loaded.
+  if (body->triangles)
+    return NSVCD_ERROR_BODY;
+#endif
   if (!nsvcd__body_fits(body, scale))
     return NSVCD_ERROR_ARGUMENT;
   memmove(memory, body, body->size);  // in place is allowed
