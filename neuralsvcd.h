@@ -592,9 +592,10 @@ typedef struct nsvcd_answer {
   // options.first no less than contact_time - first. UNDECIDED with options.first: when doubt
   // begins
   float free_until;
-  // metres. By proof: they stay farther apart than clearance_low until free_until, and come as near
-  // as clearance_high, at contact_time. What stored triangles are off by is allowed for, and so
-  // clearance_high is not 0 where they meet; it is HUGE_VALF where it is not known
+  // metres. By proof: they stay farther apart than clearance_low until free_until, with
+  // options.measure all the time, and come as near as clearance_high, at contact_time. What stored
+  // triangles are off by is allowed for, and so clearance_high is not 0 where they meet; it is
+  // HUGE_VALF where it is not known
   float clearance_low;
   float clearance_high;
   // the pair that decided; 0, 0 where there is none
@@ -14252,8 +14253,8 @@ static void nsvcd__answer_with_contact(const nsvcd__proof *p, nsvcd_answer *answ
   memcpy(answer->normal, &normal, sizeof answer->normal);
 }
 
-// What is proven of clearances and times.
-static void nsvcd__answer_with_bounds(const nsvcd__proof *p, nsvcd__verdict verdict,
+// What is proven of clearances and times. measured: the least distance is known.
+static void nsvcd__answer_with_bounds(const nsvcd__proof *p, nsvcd__verdict verdict, int measured,
                                       nsvcd_answer *answer) {
   const double unit = (double)p->motion->unit;
   const double known = p->lost ? p->settled : NSVCD__NEVER;
@@ -14262,7 +14263,6 @@ static void nsvcd__answer_with_bounds(const nsvcd__proof *p, nsvcd__verdict verd
   double proven = is_free;
   if (!is_free && p->first > 0 && verdict != NSVCD__WITHIN)
     proven = fmin(fmax(until, 0), 1);
-  const int measured = p->measure > 0 && verdict != NSVCD__WITHIN && verdict != NSVCD__UNDECIDED;
   const double low = measured || is_free ? p->clearance : 0;
   answer->free_until = (float)(proven < 1 ? proven * (1 - 1e-7) : 1);
   answer->clearance_low = (float)(low * unit * (1 - 1e-6));
@@ -14370,9 +14370,10 @@ static void nsvcd__answer_by_proof(nsvcd__task *task, nsvcd__query *query, nsvcd
   answer->work = p->work;
   if (p->has_contact || verdict == NSVCD__WITHIN)
     nsvcd__answer_with_contact(p, answer);
-  nsvcd__answer_with_bounds(p, verdict, answer);
-  if (p->measure > 0 && verdict != NSVCD__WITHIN && verdict != NSVCD__UNDECIDED)
+  const int measured = p->measure > 0 && (verdict == NSVCD__FREE || verdict == NSVCD__MEETS);
+  if (measured)
     verdict = nsvcd__verdict_of_distance(p, (double)task->clearance);
+  nsvcd__answer_with_bounds(p, verdict, measured, answer);
   nsvcd__f3_store(nsvcd__lift_of(p), answer->lift);
   answer->status = nsvcd__status_of(verdict);
   answer->collides = verdict != NSVCD__FREE;

@@ -1426,6 +1426,7 @@ static void proof_check_measure(attack *a, float tolerance, timing_sum *sum) {
   const nsvcd_answer *w = &a->answer;
   proof_count(sum, w->status);
   CHECK(w->clearance_low >= 0 && w->clearance_low <= w->clearance_high);
+  CHECK_EQ(w->free_until, w->status == NSVCD_STATUS_CERTIFIED_FREE);
   if (w->status == NSVCD_STATUS_INSIDE)
     return;
   if (w->clearance_low > 0)
