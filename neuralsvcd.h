@@ -612,7 +612,7 @@ typedef struct nsvcd_answer {
   // direction of that from b's to a's. Otherwise, and where that triangle has no area, 0
   float normal[3];
   // WITNESS: as numbered in the caller's meshes. Otherwise NSVCD_NO_TRIANGLE. With options.measure
-  // these, point and normal are those of the nearest triangles found, whatever the status
+  // these, point and normal are those of the nearest triangles found, but for INSIDE
   uint32_t triangle_a;
   uint32_t triangle_b;
   // metres, world, at the start: by what a was lifted off b for options.skin; it turns with b. The
@@ -9705,6 +9705,7 @@ typedef struct nsvcd__proof {
   int has_contact;
   nsvcd__contact found;  // if there is a contact, or WITHIN
   int within;            // a component seems to be within the other body, but close to its surface
+  nsvcd__d3 enclosed;    // a point of that component; the fixed body's frame
   double unsure;         // ticks: the first doubt, two triangles that came too near to tell
   nsvcd__contact doubt;  // what that is about
   int lost;              // something else was left undecided: all from `settled` on
@@ -12257,7 +12258,7 @@ typedef struct nsvcd__enclosure {
 } nsvcd__enclosure;
 
 // Are some of the inner body's components, those with seeds from `first` to `end`, within the outer
-// one? Then p->found has the point, and p->within is set; 1 if that is certain.
+// one? Then p->enclosed has the point, and p->within is set; 1 if that is certain.
 static int nsvcd__encloses_seeds(nsvcd__proof *p, const nsvcd__enclosure *e, size_t first,
                                  size_t end) {
   uint32_t nearby = 0;
@@ -12275,10 +12276,7 @@ static int nsvcd__encloses_seeds(nsvcd__proof *p, const nsvcd__enclosure *e, siz
     const nsvcd__d3 seen = nsvcd__place_point(&e->start, seed);
     if (!nsvcd__is_enclosed(p, e->outer, e->unit, seen))
       continue;
-    memset(&p->found, 0, sizeof p->found);
-    p->found.point = e->inner_moves ? seen : seed;
-    p->found.moving_triangle = NSVCD_NO_TRIANGLE;
-    p->found.fixed_triangle = NSVCD_NO_TRIANGLE;
+    p->enclosed = e->inner_moves ? seen : seed;
     p->within = 1;
     if (!nsvcd__surface_is_near(p, e->outer, seen, p->tolerance / e->unit))
       return 1;
@@ -12312,7 +12310,7 @@ static int nsvcd__encloses_any(nsvcd__proof *p, const nsvcd__enclosure *e) {
   return 0;
 }
 
-// Is a component of one body within the other at the start of the motion? Then p->found has its
+// Is a component of one body within the other at the start of the motion? Then p->enclosed is its
 // point. Where that is so close to the surface that quanta matter, 0 is returned and p->within is
 // set: if planes then part all patches at t = 0, the point, the stored surface and the true one,
 // patch by patch on one side of a plane, agree, and it is within.
@@ -12607,6 +12605,15 @@ static nsvcd__verdict nsvcd__prove_in_order(nsvcd__proof *p, nsvcd__search *sear
   return verdict;
 }
 
+// What is said of a component that is within the other body, whatever contacts were found since.
+static nsvcd__verdict nsvcd__is_within(nsvcd__proof *p) {
+  memset(&p->found, 0, sizeof p->found);
+  p->found.point = p->enclosed;
+  p->found.moving_triangle = NSVCD_NO_TRIANGLE;
+  p->found.fixed_triangle = NSVCD_NO_TRIANGLE;
+  return NSVCD__WITHIN;
+}
+
 static nsvcd__verdict nsvcd__prove(nsvcd__proof *p, nsvcd__search *search) {
   const float lifted = nsvcd__f3_length(p->motion->lift);
   const float apart = p->lengths + nsvcd__clearance_of(p) + 1.0001f * lifted;
@@ -12616,7 +12623,7 @@ static nsvcd__verdict nsvcd__prove(nsvcd__proof *p, nsvcd__search *search) {
   nsvcd__choose_segments(p->motion, search);
   p->first *= (double)p->motion->ticks;
   if (nsvcd__starts_within(p))
-    return NSVCD__WITHIN;
+    return nsvcd__is_within(p);
   if (p->measure > 0)
     p->clearance = nsvcd__guess_clearance(p, search);
   nsvcd__cut_segments(p->motion, p->lengths, nsvcd__clearance_of(p), search);
@@ -12635,7 +12642,9 @@ static nsvcd__verdict nsvcd__prove(nsvcd__proof *p, nsvcd__search *search) {
     return verdict;
   if (p->lost || p->unsure < p->end)
     return NSVCD__UNDECIDED;
-  return p->within ? NSVCD__WITHIN : p->has_contact ? NSVCD__MEETS : NSVCD__FREE;
+  if (p->within)
+    return nsvcd__is_within(p);
+  return p->has_contact ? NSVCD__MEETS : NSVCD__FREE;
 }
 
 // Makes a proof forget all that it knew of a motion.
@@ -15503,6 +15512,7 @@ static nsvcd_result nsvcd__sweep_gradient(const nsvcd_question *question, void *
 #define nsvcd__is_shallower NSVCD__AT(is_shallower)
 #define nsvcd__is_spent NSVCD__AT(is_spent)
 #define nsvcd__is_swapped NSVCD__AT(is_swapped)
+#define nsvcd__is_within NSVCD__AT(is_within)
 #define nsvcd__item NSVCD__AT(item)
 #define nsvcd__item_is_parted NSVCD__AT(item_is_parted)
 #define nsvcd__judge NSVCD__AT(judge)

@@ -1765,6 +1765,47 @@ static void proof_knows_what_is_within(void) {
     proof_free(&outer[k]);
 }
 
+// A cube in a room, nearer to its walls than the tolerance at the start, which then goes on to
+// meet one, or not: what is said is about the start.
+static void proof_says_where_inside(void) {
+  shapes_mesh shape;
+  attack a;
+  memset(&shape, 0, sizeof shape);
+  shapes_box(&shape, 1, 1, 1, 1);
+  proof_body room = proof_of_shape(&shape, 1, 0);
+  memset(&shape, 0, sizeof shape);
+  shapes_box(&shape, 0.1, 0.1, 0.1, 1);
+  proof_body cube = proof_of_shape(&shape, 1, 0);
+  const oracle_pose fixed = {{0, 0, 0}, {0, 0, 0, 1}};
+  for (int n = 0; n < 6; n++) {
+    const int meets = n % 2;
+    nsvcd_sweep_options options = proof_options();
+    const oracle_pose poses[2] = {{{-0.447, -0.447, -0.447}, {0, 0, 0, 1}},
+                                  {{meets ? 1 : 0, 0, 0}, {0, 0, 0, 1}}};
+    a.moving = &cube;
+    a.fixed = &room;
+    proof_motion_set(&a.motion, poses, 2, &fixed);
+    options.first = n < 4 ? 0.01f : 0;
+    options.measure = n < 4 ? 0 : 1e-3f;
+    options.tolerance = n < 2 ? 0 : 0.02f;
+    CHECK_EQ(proof_ask_with(&a, &options), NSVCD_OK);
+    if (n == 5) {  // the nearest is sought first
+      CHECK_EQ(a.answer.status, NSVCD_STATUS_WITNESS);
+      continue;
+    }
+    CHECK_EQ(a.answer.status, NSVCD_STATUS_INSIDE);
+    CHECK_EQ(a.answer.contact_time, 0);
+    CHECK_EQ(a.answer.triangle_a, NSVCD_NO_TRIANGLE);
+    CHECK_EQ(a.answer.triangle_b, NSVCD_NO_TRIANGLE);
+    for (int k = 0; k < 3; k++) {
+      CHECK_EQ(a.answer.normal[k], 0);
+      CHECK_LE(fabs((double)a.answer.point[k] + 0.447), 0.0501);
+    }
+  }
+  proof_free(&room);
+  proof_free(&cube);
+}
+
 // -------------------------------------------------------------------------------------------------
 // limits, options
 
@@ -2402,6 +2443,7 @@ void test_proof(void) {
   RUN(proof_leaves_contacts);
   RUN(proof_lifts_are_true);
   RUN(proof_knows_what_is_within);
+  RUN(proof_says_where_inside);
   RUN(proof_answers_are_the_same_again);
   RUN(proof_sides_do_not_matter);
   RUN(proof_keeps_its_limit);
