@@ -610,8 +610,8 @@ typedef struct nsvcd_answer {
   // metres, world. Of the triangles named below, where they meet at that time, or on one of them
   // where they are nearest. INSIDE: a point of what is inside
   float point[3];
-  // world. Unit normal of one of the triangles, from b to a, or, where they are apart, the direction
-  // of that from b's to a's. 0 where none are named, and where that triangle has no area
+  // world. Unit normal of one of these, from b to a, or, where they are apart, the direction of that
+  // from b's to a's. 0 where none are named, and where that triangle has no area
   float normal[3];
   // as numbered in the caller's meshes. WITNESS: those that meet. UNDECIDED: two that come too near
   // to tell, or meet, with options.first the earliest known; NSVCD_NO_TRIANGLE where none are
