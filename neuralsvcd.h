@@ -16615,7 +16615,7 @@ static void nsvcd__add_wrench(const nsvcd_body_pair *pair, const nsvcd_pose *pos
 typedef struct nsvcd__worst {
   float logit, time;
   size_t pair;
-  int proven;  // a proof has found it, or could not rule it out
+  int proven;  // a proof has found it, INSIDE too, or could not rule it out
 } nsvcd__worst;
 
 static nsvcd__worst nsvcd__worst_at_first(void) {
@@ -16690,7 +16690,7 @@ static void nsvcd__note_worst(const nsvcd__collision *c, const nsvcd_answer *ans
     return;
   worst->logit = answer->logit;
   worst->pair = k;
-  worst->proven = answer->collides && answer->status >= NSVCD_STATUS_WITNESS;
+  worst->proven = answer->collides && answer->work > 0;  // only a proof takes work
   worst->time = 0;
   if (c->moments > 1) {
     const float at = (float)s + (float)c->stride * answer->contact_time;
