@@ -446,7 +446,8 @@ NSVCDDEF nsvcd_result nsvcd_body_trust(const void *memory, size_t size, const ns
 //   memory     (capacity) bytes, not NULL, aligned to NSVCD_ALIGNMENT; may be where the body is
 //   scaled     not NULL; set to the copy; left as it was on failure
 //   allocates  nothing
-//   errors     ARGUMENT (also if the copy were smaller or larger than a body may be), WORKSPACE
+//   errors     ARGUMENT (also if the copy were smaller or larger than a body may be), WORKSPACE;
+//              with NSVCD_NO_PROOF also BODY: it has triangles, which that cannot scale
 NSVCDDEF nsvcd_result nsvcd_body_scale(const nsvcd_body *body, float scale, void *memory,
                                        size_t capacity, const nsvcd_body **scaled);
 
@@ -551,15 +552,16 @@ typedef struct nsvcd_sweep_options {
   // a motion is cut into at most so many, a multiple of 16 up to 64; 0: 64. Fewer take less memory;
   // what turns by more than 20 degrees in one of them takes longer to prove
   size_t segments;
-  // metres: surfaces that come closer than this, and do not meet, may be left undecided. With
-  // `first`, where a contact follows, they may be taken for its beginning: see clearance_high
+  // metres: surfaces that come closer than this, or than this and the clearance, and do not meet,
+  // may be left undecided
   float tolerance;
 
   // By proof only:
   // metres: to come as close as this counts as a collision; 0: to meet does
   float clearance;
   // share of the motion, up to 1: contact_time is that of the first contact, to this, and all
-  // before is proven free. 0: of any contact
+  // before is proven free. 0: of any contact. Surfaces that are within the quanta or the tolerance
+  // of each other for longer than this, before they meet, are left undecided
   float first;
   // metres: clearance_low and clearance_high are the least distance over the motion, to this, but
   // for what the stored triangles are off by (nsvcd_body_facts.quantum). 0: unasked. Not with
@@ -598,20 +600,22 @@ typedef struct nsvcd_answer {
   // decoder, which ranks the pairs, is clear (beyond +-3), that one answers. By proof:
   // +-NSVCD_LOGIT_CERTAIN; where it is undecided, the network's
   float logit;
-  // logit > 0. UNDECIDED: the network's opinion on whether they meet, or yes where there is none or
-  // something else is asked
+  // logit > 0. UNDECIDED: yes where a contact is known; else the network's opinion on whether they
+  // meet, or yes where there is none or something else is asked
   int collides;
   // in [0,1]. WITNESS: when the triangles meet; with options.first that is the first contact, and 0
-  // if they meet at the start. INSIDE: 0. By the network: when the most suspicious pair comes
-  // closest
+  // if they meet at the start. UNDECIDED: when the triangles named are as near as clearance_high.
+  // INSIDE: 0. By the network, and UNDECIDED where no triangles are named: when the most suspicious
+  // pair comes closest
   float contact_time;
   // in [0,1]. By proof: no contact is before this. CERTIFIED_FREE: 1. WITNESS: 0, or with
   // options.first no less than contact_time - first. UNDECIDED with options.first: when doubt
-  // begins
+  // begins, also where a contact follows
   float free_until;
-  // metres. By proof: they stay farther apart than clearance_low until free_until, and come as near
-  // as clearance_high, at contact_time. What stored triangles are off by is allowed for, and so
-  // clearance_high is not 0 where they meet; it is HUGE_VALF where it is not known
+  // metres. By proof: they stay farther apart than clearance_low until free_until, with
+  // options.measure all the time, and come as near as clearance_high, at contact_time. What stored
+  // triangles are off by is allowed for, and so clearance_high is not 0 where they meet; it is
+  // HUGE_VALF where it is not known
   float clearance_low;
   float clearance_high;
   // the pair that decided; 0, 0 where there is none
@@ -621,15 +625,16 @@ typedef struct nsvcd_answer {
   // by the network: pairs of patches whose spheres meet, each counted once for each stretch of
   // time, until the search ends
   size_t candidates;
-  // metres, world. WITNESS: where the triangles meet at that time, or on one of them where they are
-  // nearest. INSIDE: a point of what is inside
+  // metres, world. Of the triangles named below, where they meet at that time, or on one of them
+  // where they are nearest. INSIDE: a point of what is inside
   float point[3];
-  // world. WITNESS: unit normal of one of the triangles, from b to a (an open surface met from
-  // behind: as it is wound), or, where they are apart, the direction from b's to a's. Otherwise,
-  // and where that triangle has no area, 0
+  // world. Unit normal of one of these, from b to a (an open surface met from behind: as it is
+  // wound), or, where they are apart, the direction from b's to a's. 0 where none are named, and
+  // where that triangle has no area
   float normal[3];
-  // WITNESS: as numbered in the caller's meshes. Otherwise NSVCD_NO_TRIANGLE. With options.measure
-  // these, point and normal are those of the nearest triangles found, whatever the status
+  // as numbered in the caller's meshes. WITNESS: those that meet. UNDECIDED: two that come too near
+  // to tell, or meet, with options.first the earliest known; NSVCD_NO_TRIANGLE where none are
+  // known. With options.measure the nearest ones found, but for INSIDE. Otherwise NSVCD_NO_TRIANGLE
   uint32_t triangle_a;
   uint32_t triangle_b;
   // metres, world, at the start: by what a was lifted off b for options.skin; it turns with b. The
@@ -6246,7 +6251,6 @@ static size_t nsvcd__spheres_size(size_t padded) {
   return sizeof(struct nsvcd_body) + 16 * nsvcd__sphere_slots(padded);
 }
 
-#ifndef NSVCD_NO_NETWORK
 // Area vectors with their padding: one for each sphere, but where there are no levels above the
 // groups, of patches alone.
 static size_t nsvcd__area_slots(size_t padded) {
@@ -6260,6 +6264,12 @@ static float *nsvcd__areas_to_write(nsvcd_body *body) {
   char *at = (char *)body + nsvcd__spheres_size(body->padded);
   return (float *)(void *)at;
 }
+// Bytes of a body of latents up to these.
+static size_t nsvcd__areas_end(size_t padded) {
+  return nsvcd__spheres_size(padded) + 12 * nsvcd__area_slots(padded);
+}
+
+#ifndef NSVCD_NO_NETWORK
 // The sums over the spheres of a level of a body that has some above the groups, (3, slots): they
 // lie as the spheres do.
 static const float *nsvcd__level_areas(const nsvcd_body *body, nsvcd__level level) {
@@ -6275,10 +6285,8 @@ NSVCDDEF size_t nsvcd_body_size(size_t patches) {
   if (patches < 1 || patches > NSVCD_MAX_PATCHES)
     return 0;
   const size_t padded = nsvcd__round_up(patches, NSVCD__GROUP);
-  const size_t areas = 12 * nsvcd__area_slots(padded);
   const size_t latents = patches * NSVCD__LATENT;
-  const size_t size = nsvcd__spheres_size(padded) + areas + latents;
-  return nsvcd__round_up(size, NSVCD_ALIGNMENT);
+  return nsvcd__round_up(nsvcd__areas_end(padded) + latents, NSVCD_ALIGNMENT);
 }
 #endif
 
@@ -6545,7 +6553,6 @@ static int nsvcd__all_within(const float *values, size_t count, float most) {
   return 1;
 }
 
-#ifndef NSVCD_NO_NETWORK
 // Numbers in the area vectors.
 static size_t nsvcd__area_numbers(const nsvcd_body *body) {
   return 3 * nsvcd__area_slots(body->padded);
@@ -6556,7 +6563,6 @@ static int nsvcd__areas_are_sound(const nsvcd_body *body) {
   return nsvcd__all_within(nsvcd__body_areas(body), nsvcd__area_numbers(body),
                            NSVCD__MAX_LENGTH * NSVCD__MAX_LENGTH);
 }
-#endif
 
 #if !defined(NSVCD_NO_ENCODER) && !defined(NSVCD_NO_NETWORK)
 // Fills the area vectors of the levels from those of the patches.
@@ -7484,13 +7490,15 @@ static int nsvcd__body_is_sound(const nsvcd_body *b) {
     return 0;
 #endif
   }
-  if (!nsvcd__spheres_are_sound(b))
+  if (b->size < nsvcd__areas_end(b->padded))
+    return 0;
+  if (!nsvcd__spheres_are_sound(b) || !nsvcd__areas_are_sound(b))
     return 0;
 #ifndef NSVCD_NO_NETWORK
   if (b->weights_id != NSVCD_WEIGHTS_ID)
     return 0;
   const size_t latents = nsvcd_body_size(b->patches);
-  if (b->size < latents || !nsvcd__areas_are_sound(b))
+  if (b->size < latents)
     return 0;
   if (b->inner == 0)
     return b->size == latents && b->triangles == 0;
@@ -7499,7 +7507,7 @@ static int nsvcd__body_is_sound(const nsvcd_body *b) {
 #else
   if (b->inner % NSVCD_ALIGNMENT || b->inner >= b->size)
     return 0;
-  if (b->inner < nsvcd__spheres_size(b->padded))
+  if (b->inner < nsvcd__areas_end(b->padded))
     return 0;
 #endif
   return nsvcd__inner_is_sound(b);
@@ -7535,13 +7543,11 @@ NSVCDDEF nsvcd_result nsvcd_body_trust(const void *memory, size_t size, const ns
 static int nsvcd__body_fits(const nsvcd_body *body, float scale) {
   if (!nsvcd__spheres_fit(body, scale))
     return 0;
-#ifndef NSVCD_NO_NETWORK
   const double most = (double)NSVCD__MAX_LENGTH / (double)scale;
   for (size_t i = 0; body->weights_id && i < nsvcd__area_numbers(body); i++) {
     if (fabs((double)nsvcd__body_areas(body)[i]) > most * most)
       return 0;
   }
-#endif
 #ifndef NSVCD_NO_PROOF
   const nsvcd_body *triangles = nsvcd__triangles_of(body);
   if (triangles && !nsvcd__spheres_fit(triangles, scale))
@@ -7560,13 +7566,11 @@ static void nsvcd__scale_part(nsvcd_body *b, float scale) {
 #endif
     return;
   }
-#ifndef NSVCD_NO_NETWORK
   float *areas = nsvcd__areas_to_write(b);
   for (size_t i = 0; i < nsvcd__area_numbers(b); i++) {
     areas[i] *= scale;
     areas[i] *= scale;
   }
-#endif
   nsvcd__body_finish(b);
 }
 
@@ -7576,6 +7580,11 @@ NSVCDDEF nsvcd_result nsvcd_body_scale(const nsvcd_body *body, float scale, void
     return NSVCD_ERROR_ARGUMENT;
   if (capacity < body->size || !nsvcd__is_aligned(memory))
     return NSVCD_ERROR_WORKSPACE;
+#ifdef NSVCD_NO_PROOF
+  // The triangles would keep their size; nor were they looked at when the body was loaded.
+  if (body->triangles)
+    return NSVCD_ERROR_BODY;
+#endif
   if (!nsvcd__body_fits(body, scale))
     return NSVCD_ERROR_ARGUMENT;
   memmove(memory, body, body->size);  // in place is allowed
@@ -9734,9 +9743,9 @@ static void nsvcd__candidates_start(nsvcd__candidates *kept, nsvcd__candidate *i
 // was reached.
 //
 // FIRST CONTACT. Contacts end the motion: whenever one is found, only what is more than `first`
-// before it matters from then on, and is proven free or gives an earlier contact. A couple that
-// was in doubt before a contact stands for its beginning. Segments are searched some at a time, in
-// their order, so that the first ones found are early ones.
+// before it matters from then on, and is proven free or gives an earlier contact. So does a doubt,
+// where a contact follows: whatever follows it is not known to be the first. Segments are searched
+// some at a time, in their order, so that the first ones found are early ones.
 //
 // THE LEAST DISTANCE. Contacts lower the clearance: it begins as a distance that two vertices
 // have, and whenever triangles are found nearer than that, it becomes their distance less
@@ -9894,9 +9903,10 @@ typedef struct nsvcd__proof {
 
   // What is known.
   int has_contact;
-  nsvcd__contact found;  // if there is a contact, or WITHIN
+  nsvcd__contact found;  // if there is a contact, or WITHIN; UNDECIDED: the doubt, if there is one
   int within;            // a component seems to be within the other body, but close to its surface
-  double unsure;         // ticks: the first doubt, two triangles that came too near to tell
+  nsvcd__d3 enclosed;    // a point of that component; the fixed body's frame
+  double unsure;         // ticks: when the first doubt begins, two triangles too near to tell
   nsvcd__contact doubt;  // what that is about
   int lost;              // something else was left undecided: all from `settled` on
   double settled;        // ticks
@@ -10991,27 +11001,35 @@ static nsvcd__couple nsvcd__couple_of(const nsvcd__proof *p, size_t i, size_t j,
   return couple;
 }
 
-// Two triangles come within the clearance a share u of the arc later than its start. MEETS if that
-// is an answer, TAKEN if there may be a better one.
-static nsvcd__verdict nsvcd__take_contact(nsvcd__proof *p, const nsvcd__couple *couple, double u,
-                                          const nsvcd__nearest *nearest) {
+// What is said of two triangles a share u of the arc later than its start.
+static nsvcd__contact nsvcd__contact_at(const nsvcd__proof *p, const nsvcd__couple *couple,
+                                        double u, const nsvcd__nearest *nearest) {
   const nsvcd__d3 face = nsvcd__face_normal(couple->fixed);
   const nsvcd__d3 apart = nsvcd__d3_sub(nearest->on_a, nearest->on_b);
   const double distance = sqrt(nearest->square);
   const int touches = distance <= couple->rounding;
-  p->has_contact = 1;
-  p->found.tick = (double)p->arc.first + u * (double)p->arc.ticks;
-  p->found.distance = touches ? 0 : distance;
-  p->found.point = nearest->on_b;
-  p->found.normal = nsvcd__d3_unit(touches ? face : apart, nsvcd__d3_of(0, 0, 0));
-  p->found.moving_triangle =
+  nsvcd__contact out;
+  out.tick = (double)p->arc.first + u * (double)p->arc.ticks;
+  out.distance = touches ? 0 : distance;
+  out.point = nearest->on_b;
+  out.normal = nsvcd__d3_unit(touches ? face : apart, nsvcd__d3_of(0, 0, 0));
+  out.moving_triangle =
       nsvcd__facet_number(&p->moving, couple->moving_patch, couple->moving_listing);
-  p->found.fixed_triangle =
-      nsvcd__facet_number(&p->fixed, couple->fixed_patch, couple->fixed_listing);
-  p->found.moving_patch = (uint16_t)couple->moving_patch;
-  p->found.fixed_patch = (uint16_t)couple->fixed_patch;
+  out.fixed_triangle = nsvcd__facet_number(&p->fixed, couple->fixed_patch, couple->fixed_listing);
+  out.moving_patch = (uint16_t)couple->moving_patch;
+  out.fixed_patch = (uint16_t)couple->fixed_patch;
+  return out;
+}
+
+// Two triangles come within the clearance a share u of the arc later than its start. MEETS if that
+// is an answer, TAKEN if there may be a better one.
+static nsvcd__verdict nsvcd__take_contact(nsvcd__proof *p, const nsvcd__couple *couple, double u,
+                                          const nsvcd__nearest *nearest) {
+  p->has_contact = 1;
+  p->found = nsvcd__contact_at(p, couple, u, nearest);
   if (p->measure > 0) {
-    p->clearance = touches ? 0 : fmax(0, distance - p->measure);
+    const int touches = !(p->found.distance > 0);
+    p->clearance = touches ? 0 : fmax(0, p->found.distance - p->measure);
     return touches ? NSVCD__MEETS : NSVCD__TAKEN;
   }
   if (p->first > 0) {
@@ -11022,24 +11040,19 @@ static nsvcd__verdict nsvcd__take_contact(nsvcd__proof *p, const nsvcd__couple *
 }
 
 // Two triangles come so near from u0 to u1 of the arc that it cannot be told whether they touch.
-// Where a contact follows, it begins here.
 static NSVCD__APART void nsvcd__take_doubt(nsvcd__proof *p, const nsvcd__couple *couple, double u0,
                                            double u1) {
   const double tick = (double)p->arc.first + u0 * (double)p->arc.ticks;
+  const double middle = 0.5 * (u0 + u1);
+  nsvcd__d3 posed[3];
   if (!(tick < p->unsure))
     return;
-  const nsvcd__contact found = p->found;
-  const double end = p->end;
-  const int has_contact = p->has_contact;
-  nsvcd__d3 posed[3];
-  nsvcd__place_triangle(nsvcd__placed_at(p, 0.5 * (u0 + u1)), couple->moving, posed);
+  nsvcd__place_triangle(nsvcd__placed_at(p, middle), couple->moving, posed);
   const nsvcd__nearest nearest = nsvcd__triangles_nearest(posed, couple->fixed);
-  (void)nsvcd__take_contact(p, couple, 0.5 * (u0 + u1), &nearest);
-  p->doubt = p->found;
-  p->found = found;
-  p->has_contact = has_contact;
+  p->doubt = nsvcd__contact_at(p, couple, middle, &nearest);
   p->unsure = tick;
-  p->end = p->first > 0 && has_contact ? fmin(end, tick) : end;
+  if (p->first > 0 && p->has_contact)
+    p->end = fmin(p->end, tick);
 }
 
 // What of the arc matters: the share of it at which the rest does not.
@@ -11241,7 +11254,7 @@ static NSVCD__APART nsvcd__verdict nsvcd__settle_couple(nsvcd__proof *p,
   for (double u = u0; left > 0;) {
     const double end = fmin(ends[left - 1], nsvcd__arc_limit(p));
     if (!(u < end))
-      break;  // what was in doubt may be the end
+      break;  // a doubt may be the end
     const double middle = 0.5 * (u + end);
     p->work++;
     NSVCD__TALLY(pairs, 1);
@@ -12448,7 +12461,7 @@ typedef struct nsvcd__enclosure {
 } nsvcd__enclosure;
 
 // Are some of the inner body's components, those with seeds from `first` to `end`, within the outer
-// one? Then p->found has the point, and p->within is set; 1 if that is certain.
+// one? Then p->enclosed has the point, and p->within is set; 1 if that is certain.
 static int nsvcd__encloses_seeds(nsvcd__proof *p, const nsvcd__enclosure *e, size_t first,
                                  size_t end) {
   uint32_t nearby = 0;
@@ -12466,10 +12479,7 @@ static int nsvcd__encloses_seeds(nsvcd__proof *p, const nsvcd__enclosure *e, siz
     const nsvcd__d3 seen = nsvcd__place_point(&e->start, seed);
     if (!nsvcd__is_enclosed(p, e->outer, e->unit, seen))
       continue;
-    memset(&p->found, 0, sizeof p->found);
-    p->found.point = e->inner_moves ? seen : seed;
-    p->found.moving_triangle = NSVCD_NO_TRIANGLE;
-    p->found.fixed_triangle = NSVCD_NO_TRIANGLE;
+    p->enclosed = e->inner_moves ? seen : seed;
     p->within = 1;
     if (!nsvcd__surface_is_near(p, e->outer, seen, p->tolerance / e->unit))
       return 1;
@@ -12503,7 +12513,7 @@ static int nsvcd__encloses_any(nsvcd__proof *p, const nsvcd__enclosure *e) {
   return 0;
 }
 
-// Is a component of one body within the other at the start of the motion? Then p->found has its
+// Is a component of one body within the other at the start of the motion? Then p->enclosed is its
 // point. Where that is so close to the surface that quanta matter, 0 is returned and p->within is
 // set: if planes then part all patches at t = 0, the point, the stored surface and the true one,
 // patch by patch on one side of a plane, agree, and it is within.
@@ -12798,6 +12808,33 @@ static nsvcd__verdict nsvcd__prove_in_order(nsvcd__proof *p, nsvcd__search *sear
   return verdict;
 }
 
+// What is said of a component that is within the other body, whatever contacts were found since.
+static nsvcd__verdict nsvcd__is_within(nsvcd__proof *p) {
+  memset(&p->found, 0, sizeof p->found);
+  p->found.point = p->enclosed;
+  p->found.moving_triangle = NSVCD_NO_TRIANGLE;
+  p->found.fixed_triangle = NSVCD_NO_TRIANGLE;
+  return NSVCD__WITHIN;
+}
+
+// Does a doubt come before all that was found? A contact is the first one, to the tolerance, only
+// where none does.
+static int nsvcd__is_doubtful(const nsvcd__proof *p) {
+  const int has_end = p->first > 0 && p->has_contact;
+  return p->unsure < (has_end ? p->found.tick - p->first : NSVCD__NEVER);
+}
+
+// What is said of triangles that came too near to tell, unless others met before, or, with
+// `measure`, came nearer.
+static nsvcd__verdict nsvcd__is_undecided(nsvcd__proof *p) {
+  const int is_nearer = p->doubt.distance < p->found.distance;
+  const int is_earlier = p->doubt.tick < p->found.tick;
+  const int is_better = !p->has_contact || (p->measure > 0 ? is_nearer : is_earlier);
+  if (p->unsure < NSVCD__NEVER && is_better)
+    p->found = p->doubt;
+  return NSVCD__UNDECIDED;
+}
+
 static nsvcd__verdict nsvcd__prove(nsvcd__proof *p, nsvcd__search *search) {
   const float lifted = nsvcd__f3_length(p->motion->lift);
   const float apart = p->lengths + nsvcd__clearance_of(p) + 1.0001f * lifted;
@@ -12807,7 +12844,7 @@ static nsvcd__verdict nsvcd__prove(nsvcd__proof *p, nsvcd__search *search) {
   nsvcd__choose_segments(p->motion, search);
   p->first *= (double)p->motion->ticks;
   if (nsvcd__starts_within(p))
-    return NSVCD__WITHIN;
+    return nsvcd__is_within(p);
   if (p->measure > 0)
     p->clearance = nsvcd__guess_clearance(p, search);
   nsvcd__cut_segments(p->motion, p->lengths, nsvcd__clearance_of(p), search);
@@ -12817,16 +12854,13 @@ static nsvcd__verdict nsvcd__prove(nsvcd__proof *p, nsvcd__search *search) {
   if (p->lost)
     p->settled = 0;  // whether one is within the other, at the start
   p->lost |= verdict == NSVCD__UNDECIDED;
-  // a doubt that ends in a contact is its beginning
-  if (p->first > 0 && p->has_contact && p->unsure <= p->end) {
-    p->found = p->doubt;
-    p->end = p->unsure;
-  }
-  if (verdict == NSVCD__MEETS)
+  if (verdict == NSVCD__MEETS && !(p->first > 0 && nsvcd__is_doubtful(p)))
     return verdict;
-  if (p->lost || p->unsure < p->end)
-    return NSVCD__UNDECIDED;
-  return p->within ? NSVCD__WITHIN : p->has_contact ? NSVCD__MEETS : NSVCD__FREE;
+  if (p->lost || nsvcd__is_doubtful(p))
+    return nsvcd__is_undecided(p);
+  if (p->within)
+    return nsvcd__is_within(p);
+  return p->has_contact ? NSVCD__MEETS : NSVCD__FREE;
 }
 
 // Makes a proof forget all that it knew of a motion.
@@ -14425,6 +14459,12 @@ static nsvcd__to_world nsvcd__to_world_at(const nsvcd__motion *motion, double t)
   return out;
 }
 
+// Has a proof found triangles that an answer is to name? If not a contact, then a doubt.
+static int nsvcd__names_triangles(const nsvcd__proof *p, nsvcd__verdict verdict) {
+  const int is_doubt = verdict == NSVCD__UNDECIDED && p->unsure < NSVCD__NEVER;
+  return p->has_contact || is_doubt;
+}
+
 // Answers with the contact that a proof has found: when, where, and of what.
 static void nsvcd__answer_with_contact(const nsvcd__proof *p, nsvcd_answer *answer) {
   const nsvcd__contact *found = &p->found;
@@ -14444,8 +14484,8 @@ static void nsvcd__answer_with_contact(const nsvcd__proof *p, nsvcd_answer *answ
   memcpy(answer->normal, &normal, sizeof answer->normal);
 }
 
-// What is proven of clearances and times.
-static void nsvcd__answer_with_bounds(const nsvcd__proof *p, nsvcd__verdict verdict,
+// What is proven of clearances and times. measured: the least distance is known.
+static void nsvcd__answer_with_bounds(const nsvcd__proof *p, nsvcd__verdict verdict, int measured,
                                       nsvcd_answer *answer) {
   const double unit = (double)p->motion->unit;
   const double known = p->lost ? p->settled : NSVCD__NEVER;
@@ -14454,22 +14494,23 @@ static void nsvcd__answer_with_bounds(const nsvcd__proof *p, nsvcd__verdict verd
   double proven = is_free;
   if (!is_free && p->first > 0 && verdict != NSVCD__WITHIN)
     proven = fmin(fmax(until, 0), 1);
-  const int measured = p->measure > 0 && verdict != NSVCD__WITHIN && verdict != NSVCD__UNDECIDED;
   const double low = measured || is_free ? p->clearance : 0;
   answer->free_until = (float)(proven < 1 ? proven * (1 - 1e-7) : 1);
   answer->clearance_low = (float)(low * unit * (1 - 1e-6));
   answer->clearance_high = HUGE_VALF;
   if (verdict == NSVCD__WITHIN) {
     answer->clearance_high = 0;
-  } else if (p->has_contact) {
+  } else if (nsvcd__names_triangles(p, verdict)) {
     const float quanta = nsvcd__quanta_of(p, p->found.moving_patch, p->found.fixed_patch);
     const double distance = p->found.distance + (double)quanta;
     answer->clearance_high = (float)(distance * unit * (1 + 1e-6));
   }
 }
 
-// A contact so early that it may be one at the start already: then it is that.
-static NSVCD__APART nsvcd__verdict nsvcd__prove_start(nsvcd__proof *p, nsvcd__search *search) {
+// A contact or a doubt so early that there may be a contact at the start already: then it is that.
+// If not, the verdict stays.
+static NSVCD__APART nsvcd__verdict nsvcd__prove_start(nsvcd__proof *p, nsvcd__search *search,
+                                                      nsvcd__verdict verdict) {
   nsvcd__motion *whole = p->motion;
   nsvcd__motion start = *whole;
   const nsvcd__contact found = p->found;
@@ -14479,12 +14520,12 @@ static NSVCD__APART nsvcd__verdict nsvcd__prove_start(nsvcd__proof *p, nsvcd__se
   p->motion = &start;
   p->first = 0;
   nsvcd__proof_restart(p);
-  nsvcd__verdict verdict = nsvcd__prove(p, search);
-  if (verdict != NSVCD__MEETS && verdict != NSVCD__WITHIN) {
-    p->found = found;
-    verdict = NSVCD__MEETS;
-  } else {
+  const nsvcd__verdict at_start = nsvcd__prove(p, search);
+  if (at_start == NSVCD__MEETS || at_start == NSVCD__WITHIN) {
     p->found.tick = 0;
+    verdict = at_start;
+  } else {
+    p->found = found;
   }
   p->motion = whole;
   p->first = first;
@@ -14555,16 +14596,17 @@ static void nsvcd__answer_by_proof(nsvcd__task *task, nsvcd__query *query, nsvcd
   if (p->skin > 0)
     nsvcd__lift_motion(p, search);
   nsvcd__verdict verdict = nsvcd__prove(p, search);
-  if (verdict == NSVCD__MEETS && p->first > 0 && p->found.tick > 0 && p->end <= 0)
-    verdict = nsvcd__prove_start(p, search);
+  if (p->first > 0 && p->has_contact && p->end <= 0 && p->found.tick > 0)
+    verdict = nsvcd__prove_start(p, search, verdict);
 
   nsvcd__answer_free(answer);
   answer->work = p->work;
-  if (p->has_contact || verdict == NSVCD__WITHIN)
+  if (nsvcd__names_triangles(p, verdict) || verdict == NSVCD__WITHIN)
     nsvcd__answer_with_contact(p, answer);
-  nsvcd__answer_with_bounds(p, verdict, answer);
-  if (p->measure > 0 && verdict != NSVCD__WITHIN && verdict != NSVCD__UNDECIDED)
+  const int measured = p->measure > 0 && (verdict == NSVCD__FREE || verdict == NSVCD__MEETS);
+  if (measured)
     verdict = nsvcd__verdict_of_distance(p, (double)task->clearance);
+  nsvcd__answer_with_bounds(p, verdict, measured, answer);
   nsvcd__f3_store(nsvcd__lift_of(p), answer->lift);
   answer->status = nsvcd__status_of(verdict);
   answer->collides = verdict != NSVCD__FREE;
@@ -14787,17 +14829,22 @@ static void nsvcd__turn_answer(nsvcd_answer *answer) {
 // Adds the network's opinion, where it has one, to what a proof has left undecided.
 static void nsvcd__add_opinion(nsvcd__task *task, nsvcd__query *query, nsvcd_answer *answer) {
   const nsvcd_sweep_options *options = task->options;
+  nsvcd_answer opinion;
   if (!task->moving->weights_id || !task->fixed->weights_id)
     return;
   if (options->clearance > 0 || options->measure > 0 || options->skin > 0)
     return;
-  const nsvcd_answer proof = *answer;
-  nsvcd__answer_by_network(task, query, NULL, answer);
-  answer->status = NSVCD_STATUS_UNDECIDED;
-  answer->work = proof.work;
-  answer->free_until = proof.free_until;
-  answer->clearance_low = proof.clearance_low;
-  answer->clearance_high = proof.clearance_high;
+  if (query->proof->has_contact)
+    return;  // that is known
+  nsvcd__answer_by_network(task, query, NULL, &opinion);
+  answer->logit = opinion.logit;
+  answer->collides = opinion.collides;
+  answer->candidates = opinion.candidates;
+  if (answer->triangle_a != NSVCD_NO_TRIANGLE)
+    return;
+  answer->contact_time = opinion.contact_time;
+  answer->patch_a = opinion.patch_a;
+  answer->patch_b = opinion.patch_b;
 }
 #endif
 
@@ -15595,6 +15642,7 @@ static nsvcd_result nsvcd__sweep_gradient(const nsvcd_question *question, void *
 #define nsvcd__common_divisor NSVCD__AT(common_divisor)
 #define nsvcd__constants_hold NSVCD__AT(constants_hold)
 #define nsvcd__contact NSVCD__AT(contact)
+#define nsvcd__contact_at NSVCD__AT(contact_at)
 #define nsvcd__contact_of NSVCD__AT(contact_of)
 #define nsvcd__couple NSVCD__AT(couple)
 #define nsvcd__couple_of NSVCD__AT(couple_of)
@@ -15685,6 +15733,7 @@ static nsvcd_result nsvcd__sweep_gradient(const nsvcd_question *question, void *
 #define nsvcd__is_around NSVCD__AT(is_around)
 #define nsvcd__is_clear NSVCD__AT(is_clear)
 #define nsvcd__is_contained NSVCD__AT(is_contained)
+#define nsvcd__is_doubtful NSVCD__AT(is_doubtful)
 #define nsvcd__is_enclosed NSVCD__AT(is_enclosed)
 #define nsvcd__is_harmless NSVCD__AT(is_harmless)
 #define nsvcd__is_held NSVCD__AT(is_held)
@@ -15696,6 +15745,8 @@ static nsvcd_result nsvcd__sweep_gradient(const nsvcd_question *question, void *
 #define nsvcd__is_shallower NSVCD__AT(is_shallower)
 #define nsvcd__is_spent NSVCD__AT(is_spent)
 #define nsvcd__is_swapped NSVCD__AT(is_swapped)
+#define nsvcd__is_undecided NSVCD__AT(is_undecided)
+#define nsvcd__is_within NSVCD__AT(is_within)
 #define nsvcd__item NSVCD__AT(item)
 #define nsvcd__item_is_parted NSVCD__AT(item_is_parted)
 #define nsvcd__judge NSVCD__AT(judge)
@@ -15747,6 +15798,7 @@ static nsvcd_result nsvcd__sweep_gradient(const nsvcd_question *question, void *
 #define nsvcd__motion_set_ticks NSVCD__AT(motion_set_ticks)
 #define nsvcd__mover_check NSVCD__AT(mover_check)
 #define nsvcd__moving_block_load NSVCD__AT(moving_block_load)
+#define nsvcd__names_triangles NSVCD__AT(names_triangles)
 #define nsvcd__nearby NSVCD__AT(nearby)
 #define nsvcd__nearest NSVCD__AT(nearest)
 #define nsvcd__nearest2 NSVCD__AT(nearest2)
@@ -16762,7 +16814,7 @@ static void nsvcd__add_wrench(const nsvcd_body_pair *pair, const nsvcd_pose *pos
 typedef struct nsvcd__worst {
   float logit, time;
   size_t pair;
-  int proven;  // a proof has found it, or could not rule it out
+  int proven;  // a proof has found it, INSIDE too, or could not rule it out
 } nsvcd__worst;
 
 static nsvcd__worst nsvcd__worst_at_first(void) {
@@ -16837,7 +16889,7 @@ static void nsvcd__note_worst(const nsvcd__collision *c, const nsvcd_answer *ans
     return;
   worst->logit = answer->logit;
   worst->pair = k;
-  worst->proven = answer->collides && answer->status >= NSVCD_STATUS_WITNESS;
+  worst->proven = answer->collides && answer->work > 0;  // only a proof takes work
   worst->time = 0;
   if (c->moments > 1) {
     const float at = (float)s + (float)c->stride * answer->contact_time;

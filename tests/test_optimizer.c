@@ -903,6 +903,27 @@ static void plan_proves_at_the_end(void) {
   CHECK_NEAR(through.answer.time, 0.5, 0.25);
 }
 
+// A proof that finds the ball inside of the box, at the one pose that is looked at, is as good a
+// reason to search on as one that finds it in its surface.
+static void plan_goes_on_after_a_proof_of_inside(void) {
+  static plan_scene s;
+  plan_begin(&s, PLAN_XYZ, 2);
+  s.bodies[0] = plan_solid(PLAN_BALL);
+  s.bodies[1] = plan_solid(PLAN_BOX);
+  plan_pair(&s, 0, 1);
+  s.start[0] = -0.4f;
+  s.goal[0] = 0.4f;
+  s.options.discrete = 1;
+  s.options.explore.segments = s.options.refine.segments = s.options.check = 2;
+  s.options.seeds = 1;
+  s.options.collision = -1;  // hits cost nothing: the search goes straight through
+  const plan_outcome through = plan_run(&s);
+  CHECK_EQ(through.answer.status, NSVCD_PLAN_LIMIT);
+  CHECK_EQ(through.answer.logit, NSVCD_LOGIT_CERTAIN);
+  CHECK_NEAR(through.answer.time, 0.5, 1e-6);
+  CHECK_GE(s.again, 3);
+}
+
 // Half a millimetre beside a wall, and along it: the network calls the start a hit, the proof does
 // not.
 static void plan_starts_beside_a_wall(void) {
@@ -1550,6 +1571,7 @@ void test_optimizer(void) {
   RUN(plan_can_be_cancelled);
   RUN(plan_grasped_bodies_move_along);
   RUN(plan_proves_at_the_end);
+  RUN(plan_goes_on_after_a_proof_of_inside);
   RUN(plan_starts_beside_a_wall);
   RUN(plan_stages_can_be_left_out);
   RUN(plan_discrete_looks_at_poses);

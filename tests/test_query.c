@@ -915,9 +915,64 @@ static void query_few_segments_are_as_right(void) {
   CHECK(hits > 5 && hits < 36);
 }
 
+// Asks whether two boxes, the one at rest at a pose that the other may have, are nearer than that.
+static int query_is_near(const nsvcd_body *a, const nsvcd_pose *pose, const nsvcd_body *b,
+                         float clearance) {
+  nsvcd_sweep_options options;
+  memset(&options, 0, sizeof options);
+  options.clearance = clearance;
+  return query_ask(a, pose, 1, b, NULL, &options).collides;
+}
+
+// What a proof leaves undecided, the network has an opinion on. What is known stays as it is: that
+// they meet, and how near they come, then.
+static void query_opinions_leave_what_is_known(void) {
+  nsvcd_mesh meshes[2] = {query_box(0.1, 0.2, 0.3), query_box(0.2, 0.3, 0.1)};
+  const nsvcd_body *bodies[2];
+  size_t known = 0;
+  size_t opinions = 0;
+  shapes_rng rng = {7};
+  for (size_t k = 0; k < 2; k++) {
+    CHECK_EQ(nsvcd_encode(&meshes[k], NULL, NULL, NULL, 0, &bodies[k]), NSVCD_OK);
+    nsvcd_mesh_free(&meshes[k], NULL);
+  }
+  for (size_t n = 0; n < 600; n++) {
+    nsvcd_pose path[2];
+    nsvcd_sweep_options options;
+    memset(&options, 0, sizeof options);
+    query_random_pose(&rng, 0.3, &path[0]);
+    path[1] = path[0];
+    for (size_t k = 0; k < 3; k++)
+      path[1].position[k] += (float)shapes_uniform(&rng, -0.5, 0.5);
+    options.first = n % 3 ? 1e-3f : 0;
+    options.work = 1 + n % 20;
+    options.tolerance = n % 2 ? 0.02f : 0;
+    const nsvcd_answer answer = query_ask(bodies[0], path, 2, bodies[1], NULL, &options);
+    if (answer.status != NSVCD_STATUS_UNDECIDED)
+      continue;
+    const int names = answer.triangle_a != NSVCD_NO_TRIANGLE;
+    CHECK_EQ(names, answer.clearance_high < HUGE_VALF);
+    CHECK_EQ(names, answer.triangle_b != NSVCD_NO_TRIANGLE);
+    known += names;
+    opinions += !(fabsf(answer.logit) >= NSVCD_LOGIT_CERTAIN);
+    if (!names)
+      continue;
+    nsvcd_pose then = path[0];
+    for (size_t k = 0; k < 3; k++)
+      then.position[k] += answer.contact_time * (path[1].position[k] - path[0].position[k]);
+    CHECK_EQ(query_is_near(bodies[0], &then, bodies[1], 1.001f * answer.clearance_high + 1e-6f), 1);
+  }
+  printf("  undecided: %zu name triangles; %zu have an opinion\n", known, opinions);
+  CHECK_GE(known, 20);
+  CHECK_GE(opinions, 5);
+  for (size_t k = 0; k < 2; k++)
+    nsvcd_body_free(bodies[k], NULL);
+}
+
 void test_query(void) {
   RUN(query_sizes_are_what_is_asked);
   RUN(query_few_segments_are_as_right);
+  RUN(query_opinions_leave_what_is_known);
   RUN(query_answers_are_the_same_to_the_bit);
   RUN(query_answers_make_sense);
   RUN(query_logit_is_invariant_under_rigid_motion);
