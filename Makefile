@@ -31,7 +31,7 @@ endif
 
 .PHONY: all demo preview assets help format clean firmware weights problems accuracy
 .PHONY: shared static release install uninstall check-packages
-.PHONY: test check-text check-header check-examples check-gradient check-tiles check-32 check-mingw check-firmware
+.PHONY: test check-text check-header check-examples check-gradient check-tiles check-fast-math check-32 check-mingw check-firmware
 .PHONY: check-motions check-problems check-extremes check-python python mutants
 .PHONY: bench bench-asks bench-flags bench-level bench-scale bench-plan race profile instructions sizes
 .DELETE_ON_ERROR:
@@ -160,6 +160,17 @@ build/tiles_%: tests/test_%.c $(HELPERS) $(SCENERY) $(LIBRARY) | build
 	$(CC) $(CFLAGS) -std=c99 $(TEST_WARNINGS) -DNSVCD__TILE=2 -DTEST_ALONE -o $@ $< -lm
 check-tiles: build/tiles_proof build/tiles_facets
 	@for test in $^; do echo $$test; $$test >$$test.txt || { cat $$test.txt; exit 1; }; tail -1 $$test.txt; done
+# What refuses NaN and infinity does so on their bits, and so under -ffast-math as well; FILE/TESTS. The header warns there
+# that results are not tested.
+FAST = query/refuses motion/bad_poses proof/refuses mesh/mesh_is_checked mesh/refused encoding/refuses facets/refuses \
+  body/malice gradient/refuses optimizer/refuses
+build/fast_%: tests/test_%.c $(HELPERS) $(SCENERY) $(LIBRARY) | build
+	$(CC) $(CFLAGS) -O1 -ffast-math -std=c99 -Wall -Wextra -Wno-unused-function -DTEST_ALONE -o $@ $< -lm \
+	  2>$@.txt && grep -q 'warning: neuralsvcd.h: -ffinite-math-only' $@.txt || { cat $@.txt; exit 1; }
+check-fast-math: $(sort $(foreach test,$(FAST),build/fast_$(firstword $(subst /, ,$(test)))))
+	@for test in $(FAST); do \
+	  build/fast_$${test%/*} $${test#*/} >build/fast.txt || { cat build/fast.txt; exit 1; }; done; \
+	  echo "fast-math: NaN and infinity are refused: $(FAST)"
 # On 32 bits, where sizes end at 4 GB, under sanitizers; where the compiler can (Debian: gcc-multilib).
 CFLAGS_32 = -m32 -msse2 -mfpmath=sse -O1 -fsanitize=address,undefined -fno-sanitize-recover=all
 build/test_%_32: tests/test_%.c $(HELPERS) $(PEERS) $(SCENERY) $(LIBRARY) | build
@@ -211,7 +222,7 @@ check-motions: build/check_motions build/game build/problems build/svcd
 check-extremes: build/problems build/svcd  # tiny, huge, far, thin, spinning ...
 	tests/bench/extremes.sh
 
-CHECKS = text header packages gradient examples tiles 32 mingw firmware motions problems extremes python
+CHECKS = text header packages gradient examples tiles fast-math 32 mingw firmware motions problems extremes python
 test: build/tests $(CHECKS:%=check-%)  ## everything; the last line is `N passed, N failed`
 	build/tests
 
