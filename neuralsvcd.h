@@ -62,7 +62,8 @@
 //   NSVCD_NO_OPTIMIZER  no trajectory optimizer
 //   NSVCD_NO_INT8, NSVCD_NO_FLOAT   without this arithmetic of the decoders; without float, int8 is
 //                                   the default
-//   NSVCD_NO_SIMD     plain C where the compiler's flags allow AVX-512, AVX2 with FMA, SSE2 or NEON
+//   NSVCD_NO_SIMD     plain C where the compiler's flags allow AVX-512, AVX2 with FMA, SSE2, NEON
+//                     or WebAssembly's SIMD128
 //
 // CONVENTIONS
 //   Metres, radians, right-handed; quaternions x y z w of unit length; time in [0,1]; arrays
@@ -113,7 +114,7 @@
 //   queries           poses, movers, questions, options, answers; nsvcd_sweep and its kin
 //   trajectories      splines, planning problems; nsvcd_plan
 //   math              vectors, quaternions, matrices; bits and sizes
-//   vectors           16 lanes on AVX-512, AVX2, SSE2, NEON or plain C; rotations of lanes
+//   vectors           16 lanes on AVX-512, AVX2, SSE2, NEON, SIMD128 or plain C; rotations
 //   memory            where it comes from: the allocator, the rows of a workspace
 //   mesh              checks, cuts at a box; polygons into triangles; OBJ
 //   patches           surface points, farthest point sampling; balls that cover the surface
@@ -1673,6 +1674,61 @@ static inline float nsvcd__v_least(nsvcd__v a) {
 }
 static inline nsvcd__v nsvcd__v_load_int16(const int16_t *p) {
   return vcvtq_f32_s32(vmovl_s16(vld1_s16(p)));
+}
+
+#elif !defined(NSVCD_NO_SIMD) && defined(__wasm_simd128__)
+#include <wasm_simd128.h>
+#define NSVCD__SLICE 4
+typedef v128_t nsvcd__v;
+static inline nsvcd__v nsvcd__v_load(const float *p) {
+  return wasm_v128_load(p);
+}
+static inline void nsvcd__v_store(float *p, nsvcd__v a) {
+  wasm_v128_store(p, a);
+}
+static inline nsvcd__v nsvcd__v_set(float x) {
+  return wasm_f32x4_splat(x);
+}
+static inline nsvcd__v nsvcd__v_add(nsvcd__v a, nsvcd__v b) {
+  return wasm_f32x4_add(a, b);
+}
+static inline nsvcd__v nsvcd__v_sub(nsvcd__v a, nsvcd__v b) {
+  return wasm_f32x4_sub(a, b);
+}
+static inline nsvcd__v nsvcd__v_mul(nsvcd__v a, nsvcd__v b) {
+  return wasm_f32x4_mul(a, b);
+}
+static inline nsvcd__v nsvcd__v_div(nsvcd__v a, nsvcd__v b) {
+  return wasm_f32x4_div(a, b);
+}
+static inline nsvcd__v nsvcd__v_fma(nsvcd__v a, nsvcd__v b, nsvcd__v c) {
+  return wasm_f32x4_add(wasm_f32x4_mul(a, b), c);
+}
+// pmin(b, a) is a < b ? a : b, one instruction of x86; min, which minds NaN and -0, is many.
+static inline nsvcd__v nsvcd__v_min(nsvcd__v a, nsvcd__v b) {
+  return wasm_f32x4_pmin(b, a);
+}
+static inline nsvcd__v nsvcd__v_max(nsvcd__v a, nsvcd__v b) {
+  return wasm_f32x4_pmax(b, a);
+}
+static inline nsvcd__v nsvcd__v_sqrt(nsvcd__v a) {
+  return wasm_f32x4_sqrt(a);
+}
+static inline uint32_t nsvcd__v_le(nsvcd__v a, nsvcd__v b) {
+  return (uint32_t)wasm_i32x4_bitmask(wasm_f32x4_le(a, b));
+}
+static inline uint32_t nsvcd__v_lt(nsvcd__v a, nsvcd__v b) {
+  return (uint32_t)wasm_i32x4_bitmask(wasm_f32x4_lt(a, b));
+}
+static inline nsvcd__v nsvcd__v_pick(nsvcd__v a, nsvcd__v b, nsvcd__v x, nsvcd__v y) {
+  return wasm_v128_bitselect(x, y, wasm_f32x4_le(a, b));
+}
+static inline float nsvcd__v_least(nsvcd__v a) {
+  const nsvcd__v two = nsvcd__v_min(a, wasm_i32x4_shuffle(a, a, 2, 3, 0, 1));
+  return wasm_f32x4_extract_lane(nsvcd__v_min(two, wasm_i32x4_shuffle(two, two, 1, 0, 3, 2)), 0);
+}
+static inline nsvcd__v nsvcd__v_load_int16(const int16_t *p) {
+  return wasm_f32x4_convert_i32x4(wasm_i32x4_load16x4(p));
 }
 
 #else
