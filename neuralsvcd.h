@@ -1087,10 +1087,15 @@ static inline nsvcd__d3 nsvcd__d3_unit(nsvcd__d3 a, nsvcd__d3 otherwise) {
 }
 // Rounds for certain. gcc 12 at -O2 forgets to where two doubles side by side become floats and
 // doubles again: it takes the two conversions of a vector for none, and a proof built on what is
-// stored would not hold.
+// stored would not hold. clang 14 for WebAssembly, in turn, reads a volatile number that fills a
+// vector once more, when another one may have taken its place.
 static inline float nsvcd__to_float(double x) {
+#ifdef __wasm_simd128__
+  return (float)x;
+#else
   volatile float rounded = (float)x;
   return rounded;
+#endif
 }
 static inline nsvcd__f3 nsvcd__f3_round(nsvcd__d3 a) {
   return nsvcd__f3_of(nsvcd__to_float(a.x), nsvcd__to_float(a.y), nsvcd__to_float(a.z));

@@ -34,20 +34,22 @@ function question() {
   };
 }
 
-// The median of some batches; a batch takes so many milliseconds, because browsers round the clock
+// The median of some batches. A batch takes so many milliseconds, because browsers round the clock
 // to 0.1 ms.
 let batch = 1;
 function microseconds(asked, milliseconds, batches) {
-  const run = () => {
-    const start = performance.now();
-    library.sweep(asked, batch);
-    return performance.now() - start;
-  };
-  for (let taken = run(); taken < milliseconds; taken = run())
-    batch = Math.ceil(batch * Math.min(8, 1.3 * milliseconds / Math.max(taken, 0.1)));
-  const times = Array.from({length: batches}, () => 1000 * run() / batch).sort((a, b) => a - b);
-  batch = Math.max(1, Math.ceil(1000 * milliseconds / times[0]));
-  return times[batches >> 1];
+  for (;;) {
+    const size = batch;
+    const times = Array.from({length: batches}, () => {
+      const start = performance.now();
+      library.sweep(asked, size);
+      return performance.now() - start;
+    });
+    const median = times.sort((a, b) => a - b)[batches >> 1];
+    batch = Math.ceil(size * Math.min(8, 1.2 * milliseconds / Math.max(median, 0.05)));
+    if (median >= milliseconds)
+      return 1000 * median / size;
+  }
 }
 
 // What an answer is called, what it means, and the colour that it is drawn in.
@@ -151,50 +153,52 @@ function ghosts(time) {
     if (Math.abs(t - time) > 0.01)
       list.push({
         mesh: 'body-0', pose: poseAt(t), size: bodies[0].scale, colour: colourAt(t),
-        alpha: end ? 0.45 : 0.13,
+        alpha: end ? 0.5 : 0.16,
       });
   }
   return list;
 }
 
-// The witness: two triangles, the point where they meet, and the normal.
+// The witness: two triangles with their edges, the point where they meet, and the normal.
 function marks() {
   if (answer?.status !== STATUS.WITNESS)
     return [];
   const list = [];
   const {point, normal, triangles, time} = answer;
-  const poses = [poseAt(time), AT_REST];
   for (const which of [1, 0]) {
     const {positions, indices, scale} = bodies[which];
-    const corners = [...indices.subarray(3 * triangles[which], 3 * triangles[which] + 3)];
-    const triangle = corners.flatMap((v) => [...positions.subarray(3 * v, 3 * v + 3)]);
-    scene.loadMesh(`triangle-${which}`,
-      {positions: new Float32Array(triangle), indices: new Uint32Array([0, 1, 2])});
-    list.push({
-      mesh: `triangle-${which}`, pose: poses[which], size: scale,
-      colour: colours[which ? 'witness-b' : 'witness-a'], alpha: 1,
+    const [a, b, c] = [0, 1, 2].map((k) => {
+      const at = 3 * indices[3 * triangles[which] + k];
+      return [...positions.subarray(at, at + 3)];
     });
+    scene.loadMesh(`triangle-${which}`,
+      {positions: new Float32Array([a, b, c].flat()), indices: new Uint32Array([0, 1, 2])});
+    scene.loadLines(`edges-${which}`, [a, b, b, c, c, a]);
+    for (const mesh of ['triangle', 'edges'])
+      list.push({
+        mesh: `${mesh}-${which}`, pose: which ? AT_REST : poseAt(time), size: scale,
+        colour: colours[which ? 'witness-b' : 'witness-a'], alpha: 1,
+      });
   }
-  const size = metresPerPixel(camera(), point);
-  const axis = cross([0, 0, 1], normal);
-  const turn = normal[2] < -0.9999 ? [1, 0, 0, 0] : normalized([...axis, 1 + normal[2]]);
+  const pixel = metresPerPixel(camera(), point);
+  const turn = normal[2] < -0.9999 ? [1, 0, 0, 0] :
+    normalized([...cross([0, 0, 1], normal), 1 + normal[2]]);
+  const pose = {position: point, rotation: turn};
   const colour = colours['witness-a'];
-  const place = {position: point, rotation: turn};
-  list.push({mesh: 'arrow', pose: place, size: 80 * size, colour, alpha: 1});
-  list.push({mesh: 'ball', pose: place, size: 5 * size, colour, alpha: 1});
+  list.push({mesh: 'arrow', pose, size: 80 * pixel, colour, alpha: 1});
+  list.push({mesh: 'ball', pose, size: 3 * pixel, colour, alpha: 1});
   return list;
 }
 
+// Squares on the level of B's lowest point.
 function loadGround() {
   const {low, high, scale} = bodies[1];
-  const reach = 2.5 * scale * Math.max(high[0] - low[0], high[1] - low[1]);
-  const step = 10 ** Math.floor(Math.log10(reach)) / (reach > 4e-1 * 10 ** Math.ceil(Math.log10(reach)) ? 2 : 4);
-  const count = Math.ceil(reach / step);
+  const step = scale * Math.max(high[0] - low[0], high[1] - low[1]) / 4 || scale;
   const z = scale * low[2];
   const lines = [];
-  for (let i = -count; i <= count; i++) {
-    lines.push([i * step, -count * step, z], [i * step, count * step, z]);
-    lines.push([-count * step, i * step, z], [count * step, i * step, z]);
+  for (let i = -10; i <= 10; i++) {
+    lines.push([i * step, -10 * step, z], [i * step, 10 * step, z]);
+    lines.push([-10 * step, i * step, z], [10 * step, i * step, z]);
   }
   scene.loadLines('ground', lines);
 }
@@ -220,15 +224,25 @@ function placeGrips(from) {
   });
 }
 
+function placeContact(from) {
+  const at = answer?.status === STATUS.WITNESS && toScreen(from, answer.point);
+  find('contact').hidden = !at;
+  if (at) {
+    find('contact').style.left = `${at[0]}px`;
+    find('contact').style.top = `${at[1]}px`;
+  }
+}
+
 function draw() {
-  const ratio = devicePixelRatio;
   const time = Number(find('time').value);
   const from = camera();
   placeGrips(from);
+  placeContact(from);
   if (!scene)
     return;
-  canvas.width = Math.round(from.width * ratio);
-  canvas.height = Math.round(from.height * ratio);
+  const size = [from.width, from.height].map((pixels) => Math.round(pixels * devicePixelRatio));
+  if (canvas.width !== size[0] || canvas.height !== size[1])  // what is set is cleared
+    [canvas.width, canvas.height] = size;
   loadPath();
   const solids = [
     {mesh: 'ground', pose: AT_REST, size: 1, colour: colours.grid, alpha: 1},
@@ -244,14 +258,19 @@ function draw() {
 let asking = false;  // the question has changed
 let waiting = false;
 let settled = 0;
+// Nothing moves any more: there is time to look at the clock. Again, because a browser compiles
+// what it runs often once more.
+function settle(rounds) {
+  ask(3, 9);
+  if (rounds > 1)
+    settled = setTimeout(settle, 250, rounds - 1);
+}
 function frame() {
   waiting = false;
   if (asking) {
     ask(1, 3);
     clearTimeout(settled);
-    settled = setTimeout(() => {  // nothing moves any more: there is time to look at the clock
-      ask(3, 9);
-    }, 250);
+    settled = setTimeout(settle, 250, 3);
   }
   asking = false;
   if (find('follow').checked)
@@ -272,20 +291,26 @@ function motionChanged() {
   changed(true);
 }
 
-// So far away that B and A at both ends are in the picture.
+// In the world: the corners of a body's box.
+const corners = ({low, high, scale}, pose) => [0, 1, 2, 3, 4, 5, 6, 7].map((corner) =>
+  apply(pose, scale, low.map((x, k) => corner >> k & 1 ? high[k] : x)));
+
+// So near that B, and A at both ends, just fit into the picture.
 function resetView() {
-  const spheres = [...motion.map((pose) => [centreAt(pose), bodies[0]]),
-    [scaled(bodies[1].centre, bodies[1].scale), bodies[1]]];
-  const edge = (pick, side) => [0, 1, 2].map((k) =>
-    pick(...spheres.map(([centre, {radius, scale}]) => centre[k] + side * radius * scale)));
-  const low = edge(Math.min, -1);
-  const high = edge(Math.max, 1);
-  const wide = Math.min(1, canvas.clientWidth / canvas.clientHeight);
-  Object.assign(view, {
-    yaw: -0.42, pitch: 0.3,
-    distance: 0.36 * length(subtract(high, low)) / FIELD / wide,
-    target: scaled(add(low, high), 0.5),
-  });
+  Object.assign(view, {yaw: -0.42, pitch: 0.3});
+  const {right, up, back, aspect} = camera();
+  const points = [...motion.flatMap((pose) => corners(bodies[0], pose)),
+    ...corners(bodies[1], AT_REST)];
+  const middle = (axis) => {
+    const along = points.map((point) => dot(point, axis));
+    return scaled(axis, (Math.min(...along) + Math.max(...along)) / 2);
+  };
+  view.target = add(middle(right), add(middle(up), middle(back)));
+  view.distance = Math.max(...points.map((point) => {
+    const to = subtract(point, view.target);
+    const across = Math.max(Math.abs(dot(to, right)) / aspect, Math.abs(dot(to, up)));
+    return 1.2 * across / FIELD + dot(to, back);
+  }));
   changed(false);
 }
 
@@ -359,7 +384,7 @@ function makeDrop(which) {
     });
   });
   drop.querySelector('.scale').addEventListener('input', ({target}) => {
-    bodies[which].scale = Number(target.value);
+    bodies[which].scale = Number(target.value) || bodies[which].scale;  // 0. is on the way to 0.001
     showBody(which);
     if (scene)
       loadGround();

@@ -251,7 +251,7 @@ function buildProgram(gl) {
 // What draws on a canvas; null where there is no WebGL 2. A thing to draw is {mesh, pose, size,
 // colour, alpha}: the mesh by the name that it was loaded under, the colour as three numbers.
 function createScene(canvas) {
-  const gl = canvas.getContext('webgl2', {antialias: true, preserveDrawingBuffer: true});
+  const gl = canvas.getContext('webgl2', {antialias: true, stencil: true});
   if (!gl)
     return null;
   const program = buildProgram(gl);
@@ -303,21 +303,29 @@ function createScene(canvas) {
     drawThing(thing);
   }
 
-  // Solids, then ghosts from the farthest to the nearest; marks are seen through what hides them.
+  // Solids, then ghosts from the farthest to the nearest, but not before the last of the solids;
+  // marks are seen through what hides them.
   function draw(camera, solids, ghosts, marks) {
     const away = ({pose}) => length(subtract(pose.position, camera.eye));
     gl.viewport(0, 0, canvas.width, canvas.height);
     gl.clearColor(0, 0, 0, 0);
-    gl.clear(gl.COLOR_BUFFER_BIT | gl.DEPTH_BUFFER_BIT);
+    gl.clear(gl.COLOR_BUFFER_BIT | gl.DEPTH_BUFFER_BIT | gl.STENCIL_BUFFER_BIT);
     gl.uniformMatrix4fv(uniform('projection'), false, projectionOf(camera));
     gl.uniform3fv(uniform('eye'), camera.eye);
     gl.depthFunc(gl.LEQUAL);
     gl.enable(gl.DEPTH_TEST);
     gl.enable(gl.BLEND);
-    solids.forEach(drawThing);
+    gl.enable(gl.STENCIL_TEST);
+    gl.stencilOp(gl.KEEP, gl.KEEP, gl.REPLACE);
+    solids.forEach((solid, i) => {
+      gl.stencilFunc(gl.ALWAYS, i === solids.length - 1 ? 1 : 0, 1);
+      drawThing(solid);
+    });
+    gl.stencilFunc(gl.EQUAL, 0, 1);
     [...ghosts].sort((a, b) => away(b) - away(a)).forEach(drawGhost);
+    gl.disable(gl.STENCIL_TEST);
     gl.disable(gl.DEPTH_TEST);
-    marks.forEach((mark) => drawThing({...mark, alpha: 0.45 * mark.alpha}));
+    marks.forEach((mark) => drawThing({...mark, alpha: 0.6 * mark.alpha}));
     gl.enable(gl.DEPTH_TEST);
     gl.enable(gl.POLYGON_OFFSET_FILL);
     gl.polygonOffset(-2, -8);
