@@ -14,7 +14,11 @@ const CARRIED = [    // the mug, from beside the dish rack into it
 
 const canvas = find('canvas');
 const scene = createScene(canvas);
-const library = await createLibrary(bytesOf('module'));
+const library = await createLibrary(bytesOf('module')).catch((error) => {
+  find('verdict-title').textContent = 'Not possible';
+  find('verdict-text').textContent = `This browser cannot run the module: ${error.message}`;
+  throw error;
+});
 const bodies = [{scale: 1}, {scale: 1}];
 const motion = structuredClone(CARRIED);
 const view = {yaw: -0.42, pitch: 0.3, distance: 1, target: [0, 0, 0]};
@@ -83,7 +87,7 @@ function show(id, text) {
   find(id).textContent = text ?? '–';
 }
 function showTime(us) {
-  show('microseconds', us === null ? null : `${us.toPrecision(us < 100 ? 2 : 3)} µs`);
+  show('microseconds', us === null ? null : `${us < 10 ? us.toFixed(1) : us.toFixed(0)} µs`);
 }
 function showVerdict(kind, title, text) {
   find('verdict').dataset.kind = kind;
@@ -112,10 +116,13 @@ function showAnswer() {
 function ask(milliseconds, batches) {
   const asked = question();
   try {
+    const start = performance.now();
     library.sweep(asked, 1);
+    const taken = performance.now() - start;
     answer = library.answer();
     answer.verdict = verdictOf(answer, asked);
-    answer.microseconds = microseconds(asked, milliseconds, batches);
+    batch = Math.max(1, Math.min(batch, Math.ceil(milliseconds / taken)));
+    answer.microseconds = taken > 10 ? 1000 * taken : microseconds(asked, milliseconds, batches);
   } catch (error) {
     answer = null;
     showVerdict('doubt', 'Not answered', error.message);
@@ -349,6 +356,7 @@ function loadBody(which, name, bytes) {
     message.textContent = error.line ?
       `${name}, line ${error.line}: ${error.message}: “${line.trim().slice(0, 60)}”` :
       `${name}: ${error.message}`;
+    showBody(which);
     return;
   }
   const mesh = library.mesh(which);
@@ -371,8 +379,13 @@ function loadBody(which, name, bytes) {
 }
 
 async function loadFiles(which, files) {
-  for (const [i, file] of [...files].slice(0, 2).entries())
-    loadBody((which + i) % 2, file.name, new Uint8Array(await file.arrayBuffer()));
+  for (const [i, file] of [...files].slice(0, 2).entries()) {
+    const to = (which + i) % 2;
+    const bytes = new Uint8Array(await file.arrayBuffer());
+    find(`drop-${to}`).querySelector('.facts').textContent = `reading ${file.name} ...`;
+    await new Promise((drawn) => requestAnimationFrame(() => setTimeout(drawn)));
+    loadBody(to, file.name, bytes);
+  }
 }
 
 function makeDrop(which) {
