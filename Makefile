@@ -29,8 +29,8 @@ ifeq ($(BENCH),quick)
 COUNT ?= 200
 endif
 
-.PHONY: all demo preview assets help format clean firmware weights problems accuracy
-.PHONY: test check-text check-header check-examples check-gradient check-tiles check-32 check-firmware
+.PHONY: all demo preview assets help format clean firmware web weights problems accuracy
+.PHONY: test check-text check-header check-examples check-gradient check-tiles check-32 check-firmware check-web
 .PHONY: check-motions check-problems check-extremes mutants
 .PHONY: bench bench-asks bench-level bench-scale bench-plan race profile instructions sizes
 .DELETE_ON_ERROR:
@@ -117,6 +117,12 @@ check-firmware: | build
 	$(MAKE) -C examples/firmware LEVELS=O2 run
 firmware: | build  ## Cortex-M under QEMU: answers as on the host; flash, RAM, stack and instructions as a table
 	$(MAKE) -C examples/firmware run table
+# A page with the library as WebAssembly: clang, lld, wasi-libc, libclang-rt-14-dev-wasm32; and its test in a browser:
+# chromium-driver, python3-selenium.
+web:  ## build/web/index.html: drag a motion, drop two OBJ files, see the answer
+	@$(MAKE) --no-print-directory -C examples/web page
+check-web: build/svcd
+	@$(MAKE) --no-print-directory -C examples/web check
 mutants:  ## the header with one mistake at a time: the tests of the proof must catch each; minutes
 	CC="$(CC)" tests/mutants.sh
 
@@ -140,7 +146,7 @@ check-motions: build/check_motions build/game build/problems build/svcd
 check-extremes: build/problems build/svcd  # tiny, huge, far, thin, spinning ...
 	tests/bench/extremes.sh
 
-CHECKS = text header gradient examples tiles 32 firmware motions problems extremes
+CHECKS = text header gradient examples tiles 32 firmware web motions problems extremes
 test: build/tests $(CHECKS:%=check-%)  ## everything; the last line is `N passed, N failed`
 	build/tests
 
@@ -300,7 +306,7 @@ weights: $(CHECKPOINT) $(CALIBRATED)  ## trains anew on a GPU, calibrates, write
 	cd train && $(PYTHON) calibrate.py ../$(CHECKPOINT) ../build/svcd $(CALIBRATED:%=../%)
 	cd train && $(PYTHON) export.py ../$(CHECKPOINT) ../weights.h ../tests/data/golden.h
 
-WRITTEN = examples examples/scenery examples/firmware tests tests/bench
+WRITTEN = examples examples/scenery examples/firmware examples/web tests tests/bench
 FORMATTED = neuralsvcd.h $(wildcard $(WRITTEN:%=%/*.[ch]))
 format:  ## clang-format on what is written by hand
 	clang-format -i $(FORMATTED)

@@ -25,16 +25,13 @@ async function createLibrary(bytes) {
     if (!at)
       throw new Error('out of memory');
     new Uint8Array(c.memory.buffer).set(obj, at);
-    const result = c.web_encode(which, at, obj.length);
-    check(result, c.web_error_line());
+    check(c.web_encode(which, at, obj.length), c.web_error_line());
   }
   // nsvcd_mesh, copied.
   function mesh(which) {
     const [positions, indices, vertices, triangles] = words(c.web_mesh(which), 4);
-    return {
-      positions: floats(positions, 3 * vertices).slice(),
-      indices: words(indices, 3 * triangles).slice(),
-    };
+    return {positions: floats(positions, 3 * vertices).slice(),
+      indices: words(indices, 3 * triangles).slice()};
   }
   // nsvcd_body_facts.
   function facts(which) {
@@ -60,11 +57,8 @@ async function createLibrary(bytes) {
       freeUntil: f[3],
       apart: f[4],
       status: w[8],
-      statusText: text(c.web_status_string()),
-      point: [...f.slice(10, 13)],
-      normal: [...f.slice(13, 16)],
+      point: [...f.slice(10, 13)], normal: [...f.slice(13, 16)],
       triangles: [w[16], w[17]],
-      work: w[21],
     };
   }
   return {encode, mesh, facts, sweep, answer};

@@ -132,10 +132,12 @@ function ask(milliseconds, batches) {
 
 // ---- drawing
 
+const COLOURS =
+  ['free', 'hit', 'doubt', 'inside', 'grid', 'body-b', 'witness-a', 'witness-b'];
 const colours = {};
 function readColours() {
   const style = getComputedStyle(document.documentElement);
-  for (const name of ['free', 'hit', 'doubt', 'inside', 'grid', 'body-b', 'witness-a', 'witness-b']) {
+  for (const name of COLOURS) {
     const hex = parseInt(style.getPropertyValue(`--${name}`).trim().slice(1), 16);
     colours[name] = [hex >> 16, hex >> 8 & 255, hex & 255].map((x) => x / 255);
   }
@@ -224,8 +226,9 @@ function placeGrips(from) {
     if (!at)
       return;
     const lift = bodies[0].radius * bodies[0].scale / metresPerPixel(from, centreAt(pose));
-    const near = places[1 - i] && Math.hypot(at[0] - places[1 - i][0], at[1] - places[1 - i][1]) < 50;
-    const top = at[1] + (i && near ? 1 : -1) * (lift + 10);
+    const other = places[1 - i] ?? [Infinity, Infinity];
+    const below = i === 1 && Math.hypot(at[0] - other[0], at[1] - other[1]) < 50;
+    const top = at[1] + (below ? 1 : -1) * (lift + 10);
     grip.style.left = `${Math.min(Math.max(at[0], 30), from.width - 30)}px`;
     grip.style.top = `${Math.min(Math.max(top, 18), from.height - 18)}px`;
   });
@@ -338,7 +341,7 @@ function resetMotion() {
 function showBody(which) {
   const {low, high, scale, name, indices, patches, size} = bodies[which];
   const drop = find(`drop-${which}`);
-  const extent = numbers(scaled(subtract(high, low), scale).map(Number), 3).replaceAll(', ', ' × ');
+  const extent = scaled(subtract(high, low), scale).map((x) => x.toFixed(3)).join(' × ');
   drop.querySelector('.name').textContent = `${'AB'[which]}: ${name}`;
   drop.querySelector('.facts').textContent =
     `${indices.length / 3} triangles, ${patches} patches, ${Math.round(size / 1000)} KB`;

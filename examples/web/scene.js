@@ -230,7 +230,8 @@ void main() {
   vec3 view = normalize(eye - world);
   vec3 normal = normalize(facing);
   normal = dot(normal, view) < 0. ? -normal : normal;
-  float light = .5 + .2 * dot(normal, view) + .4 * max(0., dot(normal, normalize(vec3(.3, -.5, .8))));
+  vec3 lamp = normalize(vec3(.3, -.5, .8));
+  float light = .5 + .2 * dot(normal, view) + .4 * max(0., dot(normal, lamp));
   shown = vec4(colour.rgb * (lit ? light : 1.), colour.a);
 }`;
 
@@ -248,6 +249,37 @@ function buildProgram(gl) {
   return program;
 }
 
+// Meshes on the graphics card, by name.
+function createMeshes(gl) {
+  const meshes = new Map();
+  function make() {
+    const array = gl.createVertexArray();
+    const buffer = gl.createBuffer();
+    gl.bindVertexArray(array);
+    gl.bindBuffer(gl.ARRAY_BUFFER, buffer);
+    for (const at of [0, 1]) {
+      gl.enableVertexAttribArray(at);
+      gl.vertexAttribPointer(at, 3, gl.FLOAT, false, 24, 12 * at);
+    }
+    return {array, buffer};
+  }
+  // Numbers: position and normal of each corner.
+  function load(name, corners, mode) {
+    const mesh = meshes.get(name) ?? make();
+    gl.bindBuffer(gl.ARRAY_BUFFER, mesh.buffer);
+    gl.bufferData(gl.ARRAY_BUFFER, corners, gl.DYNAMIC_DRAW);
+    meshes.set(name, {...mesh, mode, count: corners.length / 6});
+  }
+  const loadMesh = (name, {positions, indices}) =>
+    load(name, cornersOf(positions, indices), gl.TRIANGLES);
+  function loadLines(name, points) {
+    load(name, new Float32Array(points.flatMap((a) => [...a, 0, 0, 1])), gl.LINES);
+  }
+  loadMesh('arrow', ARROW);
+  loadMesh('ball', BALL);
+  return {get: (name) => meshes.get(name), loadMesh, loadLines};
+}
+
 // What draws on a canvas; null where there is no WebGL 2. A thing to draw is {mesh, pose, size,
 // colour, alpha}: the mesh by the name that it was loaded under, the colour as three numbers.
 function createScene(canvas) {
@@ -256,33 +288,9 @@ function createScene(canvas) {
     return null;
   const program = buildProgram(gl);
   const uniform = (name) => gl.getUniformLocation(program, name);
-  const meshes = new Map();
+  const meshes = createMeshes(gl);
   gl.useProgram(program);
   gl.blendFuncSeparate(gl.SRC_ALPHA, gl.ONE_MINUS_SRC_ALPHA, gl.ONE, gl.ONE_MINUS_SRC_ALPHA);
-
-  // Numbers: position and normal of each corner.
-  function load(name, corners, mode) {
-    if (!meshes.has(name)) {
-      const array = gl.createVertexArray();
-      const buffer = gl.createBuffer();
-      gl.bindVertexArray(array);
-      gl.bindBuffer(gl.ARRAY_BUFFER, buffer);
-      for (const at of [0, 1]) {
-        gl.enableVertexAttribArray(at);
-        gl.vertexAttribPointer(at, 3, gl.FLOAT, false, 24, 12 * at);
-      }
-      meshes.set(name, {array, buffer});
-    }
-    const mesh = meshes.get(name);
-    gl.bindBuffer(gl.ARRAY_BUFFER, mesh.buffer);
-    gl.bufferData(gl.ARRAY_BUFFER, corners, gl.DYNAMIC_DRAW);
-    Object.assign(mesh, {mode, count: corners.length / 6});
-  }
-  const loadMesh = (name, {positions, indices}) =>
-    load(name, cornersOf(positions, indices), gl.TRIANGLES);
-  function loadLines(name, points) {
-    load(name, new Float32Array(points.flatMap((a) => [...a, 0, 0, 1])), gl.LINES);
-  }
 
   function drawThing({mesh, pose, size, colour, alpha}) {
     const {array, mode, count} = meshes.get(mesh);
@@ -308,7 +316,6 @@ function createScene(canvas) {
   function draw(camera, solids, ghosts, marks) {
     const away = ({pose}) => length(subtract(pose.position, camera.eye));
     gl.viewport(0, 0, canvas.width, canvas.height);
-    gl.clearColor(0, 0, 0, 0);
     gl.clear(gl.COLOR_BUFFER_BIT | gl.DEPTH_BUFFER_BIT | gl.STENCIL_BUFFER_BIT);
     gl.uniformMatrix4fv(uniform('projection'), false, projectionOf(camera));
     gl.uniform3fv(uniform('eye'), camera.eye);
@@ -333,7 +340,5 @@ function createScene(canvas) {
     gl.disable(gl.POLYGON_OFFSET_FILL);
   }
 
-  loadMesh('arrow', ARROW);
-  loadMesh('ball', BALL);
-  return {draw, loadMesh, loadLines};
+  return {draw, loadMesh: meshes.loadMesh, loadLines: meshes.loadLines};
 }

@@ -44,7 +44,7 @@ def cube(half: float) -> str:
 
 def start_browser() -> webdriver.Chrome:
     options = Options()
-    for flag in ("--headless=new", "--no-sandbox", "--disable-dev-shm-usage", "--window-size=1280,860",
+    for flag in ("--headless=new", "--no-sandbox", "--disable-dev-shm-usage", "--window-size=1000,800",
                  "--use-angle=swiftshader", "--enable-unsafe-swiftshader", "--disable-background-networking"):
         options.add_argument(flag)
     options.set_capability("goog:loggingPrefs", {"browser": "ALL"})
@@ -272,7 +272,7 @@ class Page(unittest.TestCase):
 
     def test_answers_are_those_of_svcd(self):
         rng = random.Random(7)
-        problems = [(random_pose(rng), random_pose(rng)) for _ in range(40)]
+        problems = [(random_pose(rng), random_pose(rng)) for _ in range(30)]
         expected = native(problems, "--first", "0.01", "--repeat", "50")
         ratios, times = [], []
         for (start, end), answer in zip(problems, expected):
@@ -285,16 +285,20 @@ class Page(unittest.TestCase):
         median = sorted(times)[len(times) // 2]
         print(f"test_page: {len(times)} random questions, first contacts: median {median:.1f} us in the page, "
               f"{sorted(a[3] for a in expected)[len(times) // 2]:.1f} in build/svcd; "
-              f"median ratio {sorted(ratios)[len(ratios) // 2]:.2f}")
+              f"median ratio {sorted(ratios)[len(ratios) // 2]:.2f}", flush=True)
         self.assertLess(median, SLOWEST)
 
     def test_time_of_the_first_question(self):
         time.sleep(1.5)  # it looks at the clock again when nothing moves
         taken = float(self.text("microseconds").split()[0])
         alone = native([self.poses()], "--first", "0.01", "--repeat", "1000")[0][3]
-        print(f"test_page: the question that the page opens with: {taken:.0f} us, in build/svcd at best {alone:.0f}")
+        print(f"test_page: the question that the page opens with: {taken:.0f} us, in build/svcd at best {alone:.0f}",
+              flush=True)
         self.assertLess(taken, SLOWEST)
+        self.browser.set_window_size(1280, 860)
+        self.frames()
         self.browser.save_screenshot(str(PICTURE))
+        self.browser.set_window_size(1000, 800)
 
     def test_options(self):
         poses = self.poses()
@@ -422,9 +426,9 @@ class Page(unittest.TestCase):
         self.browser.set_window_size(500, 860)
         self.frames()
         wide = self.browser.execute_script("return document.documentElement.scrollWidth - innerWidth")
-        self.browser.set_window_size(1280, 860)
+        self.browser.set_window_size(1000, 800)
         self.assertLessEqual(wide, 0, "nothing sticks out sideways")
 
 
 if __name__ == "__main__":
-    unittest.main(argv=sys.argv[:1])
+    unittest.main(argv=sys.argv[:1] + sys.argv[4:])

@@ -99,6 +99,3 @@ size_t EXPORT(web_error_line)(void) {
 const char *EXPORT(web_result_string)(nsvcd_result result) {
   return nsvcd_result_string(result);
 }
-const char *EXPORT(web_status_string)(void) {
-  return nsvcd_status_string(answer.status);
-}
