@@ -39,7 +39,7 @@ function question() {
 }
 
 // The median of some batches. A batch takes so many milliseconds, because browsers round the clock
-// to 0.1 ms.
+// to 0.1 ms; and no more, or something else would run in most of them.
 let batch = 1;
 function microseconds(asked, milliseconds, batches) {
   for (;;) {
@@ -271,7 +271,7 @@ let settled = 0;
 // Nothing moves any more: there is time to look at the clock. Again, because a browser compiles
 // what it runs often once more.
 function settle(rounds) {
-  ask(3, 9);
+  ask(1.5, 31);
   if (rounds > 1)
     settled = setTimeout(settle, 250, rounds - 1);
 }

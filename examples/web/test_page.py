@@ -291,16 +291,19 @@ class Page(unittest.TestCase):
         self.assertLess(median, SLOWEST)
 
     def test_time_of_the_first_question(self):
-        time.sleep(1.5)  # it looks at the clock again when nothing moves
-        taken = float(self.text("microseconds").split()[0])
-        alone = native([self.poses()], "--first", "0.01", "--repeat", "1000")[0][3]
-        print(f"test_page: the question that the page opens with: {taken:.0f} us, in build/svcd at best {alone:.0f}",
-              flush=True)
-        self.assertLess(taken, SLOWEST)
-        self.browser.set_window_size(1280, 860)
-        self.frames()
-        self.browser.save_screenshot(str(PICTURE))
-        self.browser.set_window_size(1000, 800)
+        for flags in (("--first", "0.01"), ()):
+            time.sleep(1.5)  # it looks at the clock again when nothing moves
+            taken = float(self.text("microseconds").split()[0])
+            alone = native([self.poses()], *flags, "--repeat", "1000")[0][3]
+            print(f"test_page: the question that the page opens with, {'first' if flags else 'any'} contact: "
+                  f"{taken} us, in build/svcd at best {alone}", flush=True)
+            self.assertLess(taken, SLOWEST)
+            if flags:
+                self.browser.set_window_size(1280, 860)
+                self.click("#reset-view")
+                self.browser.save_screenshot(str(PICTURE))
+                self.browser.set_window_size(1000, 800)
+                self.click("#first")
 
     def test_options(self):
         poses = self.poses()
