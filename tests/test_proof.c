@@ -7,6 +7,7 @@
 #include <stddef.h>
 static void proof_certified(int kind, size_t i, size_t j, size_t a, size_t b, double start,
                             double end, const float *normal);
+#define NSVCD__CERTIFIES
 #define NSVCD__CERTIFY(kind, moving, fixed, moving_listing, fixed_listing, t_start, t_end, normal) \
   proof_certified(kind, moving, fixed, moving_listing, fixed_listing, t_start, t_end, normal)
 #include "../neuralsvcd.h"

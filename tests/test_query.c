@@ -549,6 +549,8 @@ static void query_refuses_bad_questions(void) {
   bad = good;
   bad.b = bad.a;
   query_refuses_question(&bad, NSVCD_ERROR_SAME);
+  bad.b.scale = 1;  // which 0 means too
+  query_refuses_question(&bad, NSVCD_ERROR_SAME);
   const nsvcd_pose elsewhere = query_pose(0.01, 0, 0);
   bad.b.poses = &elsewhere;  // the same body at another place is a question like any other
   bad.b.count = 1;
