@@ -29,10 +29,10 @@ ifeq ($(BENCH),quick)
 COUNT ?= 200
 endif
 
-.PHONY: all demo preview assets help format clean firmware weights problems accuracy
+.PHONY: all demo preview assets help format clean firmware web weights problems accuracy
 .PHONY: shared static release install uninstall check-packages
 .PHONY: test check-text check-header check-examples check-gradient check-tiles check-fast-math check-32 check-mingw check-firmware
-.PHONY: check-motions check-problems check-extremes check-python python mutants
+.PHONY: check-motions check-problems check-extremes check-python python check-web mutants
 .PHONY: bench bench-asks bench-flags bench-level bench-scale bench-plan race profile instructions sizes
 .DELETE_ON_ERROR:
 
@@ -186,6 +186,12 @@ check-firmware: | build
 	$(MAKE) -C examples/firmware LEVELS=O2 run
 firmware: | build  ## Cortex-M under QEMU: answers as on the host; flash, RAM, stack and instructions as a table
 	$(MAKE) -C examples/firmware run table
+# A page with the library as WebAssembly: clang, lld, wasi-libc, libclang-rt-14-dev-wasm32; and its test in a browser:
+# chromium-driver, python3-selenium.
+web:  ## build/web/index.html: drag a motion, drop two OBJ files, see the answer
+	@$(MAKE) --no-print-directory -C examples/web page
+check-web: build/svcd
+	@$(MAKE) --no-print-directory -C examples/web check
 # The module for Python, where there is one with numpy: Debian's numpy is for Debian's Python.
 check-python:
 	@for python in $(PYTHON) /usr/bin/python3; do \
@@ -222,7 +228,7 @@ check-motions: build/check_motions build/game build/problems build/svcd
 check-extremes: build/problems build/svcd  # tiny, huge, far, thin, spinning ...
 	tests/bench/extremes.sh
 
-CHECKS = text header packages gradient examples tiles fast-math 32 mingw firmware motions problems extremes python
+CHECKS = text header packages gradient examples tiles fast-math 32 mingw firmware motions problems extremes python web
 test: build/tests $(CHECKS:%=check-%)  ## everything; the last line is `N passed, N failed`
 	build/tests
 
@@ -384,7 +390,7 @@ weights: $(CHECKPOINT) $(CALIBRATED)  ## trains anew on a GPU, calibrates, write
 	cd train && $(PYTHON) calibrate.py ../$(CHECKPOINT) ../build/svcd $(CALIBRATED:%=../%)
 	cd train && $(PYTHON) export.py ../$(CHECKPOINT) ../weights.h ../tests/data/golden.h
 
-WRITTEN = examples examples/packages/project examples/scenery examples/firmware examples/python tests tests/bench
+WRITTEN = examples examples/packages/project examples/scenery examples/firmware examples/python examples/web tests tests/bench
 FORMATTED = neuralsvcd.h $(wildcard $(WRITTEN:%=%/*.[ch]))
 format:  ## clang-format on what is written by hand
 	clang-format -i $(FORMATTED)

@@ -63,7 +63,7 @@
 //   NSVCD_NO_OPTIMIZER  no trajectory optimizer
 //   NSVCD_NO_INT8, NSVCD_NO_FLOAT   without this arithmetic of the decoders; without float, int8 is
 //                                   the default
-//   NSVCD_NO_SIMD     plain C where there are AVX-512, AVX2 with FMA, SSE2 or NEON
+//   NSVCD_NO_SIMD     plain C where there are AVX-512, AVX2 with FMA, SSE2, NEON or SIMD128
 //   NSVCD_NO_DISPATCH on x86-64 what the compiler's flags allow, SSE2 by default; without it a
 //                     build for SSE2 holds queries for AVX2 and AVX-512 too, and the processor
 //                     decides
@@ -131,7 +131,7 @@
 //   trajectories      splines, planning problems; nsvcd_plan
 //   strings           what codes and statuses say
 //   math              vectors, quaternions, matrices; bits and sizes
-//   vectors           16 lanes on AVX-512, AVX2, SSE2, NEON or plain C; rotations of lanes
+//   vectors           16 lanes on AVX-512, AVX2, SSE2, NEON, SIMD128 or plain C; rotations
 //   memory            where it comes from: the allocator, the rows of a workspace
 //   mesh              checks, cuts at a box; polygons into triangles; OBJ
 //   patches           surface points, farthest point sampling; balls that cover the surface
@@ -1212,10 +1212,15 @@ static inline nsvcd__d3 nsvcd__d3_unit(nsvcd__d3 a, nsvcd__d3 otherwise) {
 }
 // Rounds for certain. gcc 12 at -O2 forgets to where two doubles side by side become floats and
 // doubles again: it takes the two conversions of a vector for none, and a proof built on what is
-// stored would not hold.
+// stored would not hold. clang 14 for WebAssembly, in turn, reads a volatile number that fills a
+// vector once more, when another one may have taken its place.
 static inline float nsvcd__to_float(double x) {
+#ifdef __wasm_simd128__
+  return (float)x;
+#else
   volatile float rounded = (float)x;
   return rounded;
+#endif
 }
 static inline nsvcd__f3 nsvcd__f3_round(nsvcd__d3 a) {
   return nsvcd__f3_of(nsvcd__to_float(a.x), nsvcd__to_float(a.y), nsvcd__to_float(a.z));
@@ -1595,6 +1600,9 @@ static uint32_t nsvcd__magnitude(float x) {
 #elif defined(__AVX2__) && (defined(__FMA__) || defined(_MSC_VER)) && !defined(NSVCD__NARROW)
 #include <immintrin.h>
 #define NSVCD__SLICE 8
+#elif defined(__wasm_simd128__)
+#include <wasm_simd128.h>
+#define NSVCD__SLICE 4
 #elif defined(__SSE2__) || defined(_M_X64)
 #include <immintrin.h>
 #define NSVCD__SLICE 4
@@ -1722,6 +1730,59 @@ static inline float nsvcd__v_least(nsvcd__v a) {
 static inline nsvcd__v nsvcd__v_load_int16(const int16_t *p) {
   const __m128i packed = _mm_loadu_si128((const __m128i *)(const void *)p);
   return _mm256_cvtepi32_ps(_mm256_cvtepi16_epi32(packed));
+}
+
+#elif NSVCD__SLICE == 4 && defined(__wasm_simd128__)
+typedef v128_t nsvcd__v;
+static inline nsvcd__v nsvcd__v_load(const float *p) {
+  return wasm_v128_load(p);
+}
+static inline void nsvcd__v_store(float *p, nsvcd__v a) {
+  wasm_v128_store(p, a);
+}
+static inline nsvcd__v nsvcd__v_set(float x) {
+  return wasm_f32x4_splat(x);
+}
+static inline nsvcd__v nsvcd__v_add(nsvcd__v a, nsvcd__v b) {
+  return wasm_f32x4_add(a, b);
+}
+static inline nsvcd__v nsvcd__v_sub(nsvcd__v a, nsvcd__v b) {
+  return wasm_f32x4_sub(a, b);
+}
+static inline nsvcd__v nsvcd__v_mul(nsvcd__v a, nsvcd__v b) {
+  return wasm_f32x4_mul(a, b);
+}
+static inline nsvcd__v nsvcd__v_div(nsvcd__v a, nsvcd__v b) {
+  return wasm_f32x4_div(a, b);
+}
+static inline nsvcd__v nsvcd__v_fma(nsvcd__v a, nsvcd__v b, nsvcd__v c) {
+  return wasm_f32x4_add(wasm_f32x4_mul(a, b), c);
+}
+// pmin(b, a) is a < b ? a : b, one instruction of x86; min, which minds NaN and -0, is many.
+static inline nsvcd__v nsvcd__v_min(nsvcd__v a, nsvcd__v b) {
+  return wasm_f32x4_pmin(b, a);
+}
+static inline nsvcd__v nsvcd__v_max(nsvcd__v a, nsvcd__v b) {
+  return wasm_f32x4_pmax(b, a);
+}
+static inline nsvcd__v nsvcd__v_sqrt(nsvcd__v a) {
+  return wasm_f32x4_sqrt(a);
+}
+static inline uint32_t nsvcd__v_le(nsvcd__v a, nsvcd__v b) {
+  return (uint32_t)wasm_i32x4_bitmask(wasm_f32x4_le(a, b));
+}
+static inline uint32_t nsvcd__v_lt(nsvcd__v a, nsvcd__v b) {
+  return (uint32_t)wasm_i32x4_bitmask(wasm_f32x4_lt(a, b));
+}
+static inline nsvcd__v nsvcd__v_pick(nsvcd__v a, nsvcd__v b, nsvcd__v x, nsvcd__v y) {
+  return wasm_v128_bitselect(x, y, wasm_f32x4_le(a, b));
+}
+static inline float nsvcd__v_least(nsvcd__v a) {
+  const nsvcd__v two = nsvcd__v_min(a, wasm_i32x4_shuffle(a, a, 2, 3, 0, 1));
+  return wasm_f32x4_extract_lane(nsvcd__v_min(two, wasm_i32x4_shuffle(two, two, 1, 0, 3, 2)), 0);
+}
+static inline nsvcd__v nsvcd__v_load_int16(const int16_t *p) {
+  return wasm_f32x4_convert_i32x4(wasm_i32x4_load16x4(p));
 }
 
 #elif NSVCD__SLICE == 4 && !defined(__aarch64__)
