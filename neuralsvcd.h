@@ -12936,6 +12936,7 @@ static void nsvcd__proof_restart(nsvcd__proof *p) {
   p->spans_known = 0;
   p->held = nsvcd__f3_of(0, 0, 0);
   p->plane = 0;
+  p->arc.first = 0;
   p->arc.ticks = 0;
   p->in_group = p->in_both = 0;
   p->misses = 0;
