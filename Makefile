@@ -175,10 +175,18 @@ check-fast-math: $(sort $(foreach test,$(FAST),build/fast_$(firstword $(subst /,
 CFLAGS_32 = -m32 -msse2 -mfpmath=sse -O1 -fsanitize=address,undefined -fno-sanitize-recover=all
 build/test_%_32: tests/test_%.c $(HELPERS) $(PEERS) $(SCENERY) $(LIBRARY) | build
 	$(CC) $(CFLAGS_32) -pthread -std=c99 $(TEST_WARNINGS) -DTEST_ALONE -o $@ $< -lm
+# And on x87, whose registers have more digits than memory (gnu99); constants too have more (c99).
+CFLAGS_X87 = -m32 -mno-sse -mfpmath=387 -O1
+build/test_%_gnu99: tests/test_%.c $(HELPERS) $(SCENERY) $(LIBRARY) | build
+	$(CC) $(CFLAGS_X87) -std=gnu99 $(TEST_WARNINGS) -DTEST_ALONE -o $@ $< -lm
+build/test_%_c99: tests/test_%.c $(HELPERS) $(SCENERY) $(LIBRARY) | build
+	$(CC) $(CFLAGS_X87) -std=c99 $(TEST_WARNINGS) -DTEST_ALONE -o $@ $< -lm
 check-32:
 	@if echo 'int main(void) { return 0; }' | $(CC) $(CFLAGS_32) -x c -o build/can_32 - 2>/dev/null; then \
 	  $(MAKE) build/test_level_32 build/test_optimizer_32 && build/test_level_32 && \
-	  build/test_optimizer_32 plan_sizes; \
+	  build/test_optimizer_32 plan_sizes && \
+	  $(MAKE) build/test_facets_gnu99 build/test_facets_c99 && \
+	  timeout 300 build/test_facets_gnu99 && timeout 300 build/test_facets_c99; \
 	else echo "check-32: $(CC) has no libraries for -m32: not tested"; fi
 # On Cortex-M4F and M7 under QEMU, where its tools are there (Debian: gcc-arm-none-eabi, libnewlib-arm-none-eabi,
 # qemu-system-arm).

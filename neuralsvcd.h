@@ -5239,7 +5239,8 @@ static int nsvcd__simplex_settle(nsvcd__simplex *s) {
 
 // The distance of a point from some point of the convex hull of vertices: no less than that from
 // the hull, and no more than two thousandths above it, but for roundings or where it is below
-// `enough`.
+// `enough`. Ten steps or so do; on x87, whose registers have more digits than memory, they may seem
+// to get nearer for ever.
 static double nsvcd__hull_distance(nsvcd__points hull, nsvcd__d3 point, double enough) {
   nsvcd__simplex s;
   s.points[0] = nsvcd__d3_sub(hull.at[hull.count - 1], point);
@@ -5247,7 +5248,7 @@ static double nsvcd__hull_distance(nsvcd__points hull, nsvcd__d3 point, double e
   s.count = 1;
   nsvcd__d3 nearest = s.points[0];
   double best = nsvcd__d3_dot(nearest, nearest);
-  while (best > enough * enough && s.count < 4) {
+  for (int step = 0; step < 64 && best > enough * enough && s.count < 4; step++) {
     const double offset = nsvcd__d3_dot(point, nearest);
     double least = HUGE_VAL;
     size_t support = 0;
