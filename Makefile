@@ -31,8 +31,8 @@ endif
 
 .PHONY: all demo preview assets help format clean firmware web weights problems accuracy
 .PHONY: shared static release install uninstall check-packages
-.PHONY: test check-text check-header check-examples check-gradient check-tiles check-fast-math check-32 check-mingw check-firmware
-.PHONY: check-motions check-problems check-extremes check-python python check-web mutants
+.PHONY: test check-text check-header check-examples check-gradient check-tiles check-fast-math check-levels
+.PHONY: check-32 check-mingw check-firmware check-motions check-problems check-extremes check-python python check-web mutants
 .PHONY: bench bench-asks bench-flags bench-level bench-scale bench-plan race profile instructions sizes
 .DELETE_ON_ERROR:
 
@@ -171,6 +171,8 @@ check-fast-math: $(sort $(foreach test,$(FAST),build/fast_$(firstword $(subst /,
 	@for test in $(FAST); do \
 	  build/fast_$${test%/*} $${test#*/} >build/fast.txt || { cat build/fast.txt; exit 1; }; done; \
 	  echo "fast-math: NaN and infinity are refused: $(FAST)"
+check-levels: build/problems  # lanes and answers with AVX-512, AVX2, SSE2, NEON and without
+	CC="$(CC)" tests/levels.sh
 # On 32 bits, where sizes end at 4 GB, under sanitizers; where the compiler can (Debian: gcc-multilib).
 CFLAGS_32 = -m32 -msse2 -mfpmath=sse -O1 -fsanitize=address,undefined -fno-sanitize-recover=all
 build/test_%_32: tests/test_%.c $(HELPERS) $(PEERS) $(SCENERY) $(LIBRARY) | build
@@ -236,7 +238,7 @@ check-motions: build/check_motions build/game build/problems build/svcd
 check-extremes: build/problems build/svcd  # tiny, huge, far, thin, spinning ...
 	tests/bench/extremes.sh
 
-CHECKS = text header packages gradient examples tiles fast-math 32 mingw firmware motions problems extremes python web
+CHECKS = text header packages gradient examples tiles fast-math levels 32 mingw firmware motions problems extremes python web
 test: build/tests $(CHECKS:%=check-%)  ## everything; the last line is `N passed, N failed`
 	build/tests
 
