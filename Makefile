@@ -32,6 +32,7 @@ endif
 .PHONY: all demo preview assets help format clean firmware weights problems accuracy
 .PHONY: test check-text check-header check-examples check-gradient check-tiles check-32 check-firmware
 .PHONY: check-motions check-problems check-extremes mutants
+.PHONY: check-fuzz fuzz
 .PHONY: bench bench-asks bench-level bench-scale bench-plan race profile instructions sizes
 .DELETE_ON_ERROR:
 
@@ -122,6 +123,40 @@ firmware: | build  ## Cortex-M under QEMU: answers as on the host; flash, RAM, s
 mutants:  ## the header with one mistake at a time: the tests of the proof must catch each; minutes
 	CC="$(CC)" tests/mutants.sh
 
+# Inputs at random, under sanitizers where the compiler has them: tests/fuzz/main.h says how a target is run by itself.
+FUZZ_TARGETS = $(filter-out library,$(patsubst tests/fuzz/%.c,%,$(wildcard tests/fuzz/*.c)))
+FUZZ_CFLAGS = -O1 -g -std=c99 $(TEST_WARNINGS)
+can_link = $(shell echo 'int main(void) { return 0; }' | $(1) -x c - -o /dev/null 2>/dev/null && echo 1)
+SANITIZE_FLAGS = -fsanitize=address,undefined -fno-sanitize-recover=all
+SANITIZE = $(if $(call can_link,$(CC) $(SANITIZE_FLAGS)),$(SANITIZE_FLAGS))
+FUZZ_HEADERS = $(wildcard tests/fuzz/*.h) tests/failing_heap.h $(SCENERY)
+build/fuzz/library.o: tests/fuzz/library.c $(LIBRARY)
+	@mkdir -p $(@D)
+	$(CC) $(FUZZ_CFLAGS) $(SANITIZE) -c -o $@ $<
+$(FUZZ_TARGETS:%=build/fuzz/%): build/fuzz/%: tests/fuzz/%.c build/fuzz/library.o $(FUZZ_HEADERS) neuralsvcd.h
+	$(CC) $(FUZZ_CFLAGS) $(SANITIZE) -o $@ $< build/fuzz/library.o -lm
+check-fuzz: $(FUZZ_TARGETS:%=build/fuzz/%)
+	@for target in $(FUZZ_TARGETS); do \
+	  build/fuzz/$$target --out build/fuzz/$$target.crash tests/fuzz/corpus/$$target || exit 1; done
+
+# The same with libFuzzer, of clang.
+FUZZ_CLANG = clang
+LIBFUZZER_FLAGS = -fsanitize=fuzzer-no-link,address,undefined -fno-sanitize-recover=all -DFUZZ_LIBFUZZER
+build/libfuzzer/library.o: tests/fuzz/library.c $(LIBRARY)
+	@mkdir -p $(@D)
+	$(FUZZ_CLANG) $(FUZZ_CFLAGS) $(LIBFUZZER_FLAGS) -c -o $@ $<
+$(FUZZ_TARGETS:%=build/libfuzzer/%): build/libfuzzer/%: tests/fuzz/%.c build/libfuzzer/library.o $(FUZZ_HEADERS) neuralsvcd.h
+	$(FUZZ_CLANG) $(FUZZ_CFLAGS) $(LIBFUZZER_FLAGS) -fsanitize=fuzzer -o $@ $< build/libfuzzer/library.o -lm
+# TARGET=obj: one of them alone. SECONDS, JOBS (processes of each target), SEED; PLAIN=1: without libFuzzer.
+SECONDS = 60
+JOBS = 1
+SEED = 1
+FUZZED = $(or $(TARGET),$(FUZZ_TARGETS))
+HAVE_LIBFUZZER = $(if $(PLAIN),,$(call can_link,$(FUZZ_CLANG) -fsanitize=fuzzer-no-link$(comma)address$(comma)undefined))
+fuzz:  ## inputs at random for a minute each: TARGET=obj SECONDS=600 JOBS=2 SEED=1
+	@kind=$(if $(HAVE_LIBFUZZER),libfuzzer,fuzz); \
+	$(MAKE) $(FUZZED:%=build/$$kind/%) && tests/fuzz/run.sh $$kind $(SECONDS) $(JOBS) $(SEED) $(FUZZED)
+
 # What moving things ask, against conservative advancement in double: pairs of the game, and with MOTIONS="FILE ..." problem
 # files; FIRST: tolerance of first contacts, a share of the motion. FRAMES=1000 for more.
 FRAMES = 60
@@ -142,7 +177,7 @@ check-motions: build/check_motions build/game build/problems build/svcd
 check-extremes: build/problems build/svcd  # tiny, huge, far, thin, spinning ...
 	tests/bench/extremes.sh
 
-CHECKS = text header gradient examples tiles 32 firmware motions problems extremes
+CHECKS = text header gradient examples tiles 32 firmware fuzz motions problems extremes
 test: build/tests $(CHECKS:%=check-%)  ## everything; the last line is `N passed, N failed`
 	build/tests
 
@@ -302,7 +337,7 @@ weights: $(CHECKPOINT) $(CALIBRATED)  ## trains anew on a GPU, calibrates, write
 	cd train && $(PYTHON) calibrate.py ../$(CHECKPOINT) ../build/svcd $(CALIBRATED:%=../%)
 	cd train && $(PYTHON) export.py ../$(CHECKPOINT) ../weights.h ../tests/data/golden.h
 
-WRITTEN = examples examples/scenery examples/firmware tests tests/bench
+WRITTEN = examples examples/scenery examples/firmware tests tests/bench tests/fuzz
 FORMATTED = neuralsvcd.h $(wildcard $(WRITTEN:%=%/*.[ch]))
 format:  ## clang-format on what is written by hand
 	clang-format -i $(FORMATTED)
