@@ -32,7 +32,7 @@ endif
 .PHONY: all demo preview assets help format clean firmware weights problems accuracy
 .PHONY: test check-text check-header check-examples check-gradient check-tiles check-32 check-firmware
 .PHONY: check-motions check-problems check-extremes mutants
-.PHONY: check-fuzz fuzz
+.PHONY: check-fuzz fuzz check-sanitizers check-threads check-cross coverage mutate
 .PHONY: bench bench-asks bench-level bench-scale bench-plan race profile instructions sizes
 .DELETE_ON_ERROR:
 
@@ -120,14 +120,49 @@ check-firmware: | build
 	$(MAKE) -C examples/firmware LEVELS=O2 run
 firmware: | build  ## Cortex-M under QEMU: answers as on the host; flash, RAM, stack and instructions as a table
 	$(MAKE) -C examples/firmware run table
+# At random, in the whole header: MUTANTS=100 JOBS=16, PART=0 OF=4: every fourth, SEED.
+mutate:  ## mistakes in the header at random: how many do the tests notice? MUTANTS=20 SEED=1 JOBS=1 PART=0 OF=1
+	python3 tests/mutate.py --cc "$(CC)" --count $(or $(MUTANTS),20) --seed $(SEED) --jobs $(JOBS) \
+	  --part $(or $(PART),0) --of $(or $(OF),1)
 mutants:  ## the header with one mistake at a time: the tests of the proof must catch each; minutes
 	CC="$(CC)" tests/mutants.sh
+
+# Each file of tests as a program of its own, compiled otherwise: build/FLAVOUR/test_X; what it says is in
+# build/FLAVOUR/test_X.txt, which is there when it has passed. TESTS="mesh body": these files alone.
+TESTS = $(patsubst tests/test_%.c,%,$(wildcard tests/test_*.c))
+SANITIZE_FLAGS = -fsanitize=address,undefined -fno-sanitize-recover=all
+FLAGS_sanitized = -O1 -g $(SANITIZE_FLAGS)
+FLAGS_threads = -O1 -g -fsanitize=thread
+FLAGS_covered = -O1 --coverage
+define flavour
+build/$(1)/test_%: tests/test_%.c $(HELPERS) $(PEERS) $(SCENERY) $(LIBRARY)
+	@mkdir -p $$(@D)
+	$$(CC) $$(FLAGS_$(1)) -pthread -std=c99 $$(TEST_WARNINGS) $$(CCD_CFLAGS) -DTEST_ALONE -o $$@ $$< $$(CCD_LIBS) -lm
+build/$(1)/test_%.txt: build/$(1)/test_%
+	@$$< $$(RUN_$(1)) >$$@.part 2>&1 || { grep -E 'ERROR|WARNING|runtime error|failed' $$@.part; echo "$$<: see $$@.part"; exit 1; }
+	@mv $$@.part $$@ && echo "$$<: $$$$(tail -1 $$@)"
+endef
+$(foreach kind,sanitized threads covered,$(eval $(call flavour,$(kind))))
+.PRECIOUS: $(TESTS:%=build/sanitized/test_%) $(TESTS:%=build/threads/test_%) $(TESTS:%=build/covered/test_%)
+can_link = $(shell echo 'int main(void) { return 0; }' | $(1) -x c - -o /dev/null 2>/dev/null && echo 1)
+
+# The address and the undefined behaviour sanitizer; test_processor.c has what is for AVX2 and AVX-512 too.
+check-sanitizers:
+	@$(if $(call can_link,$(CC) $(SANITIZE_FLAGS)),$(MAKE) $(TESTS:%=build/sanitized/test_%.txt),\
+	  echo "check-sanitizers: $(CC) has no sanitizers: not tested")
+# The thread sanitizer, where threads share bodies: tests whose names contain this.
+RUN_threads = threads
+THREADED = $(patsubst tests/test_%.c,%,$(shell grep -l 'RUN.*$(RUN_threads)' tests/test_*.c))
+check-threads:
+	@$(if $(call can_link,$(CC) -fsanitize=thread),$(MAKE) $(THREADED:%=build/threads/test_%.txt),\
+	  echo "check-threads: $(CC) has no thread sanitizer: not tested")
+# On other processors, under QEMU: ARCHS="aarch64 s390x". The packages: tests/cross.sh.
+check-cross:
+	CC="$(CC)" tests/cross.sh $(ARCHS)
 
 # Inputs at random, under sanitizers where the compiler has them: tests/fuzz/main.h says how a target is run by itself.
 FUZZ_TARGETS = $(filter-out library,$(patsubst tests/fuzz/%.c,%,$(wildcard tests/fuzz/*.c)))
 FUZZ_CFLAGS = -O1 -g -std=c99 $(TEST_WARNINGS)
-can_link = $(shell echo 'int main(void) { return 0; }' | $(1) -x c - -o /dev/null 2>/dev/null && echo 1)
-SANITIZE_FLAGS = -fsanitize=address,undefined -fno-sanitize-recover=all
 SANITIZE = $(if $(call can_link,$(CC) $(SANITIZE_FLAGS)),$(SANITIZE_FLAGS))
 FUZZ_HEADERS = $(wildcard tests/fuzz/*.h) tests/failing_heap.h $(SCENERY)
 build/fuzz/library.o: tests/fuzz/library.c $(LIBRARY)
