@@ -250,7 +250,7 @@ class Bench:
             return "does not compile", 0
         begin = time.monotonic()
         # Of memory and of what it prints there is an end, too.
-        command = ["sh", "-c", f"ulimit -v 4000000 -f 200000; exec ./test_{test} >test_{test}.txt 2>&1"]
+        command = ["sh", "-c", f"ulimit -v 4000000; ulimit -f 200000; exec ./test_{test} >test_{test}.txt 2>&1"]
         try:
             status = subprocess.run(command, cwd=folder, timeout=limit).returncode
         except subprocess.TimeoutExpired:
@@ -274,8 +274,9 @@ class Bench:
 
         with ThreadPoolExecutor(self.options.jobs) as pool:
             for test, fault, seconds in pool.map(one, self.tests):
-                self.usual[test] = seconds
-                if fault:
+                if not fault:
+                    self.usual[test] = seconds
+                else:
                     print(f"mutate: the header itself fails: test_{test}.c: {fault}")
         shutil.rmtree(folder)
         return bool(self.code) and len(self.usual) == len(self.tests)
