@@ -32,7 +32,7 @@ endif
 .PHONY: all demo preview assets help format clean firmware weights problems accuracy
 .PHONY: test check-text check-header check-examples check-gradient check-tiles check-32 check-firmware
 .PHONY: check-motions check-problems check-extremes mutants
-.PHONY: check-fuzz fuzz check-sanitizers check-threads check-cross coverage mutate
+.PHONY: check-fuzz fuzz check-sanitizers check-threads check-cross check-all run-tests coverage mutate
 .PHONY: bench bench-asks bench-level bench-scale bench-plan race profile instructions sizes
 .DELETE_ON_ERROR:
 
@@ -94,7 +94,7 @@ check-problems: build/problems build/svcd  # every set that the generator can ma
 GRADIENT_SWITCHES = SIMD FLOAT INT8 BASE SMALL,BASE
 build/gradient_%: tests/test_gradient.c $(HELPERS) $(SCENERY) $(LIBRARY) | build
 	$(CC) $(CFLAGS) -std=c99 $(TEST_WARNINGS) -DTEST_ALONE $(patsubst %,-DNSVCD_NO_%,$(subst $(comma), ,$*)) -o $@ $< -lm
-check-gradient: $(GRADIENT_SWITCHES:%=build/gradient_%)
+check-gradient: $(GRADIENT_SWITCHES:%=build/gradient_%)  # the gradient, with each of the switches
 	@for test in $^; do echo $$test; $$test >$$test.txt || { cat $$test.txt; exit 1; }; tail -1 $$test.txt; done
 
 # The tests of the proof, alone; PROOF_MANY=10 in the environment: 10^6 crossings.
@@ -103,20 +103,22 @@ build/test_proof: tests/test_proof.c $(HELPERS) $(SCENERY) $(LIBRARY) | build
 # The same, and bodies, with tiles of two groups: those of more than 32 patches are searched tile by tile.
 build/tiles_%: tests/test_%.c $(HELPERS) $(SCENERY) $(LIBRARY) | build
 	$(CC) $(CFLAGS) -std=c99 $(TEST_WARNINGS) -DNSVCD__TILE=2 -DTEST_ALONE -o $@ $< -lm
-check-tiles: build/tiles_proof build/tiles_facets
+check-tiles: build/tiles_proof build/tiles_facets  # the proof, searched tile by tile
 	@for test in $^; do echo $$test; $$test >$$test.txt || { cat $$test.txt; exit 1; }; tail -1 $$test.txt; done
-# On 32 bits, where sizes end at 4 GB, under sanitizers; where the compiler can (Debian: gcc-multilib).
-CFLAGS_32 = -m32 -msse2 -mfpmath=sse -O1 -fsanitize=address,undefined -fno-sanitize-recover=all
+# On 32 bits, where sizes end at 4 GB, under sanitizers; where the compiler can (Debian: gcc-12-multilib; gcc-multilib does
+# not go with compilers for other processors, and has no more but a link to <asm>, whose place -idirafter says).
+CFLAGS_32 = -m32 -msse2 -mfpmath=sse -O1 -fsanitize=address,undefined -fno-sanitize-recover=all \
+  -idirafter /usr/include/x86_64-linux-gnu
 build/test_%_32: tests/test_%.c $(HELPERS) $(PEERS) $(SCENERY) $(LIBRARY) | build
 	$(CC) $(CFLAGS_32) -pthread -std=c99 $(TEST_WARNINGS) -DTEST_ALONE -o $@ $< -lm
-check-32:
+check-32:  # 32 bits, under sanitizers
 	@if echo 'int main(void) { return 0; }' | $(CC) $(CFLAGS_32) -x c -o build/can_32 - 2>/dev/null; then \
 	  $(MAKE) build/test_level_32 build/test_optimizer_32 && build/test_level_32 && \
 	  build/test_optimizer_32 plan_sizes; \
 	else echo "check-32: $(CC) has no libraries for -m32: not tested"; fi
 # On Cortex-M4F and M7 under QEMU, where its tools are there (Debian: gcc-arm-none-eabi, libnewlib-arm-none-eabi,
 # qemu-system-arm).
-check-firmware: | build
+check-firmware: | build  # Cortex-M4F and M7, under QEMU
 	$(MAKE) -C examples/firmware LEVELS=O2 run
 firmware: | build  ## Cortex-M under QEMU: answers as on the host; flash, RAM, stack and instructions as a table
 	$(MAKE) -C examples/firmware run table
@@ -136,7 +138,7 @@ FLAGS_threads = -O1 -g -fsanitize=thread
 FLAGS_covered = -O1 --coverage
 define flavour
 build/$(1)/test_%: tests/test_%.c $(HELPERS) $(PEERS) $(SCENERY) $(LIBRARY)
-	@mkdir -p $$(@D)
+	@mkdir -p $$(@D) && rm -f $$@-*.gcda
 	$$(CC) $$(FLAGS_$(1)) -pthread -std=c99 $$(TEST_WARNINGS) $$(CCD_CFLAGS) -DTEST_ALONE -o $$@ $$< $$(CCD_LIBS) -lm
 build/$(1)/test_%.txt: build/$(1)/test_%
 	@$$< $$(RUN_$(1)) >$$@.part 2>&1 || { grep -E 'ERROR|WARNING|runtime error|failed' $$@.part; echo "$$<: see $$@.part"; exit 1; }
@@ -147,17 +149,18 @@ $(foreach kind,sanitized threads covered,$(eval $(call flavour,$(kind))))
 can_link = $(shell echo 'int main(void) { return 0; }' | $(1) -x c - -o /dev/null 2>/dev/null && echo 1)
 
 # The address and the undefined behaviour sanitizer; test_processor.c has what is for AVX2 and AVX-512 too.
-check-sanitizers:
+check-sanitizers:  # tests under the address and undefined behaviour sanitizers
 	@$(if $(call can_link,$(CC) $(SANITIZE_FLAGS)),$(MAKE) $(TESTS:%=build/sanitized/test_%.txt),\
 	  echo "check-sanitizers: $(CC) has no sanitizers: not tested")
 # The thread sanitizer, where threads share bodies: tests whose names contain this.
 RUN_threads = threads
 THREADED = $(patsubst tests/test_%.c,%,$(shell grep -l 'RUN.*$(RUN_threads)' tests/test_*.c))
-check-threads:
+check-threads:  # threads that share bodies, under the thread sanitizer
 	@$(if $(call can_link,$(CC) -fsanitize=thread),$(MAKE) $(THREADED:%=build/threads/test_%.txt),\
 	  echo "check-threads: $(CC) has no thread sanitizer: not tested")
-# On other processors, under QEMU: ARCHS="aarch64 s390x". The packages: tests/cross.sh.
-check-cross:
+# On other processors, under QEMU: ARCHS="aarch64 s390x" (Debian: qemu-user, gcc-aarch64-linux-gnu, gcc-arm-linux-gnueabihf,
+# gcc-riscv64-linux-gnu, gcc-powerpc64le-linux-gnu, gcc-s390x-linux-gnu, and libc6-dev-ARCH-cross of each).
+check-cross:  # aarch64, armhf, riscv64, ppc64le, s390x, under QEMU
 	CC="$(CC)" tests/cross.sh $(ARCHS)
 
 # Inputs at random, under sanitizers where the compiler has them: tests/fuzz/main.h says how a target is run by itself.
@@ -170,7 +173,7 @@ build/fuzz/library.o: tests/fuzz/library.c $(LIBRARY)
 	$(CC) $(FUZZ_CFLAGS) $(SANITIZE) -c -o $@ $<
 $(FUZZ_TARGETS:%=build/fuzz/%): build/fuzz/%: tests/fuzz/%.c build/fuzz/library.o $(FUZZ_HEADERS) neuralsvcd.h
 	$(CC) $(FUZZ_CFLAGS) $(SANITIZE) -o $@ $< build/fuzz/library.o -lm
-check-fuzz: $(FUZZ_TARGETS:%=build/fuzz/%)
+check-fuzz: $(FUZZ_TARGETS:%=build/fuzz/%)  # the corpora of the fuzz targets, under sanitizers
 	@for target in $(FUZZ_TARGETS); do \
 	  build/fuzz/$$target --out build/fuzz/$$target.crash tests/fuzz/corpus/$$target || exit 1; done
 
@@ -215,6 +218,20 @@ check-extremes: build/problems build/svcd  # tiny, huge, far, thin, spinning ...
 CHECKS = text header gradient examples tiles 32 firmware fuzz motions problems extremes
 test: build/tests $(CHECKS:%=check-%)  ## everything; the last line is `N passed, N failed`
 	build/tests
+run-tests: build/tests
+	build/tests
+check-all:  ## every check, bounded: one table of what ran, how long, with what result
+	@MAKE="$(MAKE)" tests/check_all.sh $(ONLY)
+
+# Lines and branches of neuralsvcd.h that the tests reach, and those lines that they do not (Debian: gcovr). With -j16 some
+# minutes. So many are demanded, per cent.
+COVERED_LINES = 97
+COVERED_BRANCHES = 95
+coverage:  ## what the tests reach of neuralsvcd.h; make -j16, minutes
+	@if command -v gcovr >/dev/null; then \
+	  $(MAKE) $(TESTS:%=build/covered/test_%.txt) && gcovr --root . --filter neuralsvcd.h --txt --print-summary \
+	    --fail-under-line $(COVERED_LINES) --fail-under-branch $(COVERED_BRANCHES) build/covered; \
+	else echo "coverage: no gcovr: not tested"; fi
 
 # ---------------------------------------------------------------------------------------------------------- accuracy
 
