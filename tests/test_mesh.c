@@ -378,9 +378,25 @@ static void mesh_obj_files(void) {
 }
 
 // Mutated files: whatever is accepted must be sound, whatever is refused must leave nothing behind.
+// Nothing continues a comment, behind whichever statement it stands: all passes count alike.
+static void mesh_obj_comments(void) {
+  static const char text[] = "v 0 0 0 # one \\\nv 1 0 0# \\\n";
+  static const char good[] =
+      "v 0 0 0 # one \\\nv 1 0 0 #\\\r\nv 0 1 0 # f 1 2 3 \\\nf 1 2 3 # \\\nv 9 9 9\n# \\\nf 1 2 4";
+  nsvcd_mesh mesh;
+  size_t line = 0;
+  CHECK_EQ(nsvcd_obj_parse(text, sizeof text - 1, NULL, &mesh, &line), NSVCD_ERROR_EMPTY);
+  CHECK_EQ(nsvcd_obj_parse(good, sizeof good - 1, NULL, &mesh, &line), NSVCD_OK);
+  CHECK_EQ(mesh.vertex_count, 4);
+  CHECK_EQ(mesh.triangle_count, 2);
+  CHECK_EQ(mesh.positions[9], 9);
+  CHECK_EQ(mesh.indices[5], 3);
+  nsvcd_mesh_free(&mesh, NULL);
+}
+
 static void mesh_obj_fuzz(void) {
   static const char seed[] =
-      "# seed\nv 0 0 0\nv 1.5e0 0 0 1\nv 1 1 0 .1 .2 .3\r\nv 0 1 -0\nv 0.5 0.5 1\n"
+      "# seed\nv 0 0 0 # a \\\nv 1.5e0 0 0 1\nv 1 1 0 .1 .2 .3\r\nv 0 1 -0\nv 0.5 0.5 1\n"
       "vt 0 0\nvn 0 0 1\no a\nf 1/1/1 2/1/1 3/1/1 4/1/1\nf 1//1 2//1 \\\n 5\nf -1 -2 -3 2\nf 1 2 3 "
       "5 4";
   static const char alphabet[] = "0123456789-+.eE/\\ \t\r\n#vfnai\0\xff";
@@ -765,6 +781,7 @@ void test_mesh(void) {
   RUN(mesh_obj_in_any_locale);
   RUN(mesh_obj_long_lines);
   RUN(mesh_obj_files);
+  RUN(mesh_obj_comments);
   RUN(mesh_obj_fuzz);
   RUN(mesh_is_checked);
   RUN(mesh_polygons_simple);

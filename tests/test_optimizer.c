@@ -362,8 +362,8 @@ static void plan_refining_converges(void) {
       plan_pair(&s, 0, 1);
       s.options.explore.iterations = NSVCD_NONE;
       s.options.refine.iterations = longer ? 300 : 12;
-      s.options.refine.samples = 1;
-      s.options.bundle = -1;
+      s.options.refine.draws = 1;
+      s.options.refine.noise = -1;
       s.options.collision = 1;
       if (!plan_open(&s, &in))
         return;
@@ -618,8 +618,8 @@ static plan_outcome plan_run(plan_scene *s) {
   const size_t explore = o->explore.iterations == NSVCD_NONE ? 0
                          : o->explore.iterations             ? o->explore.iterations
                                                              : 40;
-  const size_t tries = o->explore.samples ? o->explore.samples : 200;
-  const size_t bundle = o->refine.samples ? o->refine.samples : 10;
+  const size_t tries = o->explore.draws ? o->explore.draws : 100;
+  const size_t bundle = o->refine.draws ? o->refine.draws : 10;
   query_memory memory = query_reserve(size + PLAN_GUARD);
   size_t written = 0;
   memset(memory.at, s->filling, size);
@@ -755,7 +755,7 @@ static void plan_is_deterministic(void) {
   static plan_scene s;
   plan_wall_scene(&s);
   s.options.explore.iterations = 10;
-  s.options.explore.samples = 50;
+  s.options.explore.draws = 50;
   const plan_outcome first = plan_run(&s);
   s.filling = 0xff;
   const plan_outcome second = plan_run(&s);
@@ -792,7 +792,7 @@ static void plan_keeps_the_best_of_its_seeds(void) {
 static void plan_can_be_cancelled(void) {
   static plan_scene s;
   plan_wall_scene(&s);
-  s.options.explore.samples = 40;
+  s.options.explore.draws = 40;
   s.options.explore.iterations = 5;  // so that refining is cancelled too
   const plan_outcome whole = plan_run(&s);
   CHECK_GE(whole.answer.iterations, 7);
@@ -816,7 +816,7 @@ static void plan_grasped_bodies_move_along(void) {
   s.pairs[0].b = 2;
   plan_pair(&s, 1, 2);
   s.attached = 1;
-  s.options.explore.samples = 100;
+  s.options.explore.draws = 100;
   const plan_outcome out = plan_run(&s);
   CHECK_EQ(out.result, NSVCD_OK);
   CHECK_EQ(out.answer.status, NSVCD_PLAN_CONVERGED);
@@ -901,6 +901,27 @@ static void plan_proves_at_the_end(void) {
   CHECK_GE(s.again, 3);
   CHECK_EQ(through.answer.logit, NSVCD_LOGIT_CERTAIN);
   CHECK_NEAR(through.answer.time, 0.5, 0.25);
+}
+
+// A proof that finds the ball inside of the box, at the one pose that is looked at, is as good a
+// reason to search on as one that finds it in its surface.
+static void plan_goes_on_after_a_proof_of_inside(void) {
+  static plan_scene s;
+  plan_begin(&s, PLAN_XYZ, 2);
+  s.bodies[0] = plan_solid(PLAN_BALL);
+  s.bodies[1] = plan_solid(PLAN_BOX);
+  plan_pair(&s, 0, 1);
+  s.start[0] = -0.4f;
+  s.goal[0] = 0.4f;
+  s.options.discrete = 1;
+  s.options.explore.segments = s.options.refine.segments = s.options.check = 2;
+  s.options.seeds = 1;
+  s.options.collision = -1;  // hits cost nothing: the search goes straight through
+  const plan_outcome through = plan_run(&s);
+  CHECK_EQ(through.answer.status, NSVCD_PLAN_LIMIT);
+  CHECK_EQ(through.answer.logit, NSVCD_LOGIT_CERTAIN);
+  CHECK_NEAR(through.answer.time, 0.5, 1e-6);
+  CHECK_GE(s.again, 3);
 }
 
 // Half a millimetre beside a wall, and along it: the network calls the start a hit, the proof does
@@ -1034,7 +1055,7 @@ static void plan_via_points_keep_the_limits(void) {
   s.goal[0] = 1.8f;
   s.options.seeds = 1;
   s.options.velocity = s.options.acceleration = s.options.jerk = 0.01f;
-  s.options.explore.samples = 40;
+  s.options.explore.draws = 40;
   size_t converged = 0;
   for (size_t n = 0; n < 125; n++) {
     s.options.explore.segments = 1 + n % 5;
@@ -1084,11 +1105,11 @@ static void plan_refuses_options_out_of_range(void) {
   size_t *const sizes[] = {&o->explore.via_points,
                            &o->explore.segments,
                            &o->explore.iterations,
-                           &o->explore.samples,
+                           &o->explore.draws,
                            &o->refine.via_points,
                            &o->refine.segments,
                            &o->refine.iterations,
-                           &o->refine.samples,
+                           &o->refine.draws,
                            &o->seeds,
                            &o->check,
                            &o->sweep.pairs};
@@ -1106,9 +1127,9 @@ static void plan_refuses_options_out_of_range(void) {
     }
     *o = none;
   }
-  float *const floats[] = {&o->velocity,  &o->acceleration, &o->jerk,
-                           &o->collision, &o->duration,     &o->margin,
-                           &o->spread,    &o->bundle,       &o->sweep.recall};
+  float *const floats[] = {&o->velocity,      &o->acceleration, &o->jerk,
+                           &o->collision,     &o->duration,     &o->margin,
+                           &o->explore.noise, &o->refine.noise, &o->sweep.recall};
   for (size_t k = 0; k < sizeof floats / sizeof *floats; k++) {
     *floats[k] = NAN;
     plan_refuses(&s, NSVCD_ERROR_ARGUMENT, 0);
@@ -1128,7 +1149,7 @@ static void plan_works_at_the_ends_of_its_options(void) {
   static plan_scene s;
   plan_wall_scene(&s);
   nsvcd_plan_options *o = &s.options;
-  o->explore.via_points = o->explore.segments = o->explore.iterations = o->explore.samples = 1;
+  o->explore.via_points = o->explore.segments = o->explore.iterations = o->explore.draws = 1;
   o->refine = o->explore;
   o->seeds = o->check = 1;
   plan_outcome out = plan_run(&s);
@@ -1141,7 +1162,7 @@ static void plan_works_at_the_ends_of_its_options(void) {
   memset(o, 0, sizeof *o);
   o->explore.via_points = 32;
   o->refine.via_points = 1;  // from more to fewer
-  o->explore.samples = 30;
+  o->explore.draws = 30;
   out = plan_run(&s);
   CHECK_EQ(out.result, NSVCD_OK);
 }
@@ -1250,7 +1271,7 @@ static void plan_sizes_do_not_wrap(void) {
 static void plan_workspace_is_checked(void) {
   static plan_scene s;
   plan_wall_scene(&s);
-  s.options.explore.samples = 20;
+  s.options.explore.draws = 20;
   s.options.explore.iterations = 2;
   const size_t size = nsvcd_plan_workspace_size(&s.problem, &s.options);
   query_memory memory = query_reserve(size + 16);
@@ -1350,11 +1371,11 @@ static int plan_trouble_case(plan_trouble trouble, uint64_t seed) {
   o->seed = seed;
   o->seeds = 1 + (size_t)shapes_pick(&rng, 2);
   o->explore.iterations = 4;
-  o->explore.samples = 12;
+  o->explore.draws = 12;
   o->explore.segments = 8;
   o->explore.via_points = 3;
   o->refine.iterations = 3;
-  o->refine.samples = 2;
+  o->refine.draws = 2;
   o->refine.segments = 10;
   o->refine.via_points = 4;
   if (trouble == PLAN_START_HITS || trouble == PLAN_GOAL_HITS) {
@@ -1409,13 +1430,13 @@ static int plan_trouble_case(plan_trouble trouble, uint64_t seed) {
     o->explore.via_points = o->refine.via_points = 1;
   if (trouble == PLAN_HUGE) {
     plan_scale(&s, 1e5f, scaled);
-    o->spread = 5e4f;
-    o->bundle = 1e3f;
+    o->explore.noise = 5e4f;
+    o->refine.noise = 1e3f;
   }
   if (trouble == PLAN_TINY) {
     plan_scale(&s, 1e-6f, scaled);
-    o->spread = 5e-7f;
-    o->bundle = 1e-8f;
+    o->explore.noise = 5e-7f;
+    o->refine.noise = 1e-8f;
   }
   if (trouble == PLAN_FAR) {
     for (size_t j = 0; j < 3; j++) {
@@ -1426,8 +1447,8 @@ static int plan_trouble_case(plan_trouble trouble, uint64_t seed) {
       s.rest[1].position[j] += 1e5f;
     }
   }
-  float *const weights[] = {&o->velocity, &o->acceleration, &o->jerk,   &o->collision,
-                            &o->margin,   &o->spread,       &o->bundle, &o->duration};
+  float *const weights[] = {&o->velocity, &o->acceleration,  &o->jerk,         &o->collision,
+                            &o->margin,   &o->explore.noise, &o->refine.noise, &o->duration};
   const float extremes[] = {1e20f, 1e-20f, -1, 1e30f, 3e38f, 1e-38f, 0, 1e5f};
   for (size_t k = 0; k < 8; k++) {
     if (trouble == PLAN_NEGATIVE)
@@ -1550,6 +1571,7 @@ void test_optimizer(void) {
   RUN(plan_can_be_cancelled);
   RUN(plan_grasped_bodies_move_along);
   RUN(plan_proves_at_the_end);
+  RUN(plan_goes_on_after_a_proof_of_inside);
   RUN(plan_starts_beside_a_wall);
   RUN(plan_stages_can_be_left_out);
   RUN(plan_discrete_looks_at_poses);
