@@ -114,9 +114,10 @@
 //   One binary on one processor gives the same blob of a mesh, the same answer to a question and
 //   the same plan, to the bit, whatever the workspace held, and in any thread. Only what
 //   nsvcd_sweep_batch answers may depend on the question before.
-//   Another compiler, other flags, vectors or libm round otherwise. Of the same blobs, what one
-//   build proves no other refutes: by the theorem each verdict of a proof is true. But one may
-//   leave undecided what another proves, and times, points, patches and work differ.
+//   Another compiler, other flags, another processor where that decides on vectors, and another
+//   libm round otherwise. Of the same blobs, what one of these proves no other refutes: by the
+//   theorem each verdict of a proof is true. But one may leave undecided what another proves, and
+//   times, points, patches and work differ.
 //   Logits differ, and by more than rounding: the search ends at the first pair that is clear, and
 //   a pair near that bound, or near another in rank, lets another pair or another decoder answer.
 //   So `collides` of the network may differ, where logits are near 0 or that of the ranker near its
