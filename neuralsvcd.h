@@ -46,15 +46,16 @@
 // Or plan a motion that hits nothing: nsvcd_plan, below.
 //
 // What can fail returns a nsvcd_result: 0 is success, and on failure the outputs are left as they
-// were. But for sizes and nsvcd_body_patch, which return 0 where there is none, and nsvcd_spline,
-// which writes nothing. examples/quickstart.c is the whole program.
+// were. Exceptions are sizes and nsvcd_body_patch, which return 0 where there is none, and
+// nsvcd_spline, which then writes nothing. examples/quickstart.c is a larger program.
 //
 // OPTIONS, defined before the implementation is included
-//   NSVCD_STATIC      all functions static
+//   NSVCD_STATIC      all functions static, in a file that has the implementation
 //   NSVCD_NO_STDIO    no file access: nsvcd_obj_load goes, nsvcd_obj_parse stays
 //   NSVCD_NO_OBJ      no OBJ reader at all
-//   NSVCD_NO_ENCODER  no nsvcd_encode and no OBJ reader: bodies come from nsvcd_body_load
-//   NSVCD_NO_PROOF    no proof: the network answers, and bodies have no triangles
+//   NSVCD_NO_ENCODER  no nsvcd_encode, no nsvcd_mesh_cut and no OBJ reader: bodies come from
+//                     nsvcd_body_load
+//   NSVCD_NO_PROOF    no proof: the network answers; triangles are neither stored nor looked at
 //   NSVCD_NO_NETWORK  no network, and weights.h is not needed: the proof alone; no gradient, no
 //                     optimizer
 //   NSVCD_NO_SMALL, NSVCD_NO_BASE   without these decoders; the default is the largest that is left
@@ -62,15 +63,18 @@
 //   NSVCD_NO_OPTIMIZER  no trajectory optimizer
 //   NSVCD_NO_INT8, NSVCD_NO_FLOAT   without this arithmetic of the decoders; without float, int8 is
 //                                   the default
-//   NSVCD_NO_SIMD     plain C where the compiler's flags allow AVX-512, AVX2 with FMA, SSE2 or NEON
+//   NSVCD_NO_SIMD     plain C where there are AVX-512, AVX2 with FMA, SSE2, NEON or SIMD128
+//   NSVCD_NO_DISPATCH on x86-64 what the compiler's flags allow, SSE2 by default; without it a
+//                     build for SSE2 holds queries for AVX2 and AVX-512 too, and the processor
+//                     decides
 //
 // CONVENTIONS
 //   Metres, radians, right-handed; quaternions x y z w of unit length; time in [0,1]; arrays
 //   row-major with their shape beside the pointer. Meshes are triangles, counter-clockwise seen
 //   from outside: the winding gives the normals, and flipping it costs accuracy. Options are
-//   structs whose zero value means the defaults. Functions are re-entrant, there are no globals,
-//   and memory is the caller's, or comes from the caller's allocator in the two functions that take
-//   one.
+//   structs whose zero value means the defaults. Functions are re-entrant, there are no global
+//   variables, and memory is the caller's, or, in the functions that take an allocator, comes from
+//   that.
 //
 // WHAT AN ANSWER IS WORTH
 //   By proof, the default, WITNESS, CERTIFIED_FREE and INSIDE are facts, not opinions; the theorem
@@ -88,7 +92,8 @@
 //
 // NUMERIC ROBUSTNESS, as measured by `make race`, `make bench`, tests/test_proof.c and
 // tests/bench/extremes.sh
-//   All numbers are float32, but where couples of triangles meet: there, double.
+//   A query reckons in float32, but with couples of triangles and with what is inside of what in
+//   double.
 //   Range         coordinates up to NSVCD_MAX_COORDINATE; bodies from NSVCD_MIN_RADIUS, below which
 //                 squares underflow. Proofs are tested from 3e-11 to 3e5 m.
 //   Quantum       a stored triangle is off by this: a few micrometres at most on bodies of 0.3 m.
@@ -105,6 +110,19 @@
 //                 proof, the size of patches decides only what an answer costs.
 //   Bad numbers   NaN and infinity are refused on their bits, also under -ffast-math.
 //
+// DETERMINISM
+//   One binary on one processor gives the same blob of a mesh, the same answer to a question and
+//   the same plan, to the bit, whatever the workspace held, and in any thread. Only what
+//   nsvcd_sweep_batch answers may depend on the question before.
+//   Another compiler, other flags, another processor where that decides on vectors, and another
+//   libm round otherwise. Of the same blobs, what one of these proves no other refutes: by the
+//   theorem each verdict of a proof is true. But one may leave undecided what another proves, and
+//   times, points, patches and work differ.
+//   Logits differ, and by more than rounding: the search ends at the first pair that is clear, and
+//   a pair near that bound, or near another in rank, lets another pair or another decoder answer.
+//   So `collides` of the network may differ, where logits are near 0 or that of the ranker near its
+//   bounds of +-3. The same holds for bodies that two builds encode, and for plans.
+//
 // CONTENTS: a section's name ends a line of dashes. Each calls only those above it.
 //   results           codes, and what they say
 //   allocation        the caller's allocator
@@ -112,8 +130,9 @@
 //   bodies            encoding, loading, scaling, facts
 //   queries           poses, movers, questions, options, answers; nsvcd_sweep and its kin
 //   trajectories      splines, planning problems; nsvcd_plan
+//   strings           what codes and statuses say
 //   math              vectors, quaternions, matrices; bits and sizes
-//   vectors           16 lanes on AVX-512, AVX2, SSE2, NEON or plain C; rotations of lanes
+//   vectors           16 lanes on AVX-512, AVX2, SSE2, NEON, SIMD128 or plain C; rotations
 //   memory            where it comes from: the allocator, the rows of a workspace
 //   mesh              checks, cuts at a box; polygons into triangles; OBJ
 //   patches           surface points, farthest point sampling; balls that cover the surface
@@ -132,6 +151,7 @@
 //   decoder           pairs of patches -> invariants -> logits, in float or int8
 //   query             nsvcd_sweep: checks, workspace; an answer by the network, by proof
 //   gradient          of the logit by the poses
+//   processor         SSE2, AVX2 or AVX-512, as it has; the public functions of queries
 //   spline            quintic Hermite
 //   optimizer         MPPI, then L-BFGS; nsvcd_plan
 //
@@ -140,12 +160,17 @@
 //   sample            a point of the surface, with its normal, drawn to find the patches
 //   piece             a triangle, or a part of one, that belongs to one patch
 //   ball              of a patch: a sphere that contains it
-//   group, level      16 neighbouring patches; spheres over 16 groups each, 16 of these, ...
+//   group             16 neighbouring patches
+//   level             of spheres: over 16 groups each, over 16 of these, ...; and a large body,
+//                     which has such levels
 //   tile              up to 32 groups of a body that are searched together
 //   lane, slice       one of 16 numbers that are worked on together; those that fill a register
+//   block             16 segments of a motion, or 16 triangles of a patch, one in each lane
 //   latent            what the encoder makes of a patch: vectors of degree 1 and 2, and scalars
-//   moving, fixed     the bodies of a query: all is reckoned in the fixed one's frame
-//   segment           a part of the motion, up to 20 degrees of turn; 64 at most
+//   moving, fixed     the bodies of a query: all is reckoned in the frame of the fixed one, which
+//                     is also said to rest
+//   segment           a part of the motion, up to 20 degrees of turn; 64 at most. The planner has
+//                     its own: see section *optimizer*
 //   chord             of a point: the straight line from its start to its end in a segment
 //   deviation         how far a point may stray from its chord: by bulge (rotation) and drift
 //   candidate         two patches and a contact interval, in which their balls meet
@@ -156,9 +181,11 @@
 //   disc              of a patch: what it reaches along a normal, and across
 //   hull, slack       of a patch: 16 vertices at most, and how far the surface sticks out
 //   listing           a triangle, or a part of one, that a patch stores
+//   facets            what a body stores for the proof: discs, hulls, listings
 //   quantum           how far a stored triangle may be off the mesh's
 //   span              a segment, or a part of one, as the proof bounds its motion
-//   knot, tick        where one of the poses given is reached; the motion's whole number of time
+//   knot, arc         when one of the poses given is reached; the motion from a knot to the next
+//   tick              the unit of a motion's time: every knot is at a whole number of ticks
 //   work              units that a proof takes
 #ifndef NEURALSVCD_H
 #define NEURALSVCD_H
@@ -187,7 +214,9 @@
 #include <stddef.h>
 #include <stdint.h>
 
-#ifdef NSVCD_STATIC
+#if defined(NSVCD_STATIC) && (defined(__GNUC__) || defined(__clang__))
+#define NSVCDDEF static __attribute__((unused))  // nobody calls all of them
+#elif defined(NSVCD_STATIC)
 #define NSVCDDEF static
 #else
 #define NSVCDDEF extern
@@ -211,9 +240,9 @@ typedef enum nsvcd_result {
   NSVCD_ERROR_SYNTAX,
   // an index that is zero, or refers to no vertex
   NSVCD_ERROR_INDEX,
-  // a coordinate is not finite, or larger than NSVCD_MAX_COORDINATE
+  // a coordinate is not finite, or larger than NSVCD_MAX_COORDINATE; a mesh is too small
   NSVCD_ERROR_NUMBER,
-  // no triangle, or no area
+  // no triangle, no area, or all of it within NSVCD_MIN_RADIUS
   NSVCD_ERROR_EMPTY,
   // more vertices, triangles or bytes than can be counted
   NSVCD_ERROR_TOO_LARGE,
@@ -226,8 +255,8 @@ typedef enum nsvcd_result {
   NSVCD_ERROR_TOLERANCE,
   // both sides of a question are the same body in the same motion: something was passed twice
   NSVCD_ERROR_SAME,
-  // a blob is damaged, cut short, misaligned, or of another version or model; or a body lacks
-  // what the method needs
+  // a blob is damaged, cut short, misaligned, or of another version, model or byte order; or a body
+  // lacks what the method needs
   NSVCD_ERROR_BODY,
   // the memory given is too small, or not aligned to NSVCD_ALIGNMENT bytes
   NSVCD_ERROR_WORKSPACE,
@@ -261,14 +290,16 @@ typedef struct nsvcd_mesh {
 } nsvcd_mesh;
 
 #ifndef NSVCD_NO_OBJ
-// Reads OBJ text into a mesh. Only lines v and f matter. A face may refer to vertices further down.
-// Faces of any number of corners are cut into triangles, concave ones of up to 4096 corners.
+// Reads OBJ text into a mesh. Only lines v and f matter; they end in LF, CR or CR LF. Corners of a
+// face are v, v/vt, v//vn or v/vt/vn, and may refer to vertices further down. Faces of any number
+// of corners are cut into triangles, concave ones too.
 //   text       (size) characters, not NULL; they need not end in a NUL or a newline
 //   allocator  NULL: malloc and free
 //   mesh       not NULL; nsvcd_mesh_free gives it back; left as it was on failure
 //   error_line NULL, or set to the line at fault, from 1; 0 where no line is at fault
 //   allocates  the mesh, and working memory that is given back; time is linear in size, but for
-//              concave faces
+//              concave faces of thousands of corners: of n corners, n^1.5 in the worst shapes that
+//              tests/test_mesh.c tries
 //   errors     ARGUMENT, MEMORY, SYNTAX, INDEX, NUMBER, EMPTY, TOO_LARGE. Of several faults the
 //              one that is found first: statements and counts come before vertices, these before
 //              faces
@@ -289,7 +320,8 @@ NSVCDDEF nsvcd_result nsvcd_obj_load(const char *path, const nsvcd_allocator *al
 // For a large mesh that changes all the time, or that the network is to judge, whose patches must
 // not be much larger than the gap in question: encode what the moving body can reach, the box over
 // its sweep grown a little, as an `open` body. A mesh that stays is better encoded whole, once.
-//   low, high  the box in the mesh's frame, metres, not NULL, finite, low < high
+//   mesh       not NULL
+//   low, high  the box in the mesh's frame, metres, not NULL, finite, low < high on each axis
 //   allocator  NULL: malloc and free
 //   part       not NULL; nsvcd_mesh_free gives it back; left as it was on failure
 //   allocates  the part
@@ -307,8 +339,10 @@ NSVCDDEF void nsvcd_mesh_free(nsvcd_mesh *mesh, const nsvcd_allocator *allocator
 // ------------------------------------------------------------------------------------------ bodies
 
 // An encoded body: one relocatable blob without pointers, aligned to NSVCD_ALIGNMENT. Copy it with
-// memcpy, write it with fwrite, map it, or bake it into flash as a const array. Little-endian,
-// IEEE 754. nsvcd_body_facts.size is its size. Threads may share it.
+// memcpy, write it with fwrite, map it, or bake it into flash as a const array. IEEE 754, in the
+// byte order of the machine that encoded it, and refused by one of the other order: it begins with
+// "NSVB" where that is little-endian, with "BVSN" where it is big-endian. nsvcd_body_facts.size is
+// its size. Threads may share it.
 typedef struct nsvcd_body nsvcd_body;
 
 #define NSVCD_ALIGNMENT 8
@@ -372,7 +406,7 @@ NSVCDDEF size_t nsvcd_body_size(size_t patches);
 
 #ifndef NSVCD_NO_ENCODER
 // Encodes a mesh into a body. The body may have fewer patches than asked, where the surface has too
-// few points to tell apart. Deterministic: same mesh, same bytes, in one build.
+// few points to tell apart. Same mesh, same bytes, in one build: see DETERMINISM above.
 //   mesh       not NULL; not kept
 //   options    NULL: the defaults, triangles for the proof and latents for the network
 //   allocator  NULL: malloc and free
@@ -402,6 +436,7 @@ NSVCDDEF nsvcd_result nsvcd_body_load(const void *memory, size_t size, const nsv
 // is it a body of this version and these weights, and is all of it there? For an array baked into
 // the program, and for a large mapped file that was loaded once before: its pages are then read as
 // queries need them. Bytes that were changed since do harm: wrong answers, or reads anywhere.
+// Arguments and errors are those of nsvcd_body_load.
 NSVCDDEF nsvcd_result nsvcd_body_trust(const void *memory, size_t size, const nsvcd_body **body);
 
 // Writes a copy of a body, scaled about its origin: for a planner's bodies, or to bake one; a
@@ -412,7 +447,8 @@ NSVCDDEF nsvcd_result nsvcd_body_trust(const void *memory, size_t size, const ns
 //   memory     (capacity) bytes, not NULL, aligned to NSVCD_ALIGNMENT; may be where the body is
 //   scaled     not NULL; set to the copy; left as it was on failure
 //   allocates  nothing
-//   errors     ARGUMENT (also if the copy were smaller or larger than a body may be), WORKSPACE
+//   errors     ARGUMENT (also if the copy were smaller or larger than a body may be), WORKSPACE;
+//              with NSVCD_NO_PROOF also BODY: it has triangles, which that cannot scale
 NSVCDDEF nsvcd_result nsvcd_body_scale(const nsvcd_body *body, float scale, void *memory,
                                        size_t capacity, const nsvcd_body **scaled);
 
@@ -429,7 +465,7 @@ typedef struct nsvcd_body_facts {
   // of the mesh; 0: none are stored
   size_t triangles;
   // triangles and parts of them that are stored, patch by patch
-  size_t listed;
+  size_t listings;
   // metres: stored triangles are within this of the mesh's
   float quantum;
   // 1: the network can answer
@@ -450,7 +486,7 @@ NSVCDDEF int nsvcd_body_patch(const nsvcd_body *body, uint32_t patch, float cent
 
 // ----------------------------------------------------------------------------------------- queries
 
-// a -> rotation a + position, from the body's frame to the world.
+// Takes a point x of the body's frame to the world: rotation x + position.
 typedef struct nsvcd_pose {
   float position[3];  // metres
   float rotation[4];  // unit quaternion x y z w
@@ -517,14 +553,16 @@ typedef struct nsvcd_sweep_options {
   // a motion is cut into at most so many, a multiple of 16 up to 64; 0: 64. Fewer take less memory;
   // what turns by more than 20 degrees in one of them takes longer to prove
   size_t segments;
-  // metres: surfaces that come closer than this, and do not meet, may be left undecided
+  // metres: surfaces that come closer than this, or than this and the clearance, and do not meet,
+  // may be left undecided
   float tolerance;
 
   // By proof only:
   // metres: to come as close as this counts as a collision; 0: to meet does
   float clearance;
   // share of the motion, up to 1: contact_time is that of the first contact, to this, and all
-  // before is proven free. 0: of any contact
+  // before is proven free. 0: of any contact. Surfaces that are within the quanta or the tolerance
+  // of each other for longer than this, before they meet, are left undecided
   float first;
   // metres: clearance_low and clearance_high are the least distance over the motion, to this, but
   // for what the stored triangles are off by (nsvcd_body_facts.quantum). 0: unasked. Not with
@@ -560,23 +598,25 @@ typedef struct nsvcd_question {
 typedef struct nsvcd_answer {
   // of collision; positive is yes. By the network: the greatest of the pairs looked at, less the
   // threshold that options.recall asks for; the search ends at the first above 3. Where the tiny
-  // decoder, which ranks the pairs, is clear (beyond +-3), it is the one that answers. By proof:
+  // decoder, which ranks the pairs, is clear (beyond +-3), that one answers. By proof:
   // +-NSVCD_LOGIT_CERTAIN; where it is undecided, the network's
   float logit;
-  // logit > 0. UNDECIDED: the network's opinion on whether they meet, or yes where there is none or
-  // something else is asked
+  // logit > 0. UNDECIDED: yes where a contact is known; else the network's opinion on whether they
+  // meet, or yes where there is none or something else is asked
   int collides;
   // in [0,1]. WITNESS: when the triangles meet; with options.first that is the first contact, and 0
-  // if they meet at the start. INSIDE: 0. By the network: where the most suspicious pair comes
-  // closest
+  // if they meet at the start. UNDECIDED: when the triangles named are as near as clearance_high.
+  // INSIDE: 0. By the network, and UNDECIDED where no triangles are named: when the most suspicious
+  // pair comes closest
   float contact_time;
   // in [0,1]. By proof: no contact is before this. CERTIFIED_FREE: 1. WITNESS: 0, or with
   // options.first no less than contact_time - first. UNDECIDED with options.first: when doubt
-  // begins
+  // begins, also where a contact follows
   float free_until;
-  // metres. By proof: they stay farther apart than `low` until free_until, and come as near as
-  // `high`, at contact_time. What stored triangles are off by is allowed for, and so `high` is not
-  // 0 where they meet. HUGE_VALF where it is not known
+  // metres. By proof: they stay farther apart than clearance_low until free_until, with
+  // options.measure all the time, and come as near as clearance_high, at contact_time. What stored
+  // triangles are off by is allowed for, and so clearance_high is not 0 where they meet; it is
+  // HUGE_VALF where it is not known
   float clearance_low;
   float clearance_high;
   // the pair that decided; 0, 0 where there is none
@@ -586,12 +626,16 @@ typedef struct nsvcd_answer {
   // by the network: pairs of patches whose spheres meet, each counted once for each stretch of
   // time, until the search ends
   size_t candidates;
-  // metres, world. WITNESS: where the triangles meet at that time. INSIDE: what is inside
+  // metres, world. Of the triangles named below, where they meet at that time, or on one of them
+  // where they are nearest. INSIDE: a point of what is inside
   float point[3];
-  // world. WITNESS: unit normal of one of the triangles, from b to a. Otherwise, and where that
-  // triangle has no area, 0
+  // world. Unit normal of one of these, from b to a (an open surface met from behind: as it is
+  // wound), or, where they are apart, the direction from b's to a's. 0 where none are named, and
+  // where that triangle has no area
   float normal[3];
-  // WITNESS: as numbered in the caller's meshes. Otherwise NSVCD_NO_TRIANGLE
+  // as numbered in the caller's meshes. WITNESS: those that meet. UNDECIDED: two that come too near
+  // to tell, or meet, with options.first the earliest known; NSVCD_NO_TRIANGLE where none are
+  // known. With options.measure the nearest ones found, but for INSIDE. Otherwise NSVCD_NO_TRIANGLE
   uint32_t triangle_a;
   uint32_t triangle_b;
   // metres, world, at the start: by what a was lifted off b for options.skin; it turns with b. The
@@ -607,7 +651,8 @@ typedef struct nsvcd_answer {
 //   question   NULL: enough for any question
 NSVCDDEF size_t nsvcd_sweep_workspace_size(const nsvcd_question *question);
 
-// Answers a question. Deterministic, and the same verdict whichever body is a and which b.
+// Answers a question. The same question, the same answer, in one build: see DETERMINISM above; and
+// the same verdict whichever body is a and which b.
 //   question   not NULL
 //   workspace  (workspace_size) bytes, nsvcd_sweep_workspace_size(question) or more, not NULL,
 //              aligned to NSVCD_ALIGNMENT
@@ -709,7 +754,7 @@ NSVCDDEF nsvcd_result nsvcd_sweep_gradient(const nsvcd_question *question, void 
 //   control    (via_points + 2, joints), not NULL
 //   via_points M, up to NSVCD_MAX_VIA_POINTS; of more, nothing is written
 //   t          taken into [0,1]
-//   derivative 0: the joints; 1, 2, 3: velocity, acceleration, jerk
+//   derivative 0: the joints; 1, 2, 3: velocity, acceleration, jerk; of more, nothing is written
 //   out        (joints), not NULL
 //   allocates  nothing
 //   source     quintic Hermite interpolation, as the paper's authors use it
@@ -778,12 +823,12 @@ typedef struct nsvcd_plan_problem {
   // joints (F) -> jacobian (B, 6, F): of each body, by a joint, the displacement of its origin and
   // its rotation vector, in the world's axes. NULL: by differences of `place`
   void (*jacobian)(void *user, const float *joints, float *jacobian);
-  // Instead of the network: the cost of collision of poses (samples, B) along the trajectory, which
-  // may end at the first sum above `limit`. Sets *collides if there is a collision. Unless
-  // `gradient` is NULL, adds the cost's derivative to it, (samples, B, 6), as nsvcd_sweep_gradient
-  // has it. NULL: the network
-  float (*collision)(void *user, const nsvcd_pose *poses, size_t samples, float limit,
-                     int *collides, float *gradient);
+  // Instead of the network: the cost of collision of poses (T, B) at T times along the trajectory.
+  // It may end at the first sum above `limit`. Sets *collides if there is a collision. Unless
+  // `gradient` is NULL, adds the cost's derivative to it, (T, B, 6), as nsvcd_sweep_gradient has
+  // it. NULL: the network
+  float (*collision)(void *user, const nsvcd_pose *poses, size_t times, float limit, int *collides,
+                     float *gradient);
   // once in each iteration; not 0 cancels. May be NULL
   int (*progress)(void *user, const nsvcd_plan_progress *progress);
   void *user;
@@ -793,29 +838,32 @@ typedef struct nsvcd_plan_problem {
 
 // What is zero is the stage's default.
 typedef struct nsvcd_plan_stage {
-  // M
+  // M, up to NSVCD_MAX_VIA_POINTS
   size_t via_points;
   // of the trajectory, each swept as one motion; with `discrete`, their ends are looked at; up to
   // NSVCD_MAX_PLAN_SEGMENTS
   size_t segments;
   // at most, up to 100000; NSVCD_NONE: leave the stage out
   size_t iterations;
-  // trajectories in an iteration of MPPI, or gradients in a bundle of L-BFGS; up to 10000
-  size_t samples;
+  // random trajectories in an iteration of MPPI, or gradients in a bundle of L-BFGS; up to 10000
+  size_t draws;
+  // their standard deviation about the trajectory, radians or metres: MPPI's at mid-motion, at
+  // first; of L-BFGS's bundle at all via points. Negative: 0
+  float noise;
 } nsvcd_plan_stage;
 
 // What is zero is the default, which stands last; weights that are negative count as zero. If an
 // exact check finds contacts, raise sweep.recall, `collision` or the bodies' number of patches; if
-// the status is LIMIT, `seeds` or explore.samples. The smoothness counts radians and metres alike:
+// the status is LIMIT, `seeds` or explore.draws. The smoothness counts radians and metres alike:
 // for ways of hundreds of metres, raise `duration` or `collision`.
 typedef struct nsvcd_plan_options {
   // of all random numbers
   uint64_t seed;
   // starts, tried until one ends free, up to 1000; 6
   size_t seeds;
-  // MPPI: 5 via points, 24 segments, 40 iterations, 100 samples
+  // MPPI: 5 via points, 24 segments, 40 iterations, 100 draws, noise 0.3
   nsvcd_plan_stage explore;
-  // L-BFGS: 10, 22, 10, 10
+  // L-BFGS: 10, 22, 10, 10, 0.01
   nsvcd_plan_stage refine;
   // weights of the means of squares over the motion: 10, 2, 10
   float velocity, acceleration, jerk;
@@ -825,13 +873,10 @@ typedef struct nsvcd_plan_options {
   float duration;
   // logits above minus this cost: 2
   float margin;
-  // of MPPI's first random trajectories, radians or metres, at mid-motion: 0.3
-  float spread;
-  // of L-BFGS's gradients: 0.01
-  float bundle;
   // 1: poses instead of sweeps
   int discrete;
-  // segments of the last check; 4 times the finest stage's
+  // segments of the last check, up to 4 NSVCD_MAX_PLAN_SEGMENTS; 4 times the finest stage's. Limits
+  // are looked at between these and at via points
   size_t check;
   // of all queries; recall = 0.999f keeps more distance. The search asks the network. `method` is
   // that of start, goal and the last check, and so are `clearance`, `skin` and the like
@@ -868,7 +913,8 @@ typedef struct nsvcd_plan_answer {
 NSVCDDEF size_t nsvcd_plan_workspace_size(const nsvcd_plan_problem *problem,
                                           const nsvcd_plan_options *options);
 
-// Finds a smooth trajectory from start to goal on which no pair meets. Deterministic.
+// Finds a smooth trajectory from start to goal on which no pair meets. The same problem, the same
+// trajectory, in one build: see DETERMINISM above.
 //   problem    not NULL
 //   options    NULL: the defaults
 //   workspace  (workspace_size) bytes, nsvcd_plan_workspace_size(problem, options) or more, not
@@ -888,8 +934,8 @@ NSVCDDEF size_t nsvcd_plan_workspace_size(const nsvcd_plan_problem *problem,
 // Start, goal and the trajectory at the end are proven free where bodies have triangles: for the
 // motion of each pair as seen from b between the poses of the check's segments, position linear and
 // rotation slerp. Where the proof finds a hit, the refinement goes on from there with twice the
-// margin, three times at most. It ends within seeds * (iterations of MPPI + 4 times those of
-// L-BFGS) iterations, of `samples` trajectories each, and for L-BFGS 5 more.
+// margin and a little more, three times at most. It ends within seeds * (iterations of MPPI + 4
+// times those of L-BFGS) iterations, each of `draws` trajectories, and for L-BFGS of 5 more.
 NSVCDDEF nsvcd_result nsvcd_plan(const nsvcd_plan_problem *problem,
                                  const nsvcd_plan_options *options, void *workspace,
                                  size_t workspace_size, float *control, nsvcd_plan_answer *answer);
@@ -901,14 +947,96 @@ NSVCDDEF nsvcd_result nsvcd_plan(const nsvcd_plan_problem *problem,
 #endif  // NEURALSVCD_H
 
 // ================================================================================== IMPLEMENTATION
-#if defined(NEURALSVCD_IMPLEMENTATION) && !defined(NEURALSVCD_IMPLEMENTED)
+// Where section *processor* takes this file in once more, for AVX2 and for AVX-512, NSVCD__ISA is
+// defined: then only those sections are compiled that use vectors, under names of their own.
+#if defined(NEURALSVCD_IMPLEMENTATION) && (!defined(NEURALSVCD_IMPLEMENTED) || defined(NSVCD__ISA))
 #define NEURALSVCD_IMPLEMENTED
 
+#ifndef NSVCD__ISA
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 #ifndef NSVCD_NO_STDIO
 #include <stdio.h>
+#endif
+
+// ----------------------------------------------------------------------------------------- strings
+// What codes and statuses say.
+
+NSVCDDEF const char *nsvcd_result_string(nsvcd_result result) {
+  switch (result) {
+    case NSVCD_OK:
+      return "ok";
+    case NSVCD_ERROR_ARGUMENT:
+      return "an argument is NULL or out of its range";
+    case NSVCD_ERROR_IO:
+      return "the file is missing or cannot be read";
+    case NSVCD_ERROR_MEMORY:
+      return "out of memory";
+    case NSVCD_ERROR_SYNTAX:
+      return "a line cannot be understood, or a face has fewer than three corners";
+    case NSVCD_ERROR_INDEX:
+      return "an index is zero or refers to no vertex";
+    case NSVCD_ERROR_NUMBER:
+      return "a coordinate is not finite, or beyond a million metres";
+    case NSVCD_ERROR_EMPTY:
+      return "there is no triangle, or no area, or the mesh is smaller than 1e-12 metres";
+    case NSVCD_ERROR_TOO_LARGE:
+      return "more vertices, triangles or bytes than can be counted";
+    case NSVCD_ERROR_POSE:
+      return "a pose is not finite, or its quaternion is not of unit length";
+    case NSVCD_ERROR_SCALE:
+      return "a scale is not finite, negative or out of range, or makes a body too small or too "
+             "large";
+    case NSVCD_ERROR_TOLERANCE:
+      return "a tolerance or a clearance is negative, not finite or beyond the scene";
+    case NSVCD_ERROR_SAME:
+      return "both sides are the same body in the same motion";
+    case NSVCD_ERROR_BODY:
+      return "the body is damaged, cut short, misaligned, of another version, model or byte "
+             "order, or lacks what the method needs";
+    case NSVCD_ERROR_WORKSPACE:
+      return "the memory given is too small or misaligned";
+    case NSVCD_ERROR_CANCELLED:
+      return "cancelled";
+  }
+  return "unknown result";
+}
+
+NSVCDDEF const char *nsvcd_status_string(nsvcd_status status) {
+  switch (status) {
+    case NSVCD_STATUS_OK:
+      return "ok";
+    case NSVCD_STATUS_CERTIFIED_FREE:
+      return "certified-free";
+    case NSVCD_STATUS_INSIDE:
+      return "inside";
+    case NSVCD_STATUS_LIMIT:
+      return "limit";
+    case NSVCD_STATUS_WITNESS:
+      return "witness";
+    case NSVCD_STATUS_UNDECIDED:
+      return "undecided";
+  }
+  return "unknown status";
+}
+
+#ifndef NSVCD_NO_OPTIMIZER
+NSVCDDEF const char *nsvcd_plan_status_string(nsvcd_plan_status status) {
+  switch (status) {
+    case NSVCD_PLAN_CONVERGED:
+      return "converged";
+    case NSVCD_PLAN_LIMIT:
+      return "limit";
+    case NSVCD_PLAN_CANCELLED:
+      return "cancelled";
+    case NSVCD_PLAN_START:
+      return "infeasible start";
+    case NSVCD_PLAN_GOAL:
+      return "infeasible goal";
+  }
+  return "unknown status";
+}
 #endif
 
 // -------------------------------------------------------------------------------------------- math
@@ -947,8 +1075,7 @@ static inline int nsvcd__is_finite(float x) {
   return (bits & 0x7f800000u) != 0x7f800000u;
 }
 
-// Vectors as values: f3 of floats, d3 of doubles. A difference of floats, and all that is built of
-// a few of them, is as good as exact in double.
+// A difference of floats, and all that is built of a few of them, is as good as exact in double.
 typedef struct nsvcd__f3 {
   float x, y, z;
 } nsvcd__f3;
@@ -1086,10 +1213,15 @@ static inline nsvcd__d3 nsvcd__d3_unit(nsvcd__d3 a, nsvcd__d3 otherwise) {
 }
 // Rounds for certain. gcc 12 at -O2 forgets to where two doubles side by side become floats and
 // doubles again: it takes the two conversions of a vector for none, and a proof built on what is
-// stored would not hold.
+// stored would not hold. clang 14 for WebAssembly, in turn, reads a volatile number that fills a
+// vector once more, when another one may have taken its place.
 static inline float nsvcd__to_float(double x) {
+#ifdef __wasm_simd128__
+  return (float)x;
+#else
   volatile float rounded = (float)x;
   return rounded;
+#endif
 }
 static inline nsvcd__f3 nsvcd__f3_round(nsvcd__d3 a) {
   return nsvcd__f3_of(nsvcd__to_float(a.x), nsvcd__to_float(a.y), nsvcd__to_float(a.z));
@@ -1098,7 +1230,7 @@ static inline nsvcd__d3 nsvcd__d3_widen(nsvcd__f3 a) {
   return nsvcd__d3_of((double)a.x, (double)a.y, (double)a.z);
 }
 
-// ---- the same in double
+// ---- quaternions and matrices of doubles
 
 typedef struct nsvcd__dquat {
   double x, y, z, w;
@@ -1238,13 +1370,12 @@ static inline void nsvcd__disc_store(nsvcd__disc disc, float *discs, size_t stri
   d[5 * stride] = disc.across;
 }
 
-// ---- quaternions and rotation matrices, as values
+// ---- quaternions and matrices of floats
 
 typedef struct nsvcd__quat {
   float x, y, z, w;
 } nsvcd__quat;
 
-// A matrix by its rows.
 typedef struct nsvcd__mat3 {
   nsvcd__f3 x, y, z;
 } nsvcd__mat3;
@@ -1330,7 +1461,7 @@ static inline nsvcd__f3 nsvcd__quat_turn(nsvcd__quat a, nsvcd__quat b) {
   return nsvcd__f3_of(turn.x, turn.y, turn.z);
 }
 
-// a, b: unit to 1e-4.
+// A share u of the way from a to b, on the shorter arc. a, b: unit to 1e-4.
 static inline nsvcd__quat nsvcd__quat_slerp(nsvcd__quat a, nsvcd__quat b, float u) {
   const int opposed = nsvcd__quats_opposed(a, b);
   const nsvcd__quat start = nsvcd__quat_unit(a);
@@ -1433,13 +1564,17 @@ static uint32_t nsvcd__magnitude(float x) {
   return bits & 0x7fffffffu;
 }
 
+#endif  // NSVCD__ISA
+
 // ----------------------------------------------------------------------------------------- vectors
 // 16 floats side by side, lane by lane, for the sweep and the decoder. One set of operations over
 // what the compiler was told the processor has; the plain path says what they mean. They differ in
 // rounding only: fma rounds once or twice. NSVCD_NO_SIMD takes the plain path.
 
 #define NSVCD__LANES 16
-#define NSVCD__NOWHERE (-1e15f)  // radius of padding: meets nothing, and its square is still finite
+// Radius of padding: meets nothing, and its square is still finite. A float to the last digit, for
+// it is looked for in blobs, also where constants are reckoned in double (FLT_EVAL_METHOD).
+#define NSVCD__NOWHERE (-999999986991104.0f)
 #define NSVCD__HULL NSVCD__LANES     // vertices of a patch's hull, at most
 #define NSVCD__ENCLOSES 0x80000000u  // of a listing: its triangle belongs to a closed component
 
@@ -1452,9 +1587,40 @@ static uint32_t nsvcd__magnitude(float x) {
 // function over 16 lanes goes through its slices in a loop, and keeps no more than one of them in
 // its variables; on a machine without vectors a slice is one lane.
 
-#if !defined(NSVCD_NO_SIMD) && defined(__AVX512F__)
+#ifndef NSVCD__ISA
+// gcc on Windows puts what is wider than 16 bytes where the stack is not aligned for it, and the
+// program ends there: its bug 54412.
+#if defined(_WIN32) && defined(__GNUC__) && !defined(__clang__)
+#define NSVCD__NARROW
+#endif
+#if defined(NSVCD_NO_SIMD)
+#define NSVCD__SLICE 1
+#elif defined(__AVX512F__) && !defined(NSVCD__NARROW)
 #include <immintrin.h>
 #define NSVCD__SLICE 16
+#elif defined(__AVX2__) && (defined(__FMA__) || defined(_MSC_VER)) && !defined(NSVCD__NARROW)
+#include <immintrin.h>
+#define NSVCD__SLICE 8
+#elif defined(__wasm_simd128__)
+#include <wasm_simd128.h>
+#define NSVCD__SLICE 4
+#elif defined(__SSE2__) || defined(_M_X64)
+#include <immintrin.h>
+#define NSVCD__SLICE 4
+#elif defined(__aarch64__)
+#include <arm_neon.h>
+#define NSVCD__SLICE 4
+#else
+#define NSVCD__SLICE 1
+#endif
+#if NSVCD__SLICE == 16 && defined(__AVX512VNNI__)
+#define NSVCD__VNNI  // instructions that multiply bytes
+#endif
+#endif  // NSVCD__ISA
+
+#if NSVCD__SLICE == 16
+// Some are masked, by a mask that takes all: without one gcc's own header warns, in C++.
+#define NSVCD__ALL ((__mmask16)0xffff)
 typedef __m512 nsvcd__v;
 static inline nsvcd__v nsvcd__v_load(const float *p) {
   return _mm512_loadu_ps(p);
@@ -1481,13 +1647,13 @@ static inline nsvcd__v nsvcd__v_fma(nsvcd__v a, nsvcd__v b, nsvcd__v c) {
   return _mm512_fmadd_ps(a, b, c);
 }
 static inline nsvcd__v nsvcd__v_min(nsvcd__v a, nsvcd__v b) {
-  return _mm512_min_ps(a, b);
+  return _mm512_maskz_min_ps(NSVCD__ALL, a, b);
 }
 static inline nsvcd__v nsvcd__v_max(nsvcd__v a, nsvcd__v b) {
-  return _mm512_max_ps(a, b);
+  return _mm512_maskz_max_ps(NSVCD__ALL, a, b);
 }
 static inline nsvcd__v nsvcd__v_sqrt(nsvcd__v a) {
-  return _mm512_sqrt_ps(a);
+  return _mm512_maskz_sqrt_ps(NSVCD__ALL, a);
 }
 static inline uint32_t nsvcd__v_le(nsvcd__v a, nsvcd__v b) {
   return _mm512_cmp_ps_mask(a, b, _CMP_LE_OQ);
@@ -1499,16 +1665,21 @@ static inline nsvcd__v nsvcd__v_pick(nsvcd__v a, nsvcd__v b, nsvcd__v x, nsvcd__
   return _mm512_mask_blend_ps(_mm512_cmp_ps_mask(a, b, _CMP_LE_OQ), y, x);
 }
 static inline float nsvcd__v_least(nsvcd__v a) {
-  return _mm512_reduce_min_ps(a);
+  const __m512d whole = _mm512_castps_pd(a);
+  const __m256d low = _mm512_maskz_extractf64x4_pd(0xf, whole, 0);
+  const __m256d high = _mm512_maskz_extractf64x4_pd(0xf, whole, 1);
+  const __m256 eight = _mm256_min_ps(_mm256_castpd_ps(low), _mm256_castpd_ps(high));
+  const __m128 four = _mm_min_ps(_mm256_castps256_ps128(eight), _mm256_extractf128_ps(eight, 1));
+  const __m128 two = _mm_min_ps(four, _mm_movehl_ps(four, four));
+  return _mm_cvtss_f32(_mm_min_ss(two, _mm_shuffle_ps(two, two, 1)));
 }
 static inline nsvcd__v nsvcd__v_load_int16(const int16_t *p) {
   const __m256i packed = _mm256_loadu_si256((const __m256i *)(const void *)p);
-  return _mm512_cvtepi32_ps(_mm512_cvtepi16_epi32(packed));
+  const __m512i wide = _mm512_maskz_cvtepi16_epi32(NSVCD__ALL, packed);
+  return _mm512_maskz_cvtepi32_ps(NSVCD__ALL, wide);
 }
 
-#elif !defined(NSVCD_NO_SIMD) && defined(__AVX2__) && defined(__FMA__)
-#include <immintrin.h>
-#define NSVCD__SLICE 8
+#elif NSVCD__SLICE == 8
 typedef __m256 nsvcd__v;
 static inline nsvcd__v nsvcd__v_load(const float *p) {
   return _mm256_loadu_ps(p);
@@ -1562,9 +1733,60 @@ static inline nsvcd__v nsvcd__v_load_int16(const int16_t *p) {
   return _mm256_cvtepi32_ps(_mm256_cvtepi16_epi32(packed));
 }
 
-#elif !defined(NSVCD_NO_SIMD) && defined(__SSE2__)
-#include <emmintrin.h>
-#define NSVCD__SLICE 4
+#elif NSVCD__SLICE == 4 && defined(__wasm_simd128__)
+typedef v128_t nsvcd__v;
+static inline nsvcd__v nsvcd__v_load(const float *p) {
+  return wasm_v128_load(p);
+}
+static inline void nsvcd__v_store(float *p, nsvcd__v a) {
+  wasm_v128_store(p, a);
+}
+static inline nsvcd__v nsvcd__v_set(float x) {
+  return wasm_f32x4_splat(x);
+}
+static inline nsvcd__v nsvcd__v_add(nsvcd__v a, nsvcd__v b) {
+  return wasm_f32x4_add(a, b);
+}
+static inline nsvcd__v nsvcd__v_sub(nsvcd__v a, nsvcd__v b) {
+  return wasm_f32x4_sub(a, b);
+}
+static inline nsvcd__v nsvcd__v_mul(nsvcd__v a, nsvcd__v b) {
+  return wasm_f32x4_mul(a, b);
+}
+static inline nsvcd__v nsvcd__v_div(nsvcd__v a, nsvcd__v b) {
+  return wasm_f32x4_div(a, b);
+}
+static inline nsvcd__v nsvcd__v_fma(nsvcd__v a, nsvcd__v b, nsvcd__v c) {
+  return wasm_f32x4_add(wasm_f32x4_mul(a, b), c);
+}
+// pmin(b, a) is a < b ? a : b, one instruction of x86; min, which minds NaN and -0, is many.
+static inline nsvcd__v nsvcd__v_min(nsvcd__v a, nsvcd__v b) {
+  return wasm_f32x4_pmin(b, a);
+}
+static inline nsvcd__v nsvcd__v_max(nsvcd__v a, nsvcd__v b) {
+  return wasm_f32x4_pmax(b, a);
+}
+static inline nsvcd__v nsvcd__v_sqrt(nsvcd__v a) {
+  return wasm_f32x4_sqrt(a);
+}
+static inline uint32_t nsvcd__v_le(nsvcd__v a, nsvcd__v b) {
+  return (uint32_t)wasm_i32x4_bitmask(wasm_f32x4_le(a, b));
+}
+static inline uint32_t nsvcd__v_lt(nsvcd__v a, nsvcd__v b) {
+  return (uint32_t)wasm_i32x4_bitmask(wasm_f32x4_lt(a, b));
+}
+static inline nsvcd__v nsvcd__v_pick(nsvcd__v a, nsvcd__v b, nsvcd__v x, nsvcd__v y) {
+  return wasm_v128_bitselect(x, y, wasm_f32x4_le(a, b));
+}
+static inline float nsvcd__v_least(nsvcd__v a) {
+  const nsvcd__v two = nsvcd__v_min(a, wasm_i32x4_shuffle(a, a, 2, 3, 0, 1));
+  return wasm_f32x4_extract_lane(nsvcd__v_min(two, wasm_i32x4_shuffle(two, two, 1, 0, 3, 2)), 0);
+}
+static inline nsvcd__v nsvcd__v_load_int16(const int16_t *p) {
+  return wasm_f32x4_convert_i32x4(wasm_i32x4_load16x4(p));
+}
+
+#elif NSVCD__SLICE == 4 && !defined(__aarch64__)
 typedef __m128 nsvcd__v;
 static inline nsvcd__v nsvcd__v_load(const float *p) {
   return _mm_loadu_ps(p);
@@ -1618,9 +1840,7 @@ static inline nsvcd__v nsvcd__v_load_int16(const int16_t *p) {
   return _mm_cvtepi32_ps(_mm_srai_epi32(_mm_unpacklo_epi16(packed, packed), 16));
 }
 
-#elif !defined(NSVCD_NO_SIMD) && defined(__aarch64__)
-#include <arm_neon.h>
-#define NSVCD__SLICE 4
+#elif NSVCD__SLICE == 4
 typedef float32x4_t nsvcd__v;
 static inline nsvcd__v nsvcd__v_load(const float *p) {
   return vld1q_f32(p);
@@ -1676,7 +1896,6 @@ static inline nsvcd__v nsvcd__v_load_int16(const int16_t *p) {
 }
 
 #else
-#define NSVCD__SLICE 1
 typedef float nsvcd__v;
 static inline nsvcd__v nsvcd__v_load(const float *p) {
   return *p;
@@ -1752,7 +1971,7 @@ static inline nsvcd__v nsvcd__v_abs(nsvcd__v a) {
   return nsvcd__v_max(a, nsvcd__v_negate(a));
 }
 
-// 16 vectors as a value, lane by lane.
+// A slice of vectors as a value, lane by lane.
 typedef struct nsvcd__v3 {
   nsvcd__v x, y, z;
 } nsvcd__v3;
@@ -1830,7 +2049,7 @@ NSVCD__INLINE nsvcd__v3 nsvcd__v3_load(float (*p)[NSVCD__LANES], size_t l) {
   return nsvcd__v3_of(nsvcd__v_load(p[0] + l), nsvcd__v_load(p[1] + l), nsvcd__v_load(p[2] + l));
 }
 
-// Of each lane alone: the one in lane l of p (3, LANES).
+// One lane alone: the vector in lane l of (3, LANES).
 static inline nsvcd__f3 nsvcd__lane_of(float (*lanes)[NSVCD__LANES], size_t l) {
   return nsvcd__f3_of(lanes[0][l], lanes[1][l], lanes[2][l]);
 }
@@ -1839,7 +2058,7 @@ static inline void nsvcd__lane_set(nsvcd__f3 a, float (*lanes)[NSVCD__LANES], si
   lanes[1][l] = a.y;
   lanes[2][l] = a.z;
 }
-// Vectors over their lengths; x where there is none.
+// Vectors over their lengths; the x axis where that is 0.
 static inline nsvcd__v3 nsvcd__v3_unit(nsvcd__v3 a) {
   const nsvcd__v zero = nsvcd__v_set(0);
   const nsvcd__v one = nsvcd__v_set(1);
@@ -2015,48 +2234,8 @@ static inline nsvcd__vmat3 nsvcd__vmat3_of(nsvcd__vquat q) {
   return m;
 }
 
+#ifndef NSVCD__ISA
 // ------------------------------------------------------------------------------------------ memory
-
-// A sentence without a full stop, for a person; never NULL.
-NSVCDDEF const char *nsvcd_result_string(nsvcd_result result) {
-  switch (result) {
-    case NSVCD_OK:
-      return "ok";
-    case NSVCD_ERROR_ARGUMENT:
-      return "an argument is NULL or out of its range";
-    case NSVCD_ERROR_IO:
-      return "the file is missing or cannot be read";
-    case NSVCD_ERROR_MEMORY:
-      return "out of memory";
-    case NSVCD_ERROR_SYNTAX:
-      return "a line cannot be understood, or a face has fewer than three corners";
-    case NSVCD_ERROR_INDEX:
-      return "an index is zero or refers to no vertex";
-    case NSVCD_ERROR_NUMBER:
-      return "a coordinate is not finite or too large";
-    case NSVCD_ERROR_EMPTY:
-      return "there is no triangle, or no area";
-    case NSVCD_ERROR_TOO_LARGE:
-      return "more vertices, triangles or bytes than can be counted";
-    case NSVCD_ERROR_POSE:
-      return "a pose is not finite, or its quaternion is not of unit length";
-    case NSVCD_ERROR_SCALE:
-      return "a scale is not finite, negative or out of range, or makes a body too small or too "
-             "large";
-    case NSVCD_ERROR_TOLERANCE:
-      return "a tolerance or a clearance is negative, not finite or beyond the scene";
-    case NSVCD_ERROR_SAME:
-      return "both sides are the same body in the same motion";
-    case NSVCD_ERROR_BODY:
-      return "the body is damaged, cut short, misaligned, of another version or model, or lacks "
-             "what the method needs";
-    case NSVCD_ERROR_WORKSPACE:
-      return "the memory given is too small or misaligned";
-    case NSVCD_ERROR_CANCELLED:
-      return "cancelled";
-  }
-  return "unknown result";
-}
 
 #ifndef NSVCD_NO_ENCODER
 static void *nsvcd__alloc(const nsvcd_allocator *allocator, size_t size) {
@@ -2182,7 +2361,7 @@ static nsvcd__clipped nsvcd__clip(const nsvcd__clipped *polygon, size_t axis, do
   return out;
 }
 
-// The part of triangle t within the box: 0, or 3 to 9 corners.
+// The part of triangle t within the box: 0, or 3 to 9 corners, but for roundings.
 static nsvcd__clipped nsvcd__cut_triangle(const nsvcd_mesh *mesh, size_t t, const float *low,
                                           const float *high) {
   const uint32_t *corners = mesh->indices + 3 * t;
@@ -2261,13 +2440,21 @@ NSVCDDEF nsvcd_result nsvcd_mesh_cut(const nsvcd_mesh *mesh, const float low[3],
 // A face becomes corners - 2 triangles whose vector areas always sum to the polygon's. A simple
 // polygon, concave or with holes cut open by a bridge, is covered without overlap; any other
 // (crossing itself, no area) is cut somehow.
+//
+// An ear is a corner whose triangle holds no reflex corner. So that faces may have many corners,
+// these are not all looked at: corners are sorted along a Z curve (Morton 1966), and each run of 8
+// has a box, as have two boxes side by side, and so on up to one about all.
 
-// Ear clipping takes corners * reflex corners steps: this bounds the time per byte.
-#define NSVCD__MAX_CONCAVE_CORNERS 4096
+#define NSVCD__RUN 8
+
+// In the polygon's plane.
+typedef struct nsvcd__d2 {
+  double x, y;
+} nsvcd__d2;
 
 typedef struct nsvcd__corner {
-  // in the polygon's plane, counter-clockwise
-  double x, y;
+  // the polygon is counter-clockwise
+  nsvcd__d2 at;
   uint32_t vertex;
   // the ring of corners not yet clipped
   uint32_t previous, next;
@@ -2275,32 +2462,73 @@ typedef struct nsvcd__corner {
   uint32_t queued, queue_next;
   // 1: the inner angle exceeds 180 degrees
   uint32_t reflex;
+  // the box of its run
+  uint32_t box;
 } nsvcd__corner;
+
+typedef struct nsvcd__corner_box {
+  nsvcd__d2 low, high;
+  // corners in it that are reflex
+  uint32_t reflex;
+} nsvcd__corner_box;
 
 typedef struct nsvcd__polygon {
   nsvcd__corner *corners;
-  uint32_t count;
-  uint32_t reflex_count;
+  uint32_t *order;           // (count): corners along the Z curve
+  nsvcd__corner_box *boxes;  // (2 runs): box k is about boxes 2 k and 2 k + 1, the last are runs'
+  uint32_t count, runs;      // a power of two
   uint32_t queue_first, queue_last, queue_length;
 } nsvcd__polygon;
 
+// Runs of so many corners, rounded up to a power of two.
+static uint32_t nsvcd__runs_of(uint32_t corners) {
+  uint32_t runs = 1;
+  while (NSVCD__RUN * (uint64_t)runs < corners)
+    runs *= 2;
+  return runs;
+}
+
+static void nsvcd__polygon_free(nsvcd__polygon *polygon, const nsvcd_allocator *allocator) {
+  nsvcd__free(allocator, polygon->corners);
+  nsvcd__free(allocator, polygon->order);
+  nsvcd__free(allocator, polygon->boxes);
+}
+// Room for polygons of up to so many corners. 0 without memory; nsvcd__polygon_free in either case.
+static int nsvcd__polygon_alloc(nsvcd__polygon *polygon, uint32_t corners,
+                                const nsvcd_allocator *allocator) {
+  const size_t boxes = 2 * (size_t)nsvcd__runs_of(corners);
+  memset(polygon, 0, sizeof *polygon);
+  polygon->corners = (nsvcd__corner *)nsvcd__alloc_array(allocator, corners, sizeof(nsvcd__corner));
+  polygon->order = nsvcd__alloc_words(allocator, corners);
+  polygon->boxes =
+      (nsvcd__corner_box *)nsvcd__alloc_array(allocator, boxes, sizeof(nsvcd__corner_box));
+  return polygon->corners && polygon->order && polygon->boxes;
+}
+
 // Twice the area of abc, positive if counter-clockwise. In double a difference of floats is as good
 // as exact.
-static double nsvcd__corner_cross(const nsvcd__corner *a, const nsvcd__corner *b,
-                                  const nsvcd__corner *c) {
-  return (b->x - a->x) * (c->y - b->y) - (b->y - a->y) * (c->x - b->x);
+static double nsvcd__d2_cross(nsvcd__d2 a, nsvcd__d2 b, nsvcd__d2 c) {
+  return (b.x - a.x) * (c.y - b.y) - (b.y - a.y) * (c.x - b.x);
 }
-static int nsvcd__same_place(const nsvcd__corner *a, const nsvcd__corner *b) {
-  return !(a->x < b->x || a->x > b->x || a->y < b->y || a->y > b->y);
+static nsvcd__d2 nsvcd__d2_min(nsvcd__d2 a, nsvcd__d2 b) {
+  const nsvcd__d2 out = {a.x < b.x ? a.x : b.x, a.y < b.y ? a.y : b.y};
+  return out;
+}
+static nsvcd__d2 nsvcd__d2_max(nsvcd__d2 a, nsvcd__d2 b) {
+  const nsvcd__d2 out = {a.x > b.x ? a.x : b.x, a.y > b.y ? a.y : b.y};
+  return out;
+}
+static int nsvcd__same_place(nsvcd__d2 a, nsvcd__d2 b) {
+  return !(a.x < b.x || a.x > b.x || a.y < b.y || a.y > b.y);
 }
 
 // Twice the area times the normal of a polygon in space (Newell's).
-static nsvcd__d3 nsvcd__polygon_normal(const nsvcd__corner *corners, uint32_t count,
-                                       const float *positions) {
+static nsvcd__d3 nsvcd__polygon_normal(const nsvcd__polygon *polygon, const float *positions) {
+  const nsvcd__corner *corners = polygon->corners;
   const nsvcd__d3 origin = nsvcd__d3_row(positions, corners[0].vertex);
   nsvcd__d3 normal = nsvcd__d3_of(0, 0, 0);
-  for (uint32_t i = 0; i < count; i++) {
-    const uint32_t next = corners[(i + 1) % count].vertex;
+  for (uint32_t i = 0; i < polygon->count; i++) {
+    const uint32_t next = corners[(i + 1) % polygon->count].vertex;
     const nsvcd__d3 p = nsvcd__d3_row(positions, corners[i].vertex);
     const nsvcd__d3 q = nsvcd__d3_row(positions, next);
     const nsvcd__d3 area = nsvcd__d3_cross(nsvcd__d3_sub(p, origin), nsvcd__d3_sub(q, origin));
@@ -2311,30 +2539,84 @@ static nsvcd__d3 nsvcd__polygon_normal(const nsvcd__corner *corners, uint32_t co
 
 // Places the corners in a plane: drops the axis along which the normal is longest, and so keeps the
 // coordinates exact.
-static void nsvcd__polygon_project(nsvcd__corner *corners, uint32_t count, const float *positions) {
-  const nsvcd__d3 normal = nsvcd__polygon_normal(corners, count, positions);
+static void nsvcd__polygon_project(nsvcd__polygon *polygon, const float *positions) {
+  const nsvcd__d3 normal = nsvcd__polygon_normal(polygon, positions);
   size_t axis = fabs(normal.y) > fabs(normal.x) ? 1 : 0;
   if (fabs(normal.z) > fabs(nsvcd__d3_axis(normal, axis)))
     axis = 2;
   const int turned = nsvcd__d3_axis(normal, axis) < 0;
   const size_t u = (axis + (turned ? 2 : 1)) % 3;
   const size_t v = (axis + (turned ? 1 : 2)) % 3;
-  for (uint32_t i = 0; i < count; i++) {
-    const float *p = positions + 3 * (size_t)corners[i].vertex;
-    corners[i].x = (double)p[u];
-    corners[i].y = (double)p[v];
+  for (uint32_t i = 0; i < polygon->count; i++) {
+    nsvcd__corner *c = &polygon->corners[i];
+    const float *p = positions + 3 * (size_t)c->vertex;
+    c->at.x = (double)p[u];
+    c->at.y = (double)p[v];
   }
+}
+
+// A number that grows with a coordinate, which is a float.
+static uint32_t nsvcd__z_key(double coordinate) {
+  const float x = (float)coordinate;
+  uint32_t bits;
+  memcpy(&bits, &x, sizeof bits);
+  return bits >> 31 ? ~bits : bits | 0x80000000u;
+}
+
+// Sorts corners along the Z curve, by this bit of it and those below: the bits of x and y in turn.
+static void nsvcd__z_sort(const nsvcd__corner *corners, uint32_t *order, uint32_t count, int bit) {
+  if (count <= NSVCD__RUN || bit < 0)
+    return;
+  uint32_t ones = count;  // where those begin that have the bit
+  for (uint32_t i = 0; i < ones;) {
+    const uint32_t corner = order[i];
+    const nsvcd__d2 at = corners[corner].at;
+    const uint32_t key = nsvcd__z_key(bit % 2 ? at.x : at.y);
+    if (key >> bit / 2 & 1) {
+      order[i] = order[--ones];
+      order[ones] = corner;
+    } else {
+      i++;
+    }
+  }
+  nsvcd__z_sort(corners, order, ones, bit - 1);
+  nsvcd__z_sort(corners, order + ones, count - ones, bit - 1);
+}
+
+// Puts the corners into boxes. None is known to be reflex yet.
+static void nsvcd__polygon_box(nsvcd__polygon *polygon) {
+  nsvcd__corner_box *boxes = polygon->boxes;
+  const nsvcd__corner_box none = {{HUGE_VAL, HUGE_VAL}, {-HUGE_VAL, -HUGE_VAL}, 0};
+  polygon->runs = nsvcd__runs_of(polygon->count);
+  for (uint32_t k = 0; k < 2 * polygon->runs; k++)
+    boxes[k] = none;
+  for (uint32_t i = 0; i < polygon->count; i++)
+    polygon->order[i] = i;
+  nsvcd__z_sort(polygon->corners, polygon->order, polygon->count, 63);
+  for (uint32_t i = 0; i < polygon->count; i++) {
+    nsvcd__corner *c = &polygon->corners[polygon->order[i]];
+    c->box = polygon->runs + i / NSVCD__RUN;
+    for (uint32_t k = c->box; k > 0; k /= 2) {
+      boxes[k].low = nsvcd__d2_min(boxes[k].low, c->at);
+      boxes[k].high = nsvcd__d2_max(boxes[k].high, c->at);
+    }
+  }
+}
+
+static void nsvcd__polygon_set_reflex(nsvcd__polygon *polygon, uint32_t i, uint32_t reflex) {
+  nsvcd__corner *c = &polygon->corners[i];
+  for (uint32_t k = c->box; k > 0 && c->reflex != reflex; k /= 2)
+    polygon->boxes[k].reflex += reflex - c->reflex;
+  c->reflex = reflex;
 }
 
 // Looks at corner i again, after a neighbour of it has changed.
 static void nsvcd__polygon_update(nsvcd__polygon *polygon, uint32_t i) {
   nsvcd__corner *corners = polygon->corners;
   nsvcd__corner *c = &corners[i];
-  const nsvcd__corner *previous = &corners[c->previous];
-  const nsvcd__corner *next = &corners[c->next];
-  const uint32_t reflex = nsvcd__corner_cross(previous, c, next) < 0;
-  polygon->reflex_count += reflex - c->reflex;
-  c->reflex = reflex;
+  const nsvcd__d2 previous = corners[c->previous].at;
+  const nsvcd__d2 next = corners[c->next].at;
+  nsvcd__polygon_set_reflex(polygon, i, nsvcd__d2_cross(previous, c->at, next) < 0);
   if (c->queued)
     return;
   c->queued = 1;
@@ -2347,73 +2629,122 @@ static void nsvcd__polygon_update(nsvcd__polygon *polygon, uint32_t i) {
   polygon->queue_last = i;
 }
 
-// Is corner p within abc, and not at the place of one of these?
-static int nsvcd__corner_is_within(const nsvcd__corner *p, const nsvcd__corner *a,
-                                   const nsvcd__corner *b, const nsvcd__corner *c) {
-  if (nsvcd__corner_cross(a, b, p) < 0)
+// A triangle of three neighbours, counter-clockwise, and the box about it.
+typedef struct nsvcd__ear {
+  nsvcd__d2 a, b, c;
+  nsvcd__d2 low, high;
+} nsvcd__ear;
+
+// Is a place within an ear, and not at one of its corners?
+static int nsvcd__ear_holds(const nsvcd__ear *ear, nsvcd__d2 p) {
+  if (nsvcd__d2_cross(ear->a, ear->b, p) < 0)
     return 0;
-  if (nsvcd__corner_cross(b, c, p) < 0 || nsvcd__corner_cross(c, a, p) < 0)
+  if (nsvcd__d2_cross(ear->b, ear->c, p) < 0 || nsvcd__d2_cross(ear->c, ear->a, p) < 0)
     return 0;
-  if (nsvcd__same_place(p, a) || nsvcd__same_place(p, b))
+  if (nsvcd__same_place(p, ear->a) || nsvcd__same_place(p, ear->b))
     return 0;
-  return !nsvcd__same_place(p, c);
+  return !nsvcd__same_place(p, ear->c);
+}
+
+// Is all of a box to the right of the line from a to b? Its farthest corner to the left tells.
+static int nsvcd__is_right_of(const nsvcd__corner_box *box, nsvcd__d2 a, nsvcd__d2 b) {
+  nsvcd__d2 left;
+  left.x = b.y > a.y ? box->low.x : box->high.x;
+  left.y = b.x > a.x ? box->high.y : box->low.y;
+  return nsvcd__d2_cross(a, b, left) < 0;
+}
+
+// May an ear hold a corner in a box?
+static int nsvcd__ear_meets(const nsvcd__ear *ear, const nsvcd__corner_box *box) {
+  if (nsvcd__same_place(box->low, box->high))
+    return nsvcd__ear_holds(ear, box->low);
+  if (ear->high.x < box->low.x || ear->high.y < box->low.y)
+    return 0;
+  if (ear->low.x > box->high.x || ear->low.y > box->high.y)
+    return 0;
+  if (nsvcd__is_right_of(box, ear->a, ear->b) || nsvcd__is_right_of(box, ear->b, ear->c))
+    return 0;
+  return !nsvcd__is_right_of(box, ear->c, ear->a);
+}
+
+// Does an ear hold a reflex corner of run k?
+static int nsvcd__ear_holds_one(const nsvcd__polygon *polygon, const nsvcd__ear *ear, uint32_t k) {
+  const uint32_t first = NSVCD__RUN * (k - polygon->runs);
+  for (uint32_t i = first; i < first + NSVCD__RUN && i < polygon->count; i++) {
+    const nsvcd__corner *p = &polygon->corners[polygon->order[i]];
+    if (p->reflex && nsvcd__ear_holds(ear, p->at))
+      return 1;
+  }
+  return 0;
 }
 
 // An ear is a convex corner whose triangle holds no other corner; only reflex ones need a look.
 static int nsvcd__polygon_is_ear(const nsvcd__polygon *polygon, uint32_t i) {
   const nsvcd__corner *corners = polygon->corners;
-  const nsvcd__corner *b = &corners[i];
-  const nsvcd__corner *a = &corners[b->previous];
-  const nsvcd__corner *c = &corners[b->next];
-  if (nsvcd__corner_cross(a, b, c) <= 0)
+  const nsvcd__corner *middle = &corners[i];
+  nsvcd__ear ear;
+  ear.a = corners[middle->previous].at;
+  ear.b = middle->at;
+  ear.c = corners[middle->next].at;
+  if (nsvcd__d2_cross(ear.a, ear.b, ear.c) <= 0)
     return 0;
-  if (polygon->reflex_count == 0 || polygon->count > NSVCD__MAX_CONCAVE_CORNERS)
-    return 1;
-  for (const nsvcd__corner *p = &corners[c->next]; p != a; p = &corners[p->next]) {
-    if (p->reflex && nsvcd__corner_is_within(p, a, b, c))
+  ear.low = nsvcd__d2_min(nsvcd__d2_min(ear.a, ear.b), ear.c);
+  ear.high = nsvcd__d2_max(nsvcd__d2_max(ear.a, ear.b), ear.c);
+  for (uint32_t k = 1; k > 0;) {
+    const nsvcd__corner_box *box = &polygon->boxes[k];
+    const int meets = box->reflex > 0 && nsvcd__ear_meets(&ear, box);
+    NSVCD__TALLY(boxes, 1);
+    if (meets && k < polygon->runs) {
+      k *= 2;
+      continue;
+    }
+    if (meets && nsvcd__ear_holds_one(polygon, &ear, k))
       return 0;
+    // to the next box that is not within this one; 0: there is none
+    while (k % 2)
+      k /= 2;
+    k += k > 0;
   }
   return 1;
 }
 
-// Makes a ring of the corners, and of each one that may be an ear.
-static nsvcd__polygon nsvcd__polygon_of(nsvcd__corner *corners, uint32_t count,
-                                        const float *positions) {
-  nsvcd__polygon polygon = {corners, count, 0, 0, 0, 0};
-  if (count > 3)
-    nsvcd__polygon_project(corners, count, positions);
+// Makes a ring of the corners, and a queue of all: each may be an ear.
+static void nsvcd__polygon_begin(nsvcd__polygon *polygon, const float *positions) {
+  nsvcd__corner *corners = polygon->corners;
+  const uint32_t count = polygon->count;
+  polygon->queue_length = 0;
   for (uint32_t i = 0; i < count; i++) {
     corners[i].previous = (i + count - 1) % count;
     corners[i].next = (i + 1) % count;
     corners[i].queued = 0;
     corners[i].reflex = 0;
   }
-  for (uint32_t i = 0; count > 3 && i < count; i++)
-    nsvcd__polygon_update(&polygon, i);
-  return polygon;
+  if (count == 3)
+    return;
+  nsvcd__polygon_project(polygon, positions);
+  nsvcd__polygon_box(polygon);
+  for (uint32_t i = 0; i < count; i++)
+    nsvcd__polygon_update(polygon, i);
 }
 
-// corners: (count) with their vertices set, count >= 3. triangles: (count - 2, 3). TOO_LARGE if
-// there are too many corners for a concave face.
-static nsvcd_result nsvcd__polygon_triangulate(nsvcd__corner *corners, uint32_t count,
-                                               const float *positions, uint32_t *triangles) {
-  nsvcd__polygon polygon = nsvcd__polygon_of(corners, count, positions);
-  if (polygon.reflex_count > 0 && count > NSVCD__MAX_CONCAVE_CORNERS)
-    return NSVCD_ERROR_TOO_LARGE;
-
+// polygon: its corners, 3 or more, with their vertices set. triangles: (count - 2, 3).
+static void nsvcd__polygon_triangulate(nsvcd__polygon *polygon, const float *positions,
+                                       uint32_t *triangles) {
+  nsvcd__corner *corners = polygon->corners;
+  nsvcd__polygon_begin(polygon, positions);
   uint32_t at = 0;  // some corner of what is left
-  for (uint32_t left = count; left > 3;) {
+  for (uint32_t left = polygon->count; left > 3;) {
     // An empty queue means that no corner is an ear: not a simple polygon. Cut any corner off and
     // go on.
-    const int stuck = polygon.queue_length == 0;
-    const uint32_t i = stuck ? at : polygon.queue_first;
+    const int stuck = polygon->queue_length == 0;
+    const uint32_t i = stuck ? at : polygon->queue_first;
     nsvcd__corner *c = &corners[i];
     if (!stuck) {
-      polygon.queue_first = c->queue_next;
-      polygon.queue_length--;
+      polygon->queue_first = c->queue_next;
+      polygon->queue_length--;
       c->queued = 0;
     }
-    if (!stuck && !nsvcd__polygon_is_ear(&polygon, i))
+    if (!stuck && !nsvcd__polygon_is_ear(polygon, i))
       continue;
     triangles[0] = corners[c->previous].vertex;
     triangles[1] = c->vertex;
@@ -2422,21 +2753,21 @@ static nsvcd_result nsvcd__polygon_triangulate(nsvcd__corner *corners, uint32_t 
     left--;
     corners[c->previous].next = c->next;
     corners[c->next].previous = c->previous;
-    polygon.reflex_count -= c->reflex;
-    nsvcd__polygon_update(&polygon, c->previous);
-    nsvcd__polygon_update(&polygon, c->next);
+    nsvcd__polygon_set_reflex(polygon, i, 0);
+    nsvcd__polygon_update(polygon, c->previous);
+    nsvcd__polygon_update(polygon, c->next);
     at = c->next;
   }
   triangles[0] = corners[at].vertex;
   triangles[1] = corners[corners[at].next].vertex;
   triangles[2] = corners[corners[at].previous].vertex;
-  return NSVCD_OK;
 }
 
 // ---- OBJ (Wavefront, "Object Files", version 3.0): v and f count, all else is skipped
 // Three passes over the text: count, vertices, faces. A face may refer to any vertex of the file by
 // its number, also to a later one; negative numbers count back from the last vertex so far. Locale
-// plays no part.
+// plays no part. Keywords that are skipped are letters, and digits behind two of them: curv2 is
+// one, f1 is a mistake.
 
 typedef struct nsvcd__obj {
   const char *at, *end;
@@ -2454,18 +2785,23 @@ enum {
   NSVCD__OBJ_BAD  // not a keyword
 };
 
+// Length of the line's end at p; 0: there is none.
+static size_t nsvcd__obj_newline(const char *p, const char *end) {
+  if (p == end || (*p != '\n' && *p != '\r'))
+    return 0;
+  return end - p >= 2 && p[0] == '\r' && p[1] == '\n' ? 2 : 1;
+}
 // Length of the blank at p: a backslash before the line's end continues the statement on the next
 // line.
 static size_t nsvcd__obj_blank(const char *p, const char *end) {
   if (p == end)
     return 0;
-  if (*p == ' ' || *p == '\t' || *p == '\r' || *p == '\v' || *p == '\f')
+  if (*p == ' ' || *p == '\t' || *p == '\v' || *p == '\f')
     return 1;
   if (*p != '\\')
     return 0;
-  if (end - p >= 2 && p[1] == '\n')
-    return 2;
-  return end - p >= 3 && p[1] == '\r' && p[2] == '\n' ? 3 : 0;
+  const size_t newline = nsvcd__obj_newline(p + 1, end);
+  return newline > 0 ? 1 + newline : 0;
 }
 static int nsvcd__obj_is_digit(const nsvcd__obj *obj) {
   return obj->at < obj->end && *obj->at >= '0' && *obj->at <= '9';
@@ -2476,14 +2812,20 @@ static int nsvcd__obj_accept(nsvcd__obj *obj, char c) {
     obj->at++;
   return is_there;
 }
+static int nsvcd__obj_line_ends(const nsvcd__obj *obj) {
+  return obj->at == obj->end || *obj->at == '\n' || *obj->at == '\r';
+}
 static int nsvcd__obj_token_ends(const nsvcd__obj *obj) {
-  if (obj->at == obj->end || *obj->at == '\n')
+  if (nsvcd__obj_line_ends(obj))
     return 1;
   return nsvcd__obj_blank(obj->at, obj->end) > 0;
 }
 static void nsvcd__obj_skip_token(nsvcd__obj *obj) {
-  while (!nsvcd__obj_token_ends(obj))
-    obj->at++;
+  for (; !nsvcd__obj_token_ends(obj); obj->at++) {
+    // what can be nothing else, quickly
+    while (obj->at + 1 < obj->end && (unsigned char)obj->at[1] > ' ' && obj->at[1] != '\\')
+      obj->at++;
+  }
 }
 
 // Skips blanks; 0 where the statement ends instead.
@@ -2494,21 +2836,18 @@ static int nsvcd__obj_has_token(nsvcd__obj *obj) {
     obj->at += blank;
     blank = nsvcd__obj_blank(obj->at, obj->end);
   }
-  return obj->at < obj->end && *obj->at != '\n' && *obj->at != '#';
+  return !nsvcd__obj_line_ends(obj) && *obj->at != '#';
 }
 
-// To the begin of the next line that does not continue this statement.
+// To the beginning of the next line that does not continue this statement. Token by token, as all
+// passes read it: what one takes for a comment, which nothing continues, all do.
 static void nsvcd__obj_skip_statement(nsvcd__obj *obj) {
-  int comment = obj->at < obj->end && *obj->at == '#';
-  for (int continued = 1; continued && obj->at < obj->end; obj->line++) {
-    const char *start = obj->at;
-    const char *newline = (const char *)memchr(start, '\n', (size_t)(obj->end - start));
-    const char *last = newline ? newline : obj->end;
-    obj->at = newline ? newline + 1 : obj->end;
-    if (last > start && last[-1] == '\r')
-      last--;
-    continued = newline && !comment && last > start && last[-1] == '\\';
-  }
+  while (nsvcd__obj_has_token(obj))
+    nsvcd__obj_skip_token(obj);
+  while (!nsvcd__obj_line_ends(obj))
+    obj->at++;
+  obj->at += nsvcd__obj_newline(obj->at, obj->end);
+  obj->line++;
 }
 
 // Reads the keyword that a statement begins with.
@@ -2522,7 +2861,9 @@ static int nsvcd__obj_keyword(nsvcd__obj *obj) {
   if (obj->at - start == 1 && *start == 'f')
     return NSVCD__OBJ_FACE;
   for (const char *p = start; p < obj->at; p++) {
-    if (!((*p >= 'a' && *p <= 'z') || (*p >= 'A' && *p <= 'Z') || *p == '_'))
+    const int letter = (*p >= 'a' && *p <= 'z') || (*p >= 'A' && *p <= 'Z') || *p == '_';
+    const int digit = *p >= '0' && *p <= '9';
+    if (!letter && !(digit && p - start >= 2))
       return NSVCD__OBJ_BAD;
   }
   return NSVCD__OBJ_OTHER;
@@ -2586,8 +2927,9 @@ static int nsvcd__obj_exponent(nsvcd__obj *obj, int64_t *exponent) {
   return 1;
 }
 
-// A decimal number, to double within 2^-52: rounded to float it is the nearest, unless two are
-// equally near to that. NUMBER if float cannot hold it.
+// A decimal number, as a double: within 2^-52 of it, or a few of these where its exponent is beyond
+// +-22. Rounded to float it is the nearest, unless two floats are as near. NUMBER if float cannot
+// hold it.
 static nsvcd_result nsvcd__obj_number(nsvcd__obj *obj, double *value) {
   const double greatest = 3.4028234663852886e38;  // FLT_MAX
   const int negative = nsvcd__obj_minus(obj);
@@ -2616,7 +2958,7 @@ static nsvcd_result nsvcd__obj_number(nsvcd__obj *obj, double *value) {
   return NSVCD_OK;
 }
 
-// v x y z, then nothing, a weight w, a colour r g b, or both: skipped, but they must be numbers.
+// v x y z, then up to five more: a weight, a colour. These are skipped, but must be numbers.
 static nsvcd_result nsvcd__obj_vertex(nsvcd__obj *obj, float *position) {
   int count = 0;
   for (; nsvcd__obj_has_token(obj); count++) {
@@ -2647,7 +2989,11 @@ static nsvcd_result nsvcd__obj_corner(nsvcd__obj *obj, uint32_t vertex_count, ui
       number = 10 * number + (uint64_t)(*obj->at - '0');
   }
   for (int i = 0; i < 2 && nsvcd__obj_accept(obj, '/'); i++) {
+    if (i == 0 && obj->at < obj->end && *obj->at == '/')
+      continue;  // v//vn
     nsvcd__obj_accept(obj, '-');
+    if (!nsvcd__obj_is_digit(obj))
+      return NSVCD_ERROR_SYNTAX;
     while (nsvcd__obj_is_digit(obj))
       obj->at++;
   }
@@ -2713,30 +3059,32 @@ static nsvcd_result nsvcd__obj_vertices(nsvcd__obj *obj, float *positions) {
   return NSVCD_OK;
 }
 
-// One face: its triangles, (corners - 2, 3). corners: room for those of any face.
+// One face: its triangles, (corners - 2, 3). polygon: with room for any face.
 static nsvcd_result nsvcd__obj_face(nsvcd__obj *obj, const nsvcd_mesh *mesh,
-                                    nsvcd__corner *corners) {
+                                    nsvcd__polygon *polygon) {
   const uint32_t vertices = (uint32_t)mesh->vertex_count;
   uint32_t *triangles = mesh->indices + 3 * (size_t)obj->triangles;
-  uint32_t count = 0;
+  polygon->count = 0;
   while (nsvcd__obj_has_token(obj)) {
-    const nsvcd_result result = nsvcd__obj_corner(obj, vertices, &corners[count++].vertex);
+    uint32_t *vertex = &polygon->corners[polygon->count++].vertex;
+    const nsvcd_result result = nsvcd__obj_corner(obj, vertices, vertex);
     if (result)
       return result;
   }
-  obj->triangles += count - 2;
-  return nsvcd__polygon_triangulate(corners, count, mesh->positions, triangles);
+  obj->triangles += polygon->count - 2;
+  nsvcd__polygon_triangulate(polygon, mesh->positions, triangles);
+  return NSVCD_OK;
 }
 
 // Third pass: the mesh's indices.
 static nsvcd_result nsvcd__obj_faces(nsvcd__obj *obj, const nsvcd_mesh *mesh,
-                                     nsvcd__corner *corners) {
+                                     nsvcd__polygon *polygon) {
   int keyword = nsvcd__obj_keyword(obj);
   for (; keyword != NSVCD__OBJ_END; keyword = nsvcd__obj_next(obj)) {
     obj->vertices += keyword == NSVCD__OBJ_VERTEX;
     if (keyword != NSVCD__OBJ_FACE)
       continue;
-    const nsvcd_result result = nsvcd__obj_face(obj, mesh, corners);
+    const nsvcd_result result = nsvcd__obj_face(obj, mesh, polygon);
     if (result)
       return result;
   }
@@ -2755,18 +3103,18 @@ static nsvcd_result nsvcd__obj_read(nsvcd__obj *obj, const char *text, size_t si
     return NSVCD_ERROR_EMPTY;
   if (!nsvcd__mesh_alloc(mesh, obj->vertices, obj->triangles, allocator))
     return NSVCD_ERROR_MEMORY;
-  nsvcd__corner *corners =
-      (nsvcd__corner *)nsvcd__alloc_array(allocator, obj->max_corners, sizeof(nsvcd__corner));
-  if (!corners)
-    return NSVCD_ERROR_MEMORY;
-
-  nsvcd__obj_begin(obj, text, size);
-  result = nsvcd__obj_vertices(obj, mesh->positions);
+  nsvcd__polygon polygon;
+  if (!nsvcd__polygon_alloc(&polygon, obj->max_corners, allocator))
+    result = NSVCD_ERROR_MEMORY;
   if (!result) {
     nsvcd__obj_begin(obj, text, size);
-    result = nsvcd__obj_faces(obj, mesh, corners);
+    result = nsvcd__obj_vertices(obj, mesh->positions);
   }
-  nsvcd__free(allocator, corners);
+  if (!result) {
+    nsvcd__obj_begin(obj, text, size);
+    result = nsvcd__obj_faces(obj, mesh, &polygon);
+  }
+  nsvcd__polygon_free(&polygon, allocator);
   return result;
 }
 
@@ -2820,7 +3168,6 @@ static nsvcd_result nsvcd__read_file(FILE *file, const nsvcd_allocator *allocato
   return NSVCD_OK;
 }
 
-// nsvcd_obj_parse on the contents of a file.
 NSVCDDEF nsvcd_result nsvcd_obj_load(const char *path, const nsvcd_allocator *allocator,
                                      nsvcd_mesh *mesh, size_t *error_line) {
   if (error_line)
@@ -2852,7 +3199,7 @@ NSVCDDEF nsvcd_result nsvcd_obj_load(const char *path, const nsvcd_allocator *al
 #define NSVCD__SAMPLES_PER_PATCH 32
 #define NSVCD__NO_SAMPLE 0xffffffffu
 #define NSVCD__LLOYD_STEPS 3
-// of each centre, kept for the search of the nearest centre
+// of each centre, for the search of the nearest centre
 #define NSVCD__NEIGHBOURS 16
 // longest edge of a piece, in mean sample radii
 #define NSVCD__PIECE_SIZE 0.25
@@ -3268,7 +3615,7 @@ static inline nsvcd__edge_squares nsvcd__squares_of(const nsvcd__triangle *t) {
   out.ca = nsvcd__d3_gap(t->c, t->a);
   return out;
 }
-// Which edge is the longest: 0 for ab, 1 for bc, 2 for ca. Of equals bc, but ab before all.
+// Which edge is the longest: 0 for ab, 1 for bc, 2 for ca; of equal ones the first.
 static int nsvcd__longest_of(nsvcd__edge_squares e) {
   if (e.bc > e.ab && e.bc >= e.ca)
     return 1;
@@ -3397,8 +3744,8 @@ static void nsvcd__cover(nsvcd__patches *p, const nsvcd_mesh *mesh) {
   }
   for (size_t i = 0; i < p->count; i++) {
     const nsvcd__patch_sum *sum = &p->sums[i];
-    // A patch may own samples but, its border being finer, only some small piece: its ball holds
-    // both.
+    // A piece goes to one patch as a whole, and so a patch's samples may lie beyond its pieces: its
+    // ball holds both.
     const float radius = nsvcd__radius_above(sum->squared_reach);
     p->radii[i] = fmaxf(radius, p->sample_radii[i]);
     p->areas[i] = (float)sum->weight;
@@ -3610,7 +3957,7 @@ static size_t nsvcd__edges_of(const nsvcd__topology *topology, size_t t, nsvcd__
 
 // All edges, listed at their lesser ends. A component is closed if its edges cancel.
 typedef struct nsvcd__edges {
-  // (vertices + 1) edges of a vertex
+  // (vertices + 1) where a vertex's edges begin; one more while they are sorted
   size_t *first;
   // (3 triangles) the greater end
   uint32_t *ends;
@@ -4115,13 +4462,13 @@ static void nsvcd__region_end(nsvcd__regions *r, nsvcd__region *region) {
 // ball, disc and swollen hull convex: what contains the corners contains the piece. The corners
 // themselves are off by roundings of double: all bounds are wider by NSVCD__SURFACE_MARGIN.
 
-// mean sample radii: so far a piece may extend into another cell
+// mean sample radii: how far a piece may extend into another cell
 #define NSVCD__SURFACE_OVERLAP 0.5
 // mean sample radii: with a longer edge a triangle is listed in parts
 #define NSVCD__SURFACE_WHOLE 16.0
 // of the mesh's greatest coordinate
 #define NSVCD__SURFACE_MARGIN 1e-13
-// metres, added to that: keeps off what float cannot hold
+// metres, added to that: keeps clear of what float cannot hold
 #define NSVCD__SURFACE_TINY 1e-30
 // of the radius: a hull as near as this to all corners is good
 #define NSVCD__HULL_SHARE 1e-4
@@ -4245,7 +4592,7 @@ typedef struct nsvcd__pieces {
   nsvcd__convex *waiting;  // (NSVCD__WAITING)
   size_t waiting_count;
   size_t cuts_left;
-  // metres: so far a piece may extend beyond its cell
+  // metres: how far a piece may extend beyond its cell
   double overlap;
   // metres: a triangle with a longer edge is listed in parts
   double longest_edge;
@@ -4891,8 +5238,10 @@ static int nsvcd__simplex_settle(nsvcd__simplex *s) {
   }
 }
 
-// The distance of a point from a point of the convex hull of some vertices: a bound on that from
-// the hull. It is no more than a thousandth above that, unless it is below `enough`.
+// The distance of a point from some point of the convex hull of vertices: no less than that from
+// the hull, and no more than two thousandths above it, but for roundings or where it is below
+// `enough`. Ten steps or so do; on x87, whose registers have more digits than memory, they may seem
+// to get nearer for ever.
 static double nsvcd__hull_distance(nsvcd__points hull, nsvcd__d3 point, double enough) {
   nsvcd__simplex s;
   s.points[0] = nsvcd__d3_sub(hull.at[hull.count - 1], point);
@@ -4900,7 +5249,7 @@ static double nsvcd__hull_distance(nsvcd__points hull, nsvcd__d3 point, double e
   s.count = 1;
   nsvcd__d3 nearest = s.points[0];
   double best = nsvcd__d3_dot(nearest, nearest);
-  while (best > enough * enough && s.count < 4) {
+  for (int step = 0; step < 64 && best > enough * enough && s.count < 4; step++) {
     const double offset = nsvcd__d3_dot(point, nearest);
     double least = HUGE_VAL;
     size_t support = 0;
@@ -5148,8 +5497,8 @@ static void nsvcd__take_seed(const nsvcd__region *region, uint32_t point, size_t
   surface->seed_patches[surface->seed_count++] = (uint32_t)to;
 }
 
-// Ball, disc and hull of patch i of the region, which is `to` of all. The slack does not know of
-// the integers yet.
+// Ball, disc and hull of patch i of the region, which is `to` of all. What the vertices will be off
+// by as integers is not in the slack yet.
 static void nsvcd__describe_patch(nsvcd__sorted *sorted, size_t i, nsvcd__surface *surface) {
   const nsvcd__pieces *pieces = sorted->pieces;
   const size_t to = surface->done + i;
@@ -5476,7 +5825,7 @@ static void nsvcd__linear(nsvcd__encoder_layer layer, const float *x, float *y) 
   size_t left = layer.inputs;
   for (size_t o = 0; o < outputs; o++)
     y[o] = layer.bias ? layer.bias[o] : 0;
-  // four rows at a time: y is the traffic
+  // four rows at a time: reading and writing y takes longest
   for (; left >= 4; left -= 4) {
     const float *r1 = w + outputs;
     const float *r2 = r1 + outputs;
@@ -5735,11 +6084,14 @@ static void nsvcd__encode_patch(const nsvcd__encoded *patch, float *latent) {
   nsvcd__finish_latent(&channels, latent);
 }
 #endif  // NSVCD_NO_ENCODER
+#endif  // NSVCD_NO_NETWORK
+#endif  // NSVCD__ISA
 
+#ifndef NSVCD_NO_NETWORK
 // --------------------------------------------------------------------------------- latent rotation
 // D(R), block-diagonal: R itself on degree 1, the real Wigner matrix of degree 2 on degree 2
-// (appendix E). Computed from R directly, so D(R1 R2) = D(R1) D(R2) to rounding; R may be improper
-// (a mirror): both degrees are polynomial.
+// (NeuralSVCD, appendix E). Computed from R directly, so D(R1 R2) = D(R1) D(R2) to rounding; R may
+// be improper (a mirror): both degrees are polynomial.
 
 // numbers of a latent's vectors: (3, CHANNELS), then (5, CHANNELS)
 #define NSVCD__VECTORS (8 * NSVCD_W_CHANNELS)
@@ -5810,7 +6162,7 @@ NSVCD__INLINE void nsvcd__rotate_degree(const float *latent, float (*turn)[NSVCD
   }
 }
 
-// A stored latent, turned by D (WIGNER, SLICE) of lane l, to its place of two (0, 1) in a row of
+// Turns a stored latent by D (WIGNER, SLICE) of lane l, and writes it to place 0 or 1 of a row of
 // the decoder's inputs: vectors (2, 8, CHANNELS), then scalars (2, SCALARS).
 static void nsvcd__rotate_latent(const int8_t *z, float (*turn)[NSVCD__SLICE], size_t l,
                                  size_t place, float *row) {
@@ -5832,6 +6184,7 @@ static void nsvcd__rotate_latent(const int8_t *z, float (*turn)[NSVCD__SLICE], s
 
 #endif  // NSVCD_NO_NETWORK
 
+#ifndef NSVCD__ISA
 // -------------------------------------------------------------------------------------------- body
 // In: N patches. Out: one relocatable, checksummed blob. Patches are stored in groups of 16
 // neighbours, each group with a sphere over its members. Where there are many groups, there are
@@ -5869,7 +6222,7 @@ static void nsvcd__rotate_latent(const int8_t *z, float (*turn)[NSVCD__SLICE], s
 #define NSVCD__LEVELS 3  // of spheres above the patches, at most
 // metres, over every radius and distance that coordinates within bounds can give
 #define NSVCD__MAX_LENGTH 1.6e7f
-#define NSVCD__BODY_MAGIC 0x4256534eu  // "NSVB"
+#define NSVCD__BODY_MAGIC 0x4256534eu  // "NSVB", or "BVSN": the mark of the byte order
 #define NSVCD__BODY_VERSION 5u
 
 struct nsvcd_body {
@@ -5961,7 +6314,6 @@ static size_t nsvcd__spheres_size(size_t padded) {
   return sizeof(struct nsvcd_body) + 16 * nsvcd__sphere_slots(padded);
 }
 
-#ifndef NSVCD_NO_NETWORK
 // Area vectors with their padding: one for each sphere, but where there are no levels above the
 // groups, of patches alone.
 static size_t nsvcd__area_slots(size_t padded) {
@@ -5975,6 +6327,12 @@ static float *nsvcd__areas_to_write(nsvcd_body *body) {
   char *at = (char *)body + nsvcd__spheres_size(body->padded);
   return (float *)(void *)at;
 }
+// Bytes of a body of latents up to these.
+static size_t nsvcd__areas_end(size_t padded) {
+  return nsvcd__spheres_size(padded) + 12 * nsvcd__area_slots(padded);
+}
+
+#ifndef NSVCD_NO_NETWORK
 // The sums over the spheres of a level of a body that has some above the groups, (3, slots): they
 // lie as the spheres do.
 static const float *nsvcd__level_areas(const nsvcd_body *body, nsvcd__level level) {
@@ -5990,10 +6348,8 @@ NSVCDDEF size_t nsvcd_body_size(size_t patches) {
   if (patches < 1 || patches > NSVCD_MAX_PATCHES)
     return 0;
   const size_t padded = nsvcd__round_up(patches, NSVCD__GROUP);
-  const size_t areas = 12 * nsvcd__area_slots(padded);
   const size_t latents = patches * NSVCD__LATENT;
-  const size_t size = nsvcd__spheres_size(padded) + areas + latents;
-  return nsvcd__round_up(size, NSVCD_ALIGNMENT);
+  return nsvcd__round_up(nsvcd__areas_end(padded) + latents, NSVCD_ALIGNMENT);
 }
 #endif
 
@@ -6260,7 +6616,6 @@ static int nsvcd__all_within(const float *values, size_t count, float most) {
   return 1;
 }
 
-#ifndef NSVCD_NO_NETWORK
 // Numbers in the area vectors.
 static size_t nsvcd__area_numbers(const nsvcd_body *body) {
   return 3 * nsvcd__area_slots(body->padded);
@@ -6271,7 +6626,6 @@ static int nsvcd__areas_are_sound(const nsvcd_body *body) {
   return nsvcd__all_within(nsvcd__body_areas(body), nsvcd__area_numbers(body),
                            NSVCD__MAX_LENGTH * NSVCD__MAX_LENGTH);
 }
-#endif
 
 #if !defined(NSVCD_NO_ENCODER) && !defined(NSVCD_NO_NETWORK)
 // Fills the area vectors of the levels from those of the patches.
@@ -6321,7 +6675,7 @@ static int nsvcd__source_is_sound(const nsvcd__latents_source *source) {
 }
 
 // Builds a body of latents in `memory`. On success it is *body. NUMBER if something is out of
-// bounds.
+// bounds, EMPTY if it is too small.
 static nsvcd_result nsvcd__body_build(const nsvcd__latents_source *source, void *memory,
                                       size_t capacity, const nsvcd_body **body) {
   const size_t size = nsvcd_body_size(source->count);
@@ -6350,7 +6704,7 @@ static nsvcd_result nsvcd__body_build(const nsvcd__latents_source *source, void 
     return NSVCD_ERROR_NUMBER;
   nsvcd__body_finish(b);
   if (b->radius < NSVCD_MIN_RADIUS)
-    return NSVCD_ERROR_NUMBER;
+    return NSVCD_ERROR_EMPTY;
   *body = b;
   return NSVCD_OK;
 }
@@ -6362,7 +6716,7 @@ static int nsvcd__covers(nsvcd__sphere sphere, nsvcd__spheres all, size_t count)
   return nsvcd__reach_of_spheres(all, count, sphere.centre, &farthest) <= sphere.radius;
 }
 
-// Are spheres from .. to - 1 exactly what padding is?
+// Are the spheres `from` to `to` - 1 exactly what padding is?
 static int nsvcd__is_padding(nsvcd__spheres all, size_t from, size_t to) {
   for (size_t i = from; i < to; i++) {
     if (all.x[i] != 0 || all.y[i] != 0 || all.z[i] != 0)
@@ -6373,7 +6727,7 @@ static int nsvcd__is_padding(nsvcd__spheres all, size_t from, size_t to) {
   return 1;
 }
 
-// Are the first `count` of (4, slots) spheres, finite and within bounds, their radii not negative,
+// Are the first `count` of (4, slots) spheres finite and within bounds, their radii not negative,
 // and the others padding? most: of the coordinates.
 static int nsvcd__are_spheres(nsvcd__spheres all, size_t count, size_t slots, float most) {
   if (!nsvcd__all_within(all.x, 3 * slots, most))
@@ -6402,9 +6756,9 @@ static int nsvcd__level_covers(nsvcd__spheres above, size_t count, nsvcd__sphere
   return 1;
 }
 
-// The spheres of a blob whose layout is right: finite, bounded, radii not negative, each one above
-// covering its 16. A checksum stops accidents; this stops a blob made to harm: a lying sphere would
-// hide collisions.
+// Are the spheres of a blob, whose layout is right, finite and bounded, their radii not negative,
+// and does each one above cover its 16? A checksum stops accidents; this stops a blob made to harm:
+// a lying sphere would hide collisions.
 static int nsvcd__spheres_are_sound(const nsvcd_body *body) {
   const nsvcd__spheres patches = nsvcd__body_patches(body);
   const nsvcd__sphere about_origin = {nsvcd__f3_of(0, 0, 0), body->extent};
@@ -6434,7 +6788,7 @@ static int nsvcd__spheres_are_sound(const nsvcd_body *body) {
          nsvcd__covers(about_origin, patches, body->patches);
 }
 
-// Multiplies the spheres that both kinds of bodies begin with.
+// Multiplies the patches' spheres, with which both kinds of bodies begin.
 static void nsvcd__scale_spheres(nsvcd_body *body, float scale) {
   float *floats = (float *)(body + 1);
   for (size_t i = 0; i < 3 * (size_t)body->padded; i++)
@@ -6687,31 +7041,6 @@ static nsvcd__f3 nsvcd__facet_centre(const nsvcd__facets *f, size_t patch) {
 // The same in double: what the vertices are counted from.
 static nsvcd__d3 nsvcd__facet_origin(const nsvcd__facets *f, size_t patch) {
   return nsvcd__d3_widen(nsvcd__facet_centre(f, patch));
-}
-
-// Vertices first .. first + 15 of a patch, of which `count` are wanted: the slice of them that
-// begins with lane l. The last one wanted is repeated in the lanes that are left.
-NSVCD__INLINE nsvcd__v3 nsvcd__facet_vertices(const nsvcd__facets *f, size_t patch, size_t first,
-                                              size_t count, size_t l) {
-  static const float lane[NSVCD__LANES] = {0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15};
-  const nsvcd__vertices all = nsvcd__vertices_of(f, patch);
-  const int16_t *x = all.x + first;
-  const int16_t *y = all.y + first;
-  const int16_t *z = all.z + first;
-  nsvcd__v3 q;
-  q.x = nsvcd__v_load_int16(x + l);
-  q.y = nsvcd__v_load_int16(y + l);
-  q.z = nsvcd__v_load_int16(z + l);
-  if (count < l + NSVCD__SLICE) {
-    const size_t last = count - 1;
-    const nsvcd__v end = nsvcd__v_set((float)last);
-    const nsvcd__v index = nsvcd__v_load(lane + l);
-    q.x = nsvcd__v_pick(index, end, q.x, nsvcd__v_set((float)x[last]));
-    q.y = nsvcd__v_pick(index, end, q.y, nsvcd__v_set((float)y[last]));
-    q.z = nsvcd__v_pick(index, end, q.z, nsvcd__v_set((float)z[last]));
-  }
-  const nsvcd__v step = nsvcd__v_set(f->steps[patch]);
-  return nsvcd__v3_fma(step, q, nsvcd__v3_set(nsvcd__facet_centre(f, patch)));
 }
 
 // The corners (3) of listing n of a patch, exactly.
@@ -6996,8 +7325,8 @@ typedef struct nsvcd__facets_source {
   int open;
 } nsvcd__facets_source;
 
-// Builds a body of triangles of `size` bytes in `memory`. NUMBER if it would be too large or too
-// small.
+// Builds a body of triangles of `size` bytes in `memory`. NUMBER if it would be too large, EMPTY if
+// it would be too small.
 static nsvcd_result nsvcd__facets_build(const nsvcd__facets_source *source, void *memory,
                                         size_t size) {
   const nsvcd__surface *surface = source->surface;
@@ -7015,7 +7344,7 @@ static nsvcd_result nsvcd__facets_build(const nsvcd__facets_source *source, void
   if (!nsvcd__all_within(nsvcd__body_r(b), b->patches, 4 * NSVCD_MAX_COORDINATE))
     return NSVCD_ERROR_NUMBER;
   nsvcd__facets_finish(b);
-  return b->radius < NSVCD_MIN_RADIUS ? NSVCD_ERROR_NUMBER : NSVCD_OK;
+  return b->radius < NSVCD_MIN_RADIUS ? NSVCD_ERROR_EMPTY : NSVCD_OK;
 }
 #endif
 
@@ -7041,7 +7370,7 @@ static int nsvcd__numbers_are_sound(const nsvcd__facets *f, size_t from, size_t 
   return at == end;
 }
 
-// Are counts and indices of a patch right? What stands before it is.
+// Are counts and indices of a patch right? Those of the patches before it are.
 static int nsvcd__patch_is_laid_out(const nsvcd__facets *f, size_t i) {
   const uint32_t *vertex = f->first_vertex + i;
   const uint32_t *triangle = f->first_triangle + i;
@@ -7188,7 +7517,7 @@ static int nsvcd__header_is_sound(const nsvcd_body *b, size_t size) {
   return b->size >= nsvcd__spheres_size(b->padded) && b->size % NSVCD_ALIGNMENT == 0;
 }
 
-// All of a body of triangles, of at most `size` bytes, its header known to be sound.
+// Is all of a body of triangles sound? It has at most `size` bytes, and a sound header.
 static int nsvcd__triangles_are_sound(const nsvcd_body *b, size_t size) {
 #ifndef NSVCD_NO_PROOF
   if (b->inner != 0 || !nsvcd__spheres_are_sound(b))
@@ -7201,7 +7530,7 @@ static int nsvcd__triangles_are_sound(const nsvcd_body *b, size_t size) {
 #endif
 }
 
-// The body of triangles within a body of latents.
+// Is the body of triangles within a body of latents sound?
 static int nsvcd__inner_is_sound(const nsvcd_body *b) {
   const char *at = (const char *)b + b->inner;
   const nsvcd_body *within = (const nsvcd_body *)(const void *)at;
@@ -7215,7 +7544,7 @@ static int nsvcd__inner_is_sound(const nsvcd_body *b) {
   return nsvcd__triangles_are_sound(within, left);
 }
 
-// All of a body, its header known to be sound, but for the checksum.
+// Is all of a body sound, but for the checksum? Its header is.
 static int nsvcd__body_is_sound(const nsvcd_body *b) {
   if (b->weights_id == 0) {
 #ifndef NSVCD_NO_PROOF
@@ -7224,13 +7553,15 @@ static int nsvcd__body_is_sound(const nsvcd_body *b) {
     return 0;
 #endif
   }
-  if (!nsvcd__spheres_are_sound(b))
+  if (b->size < nsvcd__areas_end(b->padded))
+    return 0;
+  if (!nsvcd__spheres_are_sound(b) || !nsvcd__areas_are_sound(b))
     return 0;
 #ifndef NSVCD_NO_NETWORK
   if (b->weights_id != NSVCD_WEIGHTS_ID)
     return 0;
   const size_t latents = nsvcd_body_size(b->patches);
-  if (b->size < latents || !nsvcd__areas_are_sound(b))
+  if (b->size < latents)
     return 0;
   if (b->inner == 0)
     return b->size == latents && b->triangles == 0;
@@ -7239,7 +7570,7 @@ static int nsvcd__body_is_sound(const nsvcd_body *b) {
 #else
   if (b->inner % NSVCD_ALIGNMENT || b->inner >= b->size)
     return 0;
-  if (b->inner < nsvcd__spheres_size(b->padded))
+  if (b->inner < nsvcd__areas_end(b->padded))
     return 0;
 #endif
   return nsvcd__inner_is_sound(b);
@@ -7275,13 +7606,11 @@ NSVCDDEF nsvcd_result nsvcd_body_trust(const void *memory, size_t size, const ns
 static int nsvcd__body_fits(const nsvcd_body *body, float scale) {
   if (!nsvcd__spheres_fit(body, scale))
     return 0;
-#ifndef NSVCD_NO_NETWORK
   const double most = (double)NSVCD__MAX_LENGTH / (double)scale;
   for (size_t i = 0; body->weights_id && i < nsvcd__area_numbers(body); i++) {
     if (fabs((double)nsvcd__body_areas(body)[i]) > most * most)
       return 0;
   }
-#endif
 #ifndef NSVCD_NO_PROOF
   const nsvcd_body *triangles = nsvcd__triangles_of(body);
   if (triangles && !nsvcd__spheres_fit(triangles, scale))
@@ -7300,13 +7629,11 @@ static void nsvcd__scale_part(nsvcd_body *b, float scale) {
 #endif
     return;
   }
-#ifndef NSVCD_NO_NETWORK
   float *areas = nsvcd__areas_to_write(b);
   for (size_t i = 0; i < nsvcd__area_numbers(b); i++) {
     areas[i] *= scale;
     areas[i] *= scale;
   }
-#endif
   nsvcd__body_finish(b);
 }
 
@@ -7316,6 +7643,11 @@ NSVCDDEF nsvcd_result nsvcd_body_scale(const nsvcd_body *body, float scale, void
     return NSVCD_ERROR_ARGUMENT;
   if (capacity < body->size || !nsvcd__is_aligned(memory))
     return NSVCD_ERROR_WORKSPACE;
+#ifdef NSVCD_NO_PROOF
+  // The triangles would keep their size; nor were they looked at when the body was loaded.
+  if (body->triangles)
+    return NSVCD_ERROR_BODY;
+#endif
   if (!nsvcd__body_fits(body, scale))
     return NSVCD_ERROR_ARGUMENT;
   memmove(memory, body, body->size);  // in place is allowed
@@ -7344,7 +7676,7 @@ NSVCDDEF nsvcd_body_facts nsvcd_body_describe(const nsvcd_body *body) {
   if (triangles) {
     const nsvcd__facets f = nsvcd__facets_of(triangles);
     facts.triangles = triangles->triangles;
-    facts.listed = f.listed;
+    facts.listings = f.listed;
     facts.quantum = nsvcd__widest_quantum(&f);
   }
 #endif
@@ -7362,8 +7694,8 @@ NSVCDDEF int nsvcd_body_patch(const nsvcd_body *body, uint32_t patch, float cent
 }
 
 // ---------------------------------------------------------------------------------------- encoding
-// In: a mesh. Out: a body. Region by region the surface becomes patches, and these latents and
-// triangles; then all of them one blob, neighbours side by side.
+// In: a mesh. Out: a body. Region by region the surface becomes patches, and these become latents
+// and triangles; then all of them become one blob, neighbours side by side.
 
 #ifndef NSVCD_NO_ENCODER
 // What is to be encoded, and how, with the defaults filled in.
@@ -7541,7 +7873,7 @@ static nsvcd_result nsvcd__parts_build(const nsvcd__plan *plan, nsvcd__parts *pa
 }
 
 #ifndef NSVCD_NO_NETWORK
-// Writes the body of latents to the begin of the blob, its patches in the given order (N).
+// Writes the body of latents to the beginning of the blob, its patches in the given order (N).
 static nsvcd_result nsvcd__parts_write_latents(const nsvcd__parts *parts, const uint16_t *order,
                                                void *memory) {
   nsvcd__latents_source source;
@@ -7716,6 +8048,8 @@ NSVCDDEF void nsvcd_body_free(const nsvcd_body *body, const nsvcd_allocator *all
   nsvcd__free(allocator, memory);
 }
 #endif
+
+#endif  // NSVCD__ISA
 
 // ------------------------------------------------------------------------------------------ motion
 // In: two movers: bodies, their scales, and their poses, uniform in t in [0,1]; between poses the
@@ -8021,7 +8355,7 @@ static nsvcd__transform nsvcd__motion_pose(const nsvcd__motion *motion, float t)
 // above the groups finds those that the other body comes near, and they are searched tile after
 // tile: each moving tile against all tiles of the fixed body.
 
-// as long as no segment then turns by more than NSVCD__SEGMENT_TURN
+// of a motion, as long as none then turns by more than NSVCD__SEGMENT_TURN
 #define NSVCD__SEGMENTS 16
 // reached at 1280 degrees; beyond, segments turn more: still proven, only looser
 #define NSVCD__MAX_SEGMENTS 64
@@ -8187,8 +8521,8 @@ static void nsvcd__search_layout(const nsvcd__needs *needs, char *base, uint64_t
   search->fixed_tile.gathered = (float *)nsvcd__take(base, used, gathered, sizeof(float));
 }
 
-// What the members of a group will be posed in serves until then, so that it need not come from the
-// stack.
+// Memory for chords, and for boxes, that need not come from the stack: where the members of a group
+// will be posed later.
 static nsvcd__chords *nsvcd__spare_chords(const nsvcd__search *search) {
   return &search->members[0];
 }
@@ -8299,7 +8633,7 @@ static size_t nsvcd__segment_count(const nsvcd__motion *motion, size_t greatest,
   return ticks * *parts;
 }
 
-// The caller's own poses, of one body: no need to ask.
+// Where one body moves and every tick is one of its poses: these, as the caller gave them.
 static void nsvcd__knots_copy(const nsvcd__motion *motion, const uint32_t *ticks, size_t count,
                               nsvcd__knots *out) {
   for (size_t l = 0; l < count; l++) {
@@ -8402,7 +8736,7 @@ static NSVCD__APART void nsvcd__cut_starts(const nsvcd__motion *motion, const ui
   }
 }
 
-// And at their ends, of which the starts are known.
+// The same at their ends; the starts are known.
 static NSVCD__APART void nsvcd__cut_ends(const nsvcd__motion *motion, nsvcd__segments *out,
                                          nsvcd__cut *cut) {
   const nsvcd__v scale = nsvcd__v_set(motion->scale);
@@ -8493,7 +8827,7 @@ static NSVCD__APART void nsvcd__cut_last_arc(const nsvcd__motion *motion, nsvcd_
   }
 }
 
-// Adds what a knot is off its segment's chord by, of which a share of u lies before it.
+// Adds what a knot is off its segment's chord by. A share u of the segment lies before it.
 static void nsvcd__cut_off_chord(const nsvcd__motion *motion, nsvcd__v u, const nsvcd__v_pose *seen,
                                  size_t l, nsvcd__segments *out, nsvcd__cut *cut) {
   const nsvcd__vmat3 start = nsvcd__vmat3_load(out->rotation, l);
@@ -8570,7 +8904,8 @@ static void nsvcd__cut_deviations(const nsvcd__motion *motion, float lengths, si
   nsvcd__v_store(out->spread + l, nsvcd__v_add(rounding, drift));
 }
 
-// 16 segments, of which `count` exist; `begin`: (17) their ends in ticks. turn: arc of each.
+// Cuts 16 segments, of which `count` exist. begin: (17) ticks at which they begin, and the last one
+// ends. turn: (16) the angle by which each turns.
 static void nsvcd__cut_block(const nsvcd__motion *motion, const uint32_t *begin, size_t count,
                              float lengths, nsvcd__segments *out, nsvcd__cut *cut, float *turn) {
   uint32_t ticks[NSVCD__LANES];
@@ -8619,7 +8954,7 @@ static void nsvcd__choose_segments(nsvcd__motion *motion, nsvcd__search *search)
   search->time[segments] = 1;
 }
 
-// Fills workspace: the chosen segments' poses in the fixed body's frame, and deviations. `lengths`:
+// Fills the blocks: the chosen segments' poses in the fixed body's frame, and deviations. lengths:
 // the bodies' extents; clearance: spheres that come so near are to count as meeting.
 static void nsvcd__cut_segments(const nsvcd__motion *motion, float lengths, float clearance,
                                 nsvcd__search *search) {
@@ -8676,8 +9011,10 @@ static void nsvcd__chords_of_sphere(nsvcd__segments *b, nsvcd__sphere sphere, ns
   }
 }
 
-// Chords of 16 spheres in one segment: lane s of a block. No centre is farther from the body's
-// origin than `remote`, in that body's own frame, as all that is given; scale: of the body.
+// Chords of 16 spheres in one segment: lane s of a block. The patches that they contain are no
+// farther than `remote` from the body's origin, in its own frame and units; scale: of the body. The
+// centre of a sphere over patches may be farther: on their chords points of a body do not move
+// apart, so that it is enough to allow for what the patches deviate.
 static void nsvcd__chords_of_members(nsvcd__segments *b, size_t s, nsvcd__spheres members,
                                      float scale, float remote, nsvcd__chords *out) {
   const nsvcd__v deviation = nsvcd__v_set(b->spread[s] + b->bulge[s] * remote);
@@ -9046,8 +9383,7 @@ static void nsvcd__chords_of_group(nsvcd__search *search, size_t g) {
   nsvcd__chords_in_all(search, nsvcd__sphere_of(nsvcd__group_spheres(search->moving), g));
 }
 
-// Chords of 16 spheres of the moving body in segment s; none of their centres is farther from its
-// origin than `remote`.
+// Chords of 16 spheres of the moving body in segment s. remote: as nsvcd__chords_of_members has it.
 static void nsvcd__chords_in_segment(const nsvcd__search *search, size_t s, nsvcd__spheres spheres,
                                      float remote, nsvcd__chords *out) {
   nsvcd__segments *block = &search->blocks[s / NSVCD__LANES];
@@ -9093,7 +9429,7 @@ static void nsvcd__boxes_of_groups(const nsvcd__search *search, size_t first, ui
   }
 }
 
-// 16 spheres that touch a box.
+// Lanes of 16 spheres that touch a box.
 static uint32_t nsvcd__spheres_at_box(nsvcd__box box, nsvcd__spheres all) {
   const nsvcd__v3 none = nsvcd__v3_set(nsvcd__f3_of(0, 0, 0));
   uint32_t touched = 0;
@@ -9192,7 +9528,9 @@ static void nsvcd__tile_fill_all(nsvcd__tile *tile, const nsvcd_body *body) {
   tile->spheres = nsvcd__group_spheres(body);
 }
 
-// Filters of a walk, given the workspace. All spheres that there are.
+// ---- filters of a walk, which are given the search
+
+// All spheres that there are.
 static uint32_t nsvcd__exists(const void *what, nsvcd__spheres all) {
   uint32_t exists = 0;
   (void)what;
@@ -9467,14 +9805,14 @@ static void nsvcd__candidates_start(nsvcd__candidates *kept, nsvcd__candidate *i
 // triangles come closer than their quanta and the tolerance without meeting, or the limit of work
 // was reached.
 //
-// FIRST CONTACT. Contacts end the motion: whenever one is found, only what is more than the
-// tolerance before it matters from then on, and is proven free or gives an earlier contact.
-// Segments are searched some at a time, in their order, so that the first ones found are early
-// ones.
+// FIRST CONTACT. Contacts end the motion: whenever one is found, only what is more than `first`
+// before it matters from then on, and is proven free or gives an earlier contact. So does a doubt,
+// where a contact follows: whatever follows it is not known to be the first. Segments are searched
+// some at a time, in their order, so that the first ones found are early ones.
 //
 // THE LEAST DISTANCE. Contacts lower the clearance: it begins as a distance that two vertices
-// have, and whenever triangles are found nearer than that, it becomes their distance less the
-// tolerance. What has been parted stays parted, by more than that. So both are one search whose
+// have, and whenever triangles are found nearer than that, it becomes their distance less
+// `measure`. What has been parted stays parted, by more than that. So both are one search whose
 // question shrinks, and in the end all of the motion that matters is proven free at the clearance
 // that matters.
 //
@@ -9628,9 +9966,10 @@ typedef struct nsvcd__proof {
 
   // What is known.
   int has_contact;
-  nsvcd__contact found;  // if there is a contact, or WITHIN
+  nsvcd__contact found;  // if there is a contact, or WITHIN; UNDECIDED: the doubt, if there is one
   int within;            // a component seems to be within the other body, but close to its surface
-  double unsure;         // ticks: the first doubt, two triangles that came too near to tell
+  nsvcd__d3 enclosed;    // a point of that component; the fixed body's frame
+  double unsure;         // ticks: when the first doubt begins, two triangles too near to tell
   nsvcd__contact doubt;  // what that is about
   int lost;              // something else was left undecided: all from `settled` on
   double settled;        // ticks
@@ -9685,8 +10024,6 @@ typedef struct nsvcd__proof {
 #ifndef NSVCD__CERTIFY
 #define NSVCD__CERTIFY(kind, moving, fixed, moving_listing, fixed_listing, t_start, t_end, normal) \
   ((void)0)
-#else
-#define NSVCD__CERTIFIES
 #endif
 enum { NSVCD__BY_DISC, NSVCD__BY_HULL, NSVCD__BY_TRIANGLES };
 
@@ -9923,7 +10260,7 @@ static const nsvcd__span *nsvcd__segment_span(nsvcd__proof *p, const nsvcd__sear
   return &p->spans[s];
 }
 
-// From u0 to u1 of an arc.
+// The span from u0 to u1 of the arc that begins at the knot `first`.
 static nsvcd__span nsvcd__span_of_arc(nsvcd__proof *p, uint32_t first, double u0, double u1) {
   const nsvcd__arc *arc = nsvcd__arc_at(p, first);
   const nsvcd__placement start = nsvcd__placement_at(arc, u0);
@@ -10401,12 +10738,37 @@ static void nsvcd__part_groups(const nsvcd__proof *p, nsvcd__search *search) {
 
 // ---- hulls
 
+// Vertices first .. first + 15 of a patch, of which `count` are wanted: the slice of them that
+// begins with lane l. The last one wanted is repeated in the lanes that are left.
+NSVCD__INLINE nsvcd__v3 nsvcd__facet_vertices(const nsvcd__facets *f, size_t patch, size_t first,
+                                              size_t count, size_t l) {
+  static const float lane[NSVCD__LANES] = {0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15};
+  const nsvcd__vertices all = nsvcd__vertices_of(f, patch);
+  const int16_t *x = all.x + first;
+  const int16_t *y = all.y + first;
+  const int16_t *z = all.z + first;
+  nsvcd__v3 q;
+  q.x = nsvcd__v_load_int16(x + l);
+  q.y = nsvcd__v_load_int16(y + l);
+  q.z = nsvcd__v_load_int16(z + l);
+  if (count < l + NSVCD__SLICE) {
+    const size_t last = count - 1;
+    const nsvcd__v end = nsvcd__v_set((float)last);
+    const nsvcd__v index = nsvcd__v_load(lane + l);
+    q.x = nsvcd__v_pick(index, end, q.x, nsvcd__v_set((float)x[last]));
+    q.y = nsvcd__v_pick(index, end, q.y, nsvcd__v_set((float)y[last]));
+    q.z = nsvcd__v_pick(index, end, q.z, nsvcd__v_set((float)z[last]));
+  }
+  const nsvcd__v step = nsvcd__v_set(f->steps[patch]);
+  return nsvcd__v3_fma(step, q, nsvcd__v3_set(nsvcd__facet_centre(f, patch)));
+}
+
 // A slice of a patch's hull, the last vertex repeated; its body's frame and units.
 NSVCD__INLINE nsvcd__v3 nsvcd__hull_of(const nsvcd__facets *f, size_t patch, size_t l) {
   return nsvcd__facet_vertices(f, patch, 0, f->hull_counts[patch], l);
 }
 
-// The hulls of an item's patches, posed, into the workspace.
+// Poses the hulls of an item's patches, into the proof's memory.
 static void nsvcd__pose_hulls(nsvcd__proof *p, size_t i, size_t j, const nsvcd__span *span) {
   NSVCD__EACH_SLICE(l) {
     const nsvcd__v3 moving = nsvcd__hull_of(&p->moving, i, l);
@@ -10511,9 +10873,9 @@ static void nsvcd__remember_plane(nsvcd__proof *p, nsvcd__f3 normal) {
   p->plane++;
 }
 
-// Is there a plane between two patches over the whole span? After the guesses Gilbert's iteration
-// (1966) towards the point nearest to 0 of the differences of the two hulls; each of its directions
-// is tried. p->held is what held.
+// Is there a plane between two patches over the whole span? After the guesses, Gilbert's iteration
+// (1966) goes towards the point nearest to 0 of the differences of the two hulls; each of its
+// directions is tried. p->held is the one that held.
 static NSVCD__APART int nsvcd__hulls_are_apart(nsvcd__proof *p, size_t i, size_t j,
                                                const nsvcd__span *span) {
   const float slacks = p->motion->scale * p->moving.slacks[i] + p->fixed.slacks[j];
@@ -10547,7 +10909,7 @@ static NSVCD__APART int nsvcd__hulls_are_apart(nsvcd__proof *p, size_t i, size_t
 
 // ---- couples: a triangle of each body, in double
 
-// The normal of a triangle (3 corners), twice as long as its area is large.
+// The normal of a triangle (3 corners); its length is twice the area.
 static nsvcd__d3 nsvcd__face_normal(const nsvcd__d3 *t) {
   return nsvcd__d3_cross(nsvcd__d3_sub(t[1], t[0]), nsvcd__d3_sub(t[2], t[0]));
 }
@@ -10702,27 +11064,35 @@ static nsvcd__couple nsvcd__couple_of(const nsvcd__proof *p, size_t i, size_t j,
   return couple;
 }
 
-// Two triangles come within the clearance a share u of the arc later than its start. MEETS if that
-// is an answer, TAKEN if there may be a better one.
-static nsvcd__verdict nsvcd__take_contact(nsvcd__proof *p, const nsvcd__couple *couple, double u,
-                                          const nsvcd__nearest *nearest) {
+// What is said of two triangles a share u of the arc later than its start.
+static nsvcd__contact nsvcd__contact_at(const nsvcd__proof *p, const nsvcd__couple *couple,
+                                        double u, const nsvcd__nearest *nearest) {
   const nsvcd__d3 face = nsvcd__face_normal(couple->fixed);
   const nsvcd__d3 apart = nsvcd__d3_sub(nearest->on_a, nearest->on_b);
   const double distance = sqrt(nearest->square);
   const int touches = distance <= couple->rounding;
-  p->has_contact = 1;
-  p->found.tick = (double)p->arc.first + u * (double)p->arc.ticks;
-  p->found.distance = touches ? 0 : distance;
-  p->found.point = nearest->on_b;
-  p->found.normal = nsvcd__d3_unit(touches ? face : apart, nsvcd__d3_of(0, 0, 0));
-  p->found.moving_triangle =
+  nsvcd__contact out;
+  out.tick = (double)p->arc.first + u * (double)p->arc.ticks;
+  out.distance = touches ? 0 : distance;
+  out.point = nearest->on_b;
+  out.normal = nsvcd__d3_unit(touches ? face : apart, nsvcd__d3_of(0, 0, 0));
+  out.moving_triangle =
       nsvcd__facet_number(&p->moving, couple->moving_patch, couple->moving_listing);
-  p->found.fixed_triangle =
-      nsvcd__facet_number(&p->fixed, couple->fixed_patch, couple->fixed_listing);
-  p->found.moving_patch = (uint16_t)couple->moving_patch;
-  p->found.fixed_patch = (uint16_t)couple->fixed_patch;
+  out.fixed_triangle = nsvcd__facet_number(&p->fixed, couple->fixed_patch, couple->fixed_listing);
+  out.moving_patch = (uint16_t)couple->moving_patch;
+  out.fixed_patch = (uint16_t)couple->fixed_patch;
+  return out;
+}
+
+// Two triangles come within the clearance a share u of the arc later than its start. MEETS if that
+// is an answer, TAKEN if there may be a better one.
+static nsvcd__verdict nsvcd__take_contact(nsvcd__proof *p, const nsvcd__couple *couple, double u,
+                                          const nsvcd__nearest *nearest) {
+  p->has_contact = 1;
+  p->found = nsvcd__contact_at(p, couple, u, nearest);
   if (p->measure > 0) {
-    p->clearance = touches ? 0 : fmax(0, distance - p->measure);
+    const int touches = !(p->found.distance > 0);
+    p->clearance = touches ? 0 : fmax(0, p->found.distance - p->measure);
     return touches ? NSVCD__MEETS : NSVCD__TAKEN;
   }
   if (p->first > 0) {
@@ -10733,24 +11103,19 @@ static nsvcd__verdict nsvcd__take_contact(nsvcd__proof *p, const nsvcd__couple *
 }
 
 // Two triangles come so near from u0 to u1 of the arc that it cannot be told whether they touch.
-// Where a contact follows, it begins here.
 static NSVCD__APART void nsvcd__take_doubt(nsvcd__proof *p, const nsvcd__couple *couple, double u0,
                                            double u1) {
   const double tick = (double)p->arc.first + u0 * (double)p->arc.ticks;
+  const double middle = 0.5 * (u0 + u1);
+  nsvcd__d3 posed[3];
   if (!(tick < p->unsure))
     return;
-  const nsvcd__contact found = p->found;
-  const double end = p->end;
-  const int has_contact = p->has_contact;
-  nsvcd__d3 posed[3];
-  nsvcd__place_triangle(nsvcd__placed_at(p, 0.5 * (u0 + u1)), couple->moving, posed);
+  nsvcd__place_triangle(nsvcd__placed_at(p, middle), couple->moving, posed);
   const nsvcd__nearest nearest = nsvcd__triangles_nearest(posed, couple->fixed);
-  (void)nsvcd__take_contact(p, couple, 0.5 * (u0 + u1), &nearest);
-  p->doubt = p->found;
-  p->found = found;
-  p->has_contact = has_contact;
+  p->doubt = nsvcd__contact_at(p, couple, middle, &nearest);
   p->unsure = tick;
-  p->end = p->first > 0 && has_contact ? fmin(end, tick) : end;
+  if (p->first > 0 && p->has_contact)
+    p->end = fmin(p->end, tick);
 }
 
 // What of the arc matters: the share of it at which the rest does not.
@@ -10952,7 +11317,7 @@ static NSVCD__APART nsvcd__verdict nsvcd__settle_couple(nsvcd__proof *p,
   for (double u = u0; left > 0;) {
     const double end = fmin(ends[left - 1], nsvcd__arc_limit(p));
     if (!(u < end))
-      break;  // what was in doubt may be the end
+      break;  // a doubt may be the end
     const double middle = 0.5 * (u + end);
     p->work++;
     NSVCD__TALLY(pairs, 1);
@@ -11276,8 +11641,8 @@ static NSVCD__APART uint32_t nsvcd__row_left(nsvcd__proof *p, size_t i, size_t j
 
 // ---- witnesses
 
-// The nearest points of a posed triangle and another, if they come within the clearance; NULL
-// square: HUGE_VAL if not.
+// The nearest points of a posed triangle and another, if they come within the clearance; if not,
+// `square` is HUGE_VAL.
 static nsvcd__nearest nsvcd__contact_of(const nsvcd__proof *p, const nsvcd__d3 *posed,
                                         const nsvcd__couple *couple) {
   nsvcd__nearest out = {HUGE_VAL, {0, 0, 0}, {0, 0, 0}};
@@ -11421,7 +11786,7 @@ static nsvcd__verdict nsvcd__find_witness(nsvcd__proof *p, size_t i, size_t j, u
   return NSVCD__FREE;
 }
 
-// The last knot that is not after a tick before the end.
+// The last knot that is not after a tick; that tick is before the end of the motion.
 static uint32_t nsvcd__knot_at(const nsvcd__motion *motion, uint32_t tick) {
   const uint32_t past_a = tick % motion->moving.ticks;
   const uint32_t past_b = tick % motion->fixed.ticks;
@@ -11550,8 +11915,8 @@ static void nsvcd__certify_item(const nsvcd__proof *p, const nsvcd__span *span,
   (void)item;
 }
 
-// An item from u0 to u1 of an arc, or from halves to halves of that: by a plane that fits it, or by
-// its triangles.
+// Settles an item from u0 to u1 of an arc, which is halved as often as need be: by a plane between
+// the hulls, or by its triangles.
 static nsvcd__verdict nsvcd__settle_arc(nsvcd__proof *p, const nsvcd__item *item, uint32_t first,
                                         double u0, double u1) {
   double *ends = p->arc_ends;
@@ -11588,7 +11953,7 @@ static nsvcd__verdict nsvcd__settle_arc(nsvcd__proof *p, const nsvcd__item *item
   return verdict;
 }
 
-// An item that no plane parts over its segment, arc by arc.
+// Settles an item that no plane parts over its segment, arc by arc.
 static nsvcd__verdict nsvcd__settle_item(nsvcd__proof *p, const nsvcd__search *search,
                                          const nsvcd__item *item) {
   const uint32_t end = search->begin[item->segment + 1u];
@@ -11740,7 +12105,7 @@ static NSVCD__APART void nsvcd__clip_segment(nsvcd__proof *p, nsvcd__search *sea
   p->plane += p->plane > 0;
 }
 
-// Settles the items that no plane parts, the best first.
+// Settles the items that no plane parts, in the order of nsvcd__comes_first.
 static NSVCD__APART nsvcd__verdict nsvcd__settle_items(nsvcd__proof *p, nsvcd__search *search) {
   nsvcd__sort_items(p, p->of.items, p->count);
   for (size_t n = 0; n < p->count; n++) {
@@ -11760,9 +12125,9 @@ static NSVCD__APART nsvcd__verdict nsvcd__settle_items(nsvcd__proof *p, nsvcd__s
   return nsvcd__is_spent(p) ? NSVCD__UNDECIDED : NSVCD__FREE;
 }
 
-// Looks at fresh items, the best first: parts those that planes can part, looks for a witness in
-// the others, and keeps them. The last plane that held is tried on all before anything else: it
-// often holds for neighbours.
+// Looks at fresh items, in that order: parts those that planes can part, looks for a witness in the
+// others, and keeps them. The last plane that held is tried on all before anything else: it often
+// holds for neighbours.
 static NSVCD__APART nsvcd__verdict nsvcd__sift_items(nsvcd__proof *p, nsvcd__search *search) {
   size_t count = 0;
   nsvcd__clip_segment(p, search);
@@ -11806,7 +12171,7 @@ static NSVCD__APART nsvcd__verdict nsvcd__sift_items(nsvcd__proof *p, nsvcd__sea
 
 // ---- containment
 
-// A component's point that is within the other body.
+// A ray from a place of a body's frame, in that frame: does the body enclose the place?
 typedef struct nsvcd__ray {
   nsvcd__d3 from, direction;
   double margin;  // a ray that passes an edge within this tells nothing
@@ -11906,8 +12271,8 @@ static int nsvcd__is_new(nsvcd__proof *p, size_t *count, uint32_t number, int *u
 }
 
 // Lanes of a block whose triangles the ray crosses, or passes within the margin, and some more. The
-// signed volumes of the edges and the ray are products of an edge and a place on it, both off by
-// rounding of the corners: by no more than `rounding`, square metres.
+// signed volumes of the edges and the ray are products of an edge and a place on it, off by no more
+// than `rounding`, square metres: see nsvcd__crossings.
 static uint32_t nsvcd__lanes_on_ray(nsvcd__block *block, const nsvcd__ray *ray, float margin,
                                     float rounding) {
   const nsvcd__f3 start = nsvcd__f3_round(ray->from);
@@ -11937,12 +12302,20 @@ static uint32_t nsvcd__lanes_on_ray(nsvcd__block *block, const nsvcd__ray *ray, 
 
 // How often the surface of the closed components winds about a point, by one ray; *unclear if it
 // cannot tell. A triangle counts once, whatever patches list it, or parts of it.
+//
+// How far are the signed volumes of nsvcd__lanes_on_ray off? With u = 2^-24, E the extent, R that
+// and the distance of the ray's place: a corner, a vertex of up to E from a centre of up to E, is
+// off by 2 u E. An edge, of up to 2 E, by two corners and its own rounding, 6 u E; its product with
+// the direction, rounded as well, by 6 + 2 + 2.31 x 2 (|a_y b_z| + |a_z b_y| and so on are no more
+// than 1.155 |a| |b| together) = 12.7 u E. A place on it, up to R from the ray's, by 3 u R. The
+// volume then by 12.7 u E R + 2 E x 3 u R, and by 3 roundings of up to 2 E R: 24.7 u E R, less than
+// 1.5e-6 E R. NSVCD__ROUNDING is more.
 static int nsvcd__crossings(nsvcd__proof *p, const nsvcd__facets *f, const nsvcd__ray *ray,
                             int *unclear) {
   nsvcd__block *block = &p->fixed_blocks[0];
   p->window = 0;
   const float remote = (float)nsvcd__d3_length(ray->from) + f->body->extent;
-  const float rounding = 0.5f * NSVCD__ROUNDING * remote * f->body->extent;
+  const float rounding = NSVCD__ROUNDING * remote * f->body->extent;
   const nsvcd__ray_of of = {f->body, ray};
   int sum = 0;
   size_t count = 0;
@@ -12159,7 +12532,7 @@ typedef struct nsvcd__enclosure {
 } nsvcd__enclosure;
 
 // Are some of the inner body's components, those with seeds from `first` to `end`, within the outer
-// one? Then p->found has the point, and p->within is set; 1 if that is certain.
+// one? Then p->enclosed has the point, and p->within is set; 1 if that is certain.
 static int nsvcd__encloses_seeds(nsvcd__proof *p, const nsvcd__enclosure *e, size_t first,
                                  size_t end) {
   uint32_t nearby = 0;
@@ -12177,10 +12550,7 @@ static int nsvcd__encloses_seeds(nsvcd__proof *p, const nsvcd__enclosure *e, siz
     const nsvcd__d3 seen = nsvcd__place_point(&e->start, seed);
     if (!nsvcd__is_enclosed(p, e->outer, e->unit, seen))
       continue;
-    memset(&p->found, 0, sizeof p->found);
-    p->found.point = e->inner_moves ? seen : seed;
-    p->found.moving_triangle = NSVCD_NO_TRIANGLE;
-    p->found.fixed_triangle = NSVCD_NO_TRIANGLE;
+    p->enclosed = e->inner_moves ? seen : seed;
     p->within = 1;
     if (!nsvcd__surface_is_near(p, e->outer, seen, p->tolerance / e->unit))
       return 1;
@@ -12214,7 +12584,7 @@ static int nsvcd__encloses_any(nsvcd__proof *p, const nsvcd__enclosure *e) {
   return 0;
 }
 
-// Is a component of one body within the other at the start of the motion? Then p->found has its
+// Is a component of one body within the other at the start of the motion? Then p->enclosed is its
 // point. Where that is so close to the surface that quanta matter, 0 is returned and p->within is
 // set: if planes then part all patches at t = 0, the point, the stored surface and the true one,
 // patch by patch on one side of a plane, agree, and it is within.
@@ -12373,7 +12743,7 @@ static void nsvcd__patches_towards(const nsvcd__facets *f, nsvcd__f3 place, size
   }
 }
 
-// The moving body's placement where a segment begins or ends, there where the centres are nearest.
+// The moving body's placement at the ends of the segments: the one where the centres are nearest.
 static nsvcd__placement nsvcd__nearest_placement(nsvcd__proof *p, const nsvcd__search *search) {
   const nsvcd__d3 moving = nsvcd__d3_load(p->moving.body->centre);
   const nsvcd__d3 fixed = nsvcd__d3_load(p->fixed.body->centre);
@@ -12415,7 +12785,8 @@ static void nsvcd__to_nearest_patch(const nsvcd__facets *f, const nsvcd__transfo
   }
 }
 
-// The least distance between the vertices of patch i of the moving body and patch j of the fixed.
+// The least distance between the hulls' vertices of patch i of the moving body and patch j of the
+// fixed one.
 static double nsvcd__vertices_apart(const nsvcd__proof *p, const nsvcd__transform *pose, size_t i,
                                     size_t j) {
   float lanes[3][NSVCD__LANES];
@@ -12455,7 +12826,7 @@ static NSVCD__APART double nsvcd__guess_clearance(nsvcd__proof *p, const nsvcd__
   return 1.0001 * nsvcd__vertices_apart(p, &pose, i, j) + rounding;
 }
 
-// All that has been found in the segments that are wanted.
+// Proves what the search finds in the segments that are wanted.
 static nsvcd__verdict nsvcd__prove_segments(nsvcd__proof *p, nsvcd__search *search) {
   nsvcd__verdict verdict = NSVCD__FREE;
   for (int more = 1; more && verdict == NSVCD__FREE;) {
@@ -12474,7 +12845,7 @@ static nsvcd__verdict nsvcd__prove_tiles(nsvcd__proof *p, nsvcd__search *search)
   return verdict;
 }
 
-// Some segments after the other, until there is a contact: then it is the first one of the tile.
+// Proves a tile, some segments at a time, until there is a contact: it is the first of the tile.
 static nsvcd__verdict nsvcd__prove_tile_in_order(nsvcd__proof *p, nsvcd__search *search) {
   const uint64_t few = ((uint64_t)1 << NSVCD__IN_ORDER) - 1;
   nsvcd__verdict verdict = NSVCD__FREE;
@@ -12508,6 +12879,33 @@ static nsvcd__verdict nsvcd__prove_in_order(nsvcd__proof *p, nsvcd__search *sear
   return verdict;
 }
 
+// What is said of a component that is within the other body, whatever contacts were found since.
+static nsvcd__verdict nsvcd__is_within(nsvcd__proof *p) {
+  memset(&p->found, 0, sizeof p->found);
+  p->found.point = p->enclosed;
+  p->found.moving_triangle = NSVCD_NO_TRIANGLE;
+  p->found.fixed_triangle = NSVCD_NO_TRIANGLE;
+  return NSVCD__WITHIN;
+}
+
+// Does a doubt come before all that was found? A contact is the first one, to the tolerance, only
+// where none does.
+static int nsvcd__is_doubtful(const nsvcd__proof *p) {
+  const int has_end = p->first > 0 && p->has_contact;
+  return p->unsure < (has_end ? p->found.tick - p->first : NSVCD__NEVER);
+}
+
+// What is said of triangles that came too near to tell, unless others met before, or, with
+// `measure`, came nearer.
+static nsvcd__verdict nsvcd__is_undecided(nsvcd__proof *p) {
+  const int is_nearer = p->doubt.distance < p->found.distance;
+  const int is_earlier = p->doubt.tick < p->found.tick;
+  const int is_better = !p->has_contact || (p->measure > 0 ? is_nearer : is_earlier);
+  if (p->unsure < NSVCD__NEVER && is_better)
+    p->found = p->doubt;
+  return NSVCD__UNDECIDED;
+}
+
 static nsvcd__verdict nsvcd__prove(nsvcd__proof *p, nsvcd__search *search) {
   const float lifted = nsvcd__f3_length(p->motion->lift);
   const float apart = p->lengths + nsvcd__clearance_of(p) + 1.0001f * lifted;
@@ -12517,7 +12915,7 @@ static nsvcd__verdict nsvcd__prove(nsvcd__proof *p, nsvcd__search *search) {
   nsvcd__choose_segments(p->motion, search);
   p->first *= (double)p->motion->ticks;
   if (nsvcd__starts_within(p))
-    return NSVCD__WITHIN;
+    return nsvcd__is_within(p);
   if (p->measure > 0)
     p->clearance = nsvcd__guess_clearance(p, search);
   nsvcd__cut_segments(p->motion, p->lengths, nsvcd__clearance_of(p), search);
@@ -12527,18 +12925,16 @@ static nsvcd__verdict nsvcd__prove(nsvcd__proof *p, nsvcd__search *search) {
   if (p->lost)
     p->settled = 0;  // whether one is within the other, at the start
   p->lost |= verdict == NSVCD__UNDECIDED;
-  // a doubt that ends in a contact is its beginning
-  if (p->first > 0 && p->has_contact && p->unsure <= p->end) {
-    p->found = p->doubt;
-    p->end = p->unsure;
-  }
-  if (verdict == NSVCD__MEETS)
+  if (verdict == NSVCD__MEETS && !(p->first > 0 && nsvcd__is_doubtful(p)))
     return verdict;
-  if (p->lost || p->unsure < p->end)
-    return NSVCD__UNDECIDED;
-  return p->within ? NSVCD__WITHIN : p->has_contact ? NSVCD__MEETS : NSVCD__FREE;
+  if (p->lost || nsvcd__is_doubtful(p))
+    return nsvcd__is_undecided(p);
+  if (p->within)
+    return nsvcd__is_within(p);
+  return p->has_contact ? NSVCD__MEETS : NSVCD__FREE;
 }
-// A proof that knows nothing yet of its motion.
+
+// Makes a proof forget all that it knew of a motion.
 static void nsvcd__proof_restart(nsvcd__proof *p) {
   p->end = p->clipped_end = p->unsure = NSVCD__NEVER;
   p->clipped = 0;
@@ -12550,6 +12946,7 @@ static void nsvcd__proof_restart(nsvcd__proof *p) {
   p->spans_known = 0;
   p->held = nsvcd__f3_of(0, 0, 0);
   p->plane = 0;
+  p->arc.first = 0;
   p->arc.ticks = 0;
   p->in_group = p->in_both = 0;
   p->misses = 0;
@@ -12596,8 +12993,8 @@ static size_t nsvcd__undone(const nsvcd__proof *p, nsvcd__d3 n) {
   return count;
 }
 
-// Of the normals of what touches, and across an edge of each, one that undoes the most; `best` as
-// it is if none undoes any.
+// Of the normals of what touches, and the directions across an edge of each, the one that undoes
+// the most touches: *best, as it was if none undoes any. Returns how many.
 static size_t nsvcd__best_lift(const nsvcd__proof *p, nsvcd__d3 *best) {
   const nsvcd__d3 none = nsvcd__d3_of(0, 0, 0);
   size_t most = 0;
@@ -12679,7 +13076,7 @@ static NSVCD__APART void nsvcd__lift_motion(nsvcd__proof *p, nsvcd__search *sear
   p->clearance += 0.05 * p->skin;
   p->gathers = 1;
   int liftable = 1;
-  // as many times as there are too many contacts to look at at once
+  // as many times as there are too many contacts to look at together
   for (int more = 1; more && liftable;) {
     nsvcd__proof_restart(p);
     nsvcd__gather_contacts(p, search);
@@ -12945,8 +13342,9 @@ static int nsvcd__is_contained(const nsvcd_body *moving, const nsvcd_body *fixed
 // Out: a logit each.
 //
 // The motion is linearised about the middle of the interval; then everything is expressed in a
-// frame that moves with the pair, in units of r1 + r2 (appendix F), so the logit is invariant to
-// rigid motion and scale. The symmetries that are left are removed by convention, not learned:
+// frame that moves with the pair, in units of r1 + r2 (NeuralSVCD, appendix F), so the logit is
+// invariant to rigid motion and scale. The symmetries that are left are removed by convention, not
+// learned:
 //   swap           the larger patch comes first
 //   axis 1         the line between the centres
 //   axis 2         the velocity across the line, plus a twentieth of the lean (the difference of
@@ -13232,7 +13630,7 @@ static void nsvcd__views_set_frame(nsvcd__views *view) {
   view->w = nsvcd__v3_scale(view->w, sign);
   const nsvcd__v3 forward = nsvcd__v3_scale(v_across, sign);
   const nsvcd__v3 ref = nsvcd__v3_fma(nsvcd__v_set(NSVCD__LEAN), lean_across, forward);
-  // somewhere
+  // where the reference vanishes in some lane
   if (nsvcd__v_le(nsvcd__v3_length(ref), nsvcd__v_set(1e-7f))) {
     const nsvcd__v3 axis = nsvcd__v_across(nsvcd__v_farthest_axis(e1), e1);
     instead = nsvcd__v_unit_or(axis, 1e-9f, x_axis);
@@ -13321,7 +13719,7 @@ static NSVCD__APART void nsvcd__scenes_of(const nsvcd__pairs *pairs, size_t coun
   nsvcd__v_store(facts[NSVCD__FACT_SPIN], nsvcd__v3_length(view.w));
 }
 
-// Appendix F: the inputs of the decoder for the first `count` pairs of a slice, x (count,
+// The inputs of the decoder (appendix F) for the first `count` pairs of a slice, x (count,
 // DECODER_IN): vectors of the larger patch and of the other, their scalars, and the facts.
 static NSVCD__APART void nsvcd__invariants(const nsvcd__pairs *pairs, size_t count, float *x) {
   nsvcd__scenes scene;
@@ -13435,7 +13833,7 @@ static void nsvcd__run_layer(const nsvcd__layer *layer, const float *x, size_t p
   const size_t outputs = layer->outputs;
   size_t p = 0;
   size_t o;
-#if defined(__AVX512F__) && !defined(NSVCD_NO_SIMD)
+#if NSVCD__SLICE == 16
   for (; p + 8 <= rows; p += 8) {
     const float *from = x + pitch * p;
     float *to = y + NSVCD__WIDEST * p;
@@ -13474,19 +13872,19 @@ static void nsvcd__run_layer(const nsvcd__layer *layer, const float *x, size_t p
 //   nsvcd__dot_bytes  bytes (BYTE_ROWS, inputs) -> dot (BYTE_ROWS, outputs), by weights of
 //                     (inputs / 4, outputs, 4)
 //   nsvcd__from_dots  dot (outputs) -> y (outputs)
-#if defined(__AVX512VNNI__) && !defined(NSVCD_NO_SIMD)
+#ifdef NSVCD__VNNI
 #define NSVCD__BYTE_ROWS 4
 static float nsvcd__to_bytes(const float *x, size_t inputs, uint8_t *bytes) {
   __m512 most = _mm512_set1_ps(1e-20f);
   for (size_t i = 0; i < inputs; i += 16)
-    most = _mm512_max_ps(most, _mm512_abs_ps(_mm512_loadu_ps(x + i)));
-  const float largest = _mm512_reduce_max_ps(most);
+    most = nsvcd__v_max(most, _mm512_abs_ps(_mm512_loadu_ps(x + i)));
+  const float largest = 0 - nsvcd__v_least(nsvcd__v_sub(nsvcd__v_set(0), most));
   const __m512 inverse = _mm512_set1_ps(127 / largest);
   const __m512 middle = _mm512_set1_ps(128.5f);
   for (size_t i = 0; i < inputs; i += 16) {
     const __m512 scaled = _mm512_fmadd_ps(_mm512_loadu_ps(x + i), inverse, middle);
-    const __m512i value = _mm512_cvttps_epi32(scaled);
-    _mm_storeu_si128((__m128i *)(void *)(bytes + i), _mm512_cvtepi32_epi8(value));
+    const __m512i value = _mm512_maskz_cvttps_epi32(NSVCD__ALL, scaled);
+    _mm_storeu_si128((__m128i *)(void *)(bytes + i), _mm512_maskz_cvtepi32_epi8(NSVCD__ALL, value));
   }
   return largest / 127;
 }
@@ -13540,11 +13938,12 @@ static void nsvcd__from_dots(const nsvcd__layer *layer, const int32_t *dot, floa
   const __m512 steps = _mm512_set1_ps(step);
   const __m512 middle = _mm512_set1_ps(-128);
   for (size_t o = 0; o < layer->outputs; o += 16) {
-    const __m512 value = _mm512_cvtepi32_ps(_mm512_loadu_si512((const void *)(dot + o)));
+    const __m512i whole = _mm512_loadu_si512((const void *)(dot + o));
+    const __m512 value = _mm512_maskz_cvtepi32_ps(NSVCD__ALL, whole);
     const __m512 exact = _mm512_fmadd_ps(_mm512_loadu_ps(sum + o), middle, value);
     const __m512 factor = _mm512_mul_ps(steps, _mm512_loadu_ps(scale + o));
     const __m512 out = _mm512_fmadd_ps(exact, factor, _mm512_loadu_ps(bias + o));
-    _mm512_storeu_ps(y + o, _mm512_max_ps(least, out));
+    _mm512_storeu_ps(y + o, nsvcd__v_max(least, out));
   }
 }
 #else
@@ -13667,24 +14066,6 @@ static void nsvcd__decoder_logits(const nsvcd__decoder *decoder, const float *x,
 //   write       what was found about moving and fixed, as facts about a and b
 //
 // A batch checks all of its questions before it answers the first one.
-
-NSVCDDEF const char *nsvcd_status_string(nsvcd_status status) {
-  switch (status) {
-    case NSVCD_STATUS_OK:
-      return "ok";
-    case NSVCD_STATUS_CERTIFIED_FREE:
-      return "certified-free";
-    case NSVCD_STATUS_INSIDE:
-      return "inside";
-    case NSVCD_STATUS_LIMIT:
-      return "limit";
-    case NSVCD_STATUS_WITNESS:
-      return "witness";
-    case NSVCD_STATUS_UNDECIDED:
-      return "undecided";
-  }
-  return "unknown status";
-}
 
 #ifndef NSVCD_NO_NETWORK
 #ifndef NSVCD_NO_BASE
@@ -13926,16 +14307,16 @@ static nsvcd_result nsvcd__settings_of(const nsvcd_sweep_options *options, size_
 }
 
 // Is a part of one body inside of the other at the start?
-static NSVCD__APART int nsvcd__starts_inside(const nsvcd__task *ask) {
-  const nsvcd__transform pose = nsvcd__motion_pose(&ask->motion, 0);
-  return nsvcd__is_contained(ask->moving, ask->fixed, ask->motion.scale, &pose);
+static NSVCD__APART int nsvcd__starts_inside(const nsvcd__task *task) {
+  const nsvcd__transform pose = nsvcd__motion_pose(&task->motion, 0);
+  return nsvcd__is_contained(task->moving, task->fixed, task->motion.scale, &pose);
 }
 
 // Scores candidates that have no score yet, `most` at most: the deeper ones, roughly, because a
 // heap ends with them. Returns 0, and does nothing, if there are fewer than `least`.
-static int nsvcd__score(const nsvcd__task *ask, nsvcd__candidates *kept, size_t least,
+static int nsvcd__score(const nsvcd__task *task, nsvcd__candidates *kept, size_t least,
                         size_t most) {
-  const nsvcd__settings *settings = &ask->settings;
+  const nsvcd__settings *settings = &task->settings;
   nsvcd__candidate *batch[NSVCD__BATCH];
   size_t count = 0;
   size_t left = 0;
@@ -13952,7 +14333,7 @@ static int nsvcd__score(const nsvcd__task *ask, nsvcd__candidates *kept, size_t 
     if (count < NSVCD__BATCH && count < left)
       continue;
     NSVCD__TALLY(ranked, count);
-    nsvcd__decode(ask->moving, ask->fixed, &ask->motion, batch, count, settings->ranker,
+    nsvcd__decode(task->moving, task->fixed, &task->motion, batch, count, settings->ranker,
                   settings->int8);
     left -= count;
     count = 0;
@@ -13976,15 +14357,15 @@ static void nsvcd__best_first(nsvcd__candidate *items, size_t count, size_t of) 
 }
 
 // Answers with a candidate, of which a decoder has given the score.
-static void nsvcd__answer_with(const nsvcd__task *ask, const nsvcd__candidate *candidate,
+static void nsvcd__answer_with(const nsvcd__task *task, const nsvcd__candidate *candidate,
                                const nsvcd__decoder *decoder, nsvcd_answer *answer) {
-  answer->logit = candidate->score - ask->settings.threshold;
+  answer->logit = candidate->score - task->settings.threshold;
   answer->contact_time = candidate->t_least;
   answer->patch_a = candidate->moving;
   answer->patch_b = candidate->fixed;
-  if (ask->decisive) {
-    ask->decisive->candidate = *candidate;
-    ask->decisive->decoder = decoder;
+  if (task->decisive) {
+    task->decisive->candidate = *candidate;
+    task->decisive->decoder = decoder;
   }
 }
 
@@ -13995,23 +14376,23 @@ static int nsvcd__is_harmless(const nsvcd__candidate *candidate, float threshold
 
 // Is the most suspicious of the candidates scored so far clearly a collision, or, where they are
 // all, clearly none? Then that is the answer, and no other decoder needs to look.
-static int nsvcd__is_clear(const nsvcd__task *ask, const nsvcd__candidates *kept, int all,
+static int nsvcd__is_clear(const nsvcd__task *task, const nsvcd__candidates *kept, int all,
                            nsvcd_answer *answer) {
-  const float threshold = ask->settings.threshold;
+  const float threshold = task->settings.threshold;
   const nsvcd__candidate *most = &kept->items[0];
   for (size_t k = 1; k < kept->count; k++)
     most = kept->items[k].score > most->score ? &kept->items[k] : most;
   const int yes = most->score > NSVCD__CLEAR_LOGIT + (threshold > 0 ? threshold : 0);
   const int no = all && nsvcd__is_harmless(most, threshold);
   if (yes || no)
-    nsvcd__answer_with(ask, most, ask->settings.ranker, answer);
+    nsvcd__answer_with(task, most, task->settings.ranker, answer);
   return yes || no;
 }
 
 // The verdict on the K most suspicious of the scored candidates, but for the harmless ones, a
 // portion at a time, until one is clearly positive.
-static void nsvcd__judge(const nsvcd__task *ask, nsvcd__candidates *kept, nsvcd_answer *answer) {
-  const nsvcd__settings *settings = &ask->settings;
+static void nsvcd__judge(const nsvcd__task *task, nsvcd__candidates *kept, nsvcd_answer *answer) {
+  const nsvcd__settings *settings = &task->settings;
   nsvcd__candidate *items = kept->items;
   size_t count = kept->count < settings->pairs ? kept->count : settings->pairs;
   nsvcd__best_first(items, count, kept->count);
@@ -14027,87 +14408,88 @@ static void nsvcd__judge(const nsvcd__task *ask, nsvcd__candidates *kept, nsvcd_
       portion[k] = &items[first + k];
     if (settings->decoder != settings->ranker) {
       NSVCD__TALLY(judged, size);
-      nsvcd__decode(ask->moving, ask->fixed, &ask->motion, portion, size, settings->decoder,
+      nsvcd__decode(task->moving, task->fixed, &task->motion, portion, size, settings->decoder,
                     settings->int8);
     }
     for (size_t k = 0; k < size; k++) {
       const int is_first = first + k == 0;
       if (is_first || portion[k]->score - settings->threshold > answer->logit)
-        nsvcd__answer_with(ask, portion[k], settings->decoder, answer);
+        nsvcd__answer_with(task, portion[k], settings->decoder, answer);
     }
   }
 }
 
 // Does this motion, cut already, clearly collide where the hint says?
-static NSVCD__APART int nsvcd__collides_again(const nsvcd__task *ask, const nsvcd__hint *hint,
+static NSVCD__APART int nsvcd__collides_again(const nsvcd__task *task, const nsvcd__hint *hint,
                                               nsvcd__query *query, nsvcd_answer *answer) {
-  const nsvcd__settings *settings = &ask->settings;
+  const nsvcd__settings *settings = &task->settings;
   nsvcd__candidates kept;
   nsvcd__candidates_start(&kept, query->kept, NSVCD__PORTION);
-  nsvcd__search_patch(&query->broad_phase, ask->moving, hint->moving / NSVCD__GROUP, ask->fixed,
+  nsvcd__search_patch(&query->broad_phase, task->moving, hint->moving / NSVCD__GROUP, task->fixed,
                       hint->fixed, &kept);
-  if (!nsvcd__score(ask, &kept, 1, kept.count))
+  if (!nsvcd__score(task, &kept, 1, kept.count))
     return 0;
   answer->candidates = kept.total;
   answer->status = kept.total > settings->pairs ? NSVCD_STATUS_LIMIT : NSVCD_STATUS_OK;
-  if (nsvcd__is_clear(ask, &kept, 0, answer))
+  if (nsvcd__is_clear(task, &kept, 0, answer))
     return 1;
   if (settings->decoder == settings->ranker)
     return 0;
-  nsvcd__judge(ask, &kept, answer);
+  nsvcd__judge(task, &kept, answer);
   return answer->logit >= NSVCD__CLEAR_LOGIT;
 }
 
 // Searches a motion that has been cut, looking at pairs as they are found, until one is clear or
 // all are known.
-static NSVCD__APART void nsvcd__search_and_judge(nsvcd__task *ask, nsvcd__query *query,
+static NSVCD__APART void nsvcd__search_and_judge(nsvcd__task *task, nsvcd__query *query,
                                                  nsvcd_answer *answer) {
-  const size_t shortlist = ask->settings.shortlist;
+  const size_t shortlist = task->settings.shortlist;
   nsvcd__search *search = &query->broad_phase;
   nsvcd__candidates kept;
   size_t worth = shortlist < NSVCD__FIRST_LOOK ? shortlist : NSVCD__FIRST_LOOK;
   size_t left = NSVCD__LOOKS * shortlist;
   int clear = 0;
-  int more = nsvcd__search_begin(ask->moving, ask->fixed, search);
+  int more = nsvcd__search_begin(task->moving, task->fixed, search);
   nsvcd__candidates_start(&kept, query->kept, shortlist);
   while (more && !clear) {
     more = nsvcd__search_step(search, &kept);
     // A deep collision shows early. What is scored now need not be scored later, so that looking
     // costs little.
-    if (!more || left < worth || !nsvcd__score(ask, &kept, worth, worth))
+    if (!more || left < worth || !nsvcd__score(task, &kept, worth, worth))
       continue;
     left -= worth;
-    clear = nsvcd__is_clear(ask, &kept, 0, answer);
+    clear = nsvcd__is_clear(task, &kept, 0, answer);
     if (worth == NSVCD__FIRST_LOOK)
       worth = NSVCD__BATCH;
   }
 
   answer->candidates = kept.total;
   if (kept.total > 0)
-    answer->status = kept.total > ask->settings.pairs ? NSVCD_STATUS_LIMIT : NSVCD_STATUS_OK;
+    answer->status = kept.total > task->settings.pairs ? NSVCD_STATUS_LIMIT : NSVCD_STATUS_OK;
   if (clear || kept.count == 0)
     return;
-  nsvcd__score(ask, &kept, 1, kept.count);
-  if (!nsvcd__is_clear(ask, &kept, 1, answer))
-    nsvcd__judge(ask, &kept, answer);
+  nsvcd__score(task, &kept, 1, kept.count);
+  if (!nsvcd__is_clear(task, &kept, 1, answer))
+    nsvcd__judge(task, &kept, answer);
 }
 
 // Asks the network about a motion that has been prepared. hint: NULL, or that of a batch.
-static void nsvcd__answer_by_network(nsvcd__task *ask, nsvcd__query *query, nsvcd__hint *hint,
+static void nsvcd__answer_by_network(nsvcd__task *task, nsvcd__query *query, nsvcd__hint *hint,
                                      nsvcd_answer *answer) {
   // checked before
-  (void)nsvcd__settings_of(ask->options, ask->moving->patches, ask->fixed->patches, &ask->settings);
+  (void)nsvcd__settings_of(task->options, task->moving->patches, task->fixed->patches,
+                           &task->settings);
   nsvcd__answer_free(answer);
-  if (nsvcd__motion_is_far(&ask->motion, ask->lengths))
+  if (nsvcd__motion_is_far(&task->motion, task->lengths))
     return;
-  nsvcd__cut_motion(&ask->motion, ask->lengths, &query->broad_phase);
+  nsvcd__cut_motion(&task->motion, task->lengths, &query->broad_phase);
 
   const int hinted = hint && hint->known;
-  if (!hinted || !nsvcd__collides_again(ask, hint, query, answer)) {
+  if (!hinted || !nsvcd__collides_again(task, hint, query, answer)) {
     nsvcd__answer_free(answer);
     if (hinted)
       hint->known = ++hint->misled < NSVCD__MISLEADS;
-    nsvcd__search_and_judge(ask, query, answer);
+    nsvcd__search_and_judge(task, query, answer);
   }
   if (hint && answer->logit >= NSVCD__CLEAR_LOGIT) {
     const nsvcd__hint here = {1, 0, answer->patch_a, answer->patch_b};
@@ -14115,7 +14497,7 @@ static void nsvcd__answer_by_network(nsvcd__task *ask, nsvcd__query *query, nsvc
   }
 
   // a body inside another need not touch anything
-  if (nsvcd__starts_inside(ask)) {
+  if (nsvcd__starts_inside(task)) {
     answer->status = NSVCD_STATUS_INSIDE;
     answer->logit = NSVCD_LOGIT_CERTAIN;
     answer->contact_time = 0;
@@ -14149,6 +14531,12 @@ static nsvcd__to_world nsvcd__to_world_at(const nsvcd__motion *motion, double t)
   return out;
 }
 
+// Has a proof found triangles that an answer is to name? If not a contact, then a doubt.
+static int nsvcd__names_triangles(const nsvcd__proof *p, nsvcd__verdict verdict) {
+  const int is_doubt = verdict == NSVCD__UNDECIDED && p->unsure < NSVCD__NEVER;
+  return p->has_contact || is_doubt;
+}
+
 // Answers with the contact that a proof has found: when, where, and of what.
 static void nsvcd__answer_with_contact(const nsvcd__proof *p, nsvcd_answer *answer) {
   const nsvcd__contact *found = &p->found;
@@ -14168,8 +14556,8 @@ static void nsvcd__answer_with_contact(const nsvcd__proof *p, nsvcd_answer *answ
   memcpy(answer->normal, &normal, sizeof answer->normal);
 }
 
-// What is proven of clearances and times.
-static void nsvcd__answer_with_bounds(const nsvcd__proof *p, nsvcd__verdict verdict,
+// What is proven of clearances and times. measured: the least distance is known.
+static void nsvcd__answer_with_bounds(const nsvcd__proof *p, nsvcd__verdict verdict, int measured,
                                       nsvcd_answer *answer) {
   const double unit = (double)p->motion->unit;
   const double known = p->lost ? p->settled : NSVCD__NEVER;
@@ -14178,22 +14566,23 @@ static void nsvcd__answer_with_bounds(const nsvcd__proof *p, nsvcd__verdict verd
   double proven = is_free;
   if (!is_free && p->first > 0 && verdict != NSVCD__WITHIN)
     proven = fmin(fmax(until, 0), 1);
-  const int measured = p->measure > 0 && verdict != NSVCD__WITHIN && verdict != NSVCD__UNDECIDED;
   const double low = measured || is_free ? p->clearance : 0;
   answer->free_until = (float)(proven < 1 ? proven * (1 - 1e-7) : 1);
   answer->clearance_low = (float)(low * unit * (1 - 1e-6));
   answer->clearance_high = HUGE_VALF;
   if (verdict == NSVCD__WITHIN) {
     answer->clearance_high = 0;
-  } else if (p->has_contact) {
+  } else if (nsvcd__names_triangles(p, verdict)) {
     const float quanta = nsvcd__quanta_of(p, p->found.moving_patch, p->found.fixed_patch);
     const double distance = p->found.distance + (double)quanta;
     answer->clearance_high = (float)(distance * unit * (1 + 1e-6));
   }
 }
 
-// A contact so early that it may be one at the start already: then it is that.
-static NSVCD__APART nsvcd__verdict nsvcd__prove_start(nsvcd__proof *p, nsvcd__search *search) {
+// A contact or a doubt so early that there may be a contact at the start already: then it is that.
+// If not, the verdict stays.
+static NSVCD__APART nsvcd__verdict nsvcd__prove_start(nsvcd__proof *p, nsvcd__search *search,
+                                                      nsvcd__verdict verdict) {
   nsvcd__motion *whole = p->motion;
   nsvcd__motion start = *whole;
   const nsvcd__contact found = p->found;
@@ -14203,12 +14592,12 @@ static NSVCD__APART nsvcd__verdict nsvcd__prove_start(nsvcd__proof *p, nsvcd__se
   p->motion = &start;
   p->first = 0;
   nsvcd__proof_restart(p);
-  nsvcd__verdict verdict = nsvcd__prove(p, search);
-  if (verdict != NSVCD__MEETS && verdict != NSVCD__WITHIN) {
-    p->found = found;
-    verdict = NSVCD__MEETS;
-  } else {
+  const nsvcd__verdict at_start = nsvcd__prove(p, search);
+  if (at_start == NSVCD__MEETS || at_start == NSVCD__WITHIN) {
     p->found.tick = 0;
+    verdict = at_start;
+  } else {
+    p->found = found;
   }
   p->motion = whole;
   p->first = first;
@@ -14220,19 +14609,19 @@ static NSVCD__APART nsvcd__verdict nsvcd__prove_start(nsvcd__proof *p, nsvcd__se
 }
 
 // Makes the proof ready for a question whose motion has been prepared.
-static void nsvcd__proof_begin(nsvcd__task *ask, nsvcd__query *query) {
+static void nsvcd__proof_begin(nsvcd__task *task, nsvcd__query *query) {
   nsvcd__proof *p = query->proof;
   p->spans = query->spans;
-  p->motion = &ask->motion;
-  p->moving = nsvcd__facets_of(nsvcd__triangles_of(ask->moving));
-  p->fixed = nsvcd__facets_of(nsvcd__triangles_of(ask->fixed));
-  p->lengths = ask->motion.scale * p->moving.body->extent + p->fixed.body->extent;
-  p->tolerance = (double)ask->tolerance;
-  p->clearance = (double)ask->clearance;
-  p->measure = (double)ask->measure;
-  p->first = (double)ask->first;
-  p->limit = ask->work;
-  p->skin = (double)ask->skin;
+  p->motion = &task->motion;
+  p->moving = nsvcd__facets_of(nsvcd__triangles_of(task->moving));
+  p->fixed = nsvcd__facets_of(nsvcd__triangles_of(task->fixed));
+  p->lengths = task->motion.scale * p->moving.body->extent + p->fixed.body->extent;
+  p->tolerance = (double)task->tolerance;
+  p->clearance = (double)task->clearance;
+  p->measure = (double)task->measure;
+  p->first = (double)task->first;
+  p->limit = task->work;
+  p->skin = (double)task->skin;
   p->gathers = 0;
   p->work = 0;
   nsvcd__proof_restart(p);
@@ -14272,23 +14661,24 @@ static nsvcd_status nsvcd__status_of(nsvcd__verdict verdict) {
 
 // Proves a question whose motion has been prepared, if it can; else the answer is UNDECIDED and
 // says yes.
-static void nsvcd__answer_by_proof(nsvcd__task *ask, nsvcd__query *query, nsvcd_answer *answer) {
+static void nsvcd__answer_by_proof(nsvcd__task *task, nsvcd__query *query, nsvcd_answer *answer) {
   nsvcd__proof *p = query->proof;
   nsvcd__search *search = &query->broad_phase;
-  nsvcd__proof_begin(ask, query);
+  nsvcd__proof_begin(task, query);
   if (p->skin > 0)
     nsvcd__lift_motion(p, search);
   nsvcd__verdict verdict = nsvcd__prove(p, search);
-  if (verdict == NSVCD__MEETS && p->first > 0 && p->found.tick > 0 && p->end <= 0)
-    verdict = nsvcd__prove_start(p, search);
+  if (p->first > 0 && p->has_contact && p->end <= 0 && p->found.tick > 0)
+    verdict = nsvcd__prove_start(p, search, verdict);
 
   nsvcd__answer_free(answer);
   answer->work = p->work;
-  if (p->has_contact || verdict == NSVCD__WITHIN)
+  if (nsvcd__names_triangles(p, verdict) || verdict == NSVCD__WITHIN)
     nsvcd__answer_with_contact(p, answer);
-  nsvcd__answer_with_bounds(p, verdict, answer);
-  if (p->measure > 0 && verdict != NSVCD__WITHIN && verdict != NSVCD__UNDECIDED)
-    verdict = nsvcd__verdict_of_distance(p, (double)ask->clearance);
+  const int measured = p->measure > 0 && (verdict == NSVCD__FREE || verdict == NSVCD__MEETS);
+  if (measured)
+    verdict = nsvcd__verdict_of_distance(p, (double)task->clearance);
+  nsvcd__answer_with_bounds(p, verdict, measured, answer);
   nsvcd__f3_store(nsvcd__lift_of(p), answer->lift);
   answer->status = nsvcd__status_of(verdict);
   answer->collides = verdict != NSVCD__FREE;
@@ -14327,7 +14717,9 @@ static nsvcd_method nsvcd__method_of(const nsvcd_body *moving, const nsvcd_body 
 static int nsvcd__is_itself(const nsvcd_question *question) {
   const nsvcd_mover *a = &question->a;
   const nsvcd_mover *b = &question->b;
-  const int same_size = !(a->scale < b->scale) && !(b->scale < a->scale);
+  const float size_a = a->scale > 0 ? a->scale : 1;
+  const float size_b = b->scale > 0 ? b->scale : 1;
+  const int same_size = !(size_a < size_b) && !(size_b < size_a);
   return a->body == b->body && a->poses == b->poses && a->count == b->count && same_size;
 }
 
@@ -14404,25 +14796,25 @@ static int nsvcd__is_swapped(const nsvcd_mover *a, const nsvcd_mover *b) {
 }
 
 // The task of a question that is in order.
-static void nsvcd__task_of(const nsvcd_question *question, nsvcd__task *ask) {
+static void nsvcd__task_of(const nsvcd_question *question, nsvcd__task *task) {
   const nsvcd_sweep_options *options = &question->options;
-  ask->swapped = nsvcd__is_swapped(&question->a, &question->b);
-  const nsvcd_mover *moving = ask->swapped ? &question->b : &question->a;
-  const nsvcd_mover *fixed = ask->swapped ? &question->a : &question->b;
-  nsvcd__motion_init(moving, fixed, &ask->motion);
-  ask->moving = moving->body;
-  ask->fixed = fixed->body;
-  ask->lengths = ask->motion.scale * ask->moving->extent + ask->fixed->extent;
-  ask->work = options->work ? options->work : NSVCD_DEFAULT_WORK;
-  ask->tolerance = options->tolerance / ask->motion.unit;
-  ask->clearance = options->clearance / ask->motion.unit;
-  ask->measure = options->measure / ask->motion.unit;
-  ask->skin = options->skin / ask->motion.unit;
-  ask->first = options->first;
-  ask->method = nsvcd__method_of(ask->moving, ask->fixed, options->method);
-  ask->options = options;
+  task->swapped = nsvcd__is_swapped(&question->a, &question->b);
+  const nsvcd_mover *moving = task->swapped ? &question->b : &question->a;
+  const nsvcd_mover *fixed = task->swapped ? &question->a : &question->b;
+  nsvcd__motion_init(moving, fixed, &task->motion);
+  task->moving = moving->body;
+  task->fixed = fixed->body;
+  task->lengths = task->motion.scale * task->moving->extent + task->fixed->extent;
+  task->work = options->work ? options->work : NSVCD_DEFAULT_WORK;
+  task->tolerance = options->tolerance / task->motion.unit;
+  task->clearance = options->clearance / task->motion.unit;
+  task->measure = options->measure / task->motion.unit;
+  task->skin = options->skin / task->motion.unit;
+  task->first = options->first;
+  task->method = nsvcd__method_of(task->moving, task->fixed, options->method);
+  task->options = options;
 #ifndef NSVCD_NO_NETWORK
-  ask->decisive = NULL;
+  task->decisive = NULL;
 #endif
 }
 
@@ -14458,7 +14850,8 @@ static nsvcd__needs nsvcd__needs_of(const nsvcd_question *question) {
   return needs;
 }
 
-NSVCDDEF size_t nsvcd_sweep_workspace_size(const nsvcd_question *question) {
+// As nsvcd_sweep_workspace_size.
+static size_t nsvcd__sweep_size(const nsvcd_question *question) {
   if (question && nsvcd__question_check(question))
     return 0;
   const nsvcd__needs needs = question ? nsvcd__needs_of(question) : nsvcd__needs_most();
@@ -14506,40 +14899,45 @@ static void nsvcd__turn_answer(nsvcd_answer *answer) {
 
 #if !defined(NSVCD_NO_PROOF) && !defined(NSVCD_NO_NETWORK)
 // Adds the network's opinion, where it has one, to what a proof has left undecided.
-static void nsvcd__add_opinion(nsvcd__task *ask, nsvcd__query *query, nsvcd_answer *answer) {
-  const nsvcd_sweep_options *options = ask->options;
-  if (!ask->moving->weights_id || !ask->fixed->weights_id)
+static void nsvcd__add_opinion(nsvcd__task *task, nsvcd__query *query, nsvcd_answer *answer) {
+  const nsvcd_sweep_options *options = task->options;
+  nsvcd_answer opinion;
+  if (!task->moving->weights_id || !task->fixed->weights_id)
     return;
   if (options->clearance > 0 || options->measure > 0 || options->skin > 0)
     return;
-  const nsvcd_answer proof = *answer;
-  nsvcd__answer_by_network(ask, query, NULL, answer);
-  answer->status = NSVCD_STATUS_UNDECIDED;
-  answer->work = proof.work;
-  answer->free_until = proof.free_until;
-  answer->clearance_low = proof.clearance_low;
-  answer->clearance_high = proof.clearance_high;
+  if (query->proof->has_contact)
+    return;  // that is known
+  nsvcd__answer_by_network(task, query, NULL, &opinion);
+  answer->logit = opinion.logit;
+  answer->collides = opinion.collides;
+  answer->candidates = opinion.candidates;
+  if (answer->triangle_a != NSVCD_NO_TRIANGLE)
+    return;
+  answer->contact_time = opinion.contact_time;
+  answer->patch_a = opinion.patch_a;
+  answer->patch_b = opinion.patch_b;
 }
 #endif
 
 // Answers a question that has been checked and laid out. hint: NULL, or that of a batch, for the
 // network.
-static void nsvcd__answer_task(nsvcd__task *ask, nsvcd__query *query, nsvcd__hint *hint,
+static void nsvcd__answer_task(nsvcd__task *task, nsvcd__query *query, nsvcd__hint *hint,
                                nsvcd_answer *answer) {
 #ifndef NSVCD_NO_PROOF
-  if (ask->method == NSVCD_METHOD_PROOF)
-    nsvcd__answer_by_proof(ask, query, answer);
+  if (task->method == NSVCD_METHOD_PROOF)
+    nsvcd__answer_by_proof(task, query, answer);
 #endif
 #if !defined(NSVCD_NO_PROOF) && !defined(NSVCD_NO_NETWORK)
-  if (ask->method == NSVCD_METHOD_PROOF && answer->status == NSVCD_STATUS_UNDECIDED)
-    nsvcd__add_opinion(ask, query, answer);
+  if (task->method == NSVCD_METHOD_PROOF && answer->status == NSVCD_STATUS_UNDECIDED)
+    nsvcd__add_opinion(task, query, answer);
 #endif
 #ifndef NSVCD_NO_NETWORK
-  if (ask->method == NSVCD_METHOD_NETWORK)
-    nsvcd__answer_by_network(ask, query, hint, answer);
+  if (task->method == NSVCD_METHOD_NETWORK)
+    nsvcd__answer_by_network(task, query, hint, answer);
 #endif
   (void)hint;
-  if (ask->swapped)
+  if (task->swapped)
     nsvcd__turn_answer(answer);
 }
 
@@ -14548,16 +14946,10 @@ static int nsvcd__same_bodies(const nsvcd_question *p, const nsvcd_question *q) 
   return p->a.body == q->a.body && p->b.body == q->b.body;
 }
 
-NSVCDDEF nsvcd_result nsvcd_sweep(const nsvcd_question *question, void *workspace,
-                                  size_t workspace_size, nsvcd_answer *answer) {
-  if (!question)
-    return NSVCD_ERROR_ARGUMENT;
-  return nsvcd_sweep_batch(question, 1, workspace, workspace_size, answer);
-}
-
-NSVCDDEF nsvcd_result nsvcd_sweep_batch(const nsvcd_question *questions, size_t count,
-                                        void *workspace, size_t workspace_size,
-                                        nsvcd_answer *answers) {
+// As nsvcd_sweep_batch.
+static nsvcd_result nsvcd__sweep_batch(const nsvcd_question *questions, size_t count,
+                                       void *workspace, size_t workspace_size,
+                                       nsvcd_answer *answers) {
   if (count > 0 && (!questions || !answers))
     return NSVCD_ERROR_ARGUMENT;
   for (size_t k = 0; k < count; k++) {
@@ -14571,13 +14963,13 @@ NSVCDDEF nsvcd_result nsvcd_sweep_batch(const nsvcd_question *questions, size_t 
   int swapped = 0;
   for (size_t k = 0; k < count; k++) {
     nsvcd__query *query = nsvcd__query_open(&questions[k], workspace);
-    nsvcd__task *ask = &query->task;
+    nsvcd__task *task = &query->task;
     // The hint is about patches of the moving body and of the fixed one.
     const int same = k > 0 && nsvcd__same_bodies(&questions[k], &questions[k - 1]);
-    if (!same || ask->swapped != swapped)
+    if (!same || task->swapped != swapped)
       hint = none;
-    swapped = ask->swapped;
-    nsvcd__answer_task(ask, query, &hint, &answers[k]);
+    swapped = task->swapped;
+    nsvcd__answer_task(task, query, &hint, &answers[k]);
   }
   return NSVCD_OK;
 }
@@ -15022,12 +15414,12 @@ typedef struct nsvcd__instants {
 } nsvcd__instants;
 
 // The instants of a candidate. time: of the segments' ends.
-static void nsvcd__instants_of(const nsvcd__task *ask, const nsvcd__candidate *candidate,
+static void nsvcd__instants_of(const nsvcd__task *task, const nsvcd__candidate *candidate,
                                const float *time, nsvcd__instants *at) {
   const float t0 = candidate->t_enter;
   const float t1 = candidate->t_exit;
-  const nsvcd__motion *motion = &ask->motion;
-  const nsvcd__f3 own = nsvcd__centre_of(nsvcd__body_patches(ask->moving), candidate->moving);
+  const nsvcd__motion *motion = &task->motion;
+  const nsvcd__f3 own = nsvcd__centre_of(nsvcd__body_patches(task->moving), candidate->moving);
   const nsvcd__v3 centre = nsvcd__v3_set(nsvcd__f3_scale(own, motion->scale));
   size_t a = 0;
   size_t b = 0;
@@ -15063,19 +15455,19 @@ static void nsvcd__instants_of(const nsvcd__task *ask, const nsvcd__candidate *c
 
 // From a force on the patch's centre at instant l, and a torque on the body. Returns the derivative
 // by the time.
-static float nsvcd__by_instant(const nsvcd__task *ask, const nsvcd__instants *at, size_t l,
+static float nsvcd__by_instant(const nsvcd__task *task, const nsvcd__instants *at, size_t l,
                                nsvcd__f3 force, nsvcd__f3 torque,
                                const nsvcd__gradients *gradients) {
   const nsvcd__f3 lever = nsvcd__f3_cross(at->arm[l], force);
   const nsvcd__wrench by = nsvcd__wrench_of(force, nsvcd__f3_add(torque, lever));
-  return nsvcd__by_motion(&ask->motion, at->t[l], by, gradients);
+  return nsvcd__by_motion(&task->motion, at->t[l], by, gradients);
 }
 
 // The adjoint of the time at which the balls meet (AT_ENTRY) or part (AT_EXIT): y = x0 + tau x - c,
 // from the chord x of the segment, is as long as the sum of the radii; so y.(dy + x dtau) = 0.
 // Balls that only graze (y across x) do so for a time whose derivative has no limit: it is bounded
 // where float32 has no digits left.
-static void nsvcd__by_contact(const nsvcd__task *ask, const nsvcd__instants *at, size_t l,
+static void nsvcd__by_contact(const nsvcd__task *task, const nsvcd__instants *at, size_t l,
                               nsvcd__f3 centre, float by_time, const nsvcd__gradients *gradients) {
   const nsvcd__f3 none = {0, 0, 0};
   const size_t s = l == NSVCD__AT_ENTRY ? NSVCD__ENTRY_BEGIN : NSVCD__EXIT_BEGIN;
@@ -15092,8 +15484,8 @@ static void nsvcd__by_contact(const nsvcd__task *ask, const nsvcd__instants *at,
   const float rate = along * by_time / (dot > least ? dot : least);
   const nsvcd__f3 before = nsvcd__f3_scale(y, (1 - tau) * rate);
   const nsvcd__f3 after = nsvcd__f3_scale(y, tau * rate);
-  nsvcd__by_instant(ask, at, s, before, none, gradients);
-  nsvcd__by_instant(ask, at, s + 1, after, none, gradients);
+  nsvcd__by_instant(task, at, s, before, none, gradients);
+  nsvcd__by_instant(task, at, s + 1, after, none, gradients);
 }
 
 // From the derivative by w, half the rotation vector of R1 R0^-1, to those by small rotations of R0
@@ -15109,7 +15501,7 @@ static void nsvcd__by_half_rotation(nsvcd__f3 w, nsvcd__f3 by, nsvcd__f3 *by0, n
 
 // The derivative of the decisive logit by the poses, added to the gradients. time: of the segments'
 // ends.
-static void nsvcd__gradient(const nsvcd__task *ask, const nsvcd__decisive *decisive,
+static void nsvcd__gradient(const nsvcd__task *task, const nsvcd__decisive *decisive,
                             const float *time, const nsvcd__gradients *gradients) {
   nsvcd__candidate candidate = decisive->candidate;
   nsvcd__candidate *one = &candidate;
@@ -15118,11 +15510,11 @@ static void nsvcd__gradient(const nsvcd__task *ask, const nsvcd__decisive *decis
   nsvcd__instants at;
   float x[NSVCD__DECODER_IN];
   float by_x[NSVCD__DECODER_IN];
-  nsvcd__pairs_of(ask->moving, ask->fixed, &ask->motion, &one, 1, &pairs);
+  nsvcd__pairs_of(task->moving, task->fixed, &task->motion, &one, 1, &pairs);
   nsvcd__invariants(&pairs, 1, x);
   nsvcd__decoder_gradient(decisive->decoder, x, by_x);
   nsvcd__by_invariants(&pairs, x, by_x, &by);
-  nsvcd__instants_of(ask, &candidate, time, &at);
+  nsvcd__instants_of(task, &candidate, time, &at);
 
   // The adjoint of nsvcd__pairs_of. v = w x arm + (x1 - x0) / 2, where arm goes from the moving
   // centre half way to the other.
@@ -15139,20 +15531,21 @@ static void nsvcd__gradient(const nsvcd__task *ask, const nsvcd__decisive *decis
   nsvcd__by_half_rotation(w, by.w, &enter_torque, &leave_torque);
 
   const float by_middle =
-      nsvcd__by_instant(ask, &at, NSVCD__AT_MIDDLE, by.p1, by.rotation, gradients);
+      nsvcd__by_instant(task, &at, NSVCD__AT_MIDDLE, by.p1, by.rotation, gradients);
   float by_enter = 0.5f * by_middle;
   float by_exit = 0.5f * by_middle;
-  by_enter += nsvcd__by_instant(ask, &at, NSVCD__AT_ENTRY, enter, enter_torque, gradients);
-  by_exit += nsvcd__by_instant(ask, &at, NSVCD__AT_EXIT, leave, leave_torque, gradients);
+  by_enter += nsvcd__by_instant(task, &at, NSVCD__AT_ENTRY, enter, enter_torque, gradients);
+  by_exit += nsvcd__by_instant(task, &at, NSVCD__AT_EXIT, leave, leave_torque, gradients);
   if (at.enters)
-    nsvcd__by_contact(ask, &at, NSVCD__AT_ENTRY, centre, by_enter, gradients);
+    nsvcd__by_contact(task, &at, NSVCD__AT_ENTRY, centre, by_enter, gradients);
   if (at.leaves)
-    nsvcd__by_contact(ask, &at, NSVCD__AT_EXIT, centre, by_exit, gradients);
+    nsvcd__by_contact(task, &at, NSVCD__AT_EXIT, centre, by_exit, gradients);
 }
 
-NSVCDDEF nsvcd_result nsvcd_sweep_gradient(const nsvcd_question *question, void *workspace,
-                                           size_t workspace_size, nsvcd_answer *answer,
-                                           float *gradient_a, float *gradient_b) {
+// As nsvcd_sweep_gradient.
+static nsvcd_result nsvcd__sweep_gradient(const nsvcd_question *question, void *workspace,
+                                          size_t workspace_size, nsvcd_answer *answer,
+                                          float *gradient_a, float *gradient_b) {
   if (!question || !answer || (!gradient_a && !gradient_b))
     return NSVCD_ERROR_ARGUMENT;
   if (question->options.method == NSVCD_METHOD_PROOF)
@@ -15164,22 +15557,720 @@ NSVCDDEF nsvcd_result nsvcd_sweep_gradient(const nsvcd_question *question, void 
     return result;
 
   nsvcd__query *query = nsvcd__query_open(&by_network, workspace);
-  nsvcd__task *ask = &query->task;
+  nsvcd__task *task = &query->task;
   nsvcd__decisive decisive;
-  ask->decisive = &decisive;
-  nsvcd__answer_task(ask, query, NULL, answer);
+  task->decisive = &decisive;
+  nsvcd__answer_task(task, query, NULL, answer);
   nsvcd__gradients out;
-  out.moving = ask->swapped ? gradient_b : gradient_a;
-  out.fixed = ask->swapped ? gradient_a : gradient_b;
+  out.moving = task->swapped ? gradient_b : gradient_a;
+  out.fixed = task->swapped ? gradient_a : gradient_b;
   if (out.moving)
-    memset(out.moving, 0, 6 * ask->motion.moving.count * sizeof(float));
+    memset(out.moving, 0, 6 * task->motion.moving.count * sizeof(float));
   if (out.fixed)
-    memset(out.fixed, 0, 6 * ask->motion.fixed.count * sizeof(float));
+    memset(out.fixed, 0, 6 * task->motion.fixed.count * sizeof(float));
   if (answer->status == NSVCD_STATUS_OK || answer->status == NSVCD_STATUS_LIMIT)
-    nsvcd__gradient(ask, &decisive, query->broad_phase.time, &out);
+    nsvcd__gradient(task, &decisive, query->broad_phase.time, &out);
   return NSVCD_OK;
 }
 #endif  // NSVCD_NO_GRADIENT
+
+#ifndef NSVCD__ISA
+// --------------------------------------------------------------------------------------- processor
+// Where the compiler's flags allow SSE2 and no more, the default on x86-64, all that a query does
+// is compiled three times: with SSE2 above, and here with AVX2 and with AVX-512. At each call the
+// processor at hand decides which of them answers. NSVCD_NO_DISPATCH leaves the first only.
+//
+// This file takes itself in for that. Of it only the sections that use vectors are compiled again.
+// Their private names are changed: nsvcd__prove is nsvcd__prove_avx2 there.
+
+#if NSVCD__SLICE == 4 && !defined(NSVCD_NO_DISPATCH) && !defined(NSVCD__NARROW)
+#if defined(__x86_64__) && (defined(__clang__) || (defined(__GNUC__) && __GNUC__ >= 8))
+#define NSVCD__DISPATCH
+#elif defined(_M_X64) && !defined(__clang__)
+#include <intrin.h>
+#define NSVCD__DISPATCH
+#endif
+#endif
+
+#ifdef NSVCD__DISPATCH
+#define NSVCD__JOIN(name, isa) name##isa
+#define NSVCD__OF_ISA(name, isa) NSVCD__JOIN(name, isa)
+#define NSVCD__AT(name) NSVCD__OF_ISA(nsvcd__##name, NSVCD__ISA)
+#define NSVCD__NUMBER_AT(name) NSVCD__OF_ISA(NSVCD__##name, NSVCD__ISA)
+
+// ---- the names, as tests/isa.py writes them
+#define NSVCD__AT_ENTRY NSVCD__NUMBER_AT(AT_ENTRY)
+#define NSVCD__AT_EXIT NSVCD__NUMBER_AT(AT_EXIT)
+#define NSVCD__AT_MIDDLE NSVCD__NUMBER_AT(AT_MIDDLE)
+#define NSVCD__BY_DISC NSVCD__NUMBER_AT(BY_DISC)
+#define NSVCD__BY_HULL NSVCD__NUMBER_AT(BY_HULL)
+#define NSVCD__BY_TRIANGLES NSVCD__NUMBER_AT(BY_TRIANGLES)
+#define NSVCD__ENTRY_BEGIN NSVCD__NUMBER_AT(ENTRY_BEGIN)
+#define NSVCD__ENTRY_END NSVCD__NUMBER_AT(ENTRY_END)
+#define NSVCD__EXIT_BEGIN NSVCD__NUMBER_AT(EXIT_BEGIN)
+#define NSVCD__EXIT_END NSVCD__NUMBER_AT(EXIT_END)
+#define NSVCD__FACTS NSVCD__NUMBER_AT(FACTS)
+#define NSVCD__FACT_CLOSEST NSVCD__NUMBER_AT(FACT_CLOSEST)
+#define NSVCD__FACT_DISTANCE NSVCD__NUMBER_AT(FACT_DISTANCE)
+#define NSVCD__FACT_RADIUS NSVCD__NUMBER_AT(FACT_RADIUS)
+#define NSVCD__FACT_SPEED NSVCD__NUMBER_AT(FACT_SPEED)
+#define NSVCD__FACT_SPIN NSVCD__NUMBER_AT(FACT_SPIN)
+#define NSVCD__FACT_TAU NSVCD__NUMBER_AT(FACT_TAU)
+#define NSVCD__FACT_TURN NSVCD__NUMBER_AT(FACT_TURN)
+#define NSVCD__FACT_VELOCITY NSVCD__NUMBER_AT(FACT_VELOCITY)
+#define NSVCD__FREE NSVCD__NUMBER_AT(FREE)
+#define NSVCD__INSTANTS NSVCD__NUMBER_AT(INSTANTS)
+#define NSVCD__MEETS NSVCD__NUMBER_AT(MEETS)
+#define NSVCD__TAKEN NSVCD__NUMBER_AT(TAKEN)
+#define NSVCD__TOO_LONG NSVCD__NUMBER_AT(TOO_LONG)
+#define NSVCD__UNDECIDED NSVCD__NUMBER_AT(UNDECIDED)
+#define NSVCD__WITHIN NSVCD__NUMBER_AT(WITHIN)
+#define nsvcd__add_along_rows NSVCD__AT(add_along_rows)
+#define nsvcd__add_dipoles NSVCD__AT(add_dipoles)
+#define nsvcd__add_level NSVCD__AT(add_level)
+#define nsvcd__add_opinion NSVCD__AT(add_opinion)
+#define nsvcd__add_turned NSVCD__AT(add_turned)
+#define nsvcd__all_in_sphere NSVCD__AT(all_in_sphere)
+#define nsvcd__all_segments NSVCD__AT(all_segments)
+#define nsvcd__answer_by_network NSVCD__AT(answer_by_network)
+#define nsvcd__answer_by_proof NSVCD__AT(answer_by_proof)
+#define nsvcd__answer_free NSVCD__AT(answer_free)
+#define nsvcd__answer_task NSVCD__AT(answer_task)
+#define nsvcd__answer_with NSVCD__AT(answer_with)
+#define nsvcd__answer_with_bounds NSVCD__AT(answer_with_bounds)
+#define nsvcd__answer_with_contact NSVCD__AT(answer_with_contact)
+#define nsvcd__apart_by_fixed_disc NSVCD__AT(apart_by_fixed_disc)
+#define nsvcd__apart_by_moving_disc NSVCD__AT(apart_by_moving_disc)
+#define nsvcd__approach NSVCD__AT(approach)
+#define nsvcd__arc NSVCD__AT(arc)
+#define nsvcd__arc_and_share NSVCD__AT(arc_and_share)
+#define nsvcd__arc_at NSVCD__AT(arc_at)
+#define nsvcd__arc_bend NSVCD__AT(arc_bend)
+#define nsvcd__arc_limit NSVCD__AT(arc_limit)
+#define nsvcd__are_opposed NSVCD__AT(are_opposed)
+#define nsvcd__at_origin NSVCD__AT(at_origin)
+#define nsvcd__bends NSVCD__AT(bends)
+#define nsvcd__best_first NSVCD__AT(best_first)
+#define nsvcd__best_lift NSVCD__AT(best_lift)
+#define nsvcd__block NSVCD__AT(block)
+#define nsvcd__block_bounds NSVCD__AT(block_bounds)
+#define nsvcd__block_box NSVCD__AT(block_box)
+#define nsvcd__block_corners NSVCD__AT(block_corners)
+#define nsvcd__block_lanes NSVCD__AT(block_lanes)
+#define nsvcd__block_load NSVCD__AT(block_load)
+#define nsvcd__block_pose NSVCD__AT(block_pose)
+#define nsvcd__box_of_lane NSVCD__AT(box_of_lane)
+#define nsvcd__box_of_way NSVCD__AT(box_of_way)
+#define nsvcd__boxes NSVCD__AT(boxes)
+#define nsvcd__boxes_grow NSVCD__AT(boxes_grow)
+#define nsvcd__boxes_of_groups NSVCD__AT(boxes_of_groups)
+#define nsvcd__by_contact NSVCD__AT(by_contact)
+#define nsvcd__by_facts NSVCD__AT(by_facts)
+#define nsvcd__by_frame NSVCD__AT(by_frame)
+#define nsvcd__by_half_rotation NSVCD__AT(by_half_rotation)
+#define nsvcd__by_instant NSVCD__AT(by_instant)
+#define nsvcd__by_invariants NSVCD__AT(by_invariants)
+#define nsvcd__by_layer NSVCD__AT(by_layer)
+#define nsvcd__by_length NSVCD__AT(by_length)
+#define nsvcd__by_motion NSVCD__AT(by_motion)
+#define nsvcd__by_pair NSVCD__AT(by_pair)
+#define nsvcd__by_poses NSVCD__AT(by_poses)
+#define nsvcd__by_view NSVCD__AT(by_view)
+#define nsvcd__candidate NSVCD__AT(candidate)
+#define nsvcd__candidates NSVCD__AT(candidates)
+#define nsvcd__candidates_add NSVCD__AT(candidates_add)
+#define nsvcd__candidates_start NSVCD__AT(candidates_start)
+#define nsvcd__certify_block NSVCD__AT(certify_block)
+#define nsvcd__certify_couple NSVCD__AT(certify_couple)
+#define nsvcd__certify_discs NSVCD__AT(certify_discs)
+#define nsvcd__certify_groups NSVCD__AT(certify_groups)
+#define nsvcd__certify_item NSVCD__AT(certify_item)
+#define nsvcd__changes_sides NSVCD__AT(changes_sides)
+#define nsvcd__check NSVCD__AT(check)
+#define nsvcd__choose_lifts NSVCD__AT(choose_lifts)
+#define nsvcd__choose_segments NSVCD__AT(choose_segments)
+#define nsvcd__chords NSVCD__AT(chords)
+#define nsvcd__chords_in_all NSVCD__AT(chords_in_all)
+#define nsvcd__chords_in_segment NSVCD__AT(chords_in_segment)
+#define nsvcd__chords_of_group NSVCD__AT(chords_of_group)
+#define nsvcd__chords_of_members NSVCD__AT(chords_of_members)
+#define nsvcd__chords_of_sphere NSVCD__AT(chords_of_sphere)
+#define nsvcd__chords_of_tile NSVCD__AT(chords_of_tile)
+#define nsvcd__chords_start NSVCD__AT(chords_start)
+#define nsvcd__chords_store NSVCD__AT(chords_store)
+#define nsvcd__chords_way NSVCD__AT(chords_way)
+#define nsvcd__clamp01 NSVCD__AT(clamp01)
+#define nsvcd__clamp_share NSVCD__AT(clamp_share)
+#define nsvcd__clearance2 NSVCD__AT(clearance2)
+#define nsvcd__clearance_of NSVCD__AT(clearance_of)
+#define nsvcd__clearances NSVCD__AT(clearances)
+#define nsvcd__clip_segment NSVCD__AT(clip_segment)
+#define nsvcd__collect NSVCD__AT(collect)
+#define nsvcd__collect_items NSVCD__AT(collect_items)
+#define nsvcd__collides_again NSVCD__AT(collides_again)
+#define nsvcd__comes_first NSVCD__AT(comes_first)
+#define nsvcd__comes_near NSVCD__AT(comes_near)
+#define nsvcd__comes_within NSVCD__AT(comes_within)
+#define nsvcd__common_divisor NSVCD__AT(common_divisor)
+#define nsvcd__constants_hold NSVCD__AT(constants_hold)
+#define nsvcd__contact NSVCD__AT(contact)
+#define nsvcd__contact_at NSVCD__AT(contact_at)
+#define nsvcd__contact_of NSVCD__AT(contact_of)
+#define nsvcd__couple NSVCD__AT(couple)
+#define nsvcd__couple_of NSVCD__AT(couple_of)
+#define nsvcd__couple_passes NSVCD__AT(couple_passes)
+#define nsvcd__cover_places NSVCD__AT(cover_places)
+#define nsvcd__crossings NSVCD__AT(crossings)
+#define nsvcd__cut NSVCD__AT(cut)
+#define nsvcd__cut_arc NSVCD__AT(cut_arc)
+#define nsvcd__cut_block NSVCD__AT(cut_block)
+#define nsvcd__cut_deviations NSVCD__AT(cut_deviations)
+#define nsvcd__cut_double_arc NSVCD__AT(cut_double_arc)
+#define nsvcd__cut_ends NSVCD__AT(cut_ends)
+#define nsvcd__cut_knot NSVCD__AT(cut_knot)
+#define nsvcd__cut_last_arc NSVCD__AT(cut_last_arc)
+#define nsvcd__cut_motion NSVCD__AT(cut_motion)
+#define nsvcd__cut_off_chord NSVCD__AT(cut_off_chord)
+#define nsvcd__cut_segments NSVCD__AT(cut_segments)
+#define nsvcd__cut_starts NSVCD__AT(cut_starts)
+#define nsvcd__decisive NSVCD__AT(decisive)
+#define nsvcd__decode NSVCD__AT(decode)
+#define nsvcd__decoder_by_bytes NSVCD__AT(decoder_by_bytes)
+#define nsvcd__decoder_by_floats NSVCD__AT(decoder_by_floats)
+#define nsvcd__decoder_gradient NSVCD__AT(decoder_gradient)
+#define nsvcd__decoder_logits NSVCD__AT(decoder_logits)
+#define nsvcd__deeper_than_kept NSVCD__AT(deeper_than_kept)
+#define nsvcd__degree2_torque NSVCD__AT(degree2_torque)
+#define nsvcd__deviation NSVCD__AT(deviation)
+#define nsvcd__dipoles NSVCD__AT(dipoles)
+#define nsvcd__dipoles_from NSVCD__AT(dipoles_from)
+#define nsvcd__dipoles_of_level NSVCD__AT(dipoles_of_level)
+#define nsvcd__dipoles_of_patches NSVCD__AT(dipoles_of_patches)
+#define nsvcd__discs_meet NSVCD__AT(discs_meet)
+#define nsvcd__dot_bytes NSVCD__AT(dot_bytes)
+#define nsvcd__dot_tile NSVCD__AT(dot_tile)
+#define nsvcd__edges_cross NSVCD__AT(edges_cross)
+#define nsvcd__edges_nearest NSVCD__AT(edges_nearest)
+#define nsvcd__edges_pass NSVCD__AT(edges_pass)
+#define nsvcd__edges_volume NSVCD__AT(edges_volume)
+#define nsvcd__encloses_any NSVCD__AT(encloses_any)
+#define nsvcd__encloses_seeds NSVCD__AT(encloses_seeds)
+#define nsvcd__enclosure NSVCD__AT(enclosure)
+#define nsvcd__exists NSVCD__AT(exists)
+#define nsvcd__f3_towards NSVCD__AT(f3_towards)
+#define nsvcd__face_normal NSVCD__AT(face_normal)
+#define nsvcd__facet_vertices NSVCD__AT(facet_vertices)
+#define nsvcd__farthest_axis NSVCD__AT(farthest_axis)
+#define nsvcd__find_passage NSVCD__AT(find_passage)
+#define nsvcd__find_witness NSVCD__AT(find_witness)
+#define nsvcd__find_witness_in NSVCD__AT(find_witness_in)
+#define nsvcd__first_f3 NSVCD__AT(first_f3)
+#define nsvcd__first_lane NSVCD__AT(first_lane)
+#define nsvcd__first_mat3 NSVCD__AT(first_mat3)
+#define nsvcd__first_view NSVCD__AT(first_view)
+#define nsvcd__foot_well_within NSVCD__AT(foot_well_within)
+#define nsvcd__foot_within NSVCD__AT(foot_within)
+#define nsvcd__from_dots NSVCD__AT(from_dots)
+#define nsvcd__gather_contact NSVCD__AT(gather_contact)
+#define nsvcd__gather_contacts NSVCD__AT(gather_contacts)
+#define nsvcd__gradient NSVCD__AT(gradient)
+#define nsvcd__gradients NSVCD__AT(gradients)
+#define nsvcd__greatest_height NSVCD__AT(greatest_height)
+#define nsvcd__greatest_lane NSVCD__AT(greatest_lane)
+#define nsvcd__group_against_members NSVCD__AT(group_against_members)
+#define nsvcd__group_against_tile NSVCD__AT(group_against_tile)
+#define nsvcd__group_reach NSVCD__AT(group_reach)
+#define nsvcd__groups_apart NSVCD__AT(groups_apart)
+#define nsvcd__groups_at_box NSVCD__AT(groups_at_box)
+#define nsvcd__guess_clearance NSVCD__AT(guess_clearance)
+#define nsvcd__guess_normals NSVCD__AT(guess_normals)
+#define nsvcd__height NSVCD__AT(height)
+#define nsvcd__heights NSVCD__AT(heights)
+#define nsvcd__heights_over NSVCD__AT(heights_over)
+#define nsvcd__held_again NSVCD__AT(held_again)
+#define nsvcd__hint NSVCD__AT(hint)
+#define nsvcd__hull_of NSVCD__AT(hull_of)
+#define nsvcd__hulls_are_apart NSVCD__AT(hulls_are_apart)
+#define nsvcd__inputs_of NSVCD__AT(inputs_of)
+#define nsvcd__instants NSVCD__AT(instants)
+#define nsvcd__instants_of NSVCD__AT(instants_of)
+#define nsvcd__interval_cuts NSVCD__AT(interval_cuts)
+#define nsvcd__intervals NSVCD__AT(intervals)
+#define nsvcd__intervals_are_cut NSVCD__AT(intervals_are_cut)
+#define nsvcd__intervals_close NSVCD__AT(intervals_close)
+#define nsvcd__intervals_grow NSVCD__AT(intervals_grow)
+#define nsvcd__invariants NSVCD__AT(invariants)
+#define nsvcd__inverse_placement NSVCD__AT(inverse_placement)
+#define nsvcd__is_approached NSVCD__AT(is_approached)
+#define nsvcd__is_around NSVCD__AT(is_around)
+#define nsvcd__is_clear NSVCD__AT(is_clear)
+#define nsvcd__is_contained NSVCD__AT(is_contained)
+#define nsvcd__is_doubtful NSVCD__AT(is_doubtful)
+#define nsvcd__is_enclosed NSVCD__AT(is_enclosed)
+#define nsvcd__is_harmless NSVCD__AT(is_harmless)
+#define nsvcd__is_held NSVCD__AT(is_held)
+#define nsvcd__is_inside NSVCD__AT(is_inside)
+#define nsvcd__is_itself NSVCD__AT(is_itself)
+#define nsvcd__is_large NSVCD__AT(is_large)
+#define nsvcd__is_new NSVCD__AT(is_new)
+#define nsvcd__is_on_ray NSVCD__AT(is_on_ray)
+#define nsvcd__is_shallower NSVCD__AT(is_shallower)
+#define nsvcd__is_spent NSVCD__AT(is_spent)
+#define nsvcd__is_swapped NSVCD__AT(is_swapped)
+#define nsvcd__is_undecided NSVCD__AT(is_undecided)
+#define nsvcd__is_within NSVCD__AT(is_within)
+#define nsvcd__item NSVCD__AT(item)
+#define nsvcd__item_is_parted NSVCD__AT(item_is_parted)
+#define nsvcd__judge NSVCD__AT(judge)
+#define nsvcd__keep_nearer NSVCD__AT(keep_nearer)
+#define nsvcd__knot_at NSVCD__AT(knot_at)
+#define nsvcd__knots NSVCD__AT(knots)
+#define nsvcd__knots_copy NSVCD__AT(knots_copy)
+#define nsvcd__knots_keep NSVCD__AT(knots_keep)
+#define nsvcd__knots_load NSVCD__AT(knots_load)
+#define nsvcd__knots_read NSVCD__AT(knots_read)
+#define nsvcd__lane_of NSVCD__AT(lane_of)
+#define nsvcd__lane_set NSVCD__AT(lane_set)
+#define nsvcd__lanes_near NSVCD__AT(lanes_near)
+#define nsvcd__lanes_of_slice NSVCD__AT(lanes_of_slice)
+#define nsvcd__lanes_on_ray NSVCD__AT(lanes_on_ray)
+#define nsvcd__latent_torque NSVCD__AT(latent_torque)
+#define nsvcd__layer NSVCD__AT(layer)
+#define nsvcd__layer_of NSVCD__AT(layer_of)
+#define nsvcd__layer_tile NSVCD__AT(layer_tile)
+#define nsvcd__layer_values NSVCD__AT(layer_values)
+#define nsvcd__least_height NSVCD__AT(least_height)
+#define nsvcd__least_lane NSVCD__AT(least_lane)
+#define nsvcd__least_of NSVCD__AT(least_of)
+#define nsvcd__leg NSVCD__AT(leg)
+#define nsvcd__leg_at NSVCD__AT(leg_at)
+#define nsvcd__leg_init NSVCD__AT(leg_init)
+#define nsvcd__leg_turn NSVCD__AT(leg_turn)
+#define nsvcd__lift_along NSVCD__AT(lift_along)
+#define nsvcd__lift_motion NSVCD__AT(lift_motion)
+#define nsvcd__lift_of NSVCD__AT(lift_of)
+#define nsvcd__lift_off NSVCD__AT(lift_off)
+#define nsvcd__margin_along NSVCD__AT(margin_along)
+#define nsvcd__mat3_lane NSVCD__AT(mat3_lane)
+#define nsvcd__matters NSVCD__AT(matters)
+#define nsvcd__may_be_close NSVCD__AT(may_be_close)
+#define nsvcd__mean_direction NSVCD__AT(mean_direction)
+#define nsvcd__measure_turn NSVCD__AT(measure_turn)
+#define nsvcd__meet NSVCD__AT(meet)
+#define nsvcd__meet_in NSVCD__AT(meet_in)
+#define nsvcd__meet_members NSVCD__AT(meet_members)
+#define nsvcd__meetings NSVCD__AT(meetings)
+#define nsvcd__meetings_of NSVCD__AT(meetings_of)
+#define nsvcd__members_against_patch NSVCD__AT(members_against_patch)
+#define nsvcd__method_of NSVCD__AT(method_of)
+#define nsvcd__motion NSVCD__AT(motion)
+#define nsvcd__motion_init NSVCD__AT(motion_init)
+#define nsvcd__motion_is_far NSVCD__AT(motion_is_far)
+#define nsvcd__motion_pose NSVCD__AT(motion_pose)
+#define nsvcd__motion_set_ticks NSVCD__AT(motion_set_ticks)
+#define nsvcd__mover_check NSVCD__AT(mover_check)
+#define nsvcd__moving_block_load NSVCD__AT(moving_block_load)
+#define nsvcd__names_triangles NSVCD__AT(names_triangles)
+#define nsvcd__nearby NSVCD__AT(nearby)
+#define nsvcd__nearest NSVCD__AT(nearest)
+#define nsvcd__nearest2 NSVCD__AT(nearest2)
+#define nsvcd__nearest_placement NSVCD__AT(nearest_placement)
+#define nsvcd__needs NSVCD__AT(needs)
+#define nsvcd__needs_most NSVCD__AT(needs_most)
+#define nsvcd__needs_of NSVCD__AT(needs_of)
+#define nsvcd__needs_proof NSVCD__AT(needs_proof)
+#define nsvcd__network_constants_hold NSVCD__AT(network_constants_hold)
+#define nsvcd__next_knot NSVCD__AT(next_knot)
+#define nsvcd__normal_to_try NSVCD__AT(normal_to_try)
+#define nsvcd__normals_part NSVCD__AT(normals_part)
+#define nsvcd__on_one_side NSVCD__AT(on_one_side)
+#define nsvcd__options_check NSVCD__AT(options_check)
+#define nsvcd__pairs NSVCD__AT(pairs)
+#define nsvcd__pairs_of NSVCD__AT(pairs_of)
+#define nsvcd__part_groups NSVCD__AT(part_groups)
+#define nsvcd__passage NSVCD__AT(passage)
+#define nsvcd__patch_is_near NSVCD__AT(patch_is_near)
+#define nsvcd__patch_reach NSVCD__AT(patch_reach)
+#define nsvcd__patches_on_ray NSVCD__AT(patches_on_ray)
+#define nsvcd__patches_towards NSVCD__AT(patches_towards)
+#define nsvcd__place_point NSVCD__AT(place_point)
+#define nsvcd__place_triangle NSVCD__AT(place_triangle)
+#define nsvcd__placed NSVCD__AT(placed)
+#define nsvcd__placed_at NSVCD__AT(placed_at)
+#define nsvcd__placement NSVCD__AT(placement)
+#define nsvcd__placement_at NSVCD__AT(placement_at)
+#define nsvcd__places_of NSVCD__AT(places_of)
+#define nsvcd__plane_parts NSVCD__AT(plane_parts)
+#define nsvcd__pose_count NSVCD__AT(pose_count)
+#define nsvcd__pose_hulls NSVCD__AT(pose_hulls)
+#define nsvcd__pose_members NSVCD__AT(pose_members)
+#define nsvcd__poses_are_valid NSVCD__AT(poses_are_valid)
+#define nsvcd__poses_opposed NSVCD__AT(poses_opposed)
+#define nsvcd__proof NSVCD__AT(proof)
+#define nsvcd__proof_begin NSVCD__AT(proof_begin)
+#define nsvcd__proof_constants_hold NSVCD__AT(proof_constants_hold)
+#define nsvcd__proof_restart NSVCD__AT(proof_restart)
+#define nsvcd__prove NSVCD__AT(prove)
+#define nsvcd__prove_in_order NSVCD__AT(prove_in_order)
+#define nsvcd__prove_segments NSVCD__AT(prove_segments)
+#define nsvcd__prove_start NSVCD__AT(prove_start)
+#define nsvcd__prove_tile_in_order NSVCD__AT(prove_tile_in_order)
+#define nsvcd__prove_tiles NSVCD__AT(prove_tiles)
+#define nsvcd__quanta_of NSVCD__AT(quanta_of)
+#define nsvcd__quat_chord NSVCD__AT(quat_chord)
+#define nsvcd__query NSVCD__AT(query)
+#define nsvcd__query_layout NSVCD__AT(query_layout)
+#define nsvcd__query_open NSVCD__AT(query_open)
+#define nsvcd__question_check NSVCD__AT(question_check)
+#define nsvcd__ray NSVCD__AT(ray)
+#define nsvcd__ray_crosses NSVCD__AT(ray_crosses)
+#define nsvcd__ray_of NSVCD__AT(ray_of)
+#define nsvcd__remember_plane NSVCD__AT(remember_plane)
+#define nsvcd__rotate_degree NSVCD__AT(rotate_degree)
+#define nsvcd__rotate_latent NSVCD__AT(rotate_latent)
+#define nsvcd__row_left NSVCD__AT(row_left)
+#define nsvcd__run_layer NSVCD__AT(run_layer)
+#define nsvcd__same_bodies NSVCD__AT(same_bodies)
+#define nsvcd__scenes NSVCD__AT(scenes)
+#define nsvcd__scenes_of NSVCD__AT(scenes_of)
+#define nsvcd__score NSVCD__AT(score)
+#define nsvcd__search NSVCD__AT(search)
+#define nsvcd__search_and_judge NSVCD__AT(search_and_judge)
+#define nsvcd__search_begin NSVCD__AT(search_begin)
+#define nsvcd__search_group NSVCD__AT(search_group)
+#define nsvcd__search_layout NSVCD__AT(search_layout)
+#define nsvcd__search_moving_tile NSVCD__AT(search_moving_tile)
+#define nsvcd__search_next_tile NSVCD__AT(search_next_tile)
+#define nsvcd__search_patch NSVCD__AT(search_patch)
+#define nsvcd__search_step NSVCD__AT(search_step)
+#define nsvcd__search_tile NSVCD__AT(search_tile)
+#define nsvcd__seeds_near NSVCD__AT(seeds_near)
+#define nsvcd__seek_item NSVCD__AT(seek_item)
+#define nsvcd__segment_count NSVCD__AT(segment_count)
+#define nsvcd__segment_span NSVCD__AT(segment_span)
+#define nsvcd__segments NSVCD__AT(segments)
+#define nsvcd__segments_apart NSVCD__AT(segments_apart)
+#define nsvcd__segments_that_matter NSVCD__AT(segments_that_matter)
+#define nsvcd__settings NSVCD__AT(settings)
+#define nsvcd__settings_of NSVCD__AT(settings_of)
+#define nsvcd__settle_arc NSVCD__AT(settle_arc)
+#define nsvcd__settle_couple NSVCD__AT(settle_couple)
+#define nsvcd__settle_item NSVCD__AT(settle_item)
+#define nsvcd__settle_items NSVCD__AT(settle_items)
+#define nsvcd__settle_row NSVCD__AT(settle_row)
+#define nsvcd__settle_short_part NSVCD__AT(settle_short_part)
+#define nsvcd__settle_triangles NSVCD__AT(settle_triangles)
+#define nsvcd__sift_down NSVCD__AT(sift_down)
+#define nsvcd__sift_items NSVCD__AT(sift_items)
+#define nsvcd__slice_against_patch NSVCD__AT(slice_against_patch)
+#define nsvcd__sort_items NSVCD__AT(sort_items)
+#define nsvcd__span NSVCD__AT(span)
+#define nsvcd__span_of_arc NSVCD__AT(span_of_arc)
+#define nsvcd__span_of_segment NSVCD__AT(span_of_segment)
+#define nsvcd__spare_boxes NSVCD__AT(spare_boxes)
+#define nsvcd__spare_chords NSVCD__AT(spare_chords)
+#define nsvcd__spheres_at_box NSVCD__AT(spheres_at_box)
+#define nsvcd__spheres_on_ray NSVCD__AT(spheres_on_ray)
+#define nsvcd__starts_inside NSVCD__AT(starts_inside)
+#define nsvcd__starts_within NSVCD__AT(starts_within)
+#define nsvcd__status_of NSVCD__AT(status_of)
+#define nsvcd__sticks_out NSVCD__AT(sticks_out)
+#define nsvcd__support NSVCD__AT(support)
+#define nsvcd__support_along NSVCD__AT(support_along)
+#define nsvcd__surface_is_near NSVCD__AT(surface_is_near)
+#define nsvcd__surroundings NSVCD__AT(surroundings)
+#define nsvcd__sweep_batch NSVCD__AT(sweep_batch)
+#define nsvcd__sweep_gradient NSVCD__AT(sweep_gradient)
+#define nsvcd__sweep_size NSVCD__AT(sweep_size)
+#define nsvcd__take_contact NSVCD__AT(take_contact)
+#define nsvcd__take_doubt NSVCD__AT(take_doubt)
+#define nsvcd__take_to_line NSVCD__AT(take_to_line)
+#define nsvcd__task NSVCD__AT(task)
+#define nsvcd__task_of NSVCD__AT(task_of)
+#define nsvcd__threshold NSVCD__AT(threshold)
+#define nsvcd__tile NSVCD__AT(tile)
+#define nsvcd__tile_fill NSVCD__AT(tile_fill)
+#define nsvcd__tile_fill_all NSVCD__AT(tile_fill_all)
+#define nsvcd__tile_groups NSVCD__AT(tile_groups)
+#define nsvcd__time_in_arc NSVCD__AT(time_in_arc)
+#define nsvcd__time_in_segment NSVCD__AT(time_in_segment)
+#define nsvcd__time_of NSVCD__AT(time_of)
+#define nsvcd__to_bytes NSVCD__AT(to_bytes)
+#define nsvcd__to_nearest_patch NSVCD__AT(to_nearest_patch)
+#define nsvcd__to_world NSVCD__AT(to_world)
+#define nsvcd__to_world_at NSVCD__AT(to_world_at)
+#define nsvcd__touch NSVCD__AT(touch)
+#define nsvcd__touch_normals NSVCD__AT(touch_normals)
+#define nsvcd__track NSVCD__AT(track)
+#define nsvcd__track_box NSVCD__AT(track_box)
+#define nsvcd__track_of NSVCD__AT(track_of)
+#define nsvcd__track_pose NSVCD__AT(track_pose)
+#define nsvcd__track_pose_at NSVCD__AT(track_pose_at)
+#define nsvcd__track_poses_at NSVCD__AT(track_poses_at)
+#define nsvcd__transform_of NSVCD__AT(transform_of)
+#define nsvcd__triangles_are_parted NSVCD__AT(triangles_are_parted)
+#define nsvcd__triangles_meet NSVCD__AT(triangles_meet)
+#define nsvcd__triangles_nearest NSVCD__AT(triangles_nearest)
+#define nsvcd__triangles_pass NSVCD__AT(triangles_pass)
+#define nsvcd__turn NSVCD__AT(turn)
+#define nsvcd__turn_answer NSVCD__AT(turn_answer)
+#define nsvcd__turn_between NSVCD__AT(turn_between)
+#define nsvcd__two_groups NSVCD__AT(two_groups)
+#define nsvcd__undoes NSVCD__AT(undoes)
+#define nsvcd__undone NSVCD__AT(undone)
+#define nsvcd__unit_rotation NSVCD__AT(unit_rotation)
+#define nsvcd__v NSVCD__AT(v)
+#define nsvcd__v3 NSVCD__AT(v3)
+#define nsvcd__v3_add NSVCD__AT(v3_add)
+#define nsvcd__v3_centres NSVCD__AT(v3_centres)
+#define nsvcd__v3_cross NSVCD__AT(v3_cross)
+#define nsvcd__v3_dot NSVCD__AT(v3_dot)
+#define nsvcd__v3_dot_add NSVCD__AT(v3_dot_add)
+#define nsvcd__v3_fma NSVCD__AT(v3_fma)
+#define nsvcd__v3_length NSVCD__AT(v3_length)
+#define nsvcd__v3_load NSVCD__AT(v3_load)
+#define nsvcd__v3_load_rows NSVCD__AT(v3_load_rows)
+#define nsvcd__v3_max NSVCD__AT(v3_max)
+#define nsvcd__v3_min NSVCD__AT(v3_min)
+#define nsvcd__v3_negate NSVCD__AT(v3_negate)
+#define nsvcd__v3_of NSVCD__AT(v3_of)
+#define nsvcd__v3_rows NSVCD__AT(v3_rows)
+#define nsvcd__v3_scale NSVCD__AT(v3_scale)
+#define nsvcd__v3_set NSVCD__AT(v3_set)
+#define nsvcd__v3_store NSVCD__AT(v3_store)
+#define nsvcd__v3_store_rows NSVCD__AT(v3_store_rows)
+#define nsvcd__v3_sub NSVCD__AT(v3_sub)
+#define nsvcd__v3_transform NSVCD__AT(v3_transform)
+#define nsvcd__v3_unit NSVCD__AT(v3_unit)
+#define nsvcd__v_abs NSVCD__AT(v_abs)
+#define nsvcd__v_across NSVCD__AT(v_across)
+#define nsvcd__v_add NSVCD__AT(v_add)
+#define nsvcd__v_add_to NSVCD__AT(v_add_to)
+#define nsvcd__v_approach NSVCD__AT(v_approach)
+#define nsvcd__v_approach_load NSVCD__AT(v_approach_load)
+#define nsvcd__v_arc NSVCD__AT(v_arc)
+#define nsvcd__v_arc_bound NSVCD__AT(v_arc_bound)
+#define nsvcd__v_bits NSVCD__AT(v_bits)
+#define nsvcd__v_clamp NSVCD__AT(v_clamp)
+#define nsvcd__v_degree2 NSVCD__AT(v_degree2)
+#define nsvcd__v_deviation NSVCD__AT(v_deviation)
+#define nsvcd__v_disc NSVCD__AT(v_disc)
+#define nsvcd__v_disc_along NSVCD__AT(v_disc_along)
+#define nsvcd__v_disc_load NSVCD__AT(v_disc_load)
+#define nsvcd__v_disc_range NSVCD__AT(v_disc_range)
+#define nsvcd__v_disc_set NSVCD__AT(v_disc_set)
+#define nsvcd__v_div NSVCD__AT(v_div)
+#define nsvcd__v_farthest_axis NSVCD__AT(v_farthest_axis)
+#define nsvcd__v_fma NSVCD__AT(v_fma)
+#define nsvcd__v_half_rotation NSVCD__AT(v_half_rotation)
+#define nsvcd__v_keep_most NSVCD__AT(v_keep_most)
+#define nsvcd__v_le NSVCD__AT(v_le)
+#define nsvcd__v_least NSVCD__AT(v_least)
+#define nsvcd__v_load NSVCD__AT(v_load)
+#define nsvcd__v_load_int16 NSVCD__AT(v_load_int16)
+#define nsvcd__v_lt NSVCD__AT(v_lt)
+#define nsvcd__v_max NSVCD__AT(v_max)
+#define nsvcd__v_min NSVCD__AT(v_min)
+#define nsvcd__v_mul NSVCD__AT(v_mul)
+#define nsvcd__v_negate NSVCD__AT(v_negate)
+#define nsvcd__v_part NSVCD__AT(v_part)
+#define nsvcd__v_part_by_fixed NSVCD__AT(v_part_by_fixed)
+#define nsvcd__v_part_by_moving NSVCD__AT(v_part_by_moving)
+#define nsvcd__v_parted NSVCD__AT(v_parted)
+#define nsvcd__v_pick NSVCD__AT(v_pick)
+#define nsvcd__v_plus NSVCD__AT(v_plus)
+#define nsvcd__v_pose NSVCD__AT(v_pose)
+#define nsvcd__v_poses NSVCD__AT(v_poses)
+#define nsvcd__v_poses_at NSVCD__AT(v_poses_at)
+#define nsvcd__v_range NSVCD__AT(v_range)
+#define nsvcd__v_scale NSVCD__AT(v_scale)
+#define nsvcd__v_seen NSVCD__AT(v_seen)
+#define nsvcd__v_set NSVCD__AT(v_set)
+#define nsvcd__v_shorter_turn_between NSVCD__AT(v_shorter_turn_between)
+#define nsvcd__v_sign NSVCD__AT(v_sign)
+#define nsvcd__v_signed_square NSVCD__AT(v_signed_square)
+#define nsvcd__v_span NSVCD__AT(v_span)
+#define nsvcd__v_span_load NSVCD__AT(v_span_load)
+#define nsvcd__v_span_set NSVCD__AT(v_span_set)
+#define nsvcd__v_sqrt NSVCD__AT(v_sqrt)
+#define nsvcd__v_store NSVCD__AT(v_store)
+#define nsvcd__v_sub NSVCD__AT(v_sub)
+#define nsvcd__v_turn_between NSVCD__AT(v_turn_between)
+#define nsvcd__v_turn_off_axis NSVCD__AT(v_turn_off_axis)
+#define nsvcd__v_unit_of_length NSVCD__AT(v_unit_of_length)
+#define nsvcd__v_unit_or NSVCD__AT(v_unit_or)
+#define nsvcd__verdict NSVCD__AT(verdict)
+#define nsvcd__verdict_of_distance NSVCD__AT(verdict_of_distance)
+#define nsvcd__vertices_apart NSVCD__AT(vertices_apart)
+#define nsvcd__view NSVCD__AT(view)
+#define nsvcd__views NSVCD__AT(views)
+#define nsvcd__views_of NSVCD__AT(views_of)
+#define nsvcd__views_set_frame NSVCD__AT(views_set_frame)
+#define nsvcd__vmat3 NSVCD__AT(vmat3)
+#define nsvcd__vmat3_apply NSVCD__AT(vmat3_apply)
+#define nsvcd__vmat3_apply_add NSVCD__AT(vmat3_apply_add)
+#define nsvcd__vmat3_apply_transpose NSVCD__AT(vmat3_apply_transpose)
+#define nsvcd__vmat3_fma NSVCD__AT(vmat3_fma)
+#define nsvcd__vmat3_load NSVCD__AT(vmat3_load)
+#define nsvcd__vmat3_mul NSVCD__AT(vmat3_mul)
+#define nsvcd__vmat3_of NSVCD__AT(vmat3_of)
+#define nsvcd__vmat3_scale NSVCD__AT(vmat3_scale)
+#define nsvcd__vmat3_set NSVCD__AT(vmat3_set)
+#define nsvcd__vmat3_square NSVCD__AT(vmat3_square)
+#define nsvcd__vmat3_store NSVCD__AT(vmat3_store)
+#define nsvcd__vmat3_sub NSVCD__AT(vmat3_sub)
+#define nsvcd__vmat3_transpose NSVCD__AT(vmat3_transpose)
+#define nsvcd__vquat NSVCD__AT(vquat)
+#define nsvcd__vquat_axis NSVCD__AT(vquat_axis)
+#define nsvcd__vquat_dot NSVCD__AT(vquat_dot)
+#define nsvcd__vquat_fma NSVCD__AT(vquat_fma)
+#define nsvcd__vquat_inverse NSVCD__AT(vquat_inverse)
+#define nsvcd__vquat_load NSVCD__AT(vquat_load)
+#define nsvcd__vquat_mul NSVCD__AT(vquat_mul)
+#define nsvcd__vquat_of NSVCD__AT(vquat_of)
+#define nsvcd__vquat_set NSVCD__AT(vquat_set)
+#define nsvcd__vquat_store NSVCD__AT(vquat_store)
+#define nsvcd__vquat_unit NSVCD__AT(vquat_unit)
+#define nsvcd__weights_at NSVCD__AT(weights_at)
+#define nsvcd__wigner NSVCD__AT(wigner)
+#define nsvcd__winding_number NSVCD__AT(winding_number)
+#define nsvcd__window_load NSVCD__AT(window_load)
+#define nsvcd__world_pose NSVCD__AT(world_pose)
+#define nsvcd__world_pose_between NSVCD__AT(world_pose_between)
+#define nsvcd__world_pose_of NSVCD__AT(world_pose_of)
+#define nsvcd__wrench NSVCD__AT(wrench)
+#define nsvcd__wrench_add NSVCD__AT(wrench_add)
+#define nsvcd__wrench_load NSVCD__AT(wrench_load)
+#define nsvcd__wrench_of NSVCD__AT(wrench_of)
+#define nsvcd__wrench_scale NSVCD__AT(wrench_scale)
+
+// ---- the passes
+
+// gcc leaves out at -O2 what makes these loops fast: at -O3 they take 0.75 to 0.85 of the time.
+#if defined(__GNUC__) && !defined(__clang__)
+#pragma GCC push_options
+#if defined(__OPTIMIZE__) && !defined(__OPTIMIZE_SIZE__)
+#pragma GCC optimize("O3")
+#endif
+#pragma GCC target("avx2,fma,bmi,bmi2,lzcnt,popcnt")
+#elif defined(__clang__)
+#pragma clang attribute push(__attribute__((target("avx2,fma,bmi,bmi2,lzcnt,popcnt"))), \
+                             apply_to = function)
+#endif
+#undef NSVCD__SLICE
+#define NSVCD__SLICE 8
+#define NSVCD__ISA _avx2
+#include "neuralsvcd.h"
+
+#if defined(__GNUC__) && !defined(__clang__)
+#pragma GCC target("avx512f,avx512vl,avx512vnni")
+#elif defined(__clang__)
+#pragma clang attribute pop
+#pragma clang attribute push(                                                         \
+    __attribute__((target("avx512f,avx512vl,avx512vnni,fma,bmi,bmi2,lzcnt,popcnt"))), \
+    apply_to = function)
+#endif
+#undef NSVCD__SLICE
+#undef NSVCD__ISA
+#undef NSVCD__BYTE_ROWS
+#define NSVCD__SLICE 16
+#define NSVCD__ISA _avx512
+#define NSVCD__VNNI
+#include "neuralsvcd.h"
+
+#if defined(__GNUC__) && !defined(__clang__)
+#pragma GCC pop_options
+#elif defined(__clang__)
+#pragma clang attribute pop
+#endif
+
+// from here on a name is a name again, and vectors are those above
+#undef NSVCD__SLICE
+#undef NSVCD__ISA
+#undef NSVCD__VNNI
+#define NSVCD__SLICE 4
+#undef NSVCD__AT
+#undef NSVCD__NUMBER_AT
+#define NSVCD__AT(name) nsvcd__##name
+#define NSVCD__NUMBER_AT(name) NSVCD__##name
+
+typedef enum nsvcd__isa { NSVCD__SSE2, NSVCD__AVX2, NSVCD__AVX512 } nsvcd__isa;
+
+#if defined(_MSC_VER) && !defined(__clang__)
+// What the processor and the system have.
+static nsvcd__isa nsvcd__ask_processor(void) {
+  int first[4];
+  int seventh[4];
+  __cpuid(first, 0);
+  if (first[0] < 7)
+    return NSVCD__SSE2;
+  __cpuid(first, 1);
+  __cpuidex(seventh, 7, 0);
+  const int keeps_registers = first[2] >> 27 & 1;  // the system, of vectors: OSXSAVE
+  const unsigned long long kept = keeps_registers ? _xgetbv(0) : 0;
+  const int fma = first[2] >> 12 & 1;
+  const int bmi = seventh[1] >> 3 & seventh[1] >> 8 & 1;
+  const int avx2 = seventh[1] >> 5 & 1;
+  const int avx512 = seventh[1] >> 16 & (unsigned)seventh[1] >> 31 & seventh[2] >> 11 & 1;
+  if ((kept & 6) != 6 || !fma || !bmi || !avx2)
+    return NSVCD__SSE2;
+  return (kept & 0xe0) == 0xe0 && avx512 ? NSVCD__AVX512 : NSVCD__AVX2;
+}
+
+// The same, remembered: one word, which all threads that may write it at a time write alike.
+static nsvcd__isa nsvcd__isa_at_hand(void) {
+  static volatile long known = -1;
+  if (known < 0)
+    known = nsvcd__ask_processor();
+  return (nsvcd__isa)known;
+}
+#else
+// What the processor and the system have. The compiler's own library asks them before main.
+static nsvcd__isa nsvcd__isa_at_hand(void) {
+  const int fma = __builtin_cpu_supports("fma") && __builtin_cpu_supports("bmi2");
+  if (!fma || !__builtin_cpu_supports("avx2"))
+    return NSVCD__SSE2;
+  if (__builtin_cpu_supports("avx512vl") && __builtin_cpu_supports("avx512vnni"))
+    return NSVCD__AVX512;
+  return NSVCD__AVX2;
+}
+#endif
+
+#define NSVCD__BEST(name)                                         \
+  (nsvcd__isa_at_hand() == NSVCD__AVX512 ? nsvcd__##name##_avx512 \
+   : nsvcd__isa_at_hand() == NSVCD__AVX2 ? nsvcd__##name##_avx2   \
+                                         : nsvcd__##name)
+#else
+#define NSVCD__BEST(name) nsvcd__##name
+#endif  // NSVCD__DISPATCH
+
+// ---- what is asked, handed to the best of them
+
+NSVCDDEF size_t nsvcd_sweep_workspace_size(const nsvcd_question *question) {
+  return NSVCD__BEST(sweep_size)(question);
+}
+
+NSVCDDEF nsvcd_result nsvcd_sweep(const nsvcd_question *question, void *workspace,
+                                  size_t workspace_size, nsvcd_answer *answer) {
+  if (!question)
+    return NSVCD_ERROR_ARGUMENT;
+  return NSVCD__BEST(sweep_batch)(question, 1, workspace, workspace_size, answer);
+}
+
+NSVCDDEF nsvcd_result nsvcd_sweep_batch(const nsvcd_question *questions, size_t count,
+                                        void *workspace, size_t workspace_size,
+                                        nsvcd_answer *answers) {
+  return NSVCD__BEST(sweep_batch)(questions, count, workspace, workspace_size, answers);
+}
+
+#ifndef NSVCD_NO_GRADIENT
+NSVCDDEF nsvcd_result nsvcd_sweep_gradient(const nsvcd_question *question, void *workspace,
+                                           size_t workspace_size, nsvcd_answer *answer,
+                                           float *gradient_a, float *gradient_b) {
+  return NSVCD__BEST(sweep_gradient)(question, workspace, workspace_size, answer, gradient_a,
+                                     gradient_b);
+}
+#endif
 
 #ifndef NSVCD_NO_OPTIMIZER
 // ------------------------------------------------------------------------------------------ spline
@@ -15234,7 +16325,7 @@ static void nsvcd__spline_weights(size_t via, double t, size_t derivative, doubl
 NSVCDDEF void nsvcd_spline(const float *control, size_t via_points, size_t joints, float t,
                            size_t derivative, float *out) {
   double weights[NSVCD_MAX_VIA_POINTS + 2];
-  if (via_points > NSVCD_MAX_VIA_POINTS)
+  if (via_points > NSVCD_MAX_VIA_POINTS || derivative > 3)
     return;
   nsvcd__spline_weights(via_points, (double)t, derivative, weights);
   for (size_t j = 0; j < joints; j++) {
@@ -15357,6 +16448,7 @@ typedef struct nsvcd__stage {
   size_t via, moments;  // M; segments + 1
   size_t iterations;
   size_t draws;      // rollouts of an iteration, or gradients in a bundle
+  float noise;       // their standard deviation, radians or metres
   double *form;      // (M + 2, M + 2): smoothness
   double *factor;    // (M, M): Cholesky's, of the rows and columns of the via points
   double deviation;  // of factor^-T times normal numbers: the greatest of a via point
@@ -15413,6 +16505,11 @@ static int nsvcd__is_free(const nsvcd__cost *cost) {
 
 // ---- memory
 
+// A weight: the default where 0 is given, 0 where it is negative.
+static float nsvcd__weight_of(float given, float otherwise) {
+  return given > 0 ? given : given < 0 ? 0 : otherwise;
+}
+
 // A stage of what the caller gave, and the defaults where that is 0. Returns 0 for what cannot be.
 static int nsvcd__stage_of(const nsvcd_plan_stage *given, nsvcd_plan_stage defaults,
                            nsvcd__stage *stage) {
@@ -15422,15 +16519,11 @@ static int nsvcd__stage_of(const nsvcd_plan_stage *given, nsvcd_plan_stage defau
   stage->iterations = given->iterations ? given->iterations : defaults.iterations;
   if (given->iterations == NSVCD_NONE)
     stage->iterations = 0;
-  stage->draws = given->samples ? given->samples : defaults.samples;
+  stage->draws = given->draws ? given->draws : defaults.draws;
+  stage->noise = nsvcd__weight_of(given->noise, defaults.noise);
   if (stage->via > NSVCD_MAX_VIA_POINTS || segments > NSVCD_MAX_PLAN_SEGMENTS)
     return 0;
   return stage->draws <= 10000 && stage->iterations <= 100000;
-}
-
-// A weight: the default where 0 is given, 0 where it is negative.
-static float nsvcd__weight_of(float given, float otherwise) {
-  return given > 0 ? given : given < 0 ? 0 : otherwise;
 }
 
 // Is the problem one that can be stated?
@@ -15456,8 +16549,9 @@ static int nsvcd__problem_is_whole(const nsvcd_plan_problem *problem) {
 
 // Are the options' numbers finite, and those of the queries in order?
 static int nsvcd__plan_options_are_valid(const nsvcd_plan_options *o) {
-  const float floats[9] = {o->velocity, o->acceleration, o->jerk,   o->collision,   o->duration,
-                           o->margin,   o->spread,       o->bundle, o->sweep.recall};
+  const float floats[9] = {o->velocity,      o->acceleration, o->jerk,
+                           o->collision,     o->duration,     o->margin,
+                           o->explore.noise, o->refine.noise, o->sweep.recall};
   for (size_t k = 0; k < 9; k++) {
     if (!nsvcd__is_finite(floats[k]))
       return 0;
@@ -15469,9 +16563,9 @@ static int nsvcd__plan_options_are_valid(const nsvcd_plan_options *o) {
 // Fills in the defaults. Returns 0 for what cannot be.
 static int nsvcd__planner_settings(const nsvcd_plan_problem *problem,
                                    const nsvcd_plan_options *options, nsvcd__planner *p) {
-  // via points, segments, iterations, draws
-  static const nsvcd_plan_stage explore = {5, 24, 40, 100};
-  static const nsvcd_plan_stage refine = {10, 22, 10, 10};
+  // via points, segments, iterations, draws, noise
+  static const nsvcd_plan_stage explore = {5, 24, 40, 100, 0.3f};
+  static const nsvcd_plan_stage refine = {10, 22, 10, 10, 0.01f};
   memset(p, 0, sizeof *p);
   if (!nsvcd__problem_is_whole(problem))
     return 0;
@@ -15498,8 +16592,6 @@ static int nsvcd__planner_settings(const nsvcd_plan_problem *problem,
   o->collision = nsvcd__weight_of(o->collision, 20);
   o->duration = o->duration > 0 ? o->duration : 20;
   o->margin = nsvcd__weight_of(o->margin, 2);
-  o->spread = nsvcd__weight_of(o->spread, 0.3f);
-  o->bundle = nsvcd__weight_of(o->bundle, 0.01f);
 
   p->check = p->refine;
   const int explores_finer = p->explore.moments > p->refine.moments;
@@ -15794,7 +16886,7 @@ static void nsvcd__add_wrench(const nsvcd_body_pair *pair, const nsvcd_pose *pos
 typedef struct nsvcd__worst {
   float logit, time;
   size_t pair;
-  int proven;  // a proof has found it
+  int proven;  // a proof has found it, INSIDE too, or could not rule it out
 } nsvcd__worst;
 
 static nsvcd__worst nsvcd__worst_at_first(void) {
@@ -15869,7 +16961,7 @@ static void nsvcd__note_worst(const nsvcd__collision *c, const nsvcd_answer *ans
     return;
   worst->logit = answer->logit;
   worst->pair = k;
-  worst->proven = answer->collides && answer->status >= NSVCD_STATUS_WITNESS;
+  worst->proven = answer->collides && answer->work > 0;  // only a proof takes work
   worst->time = 0;
   if (c->moments > 1) {
     const float at = (float)s + (float)c->stride * answer->contact_time;
@@ -16058,6 +17150,17 @@ static int nsvcd__leaves_limits(const nsvcd_plan_problem *problem, size_t joint,
   return value < problem->low[joint] - rounding || value > problem->high[joint] + rounding;
 }
 
+// A joint that leaves its limits at a via point, or NSVCD_NONE: moments may be few, and miss it.
+static size_t nsvcd__joint_beyond(const nsvcd_plan_problem *problem, size_t via,
+                                  const float *control) {
+  const size_t f = problem->joints;
+  for (size_t k = f; k < (via + 1) * f; k++) {
+    if (nsvcd__leaves_limits(problem, k % f, control[k]))
+      return k % f;
+  }
+  return NSVCD_NONE;
+}
+
 // Fills p->path with the joints at the moments of a trajectory, and adds what leaving the limits
 // costs. gradient: (M + 2, F), added to, or NULL.
 static void nsvcd__add_limits(nsvcd__planner *p, const nsvcd__stage *stage, const float *control,
@@ -16065,6 +17168,7 @@ static void nsvcd__add_limits(nsvcd__planner *p, const nsvcd__stage *stage, cons
   const size_t f = p->problem->joints;
   const size_t all = stage->via + 2;
   const float share = NSVCD__LIMIT_COST / (float)stage->moments;
+  cost->joint = nsvcd__joint_beyond(p->problem, stage->via, control);
   for (size_t s = 0; s < stage->moments; s++) {
     const float *w = stage->weights + s * all;
     for (size_t j = 0; j < f; j++) {
@@ -16232,7 +17336,7 @@ static float nsvcd__kth_cost(const float *costs, size_t count, size_t k) {
 static void nsvcd__first_deviations(const nsvcd__planner *p, float *deviations) {
   for (size_t j = 0; j < p->problem->joints; j++) {
     const float quarter = 0.25f * (p->problem->high[j] - p->problem->low[j]);
-    deviations[j] = p->options.spread < quarter ? p->options.spread : quarter;
+    deviations[j] = p->explore.noise < quarter ? p->explore.noise : quarter;
   }
 }
 
@@ -16506,7 +17610,7 @@ static void nsvcd__refine(nsvcd__planner *p, nsvcd__searching *search) {
   // The same offsets at each iteration: the mean is then a function, and its gradients differ by
   // where they are taken.
   for (size_t j = 0; j < f; j++)
-    deviations[j] = p->options.bundle;
+    deviations[j] = stage->noise;
   for (size_t n = 0; n < stage->draws; n++)
     nsvcd__smooth_noise(p, stage, deviations, p->drawn + n * numbers);
 
@@ -16553,7 +17657,8 @@ static void nsvcd__smoothest(nsvcd__planner *p, const nsvcd__stage *stage, float
   memcpy(control + (via + 1) * f, p->problem->goal, f * sizeof *control);
 }
 
-// Turns p->best into nearly the same curve through another number of via points.
+// Turns p->best into nearly the same curve through another number of via points. These are taken
+// into the limits, for a curve may leave them between two points.
 static void nsvcd__resample(nsvcd__planner *p, size_t from, size_t to) {
   const size_t f = p->problem->joints;
   if (from == to)
@@ -16562,7 +17667,7 @@ static void nsvcd__resample(nsvcd__planner *p, size_t from, size_t to) {
     const float t = (float)k / (float)(to + 1);
     nsvcd_spline(p->best, from, f, t, 0, p->trial + k * f);
   }
-  memcpy(p->best, p->trial, (to + 2) * f * sizeof *p->best);
+  nsvcd__change(p, to, p->trial, p->trial, 0, p->best);
 }
 
 // Are the joints within the limits, and free of collision? Fills in the answer's facts if not.
@@ -16584,22 +17689,6 @@ static int nsvcd__is_good(nsvcd__planner *p, const float *joints, nsvcd_plan_ans
   answer->logit = worst.logit;
   answer->pair = worst.pair;
   return !answer->collides;
-}
-
-NSVCDDEF const char *nsvcd_plan_status_string(nsvcd_plan_status status) {
-  switch (status) {
-    case NSVCD_PLAN_CONVERGED:
-      return "converged";
-    case NSVCD_PLAN_LIMIT:
-      return "limit";
-    case NSVCD_PLAN_CANCELLED:
-      return "cancelled";
-    case NSVCD_PLAN_START:
-      return "infeasible start";
-    case NSVCD_PLAN_GOAL:
-      return "infeasible goal";
-  }
-  return "unknown status";
 }
 
 NSVCDDEF size_t nsvcd_plan_workspace_size(const nsvcd_plan_problem *problem,
@@ -16748,6 +17837,8 @@ NSVCDDEF nsvcd_result nsvcd_plan(const nsvcd_plan_problem *problem,
   return NSVCD_OK;
 }
 #endif  // NSVCD_NO_OPTIMIZER
+
+#endif  // NSVCD__ISA
 
 #endif  // NEURALSVCD_IMPLEMENTATION
 

@@ -60,7 +60,8 @@ all="tests/data/problems.txt $dir/rest.txt $dir/same.txt"
 level plain 1 "$all" '' "${CC:-cc}" -DNSVCD_NO_SIMD
 case $(uname -m) in
   x86_64)
-    level sse2 4 "$all" '' "${CC:-cc}"
+    level sse2 4 "$all" '' "${CC:-cc}" -DNSVCD_NO_DISPATCH
+    level chosen 4 "$all" '' "${CC:-cc}"  # by the processor, at each call
     if supports avx2 fma; then level avx2 8 "$all" '' "${CC:-cc}" -mavx2 -mfma
     else echo "levels: no AVX2: not tested"; fi
     if supports avx512f avx512vnni; then level avx512 16 "$all" '' "${CC:-cc}" -mavx512f -mavx512vnni

@@ -25,6 +25,7 @@ void test_winding_number(void);
 void test_decoder(void);
 void test_query(void);
 void test_gradient(void);
+void test_processor(void);
 void test_spline(void);
 void test_optimizer(void);
 void test_level(void);
@@ -63,6 +64,7 @@ static const test_file files[] = {
     OF(decoder),
     OF(query),
     OF(gradient),
+    OF(processor),
     OF(spline),
     OF(optimizer),
     // what crosses them

@@ -628,3 +628,5 @@ void test_oracle(void) {
   RUN(oracle_agrees_with_libccd);
 #endif
 }
+
+CHECK_ALONE(test_oracle)

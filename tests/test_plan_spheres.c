@@ -303,3 +303,5 @@ void test_plan_spheres(void) {
   RUN(plan_spheres_gradient_is_the_costs);
   plan_spheres_unmake();
 }
+
+CHECK_ALONE(test_plan_spheres)

@@ -340,3 +340,5 @@ void test_tasks(void) {
   RUN(tasks_judge);
   RUN(tasks_judge_agrees_with_distances);
 }
+
+CHECK_ALONE(test_tasks)

@@ -193,36 +193,6 @@ static void weights_thresholds_fall(void) {
   }
 }
 
-// A row for N = 32, 64, ... 512, the ends beyond, and between two rows what is between; whichever
-// body is the finer.
-static void weights_thresholds_are_interpolated(void) {
-  const size_t sizes[7] = {1, 32, 64, 128, 256, 512, NSVCD_MAX_PATCHES};
-  const size_t rows[7] = {0, 0, 1, 2, 3, 4, 4};
-  for (size_t h = 0; h < 3; h++) {
-    for (size_t k = 0; k < NSVCD_W_RECALLS; k++) {
-      const float recall = nsvcd_w_recall[k];
-      float t = NAN;
-      for (size_t n = 0; n < 7; n++) {
-        CHECK(nsvcd__threshold(h, recall, sizes[n], sizes[n], &t));
-        CHECK_NEAR(t, nsvcd_w_threshold[h][rows[n]][k], 1e-6);
-      }
-      for (size_t n = 1; n < 5; n++) {
-        float other = NAN;
-        const float low = nsvcd_w_threshold[h][n - 1][k];
-        const float high = nsvcd_w_threshold[h][n][k];
-        CHECK(nsvcd__threshold(h, recall, sizes[n], sizes[n + 1], &t));
-        CHECK(nsvcd__threshold(h, recall, sizes[n + 1], sizes[n], &other));
-        CHECK_NEAR(t, 0.5f * (low + high), 1e-6);
-        CHECK_EQ(t, other);
-      }
-    }
-    float none = 7;
-    CHECK(!nsvcd__threshold(h, 0.5f, 64, 64, &none));
-    CHECK(!nsvcd__threshold(h, NAN, 64, 64, &none));
-    CHECK_EQ(none, 7);
-  }
-}
-
 void test_weights(void) {
   RUN(weights_layers_fit);
   RUN(weights_arrays_are_full);
@@ -231,7 +201,6 @@ void test_weights(void) {
   RUN(weights_encoder_has_its_shape);
   RUN(weights_are_numbers);
   RUN(weights_thresholds_fall);
-  RUN(weights_thresholds_are_interpolated);
 }
 
 CHECK_ALONE(test_weights)

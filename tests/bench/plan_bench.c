@@ -74,7 +74,7 @@ static const task_settings settings[TASKS] = {
     {5, 4, 100, 200, 50, 10, 2, 100, 10, 1, 2, 10, 0.010f, 891, 100, 1200},
     {8, 3, 100, 400, 50, 8, 3, 100, 1, 5, 10, 50, 0.040f, 397, 50, 2000}};
 
-// Where the tables are silent (duration, spread, margin, size of the bundle) all planners take the
+// Where the tables are silent (duration, noise, margin, draws of L-BFGS) all planners take the
 // library's defaults. Tuned: 50 samples of MPPI, 100 for the peg; 6 starts instead of 2; the
 // network's cost of collision weighs 20, and, but for the peg, which has 4 mm of room, has a recall
 // of 99.9 %.
@@ -90,7 +90,7 @@ static nsvcd_plan_options options_of(int task, const planner *p, uint64_t seed) 
   o.seeds = 2;
   o.explore.via_points = s->points;
   o.refine.via_points = s->refined_points;
-  o.explore.samples = p->kind == DISCRETE ? s->few_samples : s->samples;
+  o.explore.draws = p->kind == DISCRETE ? s->few_samples : s->samples;
   o.explore.segments = p->kind == DISCRETE ? s->poses - 1 : s->interpolation * (s->points + 1);
   o.refine.segments = p->kind == DISCRETE ? s->refined_poses - 1
                                           : s->refined_interpolation * (s->refined_points + 1);
@@ -98,7 +98,7 @@ static nsvcd_plan_options options_of(int task, const planner *p, uint64_t seed) 
   o.sweep.method = p->proven ? NSVCD_METHOD_PROOF : NSVCD_METHOD_NETWORK;
   if (p->tuned) {
     o.seeds = 6;
-    o.explore.samples = task == BIMANUAL ? 100 : 50;
+    o.explore.draws = task == BIMANUAL ? 100 : 50;
     if (p->kind == SWEPT) {
       o.collision = 20;
       o.sweep.recall = task == BIMANUAL ? 0 : 0.999f;

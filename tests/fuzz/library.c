@@ -1,0 +1,3 @@
+// The library, once for all fuzz targets.
+#define NEURALSVCD_IMPLEMENTATION
+#include "../../neuralsvcd.h"

@@ -1,0 +1,350 @@
+// scene.h - meshes, bodies and questions for the fuzz targets, and what an answer must keep to. Only
+// what is public is used. After main.h.
+#ifndef NSVCD_TESTS_FUZZ_SCENE_H
+#define NSVCD_TESTS_FUZZ_SCENE_H
+
+#include "../../neuralsvcd.h"
+
+// ------------------------------------------------------------------------------------------- bodies
+
+enum { SCENE_MOST_TRIANGLES = 2048 };
+
+typedef struct scene_mesh {
+  float positions[9 * SCENE_MOST_TRIANGLES];
+  uint32_t indices[3 * SCENE_MOST_TRIANGLES];
+  nsvcd_mesh mesh;
+} scene_mesh;
+
+static void scene_box(scene_mesh *out, float x, float y, float z) {
+  static const uint32_t faces[36] = {0, 2, 3, 0, 3, 1, 4, 5, 7, 4, 7, 6, 0, 1, 5, 0, 5, 4,
+                                     2, 6, 7, 2, 7, 3, 0, 4, 6, 0, 6, 2, 1, 3, 7, 1, 7, 5};
+  for (int i = 0; i < 8; i++) {
+    out->positions[3 * i] = i & 1 ? x : -x;
+    out->positions[3 * i + 1] = i & 2 ? y : -y;
+    out->positions[3 * i + 2] = i & 4 ? z : -z;
+  }
+  memcpy(out->indices, faces, sizeof faces);
+  out->mesh.positions = out->positions;
+  out->mesh.indices = out->indices;
+  out->mesh.vertex_count = 8;
+  out->mesh.triangle_count = 12;
+}
+
+// A wavy sheet of n by n squares, 0.6 m wide.
+static void scene_sheet(scene_mesh *out, uint32_t n) {
+  uint32_t *index = out->indices;
+  for (uint32_t i = 0; i <= n; i++) {
+    for (uint32_t j = 0; j <= n; j++) {
+      float *p = out->positions + 3 * (i * (n + 1) + j);
+      p[0] = 0.6f * (float)i / (float)n - 0.3f;
+      p[1] = 0.6f * (float)j / (float)n - 0.3f;
+      p[2] = 0.02f * (float)((i * 7 + j * 5) % 4);
+    }
+  }
+  for (uint32_t i = 0; i < n; i++) {
+    for (uint32_t j = 0; j < n; j++) {
+      const uint32_t at = i * (n + 1) + j;
+      const uint32_t square[6] = {at, at + n + 1, at + n + 2, at, at + n + 2, at + 1};
+      memcpy(index, square, sizeof square);
+      index += 6;
+    }
+  }
+  out->mesh.positions = out->positions;
+  out->mesh.indices = out->indices;
+  out->mesh.vertex_count = (size_t)(n + 1) * (n + 1);
+  out->mesh.triangle_count = 2 * (size_t)n * n;
+}
+
+// A cube, a plate, a needle, a sheet, and one of them for the proof alone, for the network alone and
+// without an inside; then a level, far smaller and far larger ones.
+enum { SCENE_BODIES = 10 };
+
+static const nsvcd_body *scene_encode(size_t kind) {
+  static scene_mesh made;
+  static const size_t patches[SCENE_BODIES] = {6, 20, 5, 40, 17, 9, 3, 560, 8, 8};
+  nsvcd_encode_options options;
+  const nsvcd_body *body = NULL;
+  memset(&options, 0, sizeof options);
+  options.patches = patches[kind];
+  options.no_latents = kind == 4;
+  options.no_triangles = kind == 5;
+  options.open = kind == 3 || kind == 6;
+  options.latents = kind == 7;
+  switch (kind) {
+    case 1:
+      scene_box(&made, 0.2f, 0.2f, 1e-3f);
+      break;
+    case 2:
+      scene_box(&made, 0.3f, 1e-4f, 1e-4f);
+      break;
+    case 3:
+      scene_sheet(&made, 5);
+      break;
+    case 7:
+      scene_sheet(&made, 30);
+      break;
+    case 8:
+      scene_box(&made, 1e-11f, 2e-11f, 1e-11f);
+      break;
+    case 9:
+      scene_box(&made, 3e5f, 2e5f, 9e5f);
+      break;
+    default:
+      scene_box(&made, 0.1f, 0.08f, 0.06f);
+  }
+  if (nsvcd_encode(&made.mesh, &options, NULL, NULL, 0, &body)) {
+    fprintf(stderr, "fuzz: a scene cannot be encoded\n");
+    exit(2);
+  }
+  return body;
+}
+
+// Made when it is first asked for, and kept.
+static const nsvcd_body *scene_body(size_t kind) {
+  static const nsvcd_body *bodies[SCENE_BODIES];
+  if (!bodies[kind])
+    bodies[kind] = scene_encode(kind);
+  return bodies[kind];
+}
+
+// ---------------------------------------------------------------------------------------- questions
+
+enum { SCENE_POSES = 6 };
+
+typedef struct scene_question {
+  nsvcd_pose a[SCENE_POSES], b[SCENE_POSES];
+  nsvcd_question question;
+} scene_question;
+
+// Mostly a pose as it should be; one of 16 is any numbers.
+static void scene_pose(fuzz_input *in, float reach, nsvcd_pose *pose) {
+  const uint8_t kind = fuzz_byte(in);
+  float square = 0;
+  for (int k = 0; k < 3; k++)
+    pose->position[k] = reach * fuzz_float(in);
+  for (int k = 0; k < 4; k++) {
+    pose->rotation[k] = kind % 4 ? fuzz_float(in) : 0;
+    square += pose->rotation[k] * pose->rotation[k];
+  }
+  const float length = sqrtf(square);
+  const int turns = length > 1e-3f && length < 1e3f;
+  if (kind >= 252)
+    return;
+  for (int k = 0; k < 4; k++)
+    pose->rotation[k] = turns ? pose->rotation[k] / length : (float)(k == 3);
+}
+
+static void scene_mover(fuzz_input *in, float reach, nsvcd_pose *poses, nsvcd_mover *mover) {
+  static const float scales[8] = {0, 1, 0, 1, 0.5f, 3, 1e-6f, 1e6f};
+  const uint8_t shape = fuzz_byte(in);
+  mover->count = shape % 8 < SCENE_POSES ? shape % 8 : 2;
+  mover->scale = shape < 128 ? 0 : shape < 240 ? scales[shape / 8 % 8] : fuzz_float(in);
+  for (size_t k = 0; k < mover->count; k++)
+    scene_pose(in, reach, &poses[k]);
+  mover->poses = mover->count ? poses : NULL;
+}
+
+static void scene_options(fuzz_input *in, nsvcd_sweep_options *options) {
+  static const size_t pairs[8] = {0, 1, 2, 8, 40, 256, 257, (size_t)-1};
+  static const size_t work[8] = {300, 1, 50, 3000, 17, 1000, 300, 300};
+  static const float recalls[8] = {0, 0.99f, 0.999f, 0.9999f, 0.5f, 1, -1, 0};
+  const uint8_t asked = fuzz_byte(in);
+  const uint8_t odd = fuzz_byte(in);
+  memset(options, 0, sizeof *options);
+  options->work = work[asked % 8];
+  options->method = (nsvcd_method)(asked / 8 % 4 == 3 ? odd : asked / 8 % 4);
+  if (asked >= 128) {
+    options->clearance = fuzz_length(in);
+    options->first = fuzz_length(in);
+    options->measure = fuzz_length(in);
+    options->skin = fuzz_length(in);
+    options->tolerance = fuzz_length(in);
+  }
+  if (odd < 128)
+    return;
+  options->pairs = pairs[fuzz_choice(in, 8)];
+  options->model = (nsvcd_model)(fuzz_choice(in, 32) % 6);
+  options->precision = (nsvcd_precision)(fuzz_choice(in, 32) % 3);
+  options->recall = recalls[fuzz_choice(in, 8)];
+  options->segments = odd < 240 ? 16 * fuzz_choice(in, 5) : fuzz_byte(in);
+}
+
+// A question about two bodies.
+static void scene_ask_about(fuzz_input *in, const nsvcd_body *a, const nsvcd_body *b,
+                            scene_question *out) {
+  static const float reaches[4] = {0.1f, 0.3f, 1, 0};
+  memset(out, 0, sizeof *out);
+  const float reach = reaches[fuzz_choice(in, 4)];
+  out->question.a.body = a;
+  out->question.b.body = b;
+  scene_options(in, &out->question.options);
+  scene_mover(in, reach, out->a, &out->question.a);
+  scene_mover(in, reach, out->b, &out->question.b);
+}
+
+// ------------------------------------------------------------------------------------------ answers
+
+static int scene_share(float x) {
+  return x >= 0 && x <= 1;
+}
+
+static int scene_finite(const float *numbers, size_t count) {
+  for (size_t k = 0; k < count; k++) {
+    if (!(fabsf(numbers[k]) <= 3.4e38f))
+      return 0;
+  }
+  return 1;
+}
+
+// 0 or a unit vector?
+static int scene_normal(const float *n) {
+  const float square = n[0] * n[0] + n[1] * n[1] + n[2] * n[2];
+  return square <= 0 || fabsf(square - 1) < 1e-3f;
+}
+
+static void scene_check_proof(const nsvcd_question *question, const nsvcd_answer *answer) {
+  const float first = question->options.first;
+  const int meets = answer->status == NSVCD_STATUS_WITNESS;
+  FUZZ_CHECK(answer->status != NSVCD_STATUS_OK && answer->status != NSVCD_STATUS_LIMIT);
+  FUZZ_CHECK(!(answer->clearance_low > answer->clearance_high));
+  FUZZ_CHECK(answer->clearance_low >= 0 && answer->clearance_low < HUGE_VALF);
+  if (answer->status == NSVCD_STATUS_CERTIFIED_FREE)
+    FUZZ_CHECK(answer->free_until >= 1);
+  if (meets) {
+    const nsvcd_body_facts a = nsvcd_body_describe(question->a.body);
+    const nsvcd_body_facts b = nsvcd_body_describe(question->b.body);
+    FUZZ_CHECK(answer->triangle_a < a.triangles && answer->triangle_b < b.triangles);
+    FUZZ_CHECK(answer->free_until <= answer->contact_time);
+    // Surfaces within a tolerance may be taken for the beginning of a contact: how long they are so
+    // near is not bounded.
+    if (first > 0 && !(question->options.tolerance > 0))
+      FUZZ_CHECK(answer->free_until >= answer->contact_time - first - 1e-6f);
+    if (!(first > 0))
+      FUZZ_CHECK(answer->free_until <= 0);
+  }
+}
+
+// What nsvcd_answer says of its fields.
+static void scene_check(const nsvcd_question *question, const nsvcd_answer *answer) {
+  const nsvcd_body_facts a = nsvcd_body_describe(question->a.body);
+  const nsvcd_body_facts b = nsvcd_body_describe(question->b.body);
+  const nsvcd_method method = question->options.method;
+  const int proves = method != NSVCD_METHOD_NETWORK && a.triangles && b.triangles;
+  FUZZ_CHECK(scene_finite(&answer->logit, 1));
+  FUZZ_CHECK(answer->collides == (answer->logit > 0));
+  FUZZ_CHECK(scene_share(answer->contact_time) && scene_share(answer->free_until));
+  FUZZ_CHECK(answer->patch_a < a.patches && answer->patch_b < b.patches);
+  FUZZ_CHECK(answer->triangle_a < a.triangles || answer->triangle_a == NSVCD_NO_TRIANGLE);
+  FUZZ_CHECK(answer->triangle_b < b.triangles || answer->triangle_b == NSVCD_NO_TRIANGLE);
+  FUZZ_CHECK((unsigned)answer->status <= (unsigned)NSVCD_STATUS_UNDECIDED);
+  FUZZ_CHECK(scene_finite(answer->point, 3) && scene_finite(answer->lift, 3));
+  FUZZ_CHECK(scene_normal(answer->normal));
+  if (answer->status == NSVCD_STATUS_WITNESS)
+    FUZZ_CHECK(answer->logit >= NSVCD_LOGIT_CERTAIN);
+  if (answer->status == NSVCD_STATUS_CERTIFIED_FREE)
+    FUZZ_CHECK(answer->logit <= -NSVCD_LOGIT_CERTAIN);
+  if (answer->status == NSVCD_STATUS_INSIDE) {
+    FUZZ_CHECK(answer->logit >= NSVCD_LOGIT_CERTAIN);
+    FUZZ_CHECK(answer->contact_time <= 0);
+  }
+  if (proves) {
+    scene_check_proof(question, answer);
+  } else {
+    FUZZ_CHECK(answer->status != NSVCD_STATUS_WITNESS);
+    FUZZ_CHECK(answer->status != NSVCD_STATUS_UNDECIDED);
+  }
+}
+
+static int scene_same_floats(const float *p, const float *q, size_t count) {
+  return memcmp(p, q, count * sizeof *p) == 0;
+}
+
+static int scene_same(const nsvcd_answer *p, const nsvcd_answer *q) {
+  const float of_p[5] = {p->logit, p->contact_time, p->free_until, p->clearance_low,
+                         p->clearance_high};
+  const float of_q[5] = {q->logit, q->contact_time, q->free_until, q->clearance_low,
+                         q->clearance_high};
+  if (p->status != q->status || p->collides != q->collides || p->work != q->work)
+    return 0;
+  if (p->patch_a != q->patch_a || p->patch_b != q->patch_b || p->candidates != q->candidates)
+    return 0;
+  if (p->triangle_a != q->triangle_a || p->triangle_b != q->triangle_b)
+    return 0;
+  return scene_same_floats(of_p, of_q, 5) && scene_same_floats(p->point, q->point, 3) &&
+         scene_same_floats(p->normal, q->normal, 3) && scene_same_floats(p->lift, q->lift, 3);
+}
+
+// -------------------------------------------------------------------------------------------- asked
+
+// The workspace holds `fill` before.
+static nsvcd_result scene_sweep(const nsvcd_question *question, size_t size, int fill,
+                                nsvcd_answer *answer) {
+  void *workspace = malloc(size);  // to the byte
+  if (!workspace)
+    exit(2);
+  memset(workspace, fill, size);
+  memset(answer, 0x5a, sizeof *answer);
+  const nsvcd_result result = nsvcd_sweep(question, workspace, size, answer);
+  free(workspace);
+  return result;
+}
+
+static void scene_refused(const nsvcd_question *question, size_t size, nsvcd_result wanted) {
+  nsvcd_answer untouched;
+  nsvcd_answer answer;
+  memset(&untouched, 0x5a, sizeof untouched);
+  const nsvcd_result result = scene_sweep(question, size, 0, &answer);
+  FUZZ_CHECK(result != NSVCD_OK);
+  FUZZ_CHECK(wanted ? result == wanted : result != NSVCD_ERROR_WORKSPACE);
+  FUZZ_CHECK(memcmp(&answer, &untouched, sizeof answer) == 0);
+}
+
+#ifndef NSVCD_NO_GRADIENT
+static void scene_check_gradient(const nsvcd_question *question) {
+  const size_t size = nsvcd_sweep_workspace_size(NULL);
+  const size_t rows_a = question->a.count ? question->a.count : 1;
+  const size_t rows_b = question->b.count ? question->b.count : 1;
+  nsvcd_answer answer;
+  void *workspace = malloc(size);
+  float *a = (float *)calloc(6 * rows_a, sizeof *a);
+  float *b = (float *)calloc(6 * rows_b, sizeof *b);
+  if (!workspace || !a || !b)
+    exit(2);
+  if (!nsvcd_sweep_gradient(question, workspace, size, &answer, a, b))
+    FUZZ_CHECK(scene_finite(a, 6 * rows_a) && scene_finite(b, 6 * rows_b));
+  free(workspace);
+  free(a);
+  free(b);
+}
+#endif
+
+// Asks, in all ways, and checks what is answered. 1 if there is an answer.
+static int scene_ask(const nsvcd_question *question, nsvcd_answer *answer) {
+  const size_t size = nsvcd_sweep_workspace_size(question);
+  nsvcd_answer again;
+  if (size == 0) {
+    scene_refused(question, nsvcd_sweep_workspace_size(NULL), NSVCD_OK);
+    return 0;
+  }
+  FUZZ_CHECK(size <= nsvcd_sweep_workspace_size(NULL));
+  scene_refused(question, size - 1, NSVCD_ERROR_WORKSPACE);
+  FUZZ_CHECK(!scene_sweep(question, size, 0, answer));
+  scene_check(question, answer);
+  FUZZ_CHECK(!scene_sweep(question, size, 0xff, &again));
+  FUZZ_CHECK(scene_same(answer, &again));
+
+  nsvcd_question turned = *question;
+  turned.a = question->b;
+  turned.b = question->a;
+  FUZZ_CHECK(nsvcd_sweep_workspace_size(&turned) == size);
+  FUZZ_CHECK(!scene_sweep(&turned, size, 0, &again));
+  scene_check(&turned, &again);
+  FUZZ_CHECK(again.status == answer->status && again.collides == answer->collides);
+#ifndef NSVCD_NO_GRADIENT
+  if (question->options.method == NSVCD_METHOD_NETWORK)
+    scene_check_gradient(question);
+#endif
+  return 1;
+}
+
+#endif

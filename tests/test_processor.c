@@ -1,0 +1,163 @@
+// Which instruction set answers. In one object for SSE2, AVX2 and AVX-512 each is asked about the
+// same, and so are the public functions, which ask the best that the processor has. The Makefile
+// compiles this file without -march.
+#undef NSVCD_NO_DISPATCH
+#define NSVCD_STATIC
+#define NEURALSVCD_IMPLEMENTATION
+#include "../neuralsvcd.h"
+
+#include "query_scene.h"
+
+void test_processor(void);
+
+#ifdef NSVCD__DISPATCH
+typedef struct processor_set {
+  const char *name;
+  size_t (*size)(const nsvcd_question *question);
+  nsvcd_result (*sweep)(const nsvcd_question *questions, size_t count, void *workspace,
+                        size_t workspace_size, nsvcd_answer *answers);
+  nsvcd_result (*gradient)(const nsvcd_question *question, void *workspace, size_t workspace_size,
+                           nsvcd_answer *answer, float *gradient_a, float *gradient_b);
+} processor_set;
+
+static const processor_set processor_sets[3] = {
+    {"SSE2", nsvcd__sweep_size, nsvcd__sweep_batch, nsvcd__sweep_gradient},
+    {"AVX2", nsvcd__sweep_size_avx2, nsvcd__sweep_batch_avx2, nsvcd__sweep_gradient_avx2},
+    {"AVX-512", nsvcd__sweep_size_avx512, nsvcd__sweep_batch_avx512, nsvcd__sweep_gradient_avx512}};
+
+// How many of them this processor has.
+static size_t processor_count(void) {
+  return (size_t)nsvcd__isa_at_hand() + 1;
+}
+
+// A question about two bodies with triangles and latents.
+typedef struct processor_scene {
+  query_scene network;
+  const nsvcd_body *moving, *fixed;
+  nsvcd_question question;
+} processor_scene;
+
+static const nsvcd_body *processor_body(uint64_t seed, double extent) {
+  nsvcd_mesh mesh = query_solid(seed, extent);
+  const nsvcd_body *body = NULL;
+  CHECK_EQ(nsvcd_encode(&mesh, NULL, NULL, NULL, 0, &body), NSVCD_OK);
+  nsvcd_mesh_free(&mesh, NULL);
+  return body;
+}
+
+static void processor_open(processor_scene *s, uint64_t seed) {
+  query_scene_open(&s->network, seed);
+  s->moving = processor_body(seed, 0.2);
+  s->fixed = processor_body(seed + 1000, 0.3);
+  s->question = question_of(s->moving, s->network.motion, QUERY_POSES, s->fixed,
+                            &s->network.fixed_pose, NULL);
+}
+
+static void processor_close(processor_scene *s) {
+  nsvcd_body_free(s->moving, NULL);
+  nsvcd_body_free(s->fixed, NULL);
+  query_scene_close(&s->network);
+}
+
+static nsvcd_answer processor_ask(const processor_set *set, const nsvcd_question *question) {
+  nsvcd_answer answer;
+  memset(&answer, 0, sizeof answer);
+  const size_t size = nsvcd_sweep_workspace_size(NULL);
+  CHECK_EQ(set->sweep(question, 1, query_workspace(), size, &answer), NSVCD_OK);
+  return answer;
+}
+
+// A proof's verdict is true, whoever finds it.
+static void processor_proofs_agree(void) {
+  size_t hits = 0;
+  size_t undecided = 0;
+  for (uint64_t seed = 1; seed <= 60; seed++) {
+    processor_scene s;
+    processor_open(&s, seed);
+    const nsvcd_answer first = processor_ask(&processor_sets[0], &s.question);
+    hits += first.collides != 0;
+    undecided += first.status == NSVCD_STATUS_UNDECIDED;
+    for (size_t n = 1; n < processor_count(); n++) {
+      const nsvcd_answer answer = processor_ask(&processor_sets[n], &s.question);
+      CHECK_EQ(answer.status, first.status);
+      CHECK_EQ(answer.collides, first.collides);
+    }
+    processor_close(&s);
+  }
+  CHECK_EQ(undecided, 0);
+  CHECK_GE(hits, 10);
+  CHECK_LE(hits, 50);
+}
+
+// Each rounds in its own way: the network's logits are nearly the same, its gradients too.
+static void processor_networks_agree(void) {
+  float worst = 0;
+  for (uint64_t seed = 1; seed <= 60; seed++) {
+    processor_scene s;
+    processor_open(&s, seed);
+    s.question.options.method = NSVCD_METHOD_NETWORK;
+    s.question.options.model = NSVCD_MODEL_TINY;  // no other decoder is asked
+    const nsvcd_answer first = processor_ask(&processor_sets[0], &s.question);
+    for (size_t n = 1; n < processor_count(); n++) {
+      const nsvcd_answer answer = processor_ask(&processor_sets[n], &s.question);
+      CHECK_EQ(answer.status, first.status);
+      if (first.status == NSVCD_STATUS_OK)
+        worst = fmaxf(worst, fabsf(answer.logit - first.logit));
+    }
+    processor_close(&s);
+  }
+  printf("  logits of different instruction sets differ by %.2g at most\n", (double)worst);
+  CHECK_LE(worst, 1e-4);
+}
+
+// The public functions ask the best one at hand: their answers are its, to the bit.
+static void processor_the_best_answers(void) {
+  const processor_set *best = &processor_sets[processor_count() - 1];
+  printf("  this processor: %s\n", best->name);
+  size_t different = 0;
+  for (uint64_t seed = 1; seed <= 30; seed++) {
+    processor_scene s;
+    nsvcd_answer answer;
+    float one[6 * QUERY_POSES];
+    float other[6 * QUERY_POSES];
+    processor_open(&s, seed);
+    s.question.options.method = NSVCD_METHOD_NETWORK;
+    const size_t size = nsvcd_sweep_workspace_size(&s.question);
+    CHECK_EQ(size, best->size(&s.question));
+    CHECK_EQ(nsvcd_sweep(&s.question, query_workspace(), size, &answer), NSVCD_OK);
+    const nsvcd_answer expected = processor_ask(best, &s.question);
+    CHECK(query_same_answer(&answer, &expected));
+    const nsvcd_answer least = processor_ask(&processor_sets[0], &s.question);
+    different += !query_same_answer(&answer, &least);
+
+    nsvcd_answer by_best;
+    CHECK_EQ(nsvcd_sweep_gradient(&s.question, query_workspace(), size, &answer, one, NULL),
+             NSVCD_OK);
+    CHECK_EQ(best->gradient(&s.question, query_workspace(), size, &by_best, other, NULL), NSVCD_OK);
+    CHECK(memcmp(one, other, sizeof one) == 0);
+    processor_close(&s);
+  }
+  // else this test could not fail
+  if (processor_count() > 1)
+    CHECK_GE(different, 1);
+}
+
+// Workspaces are laid out alike: one that suffices for one suffices for all.
+static void processor_sizes_are_the_same(void) {
+  for (size_t n = 1; n < 3; n++)
+    CHECK_EQ(processor_sets[n].size(NULL), processor_sets[0].size(NULL));
+}
+
+void test_processor(void) {
+  RUN(processor_proofs_agree);
+  RUN(processor_networks_agree);
+  RUN(processor_the_best_answers);
+  RUN(processor_sizes_are_the_same);
+}
+#else
+void test_processor(void) {
+  printf("processor: the compiler's flags leave nothing to choose: not tested\n");
+}
+#endif
+
+CHECK_ALONE(test_processor)
