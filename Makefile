@@ -29,11 +29,12 @@ ifeq ($(BENCH),quick)
 COUNT ?= 200
 endif
 
-.PHONY: all demo preview assets help format clean firmware weights problems accuracy
-.PHONY: test check-text check-header check-examples check-gradient check-tiles check-32 check-firmware
-.PHONY: check-motions check-problems check-extremes mutants
+.PHONY: all demo preview assets help format clean firmware web weights problems accuracy
+.PHONY: shared static release install uninstall check-packages
+.PHONY: test check-text check-header check-examples check-gradient check-tiles check-fast-math check-levels
+.PHONY: check-32 check-mingw check-firmware check-motions check-problems check-extremes check-python python check-web mutants
 .PHONY: check-fuzz fuzz check-sanitizers check-threads check-cross check-all run-tests coverage mutate
-.PHONY: bench bench-asks bench-level bench-scale bench-plan race profile instructions sizes
+.PHONY: bench bench-asks bench-flags bench-level bench-scale bench-plan race profile instructions sizes
 .DELETE_ON_ERROR:
 
 PLANNERS = build/dish_insertion build/bimanual_insertion build/mining_site
@@ -54,6 +55,11 @@ $(EXAMPLES): build/%: examples/%.c $(wildcard examples/*.h) $(SCENERY) $(LIBRARY
 	$(CC) $(ALL_CFLAGS) -o $@ $< -lm
 build/game build/fly_through: WARNINGS += -Wno-unused-function  # of problem_file.h
 
+# What the module of examples/python opens.
+build/_neuralsvcd.so: examples/python/_neuralsvcd.c $(LIBRARY) | build
+	$(CC) $(ALL_CFLAGS) -fPIC -shared -o $@ $< -lm
+python: build/_neuralsvcd.so  ## the library for examples/python/neuralsvcd.py
+
 demo: $(DEMOS)  ## the examples, seconds each: what they find, and a picture each in build/
 	@for demo in $(DEMOS); do echo $$demo; $$demo || exit 1; done
 
@@ -62,6 +68,54 @@ preview: build/tasks_preview  ## the planning tasks as pictures: build/task_*.sv
 
 assets: build/make_assets  ## writes examples/assets/*.obj, which are in the repository, anew
 	build/make_assets examples/assets
+
+# ---------------------------------------------------------------------------------------------------------- packages
+
+PREFIX ?= /usr/local
+VERSION := $(shell sed -n '1s/.* v\([0-9.]*\) .*/\1/p' neuralsvcd.h)
+LIBRARY_CFLAGS ?= -O2
+ifeq ($(shell uname -s),Darwin)
+SHARED = build/libneuralsvcd.dylib
+SONAME = -install_name $(PREFIX)/lib/libneuralsvcd.dylib
+else
+SHARED = build/libneuralsvcd.so
+SONAME = -Wl,-soname,libneuralsvcd.so.$(VERSION)
+endif
+
+build/library.o: $(LIBRARY) | build
+	printf '#define NEURALSVCD_IMPLEMENTATION\n#include "neuralsvcd.h"\n' >build/library.c
+	$(CC) $(LIBRARY_CFLAGS) -std=c99 -fPIC -I. -c -o $@ build/library.c
+$(SHARED): build/library.o
+	$(CC) -shared $(SONAME) -o $@ $< -lm
+build/libneuralsvcd.a: build/library.o
+	$(AR) rcs $@ $<
+shared: $(SHARED)  ## a shared library, build/libneuralsvcd.so
+static: build/libneuralsvcd.a  ## a static one
+# The name must stay: the header takes itself in.
+release: build/release/neuralsvcd.h  ## one file that holds neuralsvcd.h and weights.h
+build/release/neuralsvcd.h: $(LIBRARY)
+	@mkdir -p $(@D)
+	sed -e '/^#include "weights.h"$$/{r weights.h' -e 'd;}' neuralsvcd.h >$@
+
+# DESTDIR=folder is put before PREFIX.
+install: shared static  ## PREFIX=/usr/local: the headers, libraries, pkg-config, a CMake package
+	mkdir -p $(DESTDIR)$(PREFIX)/include/neuralsvcd $(DESTDIR)$(PREFIX)/lib/pkgconfig \
+	  $(DESTDIR)$(PREFIX)/lib/cmake/neuralsvcd
+	cp $(LIBRARY) $(DESTDIR)$(PREFIX)/include/neuralsvcd/
+	cp build/libneuralsvcd.a $(DESTDIR)$(PREFIX)/lib/
+	if test -f build/libneuralsvcd.dylib; then cp build/libneuralsvcd.dylib $(DESTDIR)$(PREFIX)/lib/; else \
+	  cp $(SHARED) $(DESTDIR)$(PREFIX)/lib/libneuralsvcd.so.$(VERSION); \
+	  ln -sf libneuralsvcd.so.$(VERSION) $(DESTDIR)$(PREFIX)/lib/libneuralsvcd.so; fi
+	for name in neuralsvcd neuralsvcd-library; do \
+	  sed 's|@PREFIX@|$(PREFIX)|; s|@VERSION@|$(VERSION)|' examples/packages/$$name.pc.in \
+	    >$(DESTDIR)$(PREFIX)/lib/pkgconfig/$$name.pc; done
+	cp examples/packages/neuralsvcdConfig.cmake $(DESTDIR)$(PREFIX)/lib/cmake/neuralsvcd/
+	printf 'set(PACKAGE_VERSION $(VERSION))\nif(PACKAGE_FIND_VERSION VERSION_LESS_EQUAL PACKAGE_VERSION)\n  set(PACKAGE_VERSION_COMPATIBLE TRUE)\nendif()\n' \
+	  >$(DESTDIR)$(PREFIX)/lib/cmake/neuralsvcd/neuralsvcdConfigVersion.cmake
+uninstall:  ## takes it away again
+	rm -rf $(DESTDIR)$(PREFIX)/include/neuralsvcd $(DESTDIR)$(PREFIX)/lib/cmake/neuralsvcd \
+	  $(DESTDIR)$(PREFIX)/lib/libneuralsvcd.* $(DESTDIR)$(PREFIX)/lib/pkgconfig/neuralsvcd.pc \
+	  $(DESTDIR)$(PREFIX)/lib/pkgconfig/neuralsvcd-library.pc
 
 # ------------------------------------------------------------------------------------------------------------- tests
 
@@ -87,6 +141,8 @@ check-header: | build  # as C99 to C++17, strictly, and what it leaves in the na
 	CC="$(CC)" CXX="$(CXX)" tests/header.sh
 check-examples: all build/make_assets  # they run, and they say no as examples/FORMATS.md demands
 	tests/examples.sh
+check-packages:  # installed, found by pkg-config and CMake, as one file, in a project's folder
+	CC="$(CC)" tests/packages.sh
 check-problems: build/problems build/svcd  # every set that the generator can make
 	tests/bench/problems.sh
 
@@ -105,16 +161,37 @@ build/tiles_%: tests/test_%.c $(HELPERS) $(SCENERY) $(LIBRARY) | build
 	$(CC) $(CFLAGS) -std=c99 $(TEST_WARNINGS) -DNSVCD__TILE=2 -DTEST_ALONE -o $@ $< -lm
 check-tiles: build/tiles_proof build/tiles_facets  # the proof, searched tile by tile
 	@for test in $^; do echo $$test; $$test >$$test.txt || { cat $$test.txt; exit 1; }; tail -1 $$test.txt; done
+# What refuses NaN and infinity does so on their bits, and so under -ffast-math as well; FILE/TESTS. The header warns there
+# that results are not tested.
+FAST = query/refuses motion/bad_poses proof/refuses mesh/mesh_is_checked mesh/refused encoding/refuses facets/refuses \
+  body/malice gradient/refuses optimizer/refuses
+build/fast_%: tests/test_%.c $(HELPERS) $(SCENERY) $(LIBRARY) | build
+	$(CC) $(CFLAGS) -O1 -ffast-math -std=c99 -Wall -Wextra -Wno-unused-function -DTEST_ALONE -o $@ $< -lm \
+	  2>$@.txt && grep -q 'warning: neuralsvcd.h: -ffinite-math-only' $@.txt || { cat $@.txt; exit 1; }
+check-fast-math: $(sort $(foreach test,$(FAST),build/fast_$(firstword $(subst /, ,$(test)))))
+	@for test in $(FAST); do \
+	  build/fast_$${test%/*} $${test#*/} >build/fast.txt || { cat build/fast.txt; exit 1; }; done; \
+	  echo "fast-math: NaN and infinity are refused: $(FAST)"
+check-levels: build/problems  # lanes and answers with AVX-512, AVX2, SSE2, NEON and without
+	CC="$(CC)" tests/levels.sh
 # On 32 bits, where sizes end at 4 GB, under sanitizers; where the compiler can (Debian: gcc-12-multilib; gcc-multilib does
 # not go with compilers for other processors, and has no more but a link to <asm>, whose place -idirafter says).
 CFLAGS_32 = -m32 -msse2 -mfpmath=sse -O1 -fsanitize=address,undefined -fno-sanitize-recover=all \
   -idirafter /usr/include/x86_64-linux-gnu
 build/test_%_32: tests/test_%.c $(HELPERS) $(PEERS) $(SCENERY) $(LIBRARY) | build
 	$(CC) $(CFLAGS_32) -pthread -std=c99 $(TEST_WARNINGS) -DTEST_ALONE -o $@ $< -lm
-check-32:  # 32 bits, under sanitizers
+# And on x87, whose registers have more digits than memory (gnu99); constants too have more (c99).
+CFLAGS_X87 = -m32 -mno-sse -mfpmath=387 -O1 -idirafter /usr/include/x86_64-linux-gnu
+build/test_%_gnu99: tests/test_%.c $(HELPERS) $(SCENERY) $(LIBRARY) | build
+	$(CC) $(CFLAGS_X87) -std=gnu99 $(TEST_WARNINGS) -DTEST_ALONE -o $@ $< -lm
+build/test_%_c99: tests/test_%.c $(HELPERS) $(SCENERY) $(LIBRARY) | build
+	$(CC) $(CFLAGS_X87) -std=c99 $(TEST_WARNINGS) -DTEST_ALONE -o $@ $< -lm
+check-32:  # 32 bits, under sanitizers; x87
 	@if echo 'int main(void) { return 0; }' | $(CC) $(CFLAGS_32) -x c -o build/can_32 - 2>/dev/null; then \
 	  $(MAKE) build/test_level_32 build/test_optimizer_32 && build/test_level_32 && \
-	  build/test_optimizer_32 plan_sizes; \
+	  build/test_optimizer_32 plan_sizes && \
+	  $(MAKE) build/test_facets_gnu99 build/test_facets_c99 && \
+	  timeout 300 build/test_facets_gnu99 && timeout 300 build/test_facets_c99; \
 	else echo "check-32: $(CC) has no libraries for -m32: not tested"; fi
 # On Cortex-M4F and M7 under QEMU, where its tools are there (Debian: gcc-arm-none-eabi, libnewlib-arm-none-eabi,
 # qemu-system-arm).
@@ -122,6 +199,25 @@ check-firmware: | build  # Cortex-M4F and M7, under QEMU
 	$(MAKE) -C examples/firmware LEVELS=O2 run
 firmware: | build  ## Cortex-M under QEMU: answers as on the host; flash, RAM, stack and instructions as a table
 	$(MAKE) -C examples/firmware run table
+# A page with the library as WebAssembly: clang, lld, wasi-libc, libclang-rt-14-dev-wasm32; and its test in a browser:
+# chromium-driver, python3-selenium.
+web:  ## build/web/index.html: drag a motion, drop two OBJ files, see the answer
+	@$(MAKE) --no-print-directory -C examples/web page
+check-web: build/svcd
+	@$(MAKE) --no-print-directory -C examples/web check
+# The module for Python, where there is one with numpy: Debian's numpy is for Debian's Python.
+check-python:
+	@for python in $(PYTHON) /usr/bin/python3; do \
+	  $$python -c 'import numpy' 2>/dev/null || continue; \
+	  $(MAKE) build/svcd build/_neuralsvcd.so && cd examples/python && exec $$python -B -m unittest; exit 1; \
+	done; echo "check-python: no python3 with numpy: not tested"
+# The examples for Windows, where MinGW is there (Debian: gcc-mingw-w64-x86-64).
+MINGW = x86_64-w64-mingw32-gcc
+$(EXAMPLES:%=%.exe): build/%.exe: examples/%.c $(wildcard examples/*.h) $(SCENERY) $(LIBRARY) | build
+	$(MINGW) -O0 -std=c99 $(WARNINGS) -Werror -Wno-unused-function -o $@ $< -lm
+check-mingw:
+	@if command -v $(MINGW) >/dev/null; then $(MAKE) $(EXAMPLES:%=%.exe); \
+	else echo "check-mingw: no $(MINGW): not tested"; fi
 # At random, in the whole header: MUTANTS=100 JOBS=16, PART=0 OF=4: every fourth, SEED.
 mutate:  ## mistakes in the header at random: how many do the tests notice? MUTANTS=20 SEED=1 JOBS=1 PART=0 OF=1
 	python3 tests/mutate.py --cc "$(CC)" --count $(or $(MUTANTS),20) --seed $(SEED) --jobs $(JOBS) \
@@ -215,7 +311,7 @@ check-motions: build/check_motions build/game build/problems build/svcd
 check-extremes: build/problems build/svcd  # tiny, huge, far, thin, spinning ...
 	tests/bench/extremes.sh
 
-CHECKS = text header gradient examples tiles 32 firmware fuzz motions problems extremes
+CHECKS = text header packages gradient examples tiles fast-math levels 32 mingw firmware motions problems extremes python web
 test: build/tests $(CHECKS:%=check-%)  ## everything; the last line is `N passed, N failed`
 	build/tests
 run-tests: build/tests
@@ -365,6 +461,8 @@ profile: build/profile $(TIMED) $(call files,hollow rest)  ## where a query's ti
 	build/profile $(DATA)/rest.txt 256
 instructions: $(TIMED)  ## what a query executes, counted by callgrind
 	CC="$(CC)" tests/bench/instructions.sh $(TIMED) 64 512
+bench-flags: build/problems $(call files,standard hollow rest)  ## -O2 against -O3 -march=native; ALL=1: more builds
+	CC="$(CC)" ALL="$(ALL)" tests/bench/flags.sh $(call files,standard hollow rest)
 sizes:  ## code and data that each compile-time switch leaves out, host and Cortex-M
 	CC="$(CC)" tests/bench/sizes.sh
 
@@ -393,7 +491,7 @@ weights: $(CHECKPOINT) $(CALIBRATED)  ## trains anew on a GPU, calibrates, write
 	cd train && $(PYTHON) calibrate.py ../$(CHECKPOINT) ../build/svcd $(CALIBRATED:%=../%)
 	cd train && $(PYTHON) export.py ../$(CHECKPOINT) ../weights.h ../tests/data/golden.h
 
-WRITTEN = examples examples/scenery examples/firmware tests tests/bench tests/fuzz
+WRITTEN = examples examples/packages/project examples/scenery examples/firmware examples/python examples/web tests tests/bench
 FORMATTED = neuralsvcd.h $(wildcard $(WRITTEN:%=%/*.[ch]))
 format:  ## clang-format on what is written by hand
 	clang-format -i $(FORMATTED)

@@ -50,7 +50,7 @@
 // nsvcd_spline, which then writes nothing. examples/quickstart.c is a larger program.
 //
 // OPTIONS, defined before the implementation is included
-//   NSVCD_STATIC      all functions static
+//   NSVCD_STATIC      all functions static, in a file that has the implementation
 //   NSVCD_NO_STDIO    no file access: nsvcd_obj_load goes, nsvcd_obj_parse stays
 //   NSVCD_NO_OBJ      no OBJ reader at all
 //   NSVCD_NO_ENCODER  no nsvcd_encode, no nsvcd_mesh_cut and no OBJ reader: bodies come from
@@ -63,7 +63,7 @@
 //   NSVCD_NO_OPTIMIZER  no trajectory optimizer
 //   NSVCD_NO_INT8, NSVCD_NO_FLOAT   without this arithmetic of the decoders; without float, int8 is
 //                                   the default
-//   NSVCD_NO_SIMD     plain C where there are AVX-512, AVX2 with FMA, SSE2 or NEON
+//   NSVCD_NO_SIMD     plain C where there are AVX-512, AVX2 with FMA, SSE2, NEON or SIMD128
 //   NSVCD_NO_DISPATCH on x86-64 what the compiler's flags allow, SSE2 by default; without it a
 //                     build for SSE2 holds queries for AVX2 and AVX-512 too, and the processor
 //                     decides
@@ -110,6 +110,19 @@
 //                 proof, the size of patches decides only what an answer costs.
 //   Bad numbers   NaN and infinity are refused on their bits, also under -ffast-math.
 //
+// DETERMINISM
+//   One binary on one processor gives the same blob of a mesh, the same answer to a question and
+//   the same plan, to the bit, whatever the workspace held, and in any thread. Only what
+//   nsvcd_sweep_batch answers may depend on the question before.
+//   Another compiler, other flags, another processor where that decides on vectors, and another
+//   libm round otherwise. Of the same blobs, what one of these proves no other refutes: by the
+//   theorem each verdict of a proof is true. But one may leave undecided what another proves, and
+//   times, points, patches and work differ.
+//   Logits differ, and by more than rounding: the search ends at the first pair that is clear, and
+//   a pair near that bound, or near another in rank, lets another pair or another decoder answer.
+//   So `collides` of the network may differ, where logits are near 0 or that of the ranker near its
+//   bounds of +-3. The same holds for bodies that two builds encode, and for plans.
+//
 // CONTENTS: a section's name ends a line of dashes. Each calls only those above it.
 //   results           codes, and what they say
 //   allocation        the caller's allocator
@@ -119,7 +132,7 @@
 //   trajectories      splines, planning problems; nsvcd_plan
 //   strings           what codes and statuses say
 //   math              vectors, quaternions, matrices; bits and sizes
-//   vectors           16 lanes on AVX-512, AVX2, SSE2, NEON or plain C; rotations of lanes
+//   vectors           16 lanes on AVX-512, AVX2, SSE2, NEON, SIMD128 or plain C; rotations
 //   memory            where it comes from: the allocator, the rows of a workspace
 //   mesh              checks, cuts at a box; polygons into triangles; OBJ
 //   patches           surface points, farthest point sampling; balls that cover the surface
@@ -201,7 +214,9 @@
 #include <stddef.h>
 #include <stdint.h>
 
-#ifdef NSVCD_STATIC
+#if defined(NSVCD_STATIC) && (defined(__GNUC__) || defined(__clang__))
+#define NSVCDDEF static __attribute__((unused))  // nobody calls all of them
+#elif defined(NSVCD_STATIC)
 #define NSVCDDEF static
 #else
 #define NSVCDDEF extern
@@ -227,7 +242,7 @@ typedef enum nsvcd_result {
   NSVCD_ERROR_INDEX,
   // a coordinate is not finite, or larger than NSVCD_MAX_COORDINATE; a mesh is too small
   NSVCD_ERROR_NUMBER,
-  // no triangle, or no area
+  // no triangle, no area, or all of it within NSVCD_MIN_RADIUS
   NSVCD_ERROR_EMPTY,
   // more vertices, triangles or bytes than can be counted
   NSVCD_ERROR_TOO_LARGE,
@@ -240,8 +255,8 @@ typedef enum nsvcd_result {
   NSVCD_ERROR_TOLERANCE,
   // both sides of a question are the same body in the same motion: something was passed twice
   NSVCD_ERROR_SAME,
-  // a blob is damaged, cut short, misaligned, or of another version or model; or a body lacks
-  // what the method needs
+  // a blob is damaged, cut short, misaligned, or of another version, model or byte order; or a body
+  // lacks what the method needs
   NSVCD_ERROR_BODY,
   // the memory given is too small, or not aligned to NSVCD_ALIGNMENT bytes
   NSVCD_ERROR_WORKSPACE,
@@ -275,14 +290,16 @@ typedef struct nsvcd_mesh {
 } nsvcd_mesh;
 
 #ifndef NSVCD_NO_OBJ
-// Reads OBJ text into a mesh. Only lines v and f matter. A face may refer to vertices further down.
-// Faces of any number of corners are cut into triangles, concave ones of up to 4096 corners.
+// Reads OBJ text into a mesh. Only lines v and f matter; they end in LF, CR or CR LF. Corners of a
+// face are v, v/vt, v//vn or v/vt/vn, and may refer to vertices further down. Faces of any number
+// of corners are cut into triangles, concave ones too.
 //   text       (size) characters, not NULL; they need not end in a NUL or a newline
 //   allocator  NULL: malloc and free
 //   mesh       not NULL; nsvcd_mesh_free gives it back; left as it was on failure
 //   error_line NULL, or set to the line at fault, from 1; 0 where no line is at fault
 //   allocates  the mesh, and working memory that is given back; time is linear in size, but for
-//              concave faces
+//              concave faces of thousands of corners: of n corners, n^1.5 in the worst shapes that
+//              tests/test_mesh.c tries
 //   errors     ARGUMENT, MEMORY, SYNTAX, INDEX, NUMBER, EMPTY, TOO_LARGE. Of several faults the
 //              one that is found first: statements and counts come before vertices, these before
 //              faces
@@ -322,8 +339,10 @@ NSVCDDEF void nsvcd_mesh_free(nsvcd_mesh *mesh, const nsvcd_allocator *allocator
 // ------------------------------------------------------------------------------------------ bodies
 
 // An encoded body: one relocatable blob without pointers, aligned to NSVCD_ALIGNMENT. Copy it with
-// memcpy, write it with fwrite, map it, or bake it into flash as a const array. Little-endian,
-// IEEE 754. nsvcd_body_facts.size is its size. Threads may share it.
+// memcpy, write it with fwrite, map it, or bake it into flash as a const array. IEEE 754, in the
+// byte order of the machine that encoded it, and refused by one of the other order: it begins with
+// "NSVB" where that is little-endian, with "BVSN" where it is big-endian. nsvcd_body_facts.size is
+// its size. Threads may share it.
 typedef struct nsvcd_body nsvcd_body;
 
 #define NSVCD_ALIGNMENT 8
@@ -387,7 +406,7 @@ NSVCDDEF size_t nsvcd_body_size(size_t patches);
 
 #ifndef NSVCD_NO_ENCODER
 // Encodes a mesh into a body. The body may have fewer patches than asked, where the surface has too
-// few points to tell apart. Deterministic: same mesh, same bytes, in one build.
+// few points to tell apart. Same mesh, same bytes, in one build: see DETERMINISM above.
 //   mesh       not NULL; not kept
 //   options    NULL: the defaults, triangles for the proof and latents for the network
 //   allocator  NULL: malloc and free
@@ -428,7 +447,8 @@ NSVCDDEF nsvcd_result nsvcd_body_trust(const void *memory, size_t size, const ns
 //   memory     (capacity) bytes, not NULL, aligned to NSVCD_ALIGNMENT; may be where the body is
 //   scaled     not NULL; set to the copy; left as it was on failure
 //   allocates  nothing
-//   errors     ARGUMENT (also if the copy were smaller or larger than a body may be), WORKSPACE
+//   errors     ARGUMENT (also if the copy were smaller or larger than a body may be), WORKSPACE;
+//              with NSVCD_NO_PROOF also BODY: it has triangles, which that cannot scale
 NSVCDDEF nsvcd_result nsvcd_body_scale(const nsvcd_body *body, float scale, void *memory,
                                        size_t capacity, const nsvcd_body **scaled);
 
@@ -533,15 +553,16 @@ typedef struct nsvcd_sweep_options {
   // a motion is cut into at most so many, a multiple of 16 up to 64; 0: 64. Fewer take less memory;
   // what turns by more than 20 degrees in one of them takes longer to prove
   size_t segments;
-  // metres: surfaces that come closer than this, and do not meet, may be left undecided. With
-  // `first`, where a contact follows, they may be taken for its beginning: see clearance_high
+  // metres: surfaces that come closer than this, or than this and the clearance, and do not meet,
+  // may be left undecided
   float tolerance;
 
   // By proof only:
   // metres: to come as close as this counts as a collision; 0: to meet does
   float clearance;
   // share of the motion, up to 1: contact_time is that of the first contact, to this, and all
-  // before is proven free. 0: of any contact
+  // before is proven free. 0: of any contact. Surfaces that are within the quanta or the tolerance
+  // of each other for longer than this, before they meet, are left undecided
   float first;
   // metres: clearance_low and clearance_high are the least distance over the motion, to this, but
   // for what the stored triangles are off by (nsvcd_body_facts.quantum). 0: unasked. Not with
@@ -580,20 +601,22 @@ typedef struct nsvcd_answer {
   // decoder, which ranks the pairs, is clear (beyond +-3), that one answers. By proof:
   // +-NSVCD_LOGIT_CERTAIN; where it is undecided, the network's
   float logit;
-  // logit > 0. UNDECIDED: the network's opinion on whether they meet, or yes where there is none or
-  // something else is asked
+  // logit > 0. UNDECIDED: yes where a contact is known; else the network's opinion on whether they
+  // meet, or yes where there is none or something else is asked
   int collides;
   // in [0,1]. WITNESS: when the triangles meet; with options.first that is the first contact, and 0
-  // if they meet at the start. INSIDE: 0. By the network: when the most suspicious pair comes
-  // closest
+  // if they meet at the start. UNDECIDED: when the triangles named are as near as clearance_high.
+  // INSIDE: 0. By the network, and UNDECIDED where no triangles are named: when the most suspicious
+  // pair comes closest
   float contact_time;
   // in [0,1]. By proof: no contact is before this. CERTIFIED_FREE: 1. WITNESS: 0, or with
   // options.first no less than contact_time - first. UNDECIDED with options.first: when doubt
-  // begins
+  // begins, also where a contact follows
   float free_until;
-  // metres. By proof: they stay farther apart than clearance_low until free_until, and come as near
-  // as clearance_high, at contact_time. What stored triangles are off by is allowed for, and so
-  // clearance_high is not 0 where they meet; it is HUGE_VALF where it is not known
+  // metres. By proof: they stay farther apart than clearance_low until free_until, with
+  // options.measure all the time, and come as near as clearance_high, at contact_time. What stored
+  // triangles are off by is allowed for, and so clearance_high is not 0 where they meet; it is
+  // HUGE_VALF where it is not known
   float clearance_low;
   float clearance_high;
   // the pair that decided; 0, 0 where there is none
@@ -603,14 +626,16 @@ typedef struct nsvcd_answer {
   // by the network: pairs of patches whose spheres meet, each counted once for each stretch of
   // time, until the search ends
   size_t candidates;
-  // metres, world. WITNESS: where the triangles meet at that time, or on one of them where they are
-  // nearest. INSIDE: a point of what is inside
+  // metres, world. Of the triangles named below, where they meet at that time, or on one of them
+  // where they are nearest. INSIDE: a point of what is inside
   float point[3];
-  // world. WITNESS: unit normal of one of the triangles, from b to a, or, where they are apart, the
-  // direction of that from b's to a's. Otherwise, and where that triangle has no area, 0
+  // world. Unit normal of one of these, from b to a (an open surface met from behind: as it is
+  // wound), or, where they are apart, the direction from b's to a's. 0 where none are named, and
+  // where that triangle has no area
   float normal[3];
-  // WITNESS: as numbered in the caller's meshes. Otherwise NSVCD_NO_TRIANGLE. With options.measure
-  // these, point and normal are those of the nearest triangles found, whatever the status
+  // as numbered in the caller's meshes. WITNESS: those that meet. UNDECIDED: two that come too near
+  // to tell, or meet, with options.first the earliest known; NSVCD_NO_TRIANGLE where none are
+  // known. With options.measure the nearest ones found, but for INSIDE. Otherwise NSVCD_NO_TRIANGLE
   uint32_t triangle_a;
   uint32_t triangle_b;
   // metres, world, at the start: by what a was lifted off b for options.skin; it turns with b. The
@@ -626,7 +651,8 @@ typedef struct nsvcd_answer {
 //   question   NULL: enough for any question
 NSVCDDEF size_t nsvcd_sweep_workspace_size(const nsvcd_question *question);
 
-// Answers a question. Deterministic, and the same verdict whichever body is a and which b.
+// Answers a question. The same question, the same answer, in one build: see DETERMINISM above; and
+// the same verdict whichever body is a and which b.
 //   question   not NULL
 //   workspace  (workspace_size) bytes, nsvcd_sweep_workspace_size(question) or more, not NULL,
 //              aligned to NSVCD_ALIGNMENT
@@ -728,7 +754,7 @@ NSVCDDEF nsvcd_result nsvcd_sweep_gradient(const nsvcd_question *question, void 
 //   control    (via_points + 2, joints), not NULL
 //   via_points M, up to NSVCD_MAX_VIA_POINTS; of more, nothing is written
 //   t          taken into [0,1]
-//   derivative 0: the joints; 1, 2, 3: velocity, acceleration, jerk
+//   derivative 0: the joints; 1, 2, 3: velocity, acceleration, jerk; of more, nothing is written
 //   out        (joints), not NULL
 //   allocates  nothing
 //   source     quintic Hermite interpolation, as the paper's authors use it
@@ -849,7 +875,8 @@ typedef struct nsvcd_plan_options {
   float margin;
   // 1: poses instead of sweeps
   int discrete;
-  // segments of the last check, up to 4 NSVCD_MAX_PLAN_SEGMENTS; 4 times the finest stage's
+  // segments of the last check, up to 4 NSVCD_MAX_PLAN_SEGMENTS; 4 times the finest stage's. Limits
+  // are looked at between these and at via points
   size_t check;
   // of all queries; recall = 0.999f keeps more distance. The search asks the network. `method` is
   // that of start, goal and the last check, and so are `clearance`, `skin` and the like
@@ -886,7 +913,8 @@ typedef struct nsvcd_plan_answer {
 NSVCDDEF size_t nsvcd_plan_workspace_size(const nsvcd_plan_problem *problem,
                                           const nsvcd_plan_options *options);
 
-// Finds a smooth trajectory from start to goal on which no pair meets. Deterministic.
+// Finds a smooth trajectory from start to goal on which no pair meets. The same problem, the same
+// trajectory, in one build: see DETERMINISM above.
 //   problem    not NULL
 //   options    NULL: the defaults
 //   workspace  (workspace_size) bytes, nsvcd_plan_workspace_size(problem, options) or more, not
@@ -950,9 +978,9 @@ NSVCDDEF const char *nsvcd_result_string(nsvcd_result result) {
     case NSVCD_ERROR_INDEX:
       return "an index is zero or refers to no vertex";
     case NSVCD_ERROR_NUMBER:
-      return "a coordinate is not finite or too large";
+      return "a coordinate is not finite, or beyond a million metres";
     case NSVCD_ERROR_EMPTY:
-      return "there is no triangle, or no area";
+      return "there is no triangle, or no area, or the mesh is smaller than 1e-12 metres";
     case NSVCD_ERROR_TOO_LARGE:
       return "more vertices, triangles or bytes than can be counted";
     case NSVCD_ERROR_POSE:
@@ -965,8 +993,8 @@ NSVCDDEF const char *nsvcd_result_string(nsvcd_result result) {
     case NSVCD_ERROR_SAME:
       return "both sides are the same body in the same motion";
     case NSVCD_ERROR_BODY:
-      return "the body is damaged, cut short, misaligned, of another version or model, or lacks "
-             "what the method needs";
+      return "the body is damaged, cut short, misaligned, of another version, model or byte "
+             "order, or lacks what the method needs";
     case NSVCD_ERROR_WORKSPACE:
       return "the memory given is too small or misaligned";
     case NSVCD_ERROR_CANCELLED:
@@ -1185,10 +1213,15 @@ static inline nsvcd__d3 nsvcd__d3_unit(nsvcd__d3 a, nsvcd__d3 otherwise) {
 }
 // Rounds for certain. gcc 12 at -O2 forgets to where two doubles side by side become floats and
 // doubles again: it takes the two conversions of a vector for none, and a proof built on what is
-// stored would not hold.
+// stored would not hold. clang 14 for WebAssembly, in turn, reads a volatile number that fills a
+// vector once more, when another one may have taken its place.
 static inline float nsvcd__to_float(double x) {
+#ifdef __wasm_simd128__
+  return (float)x;
+#else
   volatile float rounded = (float)x;
   return rounded;
+#endif
 }
 static inline nsvcd__f3 nsvcd__f3_round(nsvcd__d3 a) {
   return nsvcd__f3_of(nsvcd__to_float(a.x), nsvcd__to_float(a.y), nsvcd__to_float(a.z));
@@ -1539,7 +1572,9 @@ static uint32_t nsvcd__magnitude(float x) {
 // rounding only: fma rounds once or twice. NSVCD_NO_SIMD takes the plain path.
 
 #define NSVCD__LANES 16
-#define NSVCD__NOWHERE (-1e15f)  // radius of padding: meets nothing, and its square is still finite
+// Radius of padding: meets nothing, and its square is still finite. A float to the last digit, for
+// it is looked for in blobs, also where constants are reckoned in double (FLT_EVAL_METHOD).
+#define NSVCD__NOWHERE (-999999986991104.0f)
 #define NSVCD__HULL NSVCD__LANES     // vertices of a patch's hull, at most
 #define NSVCD__ENCLOSES 0x80000000u  // of a listing: its triangle belongs to a closed component
 
@@ -1553,14 +1588,22 @@ static uint32_t nsvcd__magnitude(float x) {
 // its variables; on a machine without vectors a slice is one lane.
 
 #ifndef NSVCD__ISA
+// gcc on Windows puts what is wider than 16 bytes where the stack is not aligned for it, and the
+// program ends there: its bug 54412.
+#if defined(_WIN32) && defined(__GNUC__) && !defined(__clang__)
+#define NSVCD__NARROW
+#endif
 #if defined(NSVCD_NO_SIMD)
 #define NSVCD__SLICE 1
-#elif defined(__AVX512F__)
+#elif defined(__AVX512F__) && !defined(NSVCD__NARROW)
 #include <immintrin.h>
 #define NSVCD__SLICE 16
-#elif defined(__AVX2__) && (defined(__FMA__) || defined(_MSC_VER))
+#elif defined(__AVX2__) && (defined(__FMA__) || defined(_MSC_VER)) && !defined(NSVCD__NARROW)
 #include <immintrin.h>
 #define NSVCD__SLICE 8
+#elif defined(__wasm_simd128__)
+#include <wasm_simd128.h>
+#define NSVCD__SLICE 4
 #elif defined(__SSE2__) || defined(_M_X64)
 #include <immintrin.h>
 #define NSVCD__SLICE 4
@@ -1688,6 +1731,59 @@ static inline float nsvcd__v_least(nsvcd__v a) {
 static inline nsvcd__v nsvcd__v_load_int16(const int16_t *p) {
   const __m128i packed = _mm_loadu_si128((const __m128i *)(const void *)p);
   return _mm256_cvtepi32_ps(_mm256_cvtepi16_epi32(packed));
+}
+
+#elif NSVCD__SLICE == 4 && defined(__wasm_simd128__)
+typedef v128_t nsvcd__v;
+static inline nsvcd__v nsvcd__v_load(const float *p) {
+  return wasm_v128_load(p);
+}
+static inline void nsvcd__v_store(float *p, nsvcd__v a) {
+  wasm_v128_store(p, a);
+}
+static inline nsvcd__v nsvcd__v_set(float x) {
+  return wasm_f32x4_splat(x);
+}
+static inline nsvcd__v nsvcd__v_add(nsvcd__v a, nsvcd__v b) {
+  return wasm_f32x4_add(a, b);
+}
+static inline nsvcd__v nsvcd__v_sub(nsvcd__v a, nsvcd__v b) {
+  return wasm_f32x4_sub(a, b);
+}
+static inline nsvcd__v nsvcd__v_mul(nsvcd__v a, nsvcd__v b) {
+  return wasm_f32x4_mul(a, b);
+}
+static inline nsvcd__v nsvcd__v_div(nsvcd__v a, nsvcd__v b) {
+  return wasm_f32x4_div(a, b);
+}
+static inline nsvcd__v nsvcd__v_fma(nsvcd__v a, nsvcd__v b, nsvcd__v c) {
+  return wasm_f32x4_add(wasm_f32x4_mul(a, b), c);
+}
+// pmin(b, a) is a < b ? a : b, one instruction of x86; min, which minds NaN and -0, is many.
+static inline nsvcd__v nsvcd__v_min(nsvcd__v a, nsvcd__v b) {
+  return wasm_f32x4_pmin(b, a);
+}
+static inline nsvcd__v nsvcd__v_max(nsvcd__v a, nsvcd__v b) {
+  return wasm_f32x4_pmax(b, a);
+}
+static inline nsvcd__v nsvcd__v_sqrt(nsvcd__v a) {
+  return wasm_f32x4_sqrt(a);
+}
+static inline uint32_t nsvcd__v_le(nsvcd__v a, nsvcd__v b) {
+  return (uint32_t)wasm_i32x4_bitmask(wasm_f32x4_le(a, b));
+}
+static inline uint32_t nsvcd__v_lt(nsvcd__v a, nsvcd__v b) {
+  return (uint32_t)wasm_i32x4_bitmask(wasm_f32x4_lt(a, b));
+}
+static inline nsvcd__v nsvcd__v_pick(nsvcd__v a, nsvcd__v b, nsvcd__v x, nsvcd__v y) {
+  return wasm_v128_bitselect(x, y, wasm_f32x4_le(a, b));
+}
+static inline float nsvcd__v_least(nsvcd__v a) {
+  const nsvcd__v two = nsvcd__v_min(a, wasm_i32x4_shuffle(a, a, 2, 3, 0, 1));
+  return wasm_f32x4_extract_lane(nsvcd__v_min(two, wasm_i32x4_shuffle(two, two, 1, 0, 3, 2)), 0);
+}
+static inline nsvcd__v nsvcd__v_load_int16(const int16_t *p) {
+  return wasm_f32x4_convert_i32x4(wasm_i32x4_load16x4(p));
 }
 
 #elif NSVCD__SLICE == 4 && !defined(__aarch64__)
@@ -2344,13 +2440,21 @@ NSVCDDEF nsvcd_result nsvcd_mesh_cut(const nsvcd_mesh *mesh, const float low[3],
 // A face becomes corners - 2 triangles whose vector areas always sum to the polygon's. A simple
 // polygon, concave or with holes cut open by a bridge, is covered without overlap; any other
 // (crossing itself, no area) is cut somehow.
+//
+// An ear is a corner whose triangle holds no reflex corner. So that faces may have many corners,
+// these are not all looked at: corners are sorted along a Z curve (Morton 1966), and each run of 8
+// has a box, as have two boxes side by side, and so on up to one about all.
 
-// Ear clipping takes corners * reflex corners steps: this bounds the time per byte.
-#define NSVCD__MAX_CONCAVE_CORNERS 4096
+#define NSVCD__RUN 8
+
+// In the polygon's plane.
+typedef struct nsvcd__d2 {
+  double x, y;
+} nsvcd__d2;
 
 typedef struct nsvcd__corner {
-  // in the polygon's plane, counter-clockwise
-  double x, y;
+  // the polygon is counter-clockwise
+  nsvcd__d2 at;
   uint32_t vertex;
   // the ring of corners not yet clipped
   uint32_t previous, next;
@@ -2358,32 +2462,73 @@ typedef struct nsvcd__corner {
   uint32_t queued, queue_next;
   // 1: the inner angle exceeds 180 degrees
   uint32_t reflex;
+  // the box of its run
+  uint32_t box;
 } nsvcd__corner;
+
+typedef struct nsvcd__corner_box {
+  nsvcd__d2 low, high;
+  // corners in it that are reflex
+  uint32_t reflex;
+} nsvcd__corner_box;
 
 typedef struct nsvcd__polygon {
   nsvcd__corner *corners;
-  uint32_t count;
-  uint32_t reflex_count;
+  uint32_t *order;           // (count): corners along the Z curve
+  nsvcd__corner_box *boxes;  // (2 runs): box k is about boxes 2 k and 2 k + 1, the last are runs'
+  uint32_t count, runs;      // a power of two
   uint32_t queue_first, queue_last, queue_length;
 } nsvcd__polygon;
 
+// Runs of so many corners, rounded up to a power of two.
+static uint32_t nsvcd__runs_of(uint32_t corners) {
+  uint32_t runs = 1;
+  while (NSVCD__RUN * (uint64_t)runs < corners)
+    runs *= 2;
+  return runs;
+}
+
+static void nsvcd__polygon_free(nsvcd__polygon *polygon, const nsvcd_allocator *allocator) {
+  nsvcd__free(allocator, polygon->corners);
+  nsvcd__free(allocator, polygon->order);
+  nsvcd__free(allocator, polygon->boxes);
+}
+// Room for polygons of up to so many corners. 0 without memory; nsvcd__polygon_free in either case.
+static int nsvcd__polygon_alloc(nsvcd__polygon *polygon, uint32_t corners,
+                                const nsvcd_allocator *allocator) {
+  const size_t boxes = 2 * (size_t)nsvcd__runs_of(corners);
+  memset(polygon, 0, sizeof *polygon);
+  polygon->corners = (nsvcd__corner *)nsvcd__alloc_array(allocator, corners, sizeof(nsvcd__corner));
+  polygon->order = nsvcd__alloc_words(allocator, corners);
+  polygon->boxes =
+      (nsvcd__corner_box *)nsvcd__alloc_array(allocator, boxes, sizeof(nsvcd__corner_box));
+  return polygon->corners && polygon->order && polygon->boxes;
+}
+
 // Twice the area of abc, positive if counter-clockwise. In double a difference of floats is as good
 // as exact.
-static double nsvcd__corner_cross(const nsvcd__corner *a, const nsvcd__corner *b,
-                                  const nsvcd__corner *c) {
-  return (b->x - a->x) * (c->y - b->y) - (b->y - a->y) * (c->x - b->x);
+static double nsvcd__d2_cross(nsvcd__d2 a, nsvcd__d2 b, nsvcd__d2 c) {
+  return (b.x - a.x) * (c.y - b.y) - (b.y - a.y) * (c.x - b.x);
 }
-static int nsvcd__same_place(const nsvcd__corner *a, const nsvcd__corner *b) {
-  return !(a->x < b->x || a->x > b->x || a->y < b->y || a->y > b->y);
+static nsvcd__d2 nsvcd__d2_min(nsvcd__d2 a, nsvcd__d2 b) {
+  const nsvcd__d2 out = {a.x < b.x ? a.x : b.x, a.y < b.y ? a.y : b.y};
+  return out;
+}
+static nsvcd__d2 nsvcd__d2_max(nsvcd__d2 a, nsvcd__d2 b) {
+  const nsvcd__d2 out = {a.x > b.x ? a.x : b.x, a.y > b.y ? a.y : b.y};
+  return out;
+}
+static int nsvcd__same_place(nsvcd__d2 a, nsvcd__d2 b) {
+  return !(a.x < b.x || a.x > b.x || a.y < b.y || a.y > b.y);
 }
 
 // Twice the area times the normal of a polygon in space (Newell's).
-static nsvcd__d3 nsvcd__polygon_normal(const nsvcd__corner *corners, uint32_t count,
-                                       const float *positions) {
+static nsvcd__d3 nsvcd__polygon_normal(const nsvcd__polygon *polygon, const float *positions) {
+  const nsvcd__corner *corners = polygon->corners;
   const nsvcd__d3 origin = nsvcd__d3_row(positions, corners[0].vertex);
   nsvcd__d3 normal = nsvcd__d3_of(0, 0, 0);
-  for (uint32_t i = 0; i < count; i++) {
-    const uint32_t next = corners[(i + 1) % count].vertex;
+  for (uint32_t i = 0; i < polygon->count; i++) {
+    const uint32_t next = corners[(i + 1) % polygon->count].vertex;
     const nsvcd__d3 p = nsvcd__d3_row(positions, corners[i].vertex);
     const nsvcd__d3 q = nsvcd__d3_row(positions, next);
     const nsvcd__d3 area = nsvcd__d3_cross(nsvcd__d3_sub(p, origin), nsvcd__d3_sub(q, origin));
@@ -2394,30 +2539,84 @@ static nsvcd__d3 nsvcd__polygon_normal(const nsvcd__corner *corners, uint32_t co
 
 // Places the corners in a plane: drops the axis along which the normal is longest, and so keeps the
 // coordinates exact.
-static void nsvcd__polygon_project(nsvcd__corner *corners, uint32_t count, const float *positions) {
-  const nsvcd__d3 normal = nsvcd__polygon_normal(corners, count, positions);
+static void nsvcd__polygon_project(nsvcd__polygon *polygon, const float *positions) {
+  const nsvcd__d3 normal = nsvcd__polygon_normal(polygon, positions);
   size_t axis = fabs(normal.y) > fabs(normal.x) ? 1 : 0;
   if (fabs(normal.z) > fabs(nsvcd__d3_axis(normal, axis)))
     axis = 2;
   const int turned = nsvcd__d3_axis(normal, axis) < 0;
   const size_t u = (axis + (turned ? 2 : 1)) % 3;
   const size_t v = (axis + (turned ? 1 : 2)) % 3;
-  for (uint32_t i = 0; i < count; i++) {
-    const float *p = positions + 3 * (size_t)corners[i].vertex;
-    corners[i].x = (double)p[u];
-    corners[i].y = (double)p[v];
+  for (uint32_t i = 0; i < polygon->count; i++) {
+    nsvcd__corner *c = &polygon->corners[i];
+    const float *p = positions + 3 * (size_t)c->vertex;
+    c->at.x = (double)p[u];
+    c->at.y = (double)p[v];
   }
+}
+
+// A number that grows with a coordinate, which is a float.
+static uint32_t nsvcd__z_key(double coordinate) {
+  const float x = (float)coordinate;
+  uint32_t bits;
+  memcpy(&bits, &x, sizeof bits);
+  return bits >> 31 ? ~bits : bits | 0x80000000u;
+}
+
+// Sorts corners along the Z curve, by this bit of it and those below: the bits of x and y in turn.
+static void nsvcd__z_sort(const nsvcd__corner *corners, uint32_t *order, uint32_t count, int bit) {
+  if (count <= NSVCD__RUN || bit < 0)
+    return;
+  uint32_t ones = count;  // where those begin that have the bit
+  for (uint32_t i = 0; i < ones;) {
+    const uint32_t corner = order[i];
+    const nsvcd__d2 at = corners[corner].at;
+    const uint32_t key = nsvcd__z_key(bit % 2 ? at.x : at.y);
+    if (key >> bit / 2 & 1) {
+      order[i] = order[--ones];
+      order[ones] = corner;
+    } else {
+      i++;
+    }
+  }
+  nsvcd__z_sort(corners, order, ones, bit - 1);
+  nsvcd__z_sort(corners, order + ones, count - ones, bit - 1);
+}
+
+// Puts the corners into boxes. None is known to be reflex yet.
+static void nsvcd__polygon_box(nsvcd__polygon *polygon) {
+  nsvcd__corner_box *boxes = polygon->boxes;
+  const nsvcd__corner_box none = {{HUGE_VAL, HUGE_VAL}, {-HUGE_VAL, -HUGE_VAL}, 0};
+  polygon->runs = nsvcd__runs_of(polygon->count);
+  for (uint32_t k = 0; k < 2 * polygon->runs; k++)
+    boxes[k] = none;
+  for (uint32_t i = 0; i < polygon->count; i++)
+    polygon->order[i] = i;
+  nsvcd__z_sort(polygon->corners, polygon->order, polygon->count, 63);
+  for (uint32_t i = 0; i < polygon->count; i++) {
+    nsvcd__corner *c = &polygon->corners[polygon->order[i]];
+    c->box = polygon->runs + i / NSVCD__RUN;
+    for (uint32_t k = c->box; k > 0; k /= 2) {
+      boxes[k].low = nsvcd__d2_min(boxes[k].low, c->at);
+      boxes[k].high = nsvcd__d2_max(boxes[k].high, c->at);
+    }
+  }
+}
+
+static void nsvcd__polygon_set_reflex(nsvcd__polygon *polygon, uint32_t i, uint32_t reflex) {
+  nsvcd__corner *c = &polygon->corners[i];
+  for (uint32_t k = c->box; k > 0 && c->reflex != reflex; k /= 2)
+    polygon->boxes[k].reflex += reflex - c->reflex;
+  c->reflex = reflex;
 }
 
 // Looks at corner i again, after a neighbour of it has changed.
 static void nsvcd__polygon_update(nsvcd__polygon *polygon, uint32_t i) {
   nsvcd__corner *corners = polygon->corners;
   nsvcd__corner *c = &corners[i];
-  const nsvcd__corner *previous = &corners[c->previous];
-  const nsvcd__corner *next = &corners[c->next];
-  const uint32_t reflex = nsvcd__corner_cross(previous, c, next) < 0;
-  polygon->reflex_count += reflex - c->reflex;
-  c->reflex = reflex;
+  const nsvcd__d2 previous = corners[c->previous].at;
+  const nsvcd__d2 next = corners[c->next].at;
+  nsvcd__polygon_set_reflex(polygon, i, nsvcd__d2_cross(previous, c->at, next) < 0);
   if (c->queued)
     return;
   c->queued = 1;
@@ -2430,73 +2629,122 @@ static void nsvcd__polygon_update(nsvcd__polygon *polygon, uint32_t i) {
   polygon->queue_last = i;
 }
 
-// Is corner p within abc, and not at the place of one of these?
-static int nsvcd__corner_is_within(const nsvcd__corner *p, const nsvcd__corner *a,
-                                   const nsvcd__corner *b, const nsvcd__corner *c) {
-  if (nsvcd__corner_cross(a, b, p) < 0)
+// A triangle of three neighbours, counter-clockwise, and the box about it.
+typedef struct nsvcd__ear {
+  nsvcd__d2 a, b, c;
+  nsvcd__d2 low, high;
+} nsvcd__ear;
+
+// Is a place within an ear, and not at one of its corners?
+static int nsvcd__ear_holds(const nsvcd__ear *ear, nsvcd__d2 p) {
+  if (nsvcd__d2_cross(ear->a, ear->b, p) < 0)
     return 0;
-  if (nsvcd__corner_cross(b, c, p) < 0 || nsvcd__corner_cross(c, a, p) < 0)
+  if (nsvcd__d2_cross(ear->b, ear->c, p) < 0 || nsvcd__d2_cross(ear->c, ear->a, p) < 0)
     return 0;
-  if (nsvcd__same_place(p, a) || nsvcd__same_place(p, b))
+  if (nsvcd__same_place(p, ear->a) || nsvcd__same_place(p, ear->b))
     return 0;
-  return !nsvcd__same_place(p, c);
+  return !nsvcd__same_place(p, ear->c);
+}
+
+// Is all of a box to the right of the line from a to b? Its farthest corner to the left tells.
+static int nsvcd__is_right_of(const nsvcd__corner_box *box, nsvcd__d2 a, nsvcd__d2 b) {
+  nsvcd__d2 left;
+  left.x = b.y > a.y ? box->low.x : box->high.x;
+  left.y = b.x > a.x ? box->high.y : box->low.y;
+  return nsvcd__d2_cross(a, b, left) < 0;
+}
+
+// May an ear hold a corner in a box?
+static int nsvcd__ear_meets(const nsvcd__ear *ear, const nsvcd__corner_box *box) {
+  if (nsvcd__same_place(box->low, box->high))
+    return nsvcd__ear_holds(ear, box->low);
+  if (ear->high.x < box->low.x || ear->high.y < box->low.y)
+    return 0;
+  if (ear->low.x > box->high.x || ear->low.y > box->high.y)
+    return 0;
+  if (nsvcd__is_right_of(box, ear->a, ear->b) || nsvcd__is_right_of(box, ear->b, ear->c))
+    return 0;
+  return !nsvcd__is_right_of(box, ear->c, ear->a);
+}
+
+// Does an ear hold a reflex corner of run k?
+static int nsvcd__ear_holds_one(const nsvcd__polygon *polygon, const nsvcd__ear *ear, uint32_t k) {
+  const uint32_t first = NSVCD__RUN * (k - polygon->runs);
+  for (uint32_t i = first; i < first + NSVCD__RUN && i < polygon->count; i++) {
+    const nsvcd__corner *p = &polygon->corners[polygon->order[i]];
+    if (p->reflex && nsvcd__ear_holds(ear, p->at))
+      return 1;
+  }
+  return 0;
 }
 
 // An ear is a convex corner whose triangle holds no other corner; only reflex ones need a look.
 static int nsvcd__polygon_is_ear(const nsvcd__polygon *polygon, uint32_t i) {
   const nsvcd__corner *corners = polygon->corners;
-  const nsvcd__corner *b = &corners[i];
-  const nsvcd__corner *a = &corners[b->previous];
-  const nsvcd__corner *c = &corners[b->next];
-  if (nsvcd__corner_cross(a, b, c) <= 0)
+  const nsvcd__corner *middle = &corners[i];
+  nsvcd__ear ear;
+  ear.a = corners[middle->previous].at;
+  ear.b = middle->at;
+  ear.c = corners[middle->next].at;
+  if (nsvcd__d2_cross(ear.a, ear.b, ear.c) <= 0)
     return 0;
-  if (polygon->reflex_count == 0 || polygon->count > NSVCD__MAX_CONCAVE_CORNERS)
-    return 1;
-  for (const nsvcd__corner *p = &corners[c->next]; p != a; p = &corners[p->next]) {
-    if (p->reflex && nsvcd__corner_is_within(p, a, b, c))
+  ear.low = nsvcd__d2_min(nsvcd__d2_min(ear.a, ear.b), ear.c);
+  ear.high = nsvcd__d2_max(nsvcd__d2_max(ear.a, ear.b), ear.c);
+  for (uint32_t k = 1; k > 0;) {
+    const nsvcd__corner_box *box = &polygon->boxes[k];
+    const int meets = box->reflex > 0 && nsvcd__ear_meets(&ear, box);
+    NSVCD__TALLY(boxes, 1);
+    if (meets && k < polygon->runs) {
+      k *= 2;
+      continue;
+    }
+    if (meets && nsvcd__ear_holds_one(polygon, &ear, k))
       return 0;
+    // to the next box that is not within this one; 0: there is none
+    while (k % 2)
+      k /= 2;
+    k += k > 0;
   }
   return 1;
 }
 
-// Makes a ring of the corners, and puts all of them into the queue.
-static nsvcd__polygon nsvcd__polygon_of(nsvcd__corner *corners, uint32_t count,
-                                        const float *positions) {
-  nsvcd__polygon polygon = {corners, count, 0, 0, 0, 0};
-  if (count > 3)
-    nsvcd__polygon_project(corners, count, positions);
+// Makes a ring of the corners, and a queue of all: each may be an ear.
+static void nsvcd__polygon_begin(nsvcd__polygon *polygon, const float *positions) {
+  nsvcd__corner *corners = polygon->corners;
+  const uint32_t count = polygon->count;
+  polygon->queue_length = 0;
   for (uint32_t i = 0; i < count; i++) {
     corners[i].previous = (i + count - 1) % count;
     corners[i].next = (i + 1) % count;
     corners[i].queued = 0;
     corners[i].reflex = 0;
   }
-  for (uint32_t i = 0; count > 3 && i < count; i++)
-    nsvcd__polygon_update(&polygon, i);
-  return polygon;
+  if (count == 3)
+    return;
+  nsvcd__polygon_project(polygon, positions);
+  nsvcd__polygon_box(polygon);
+  for (uint32_t i = 0; i < count; i++)
+    nsvcd__polygon_update(polygon, i);
 }
 
-// corners: (count) with their vertices set, count >= 3. triangles: (count - 2, 3). TOO_LARGE if
-// there are too many corners for a concave face.
-static nsvcd_result nsvcd__polygon_triangulate(nsvcd__corner *corners, uint32_t count,
-                                               const float *positions, uint32_t *triangles) {
-  nsvcd__polygon polygon = nsvcd__polygon_of(corners, count, positions);
-  if (polygon.reflex_count > 0 && count > NSVCD__MAX_CONCAVE_CORNERS)
-    return NSVCD_ERROR_TOO_LARGE;
-
+// polygon: its corners, 3 or more, with their vertices set. triangles: (count - 2, 3).
+static void nsvcd__polygon_triangulate(nsvcd__polygon *polygon, const float *positions,
+                                       uint32_t *triangles) {
+  nsvcd__corner *corners = polygon->corners;
+  nsvcd__polygon_begin(polygon, positions);
   uint32_t at = 0;  // some corner of what is left
-  for (uint32_t left = count; left > 3;) {
+  for (uint32_t left = polygon->count; left > 3;) {
     // An empty queue means that no corner is an ear: not a simple polygon. Cut any corner off and
     // go on.
-    const int stuck = polygon.queue_length == 0;
-    const uint32_t i = stuck ? at : polygon.queue_first;
+    const int stuck = polygon->queue_length == 0;
+    const uint32_t i = stuck ? at : polygon->queue_first;
     nsvcd__corner *c = &corners[i];
     if (!stuck) {
-      polygon.queue_first = c->queue_next;
-      polygon.queue_length--;
+      polygon->queue_first = c->queue_next;
+      polygon->queue_length--;
       c->queued = 0;
     }
-    if (!stuck && !nsvcd__polygon_is_ear(&polygon, i))
+    if (!stuck && !nsvcd__polygon_is_ear(polygon, i))
       continue;
     triangles[0] = corners[c->previous].vertex;
     triangles[1] = c->vertex;
@@ -2505,21 +2753,21 @@ static nsvcd_result nsvcd__polygon_triangulate(nsvcd__corner *corners, uint32_t 
     left--;
     corners[c->previous].next = c->next;
     corners[c->next].previous = c->previous;
-    polygon.reflex_count -= c->reflex;
-    nsvcd__polygon_update(&polygon, c->previous);
-    nsvcd__polygon_update(&polygon, c->next);
+    nsvcd__polygon_set_reflex(polygon, i, 0);
+    nsvcd__polygon_update(polygon, c->previous);
+    nsvcd__polygon_update(polygon, c->next);
     at = c->next;
   }
   triangles[0] = corners[at].vertex;
   triangles[1] = corners[corners[at].next].vertex;
   triangles[2] = corners[corners[at].previous].vertex;
-  return NSVCD_OK;
 }
 
 // ---- OBJ (Wavefront, "Object Files", version 3.0): v and f count, all else is skipped
 // Three passes over the text: count, vertices, faces. A face may refer to any vertex of the file by
 // its number, also to a later one; negative numbers count back from the last vertex so far. Locale
-// plays no part.
+// plays no part. Keywords that are skipped are letters, and digits behind two of them: curv2 is
+// one, f1 is a mistake.
 
 typedef struct nsvcd__obj {
   const char *at, *end;
@@ -2537,18 +2785,23 @@ enum {
   NSVCD__OBJ_BAD  // not a keyword
 };
 
+// Length of the line's end at p; 0: there is none.
+static size_t nsvcd__obj_newline(const char *p, const char *end) {
+  if (p == end || (*p != '\n' && *p != '\r'))
+    return 0;
+  return end - p >= 2 && p[0] == '\r' && p[1] == '\n' ? 2 : 1;
+}
 // Length of the blank at p: a backslash before the line's end continues the statement on the next
 // line.
 static size_t nsvcd__obj_blank(const char *p, const char *end) {
   if (p == end)
     return 0;
-  if (*p == ' ' || *p == '\t' || *p == '\r' || *p == '\v' || *p == '\f')
+  if (*p == ' ' || *p == '\t' || *p == '\v' || *p == '\f')
     return 1;
   if (*p != '\\')
     return 0;
-  if (end - p >= 2 && p[1] == '\n')
-    return 2;
-  return end - p >= 3 && p[1] == '\r' && p[2] == '\n' ? 3 : 0;
+  const size_t newline = nsvcd__obj_newline(p + 1, end);
+  return newline > 0 ? 1 + newline : 0;
 }
 static int nsvcd__obj_is_digit(const nsvcd__obj *obj) {
   return obj->at < obj->end && *obj->at >= '0' && *obj->at <= '9';
@@ -2559,14 +2812,20 @@ static int nsvcd__obj_accept(nsvcd__obj *obj, char c) {
     obj->at++;
   return is_there;
 }
+static int nsvcd__obj_line_ends(const nsvcd__obj *obj) {
+  return obj->at == obj->end || *obj->at == '\n' || *obj->at == '\r';
+}
 static int nsvcd__obj_token_ends(const nsvcd__obj *obj) {
-  if (obj->at == obj->end || *obj->at == '\n')
+  if (nsvcd__obj_line_ends(obj))
     return 1;
   return nsvcd__obj_blank(obj->at, obj->end) > 0;
 }
 static void nsvcd__obj_skip_token(nsvcd__obj *obj) {
-  while (!nsvcd__obj_token_ends(obj))
-    obj->at++;
+  for (; !nsvcd__obj_token_ends(obj); obj->at++) {
+    // what can be nothing else, quickly
+    while (obj->at + 1 < obj->end && (unsigned char)obj->at[1] > ' ' && obj->at[1] != '\\')
+      obj->at++;
+  }
 }
 
 // Skips blanks; 0 where the statement ends instead.
@@ -2577,21 +2836,18 @@ static int nsvcd__obj_has_token(nsvcd__obj *obj) {
     obj->at += blank;
     blank = nsvcd__obj_blank(obj->at, obj->end);
   }
-  return obj->at < obj->end && *obj->at != '\n' && *obj->at != '#';
+  return !nsvcd__obj_line_ends(obj) && *obj->at != '#';
 }
 
-// To the beginning of the next line that does not continue this statement.
+// To the beginning of the next line that does not continue this statement. Token by token, as all
+// passes read it: what one takes for a comment, which nothing continues, all do.
 static void nsvcd__obj_skip_statement(nsvcd__obj *obj) {
-  int comment = obj->at < obj->end && *obj->at == '#';
-  for (int continued = 1; continued && obj->at < obj->end; obj->line++) {
-    const char *start = obj->at;
-    const char *newline = (const char *)memchr(start, '\n', (size_t)(obj->end - start));
-    const char *last = newline ? newline : obj->end;
-    obj->at = newline ? newline + 1 : obj->end;
-    if (last > start && last[-1] == '\r')
-      last--;
-    continued = newline && !comment && last > start && last[-1] == '\\';
-  }
+  while (nsvcd__obj_has_token(obj))
+    nsvcd__obj_skip_token(obj);
+  while (!nsvcd__obj_line_ends(obj))
+    obj->at++;
+  obj->at += nsvcd__obj_newline(obj->at, obj->end);
+  obj->line++;
 }
 
 // Reads the keyword that a statement begins with.
@@ -2605,7 +2861,9 @@ static int nsvcd__obj_keyword(nsvcd__obj *obj) {
   if (obj->at - start == 1 && *start == 'f')
     return NSVCD__OBJ_FACE;
   for (const char *p = start; p < obj->at; p++) {
-    if (!((*p >= 'a' && *p <= 'z') || (*p >= 'A' && *p <= 'Z') || *p == '_'))
+    const int letter = (*p >= 'a' && *p <= 'z') || (*p >= 'A' && *p <= 'Z') || *p == '_';
+    const int digit = *p >= '0' && *p <= '9';
+    if (!letter && !(digit && p - start >= 2))
       return NSVCD__OBJ_BAD;
   }
   return NSVCD__OBJ_OTHER;
@@ -2731,7 +2989,11 @@ static nsvcd_result nsvcd__obj_corner(nsvcd__obj *obj, uint32_t vertex_count, ui
       number = 10 * number + (uint64_t)(*obj->at - '0');
   }
   for (int i = 0; i < 2 && nsvcd__obj_accept(obj, '/'); i++) {
+    if (i == 0 && obj->at < obj->end && *obj->at == '/')
+      continue;  // v//vn
     nsvcd__obj_accept(obj, '-');
+    if (!nsvcd__obj_is_digit(obj))
+      return NSVCD_ERROR_SYNTAX;
     while (nsvcd__obj_is_digit(obj))
       obj->at++;
   }
@@ -2797,30 +3059,32 @@ static nsvcd_result nsvcd__obj_vertices(nsvcd__obj *obj, float *positions) {
   return NSVCD_OK;
 }
 
-// One face: its triangles, (corners - 2, 3). corners: room for those of any face.
+// One face: its triangles, (corners - 2, 3). polygon: with room for any face.
 static nsvcd_result nsvcd__obj_face(nsvcd__obj *obj, const nsvcd_mesh *mesh,
-                                    nsvcd__corner *corners) {
+                                    nsvcd__polygon *polygon) {
   const uint32_t vertices = (uint32_t)mesh->vertex_count;
   uint32_t *triangles = mesh->indices + 3 * (size_t)obj->triangles;
-  uint32_t count = 0;
+  polygon->count = 0;
   while (nsvcd__obj_has_token(obj)) {
-    const nsvcd_result result = nsvcd__obj_corner(obj, vertices, &corners[count++].vertex);
+    uint32_t *vertex = &polygon->corners[polygon->count++].vertex;
+    const nsvcd_result result = nsvcd__obj_corner(obj, vertices, vertex);
     if (result)
       return result;
   }
-  obj->triangles += count - 2;
-  return nsvcd__polygon_triangulate(corners, count, mesh->positions, triangles);
+  obj->triangles += polygon->count - 2;
+  nsvcd__polygon_triangulate(polygon, mesh->positions, triangles);
+  return NSVCD_OK;
 }
 
 // Third pass: the mesh's indices.
 static nsvcd_result nsvcd__obj_faces(nsvcd__obj *obj, const nsvcd_mesh *mesh,
-                                     nsvcd__corner *corners) {
+                                     nsvcd__polygon *polygon) {
   int keyword = nsvcd__obj_keyword(obj);
   for (; keyword != NSVCD__OBJ_END; keyword = nsvcd__obj_next(obj)) {
     obj->vertices += keyword == NSVCD__OBJ_VERTEX;
     if (keyword != NSVCD__OBJ_FACE)
       continue;
-    const nsvcd_result result = nsvcd__obj_face(obj, mesh, corners);
+    const nsvcd_result result = nsvcd__obj_face(obj, mesh, polygon);
     if (result)
       return result;
   }
@@ -2839,18 +3103,18 @@ static nsvcd_result nsvcd__obj_read(nsvcd__obj *obj, const char *text, size_t si
     return NSVCD_ERROR_EMPTY;
   if (!nsvcd__mesh_alloc(mesh, obj->vertices, obj->triangles, allocator))
     return NSVCD_ERROR_MEMORY;
-  nsvcd__corner *corners =
-      (nsvcd__corner *)nsvcd__alloc_array(allocator, obj->max_corners, sizeof(nsvcd__corner));
-  if (!corners)
-    return NSVCD_ERROR_MEMORY;
-
-  nsvcd__obj_begin(obj, text, size);
-  result = nsvcd__obj_vertices(obj, mesh->positions);
+  nsvcd__polygon polygon;
+  if (!nsvcd__polygon_alloc(&polygon, obj->max_corners, allocator))
+    result = NSVCD_ERROR_MEMORY;
   if (!result) {
     nsvcd__obj_begin(obj, text, size);
-    result = nsvcd__obj_faces(obj, mesh, corners);
+    result = nsvcd__obj_vertices(obj, mesh->positions);
   }
-  nsvcd__free(allocator, corners);
+  if (!result) {
+    nsvcd__obj_begin(obj, text, size);
+    result = nsvcd__obj_faces(obj, mesh, &polygon);
+  }
+  nsvcd__polygon_free(&polygon, allocator);
   return result;
 }
 
@@ -4976,7 +5240,8 @@ static int nsvcd__simplex_settle(nsvcd__simplex *s) {
 
 // The distance of a point from some point of the convex hull of vertices: no less than that from
 // the hull, and no more than two thousandths above it, but for roundings or where it is below
-// `enough`.
+// `enough`. Ten steps or so do; on x87, whose registers have more digits than memory, they may seem
+// to get nearer for ever.
 static double nsvcd__hull_distance(nsvcd__points hull, nsvcd__d3 point, double enough) {
   nsvcd__simplex s;
   s.points[0] = nsvcd__d3_sub(hull.at[hull.count - 1], point);
@@ -4984,7 +5249,7 @@ static double nsvcd__hull_distance(nsvcd__points hull, nsvcd__d3 point, double e
   s.count = 1;
   nsvcd__d3 nearest = s.points[0];
   double best = nsvcd__d3_dot(nearest, nearest);
-  while (best > enough * enough && s.count < 4) {
+  for (int step = 0; step < 64 && best > enough * enough && s.count < 4; step++) {
     const double offset = nsvcd__d3_dot(point, nearest);
     double least = HUGE_VAL;
     size_t support = 0;
@@ -5957,7 +6222,7 @@ static void nsvcd__rotate_latent(const int8_t *z, float (*turn)[NSVCD__SLICE], s
 #define NSVCD__LEVELS 3  // of spheres above the patches, at most
 // metres, over every radius and distance that coordinates within bounds can give
 #define NSVCD__MAX_LENGTH 1.6e7f
-#define NSVCD__BODY_MAGIC 0x4256534eu  // "NSVB"
+#define NSVCD__BODY_MAGIC 0x4256534eu  // "NSVB", or "BVSN": the mark of the byte order
 #define NSVCD__BODY_VERSION 5u
 
 struct nsvcd_body {
@@ -6049,7 +6314,6 @@ static size_t nsvcd__spheres_size(size_t padded) {
   return sizeof(struct nsvcd_body) + 16 * nsvcd__sphere_slots(padded);
 }
 
-#ifndef NSVCD_NO_NETWORK
 // Area vectors with their padding: one for each sphere, but where there are no levels above the
 // groups, of patches alone.
 static size_t nsvcd__area_slots(size_t padded) {
@@ -6063,6 +6327,12 @@ static float *nsvcd__areas_to_write(nsvcd_body *body) {
   char *at = (char *)body + nsvcd__spheres_size(body->padded);
   return (float *)(void *)at;
 }
+// Bytes of a body of latents up to these.
+static size_t nsvcd__areas_end(size_t padded) {
+  return nsvcd__spheres_size(padded) + 12 * nsvcd__area_slots(padded);
+}
+
+#ifndef NSVCD_NO_NETWORK
 // The sums over the spheres of a level of a body that has some above the groups, (3, slots): they
 // lie as the spheres do.
 static const float *nsvcd__level_areas(const nsvcd_body *body, nsvcd__level level) {
@@ -6078,10 +6348,8 @@ NSVCDDEF size_t nsvcd_body_size(size_t patches) {
   if (patches < 1 || patches > NSVCD_MAX_PATCHES)
     return 0;
   const size_t padded = nsvcd__round_up(patches, NSVCD__GROUP);
-  const size_t areas = 12 * nsvcd__area_slots(padded);
   const size_t latents = patches * NSVCD__LATENT;
-  const size_t size = nsvcd__spheres_size(padded) + areas + latents;
-  return nsvcd__round_up(size, NSVCD_ALIGNMENT);
+  return nsvcd__round_up(nsvcd__areas_end(padded) + latents, NSVCD_ALIGNMENT);
 }
 #endif
 
@@ -6348,7 +6616,6 @@ static int nsvcd__all_within(const float *values, size_t count, float most) {
   return 1;
 }
 
-#ifndef NSVCD_NO_NETWORK
 // Numbers in the area vectors.
 static size_t nsvcd__area_numbers(const nsvcd_body *body) {
   return 3 * nsvcd__area_slots(body->padded);
@@ -6359,7 +6626,6 @@ static int nsvcd__areas_are_sound(const nsvcd_body *body) {
   return nsvcd__all_within(nsvcd__body_areas(body), nsvcd__area_numbers(body),
                            NSVCD__MAX_LENGTH * NSVCD__MAX_LENGTH);
 }
-#endif
 
 #if !defined(NSVCD_NO_ENCODER) && !defined(NSVCD_NO_NETWORK)
 // Fills the area vectors of the levels from those of the patches.
@@ -6409,7 +6675,7 @@ static int nsvcd__source_is_sound(const nsvcd__latents_source *source) {
 }
 
 // Builds a body of latents in `memory`. On success it is *body. NUMBER if something is out of
-// bounds.
+// bounds, EMPTY if it is too small.
 static nsvcd_result nsvcd__body_build(const nsvcd__latents_source *source, void *memory,
                                       size_t capacity, const nsvcd_body **body) {
   const size_t size = nsvcd_body_size(source->count);
@@ -6438,7 +6704,7 @@ static nsvcd_result nsvcd__body_build(const nsvcd__latents_source *source, void 
     return NSVCD_ERROR_NUMBER;
   nsvcd__body_finish(b);
   if (b->radius < NSVCD_MIN_RADIUS)
-    return NSVCD_ERROR_NUMBER;
+    return NSVCD_ERROR_EMPTY;
   *body = b;
   return NSVCD_OK;
 }
@@ -7059,8 +7325,8 @@ typedef struct nsvcd__facets_source {
   int open;
 } nsvcd__facets_source;
 
-// Builds a body of triangles of `size` bytes in `memory`. NUMBER if it would be too large or too
-// small.
+// Builds a body of triangles of `size` bytes in `memory`. NUMBER if it would be too large, EMPTY if
+// it would be too small.
 static nsvcd_result nsvcd__facets_build(const nsvcd__facets_source *source, void *memory,
                                         size_t size) {
   const nsvcd__surface *surface = source->surface;
@@ -7078,7 +7344,7 @@ static nsvcd_result nsvcd__facets_build(const nsvcd__facets_source *source, void
   if (!nsvcd__all_within(nsvcd__body_r(b), b->patches, 4 * NSVCD_MAX_COORDINATE))
     return NSVCD_ERROR_NUMBER;
   nsvcd__facets_finish(b);
-  return b->radius < NSVCD_MIN_RADIUS ? NSVCD_ERROR_NUMBER : NSVCD_OK;
+  return b->radius < NSVCD_MIN_RADIUS ? NSVCD_ERROR_EMPTY : NSVCD_OK;
 }
 #endif
 
@@ -7287,13 +7553,15 @@ static int nsvcd__body_is_sound(const nsvcd_body *b) {
     return 0;
 #endif
   }
-  if (!nsvcd__spheres_are_sound(b))
+  if (b->size < nsvcd__areas_end(b->padded))
+    return 0;
+  if (!nsvcd__spheres_are_sound(b) || !nsvcd__areas_are_sound(b))
     return 0;
 #ifndef NSVCD_NO_NETWORK
   if (b->weights_id != NSVCD_WEIGHTS_ID)
     return 0;
   const size_t latents = nsvcd_body_size(b->patches);
-  if (b->size < latents || !nsvcd__areas_are_sound(b))
+  if (b->size < latents)
     return 0;
   if (b->inner == 0)
     return b->size == latents && b->triangles == 0;
@@ -7302,7 +7570,7 @@ static int nsvcd__body_is_sound(const nsvcd_body *b) {
 #else
   if (b->inner % NSVCD_ALIGNMENT || b->inner >= b->size)
     return 0;
-  if (b->inner < nsvcd__spheres_size(b->padded))
+  if (b->inner < nsvcd__areas_end(b->padded))
     return 0;
 #endif
   return nsvcd__inner_is_sound(b);
@@ -7338,13 +7606,11 @@ NSVCDDEF nsvcd_result nsvcd_body_trust(const void *memory, size_t size, const ns
 static int nsvcd__body_fits(const nsvcd_body *body, float scale) {
   if (!nsvcd__spheres_fit(body, scale))
     return 0;
-#ifndef NSVCD_NO_NETWORK
   const double most = (double)NSVCD__MAX_LENGTH / (double)scale;
   for (size_t i = 0; body->weights_id && i < nsvcd__area_numbers(body); i++) {
     if (fabs((double)nsvcd__body_areas(body)[i]) > most * most)
       return 0;
   }
-#endif
 #ifndef NSVCD_NO_PROOF
   const nsvcd_body *triangles = nsvcd__triangles_of(body);
   if (triangles && !nsvcd__spheres_fit(triangles, scale))
@@ -7363,13 +7629,11 @@ static void nsvcd__scale_part(nsvcd_body *b, float scale) {
 #endif
     return;
   }
-#ifndef NSVCD_NO_NETWORK
   float *areas = nsvcd__areas_to_write(b);
   for (size_t i = 0; i < nsvcd__area_numbers(b); i++) {
     areas[i] *= scale;
     areas[i] *= scale;
   }
-#endif
   nsvcd__body_finish(b);
 }
 
@@ -7379,6 +7643,11 @@ NSVCDDEF nsvcd_result nsvcd_body_scale(const nsvcd_body *body, float scale, void
     return NSVCD_ERROR_ARGUMENT;
   if (capacity < body->size || !nsvcd__is_aligned(memory))
     return NSVCD_ERROR_WORKSPACE;
+#ifdef NSVCD_NO_PROOF
+  // The triangles would keep their size; nor were they looked at when the body was loaded.
+  if (body->triangles)
+    return NSVCD_ERROR_BODY;
+#endif
   if (!nsvcd__body_fits(body, scale))
     return NSVCD_ERROR_ARGUMENT;
   memmove(memory, body, body->size);  // in place is allowed
@@ -9537,9 +9806,9 @@ static void nsvcd__candidates_start(nsvcd__candidates *kept, nsvcd__candidate *i
 // was reached.
 //
 // FIRST CONTACT. Contacts end the motion: whenever one is found, only what is more than `first`
-// before it matters from then on, and is proven free or gives an earlier contact. A couple that
-// was in doubt before a contact stands for its beginning. Segments are searched some at a time, in
-// their order, so that the first ones found are early ones.
+// before it matters from then on, and is proven free or gives an earlier contact. So does a doubt,
+// where a contact follows: whatever follows it is not known to be the first. Segments are searched
+// some at a time, in their order, so that the first ones found are early ones.
 //
 // THE LEAST DISTANCE. Contacts lower the clearance: it begins as a distance that two vertices
 // have, and whenever triangles are found nearer than that, it becomes their distance less
@@ -9697,9 +9966,10 @@ typedef struct nsvcd__proof {
 
   // What is known.
   int has_contact;
-  nsvcd__contact found;  // if there is a contact, or WITHIN
+  nsvcd__contact found;  // if there is a contact, or WITHIN; UNDECIDED: the doubt, if there is one
   int within;            // a component seems to be within the other body, but close to its surface
-  double unsure;         // ticks: the first doubt, two triangles that came too near to tell
+  nsvcd__d3 enclosed;    // a point of that component; the fixed body's frame
+  double unsure;         // ticks: when the first doubt begins, two triangles too near to tell
   nsvcd__contact doubt;  // what that is about
   int lost;              // something else was left undecided: all from `settled` on
   double settled;        // ticks
@@ -10794,27 +11064,35 @@ static nsvcd__couple nsvcd__couple_of(const nsvcd__proof *p, size_t i, size_t j,
   return couple;
 }
 
-// Two triangles come within the clearance a share u of the arc later than its start. MEETS if that
-// is an answer, TAKEN if there may be a better one.
-static nsvcd__verdict nsvcd__take_contact(nsvcd__proof *p, const nsvcd__couple *couple, double u,
-                                          const nsvcd__nearest *nearest) {
+// What is said of two triangles a share u of the arc later than its start.
+static nsvcd__contact nsvcd__contact_at(const nsvcd__proof *p, const nsvcd__couple *couple,
+                                        double u, const nsvcd__nearest *nearest) {
   const nsvcd__d3 face = nsvcd__face_normal(couple->fixed);
   const nsvcd__d3 apart = nsvcd__d3_sub(nearest->on_a, nearest->on_b);
   const double distance = sqrt(nearest->square);
   const int touches = distance <= couple->rounding;
-  p->has_contact = 1;
-  p->found.tick = (double)p->arc.first + u * (double)p->arc.ticks;
-  p->found.distance = touches ? 0 : distance;
-  p->found.point = nearest->on_b;
-  p->found.normal = nsvcd__d3_unit(touches ? face : apart, nsvcd__d3_of(0, 0, 0));
-  p->found.moving_triangle =
+  nsvcd__contact out;
+  out.tick = (double)p->arc.first + u * (double)p->arc.ticks;
+  out.distance = touches ? 0 : distance;
+  out.point = nearest->on_b;
+  out.normal = nsvcd__d3_unit(touches ? face : apart, nsvcd__d3_of(0, 0, 0));
+  out.moving_triangle =
       nsvcd__facet_number(&p->moving, couple->moving_patch, couple->moving_listing);
-  p->found.fixed_triangle =
-      nsvcd__facet_number(&p->fixed, couple->fixed_patch, couple->fixed_listing);
-  p->found.moving_patch = (uint16_t)couple->moving_patch;
-  p->found.fixed_patch = (uint16_t)couple->fixed_patch;
+  out.fixed_triangle = nsvcd__facet_number(&p->fixed, couple->fixed_patch, couple->fixed_listing);
+  out.moving_patch = (uint16_t)couple->moving_patch;
+  out.fixed_patch = (uint16_t)couple->fixed_patch;
+  return out;
+}
+
+// Two triangles come within the clearance a share u of the arc later than its start. MEETS if that
+// is an answer, TAKEN if there may be a better one.
+static nsvcd__verdict nsvcd__take_contact(nsvcd__proof *p, const nsvcd__couple *couple, double u,
+                                          const nsvcd__nearest *nearest) {
+  p->has_contact = 1;
+  p->found = nsvcd__contact_at(p, couple, u, nearest);
   if (p->measure > 0) {
-    p->clearance = touches ? 0 : fmax(0, distance - p->measure);
+    const int touches = !(p->found.distance > 0);
+    p->clearance = touches ? 0 : fmax(0, p->found.distance - p->measure);
     return touches ? NSVCD__MEETS : NSVCD__TAKEN;
   }
   if (p->first > 0) {
@@ -10825,24 +11103,19 @@ static nsvcd__verdict nsvcd__take_contact(nsvcd__proof *p, const nsvcd__couple *
 }
 
 // Two triangles come so near from u0 to u1 of the arc that it cannot be told whether they touch.
-// Where a contact follows, it begins here.
 static NSVCD__APART void nsvcd__take_doubt(nsvcd__proof *p, const nsvcd__couple *couple, double u0,
                                            double u1) {
   const double tick = (double)p->arc.first + u0 * (double)p->arc.ticks;
+  const double middle = 0.5 * (u0 + u1);
+  nsvcd__d3 posed[3];
   if (!(tick < p->unsure))
     return;
-  const nsvcd__contact found = p->found;
-  const double end = p->end;
-  const int has_contact = p->has_contact;
-  nsvcd__d3 posed[3];
-  nsvcd__place_triangle(nsvcd__placed_at(p, 0.5 * (u0 + u1)), couple->moving, posed);
+  nsvcd__place_triangle(nsvcd__placed_at(p, middle), couple->moving, posed);
   const nsvcd__nearest nearest = nsvcd__triangles_nearest(posed, couple->fixed);
-  (void)nsvcd__take_contact(p, couple, 0.5 * (u0 + u1), &nearest);
-  p->doubt = p->found;
-  p->found = found;
-  p->has_contact = has_contact;
+  p->doubt = nsvcd__contact_at(p, couple, middle, &nearest);
   p->unsure = tick;
-  p->end = p->first > 0 && has_contact ? fmin(end, tick) : end;
+  if (p->first > 0 && p->has_contact)
+    p->end = fmin(p->end, tick);
 }
 
 // What of the arc matters: the share of it at which the rest does not.
@@ -11044,7 +11317,7 @@ static NSVCD__APART nsvcd__verdict nsvcd__settle_couple(nsvcd__proof *p,
   for (double u = u0; left > 0;) {
     const double end = fmin(ends[left - 1], nsvcd__arc_limit(p));
     if (!(u < end))
-      break;  // what was in doubt may be the end
+      break;  // a doubt may be the end
     const double middle = 0.5 * (u + end);
     p->work++;
     NSVCD__TALLY(pairs, 1);
@@ -11998,8 +12271,8 @@ static int nsvcd__is_new(nsvcd__proof *p, size_t *count, uint32_t number, int *u
 }
 
 // Lanes of a block whose triangles the ray crosses, or passes within the margin, and some more. The
-// signed volumes of the edges and the ray are products of an edge and a place on it, both off by
-// rounding of the corners: by no more than `rounding`, square metres.
+// signed volumes of the edges and the ray are products of an edge and a place on it, off by no more
+// than `rounding`, square metres: see nsvcd__crossings.
 static uint32_t nsvcd__lanes_on_ray(nsvcd__block *block, const nsvcd__ray *ray, float margin,
                                     float rounding) {
   const nsvcd__f3 start = nsvcd__f3_round(ray->from);
@@ -12029,12 +12302,20 @@ static uint32_t nsvcd__lanes_on_ray(nsvcd__block *block, const nsvcd__ray *ray, 
 
 // How often the surface of the closed components winds about a point, by one ray; *unclear if it
 // cannot tell. A triangle counts once, whatever patches list it, or parts of it.
+//
+// How far are the signed volumes of nsvcd__lanes_on_ray off? With u = 2^-24, E the extent, R that
+// and the distance of the ray's place: a corner, a vertex of up to E from a centre of up to E, is
+// off by 2 u E. An edge, of up to 2 E, by two corners and its own rounding, 6 u E; its product with
+// the direction, rounded as well, by 6 + 2 + 2.31 x 2 (|a_y b_z| + |a_z b_y| and so on are no more
+// than 1.155 |a| |b| together) = 12.7 u E. A place on it, up to R from the ray's, by 3 u R. The
+// volume then by 12.7 u E R + 2 E x 3 u R, and by 3 roundings of up to 2 E R: 24.7 u E R, less than
+// 1.5e-6 E R. NSVCD__ROUNDING is more.
 static int nsvcd__crossings(nsvcd__proof *p, const nsvcd__facets *f, const nsvcd__ray *ray,
                             int *unclear) {
   nsvcd__block *block = &p->fixed_blocks[0];
   p->window = 0;
   const float remote = (float)nsvcd__d3_length(ray->from) + f->body->extent;
-  const float rounding = 0.5f * NSVCD__ROUNDING * remote * f->body->extent;
+  const float rounding = NSVCD__ROUNDING * remote * f->body->extent;
   const nsvcd__ray_of of = {f->body, ray};
   int sum = 0;
   size_t count = 0;
@@ -12251,7 +12532,7 @@ typedef struct nsvcd__enclosure {
 } nsvcd__enclosure;
 
 // Are some of the inner body's components, those with seeds from `first` to `end`, within the outer
-// one? Then p->found has the point, and p->within is set; 1 if that is certain.
+// one? Then p->enclosed has the point, and p->within is set; 1 if that is certain.
 static int nsvcd__encloses_seeds(nsvcd__proof *p, const nsvcd__enclosure *e, size_t first,
                                  size_t end) {
   uint32_t nearby = 0;
@@ -12269,10 +12550,7 @@ static int nsvcd__encloses_seeds(nsvcd__proof *p, const nsvcd__enclosure *e, siz
     const nsvcd__d3 seen = nsvcd__place_point(&e->start, seed);
     if (!nsvcd__is_enclosed(p, e->outer, e->unit, seen))
       continue;
-    memset(&p->found, 0, sizeof p->found);
-    p->found.point = e->inner_moves ? seen : seed;
-    p->found.moving_triangle = NSVCD_NO_TRIANGLE;
-    p->found.fixed_triangle = NSVCD_NO_TRIANGLE;
+    p->enclosed = e->inner_moves ? seen : seed;
     p->within = 1;
     if (!nsvcd__surface_is_near(p, e->outer, seen, p->tolerance / e->unit))
       return 1;
@@ -12306,7 +12584,7 @@ static int nsvcd__encloses_any(nsvcd__proof *p, const nsvcd__enclosure *e) {
   return 0;
 }
 
-// Is a component of one body within the other at the start of the motion? Then p->found has its
+// Is a component of one body within the other at the start of the motion? Then p->enclosed is its
 // point. Where that is so close to the surface that quanta matter, 0 is returned and p->within is
 // set: if planes then part all patches at t = 0, the point, the stored surface and the true one,
 // patch by patch on one side of a plane, agree, and it is within.
@@ -12601,6 +12879,33 @@ static nsvcd__verdict nsvcd__prove_in_order(nsvcd__proof *p, nsvcd__search *sear
   return verdict;
 }
 
+// What is said of a component that is within the other body, whatever contacts were found since.
+static nsvcd__verdict nsvcd__is_within(nsvcd__proof *p) {
+  memset(&p->found, 0, sizeof p->found);
+  p->found.point = p->enclosed;
+  p->found.moving_triangle = NSVCD_NO_TRIANGLE;
+  p->found.fixed_triangle = NSVCD_NO_TRIANGLE;
+  return NSVCD__WITHIN;
+}
+
+// Does a doubt come before all that was found? A contact is the first one, to the tolerance, only
+// where none does.
+static int nsvcd__is_doubtful(const nsvcd__proof *p) {
+  const int has_end = p->first > 0 && p->has_contact;
+  return p->unsure < (has_end ? p->found.tick - p->first : NSVCD__NEVER);
+}
+
+// What is said of triangles that came too near to tell, unless others met before, or, with
+// `measure`, came nearer.
+static nsvcd__verdict nsvcd__is_undecided(nsvcd__proof *p) {
+  const int is_nearer = p->doubt.distance < p->found.distance;
+  const int is_earlier = p->doubt.tick < p->found.tick;
+  const int is_better = !p->has_contact || (p->measure > 0 ? is_nearer : is_earlier);
+  if (p->unsure < NSVCD__NEVER && is_better)
+    p->found = p->doubt;
+  return NSVCD__UNDECIDED;
+}
+
 static nsvcd__verdict nsvcd__prove(nsvcd__proof *p, nsvcd__search *search) {
   const float lifted = nsvcd__f3_length(p->motion->lift);
   const float apart = p->lengths + nsvcd__clearance_of(p) + 1.0001f * lifted;
@@ -12610,7 +12915,7 @@ static nsvcd__verdict nsvcd__prove(nsvcd__proof *p, nsvcd__search *search) {
   nsvcd__choose_segments(p->motion, search);
   p->first *= (double)p->motion->ticks;
   if (nsvcd__starts_within(p))
-    return NSVCD__WITHIN;
+    return nsvcd__is_within(p);
   if (p->measure > 0)
     p->clearance = nsvcd__guess_clearance(p, search);
   nsvcd__cut_segments(p->motion, p->lengths, nsvcd__clearance_of(p), search);
@@ -12620,16 +12925,13 @@ static nsvcd__verdict nsvcd__prove(nsvcd__proof *p, nsvcd__search *search) {
   if (p->lost)
     p->settled = 0;  // whether one is within the other, at the start
   p->lost |= verdict == NSVCD__UNDECIDED;
-  // a doubt that ends in a contact is its beginning
-  if (p->first > 0 && p->has_contact && p->unsure <= p->end) {
-    p->found = p->doubt;
-    p->end = p->unsure;
-  }
-  if (verdict == NSVCD__MEETS)
+  if (verdict == NSVCD__MEETS && !(p->first > 0 && nsvcd__is_doubtful(p)))
     return verdict;
-  if (p->lost || p->unsure < p->end)
-    return NSVCD__UNDECIDED;
-  return p->within ? NSVCD__WITHIN : p->has_contact ? NSVCD__MEETS : NSVCD__FREE;
+  if (p->lost || nsvcd__is_doubtful(p))
+    return nsvcd__is_undecided(p);
+  if (p->within)
+    return nsvcd__is_within(p);
+  return p->has_contact ? NSVCD__MEETS : NSVCD__FREE;
 }
 
 // Makes a proof forget all that it knew of a motion.
@@ -12644,6 +12946,7 @@ static void nsvcd__proof_restart(nsvcd__proof *p) {
   p->spans_known = 0;
   p->held = nsvcd__f3_of(0, 0, 0);
   p->plane = 0;
+  p->arc.first = 0;
   p->arc.ticks = 0;
   p->in_group = p->in_both = 0;
   p->misses = 0;
@@ -14228,6 +14531,12 @@ static nsvcd__to_world nsvcd__to_world_at(const nsvcd__motion *motion, double t)
   return out;
 }
 
+// Has a proof found triangles that an answer is to name? If not a contact, then a doubt.
+static int nsvcd__names_triangles(const nsvcd__proof *p, nsvcd__verdict verdict) {
+  const int is_doubt = verdict == NSVCD__UNDECIDED && p->unsure < NSVCD__NEVER;
+  return p->has_contact || is_doubt;
+}
+
 // Answers with the contact that a proof has found: when, where, and of what.
 static void nsvcd__answer_with_contact(const nsvcd__proof *p, nsvcd_answer *answer) {
   const nsvcd__contact *found = &p->found;
@@ -14247,8 +14556,8 @@ static void nsvcd__answer_with_contact(const nsvcd__proof *p, nsvcd_answer *answ
   memcpy(answer->normal, &normal, sizeof answer->normal);
 }
 
-// What is proven of clearances and times.
-static void nsvcd__answer_with_bounds(const nsvcd__proof *p, nsvcd__verdict verdict,
+// What is proven of clearances and times. measured: the least distance is known.
+static void nsvcd__answer_with_bounds(const nsvcd__proof *p, nsvcd__verdict verdict, int measured,
                                       nsvcd_answer *answer) {
   const double unit = (double)p->motion->unit;
   const double known = p->lost ? p->settled : NSVCD__NEVER;
@@ -14257,22 +14566,23 @@ static void nsvcd__answer_with_bounds(const nsvcd__proof *p, nsvcd__verdict verd
   double proven = is_free;
   if (!is_free && p->first > 0 && verdict != NSVCD__WITHIN)
     proven = fmin(fmax(until, 0), 1);
-  const int measured = p->measure > 0 && verdict != NSVCD__WITHIN && verdict != NSVCD__UNDECIDED;
   const double low = measured || is_free ? p->clearance : 0;
   answer->free_until = (float)(proven < 1 ? proven * (1 - 1e-7) : 1);
   answer->clearance_low = (float)(low * unit * (1 - 1e-6));
   answer->clearance_high = HUGE_VALF;
   if (verdict == NSVCD__WITHIN) {
     answer->clearance_high = 0;
-  } else if (p->has_contact) {
+  } else if (nsvcd__names_triangles(p, verdict)) {
     const float quanta = nsvcd__quanta_of(p, p->found.moving_patch, p->found.fixed_patch);
     const double distance = p->found.distance + (double)quanta;
     answer->clearance_high = (float)(distance * unit * (1 + 1e-6));
   }
 }
 
-// A contact so early that it may be one at the start already: then it is that.
-static NSVCD__APART nsvcd__verdict nsvcd__prove_start(nsvcd__proof *p, nsvcd__search *search) {
+// A contact or a doubt so early that there may be a contact at the start already: then it is that.
+// If not, the verdict stays.
+static NSVCD__APART nsvcd__verdict nsvcd__prove_start(nsvcd__proof *p, nsvcd__search *search,
+                                                      nsvcd__verdict verdict) {
   nsvcd__motion *whole = p->motion;
   nsvcd__motion start = *whole;
   const nsvcd__contact found = p->found;
@@ -14282,12 +14592,12 @@ static NSVCD__APART nsvcd__verdict nsvcd__prove_start(nsvcd__proof *p, nsvcd__se
   p->motion = &start;
   p->first = 0;
   nsvcd__proof_restart(p);
-  nsvcd__verdict verdict = nsvcd__prove(p, search);
-  if (verdict != NSVCD__MEETS && verdict != NSVCD__WITHIN) {
-    p->found = found;
-    verdict = NSVCD__MEETS;
-  } else {
+  const nsvcd__verdict at_start = nsvcd__prove(p, search);
+  if (at_start == NSVCD__MEETS || at_start == NSVCD__WITHIN) {
     p->found.tick = 0;
+    verdict = at_start;
+  } else {
+    p->found = found;
   }
   p->motion = whole;
   p->first = first;
@@ -14358,16 +14668,17 @@ static void nsvcd__answer_by_proof(nsvcd__task *task, nsvcd__query *query, nsvcd
   if (p->skin > 0)
     nsvcd__lift_motion(p, search);
   nsvcd__verdict verdict = nsvcd__prove(p, search);
-  if (verdict == NSVCD__MEETS && p->first > 0 && p->found.tick > 0 && p->end <= 0)
-    verdict = nsvcd__prove_start(p, search);
+  if (p->first > 0 && p->has_contact && p->end <= 0 && p->found.tick > 0)
+    verdict = nsvcd__prove_start(p, search, verdict);
 
   nsvcd__answer_free(answer);
   answer->work = p->work;
-  if (p->has_contact || verdict == NSVCD__WITHIN)
+  if (nsvcd__names_triangles(p, verdict) || verdict == NSVCD__WITHIN)
     nsvcd__answer_with_contact(p, answer);
-  nsvcd__answer_with_bounds(p, verdict, answer);
-  if (p->measure > 0 && verdict != NSVCD__WITHIN && verdict != NSVCD__UNDECIDED)
+  const int measured = p->measure > 0 && (verdict == NSVCD__FREE || verdict == NSVCD__MEETS);
+  if (measured)
     verdict = nsvcd__verdict_of_distance(p, (double)task->clearance);
+  nsvcd__answer_with_bounds(p, verdict, measured, answer);
   nsvcd__f3_store(nsvcd__lift_of(p), answer->lift);
   answer->status = nsvcd__status_of(verdict);
   answer->collides = verdict != NSVCD__FREE;
@@ -14406,7 +14717,9 @@ static nsvcd_method nsvcd__method_of(const nsvcd_body *moving, const nsvcd_body 
 static int nsvcd__is_itself(const nsvcd_question *question) {
   const nsvcd_mover *a = &question->a;
   const nsvcd_mover *b = &question->b;
-  const int same_size = !(a->scale < b->scale) && !(b->scale < a->scale);
+  const float size_a = a->scale > 0 ? a->scale : 1;
+  const float size_b = b->scale > 0 ? b->scale : 1;
+  const int same_size = !(size_a < size_b) && !(size_b < size_a);
   return a->body == b->body && a->poses == b->poses && a->count == b->count && same_size;
 }
 
@@ -14588,17 +14901,22 @@ static void nsvcd__turn_answer(nsvcd_answer *answer) {
 // Adds the network's opinion, where it has one, to what a proof has left undecided.
 static void nsvcd__add_opinion(nsvcd__task *task, nsvcd__query *query, nsvcd_answer *answer) {
   const nsvcd_sweep_options *options = task->options;
+  nsvcd_answer opinion;
   if (!task->moving->weights_id || !task->fixed->weights_id)
     return;
   if (options->clearance > 0 || options->measure > 0 || options->skin > 0)
     return;
-  const nsvcd_answer proof = *answer;
-  nsvcd__answer_by_network(task, query, NULL, answer);
-  answer->status = NSVCD_STATUS_UNDECIDED;
-  answer->work = proof.work;
-  answer->free_until = proof.free_until;
-  answer->clearance_low = proof.clearance_low;
-  answer->clearance_high = proof.clearance_high;
+  if (query->proof->has_contact)
+    return;  // that is known
+  nsvcd__answer_by_network(task, query, NULL, &opinion);
+  answer->logit = opinion.logit;
+  answer->collides = opinion.collides;
+  answer->candidates = opinion.candidates;
+  if (answer->triangle_a != NSVCD_NO_TRIANGLE)
+    return;
+  answer->contact_time = opinion.contact_time;
+  answer->patch_a = opinion.patch_a;
+  answer->patch_b = opinion.patch_b;
 }
 #endif
 
@@ -15265,7 +15583,7 @@ static nsvcd_result nsvcd__sweep_gradient(const nsvcd_question *question, void *
 // This file takes itself in for that. Of it only the sections that use vectors are compiled again.
 // Their private names are changed: nsvcd__prove is nsvcd__prove_avx2 there.
 
-#if NSVCD__SLICE == 4 && !defined(NSVCD_NO_DISPATCH)
+#if NSVCD__SLICE == 4 && !defined(NSVCD_NO_DISPATCH) && !defined(NSVCD__NARROW)
 #if defined(__x86_64__) && (defined(__clang__) || (defined(__GNUC__) && __GNUC__ >= 8))
 #define NSVCD__DISPATCH
 #elif defined(_M_X64) && !defined(__clang__)
@@ -15396,6 +15714,7 @@ static nsvcd_result nsvcd__sweep_gradient(const nsvcd_question *question, void *
 #define nsvcd__common_divisor NSVCD__AT(common_divisor)
 #define nsvcd__constants_hold NSVCD__AT(constants_hold)
 #define nsvcd__contact NSVCD__AT(contact)
+#define nsvcd__contact_at NSVCD__AT(contact_at)
 #define nsvcd__contact_of NSVCD__AT(contact_of)
 #define nsvcd__couple NSVCD__AT(couple)
 #define nsvcd__couple_of NSVCD__AT(couple_of)
@@ -15486,6 +15805,7 @@ static nsvcd_result nsvcd__sweep_gradient(const nsvcd_question *question, void *
 #define nsvcd__is_around NSVCD__AT(is_around)
 #define nsvcd__is_clear NSVCD__AT(is_clear)
 #define nsvcd__is_contained NSVCD__AT(is_contained)
+#define nsvcd__is_doubtful NSVCD__AT(is_doubtful)
 #define nsvcd__is_enclosed NSVCD__AT(is_enclosed)
 #define nsvcd__is_harmless NSVCD__AT(is_harmless)
 #define nsvcd__is_held NSVCD__AT(is_held)
@@ -15497,6 +15817,8 @@ static nsvcd_result nsvcd__sweep_gradient(const nsvcd_question *question, void *
 #define nsvcd__is_shallower NSVCD__AT(is_shallower)
 #define nsvcd__is_spent NSVCD__AT(is_spent)
 #define nsvcd__is_swapped NSVCD__AT(is_swapped)
+#define nsvcd__is_undecided NSVCD__AT(is_undecided)
+#define nsvcd__is_within NSVCD__AT(is_within)
 #define nsvcd__item NSVCD__AT(item)
 #define nsvcd__item_is_parted NSVCD__AT(item_is_parted)
 #define nsvcd__judge NSVCD__AT(judge)
@@ -15548,6 +15870,7 @@ static nsvcd_result nsvcd__sweep_gradient(const nsvcd_question *question, void *
 #define nsvcd__motion_set_ticks NSVCD__AT(motion_set_ticks)
 #define nsvcd__mover_check NSVCD__AT(mover_check)
 #define nsvcd__moving_block_load NSVCD__AT(moving_block_load)
+#define nsvcd__names_triangles NSVCD__AT(names_triangles)
 #define nsvcd__nearby NSVCD__AT(nearby)
 #define nsvcd__nearest NSVCD__AT(nearest)
 #define nsvcd__nearest2 NSVCD__AT(nearest2)
@@ -16002,7 +16325,7 @@ static void nsvcd__spline_weights(size_t via, double t, size_t derivative, doubl
 NSVCDDEF void nsvcd_spline(const float *control, size_t via_points, size_t joints, float t,
                            size_t derivative, float *out) {
   double weights[NSVCD_MAX_VIA_POINTS + 2];
-  if (via_points > NSVCD_MAX_VIA_POINTS)
+  if (via_points > NSVCD_MAX_VIA_POINTS || derivative > 3)
     return;
   nsvcd__spline_weights(via_points, (double)t, derivative, weights);
   for (size_t j = 0; j < joints; j++) {
@@ -16563,7 +16886,7 @@ static void nsvcd__add_wrench(const nsvcd_body_pair *pair, const nsvcd_pose *pos
 typedef struct nsvcd__worst {
   float logit, time;
   size_t pair;
-  int proven;  // a proof has found it, or could not rule it out
+  int proven;  // a proof has found it, INSIDE too, or could not rule it out
 } nsvcd__worst;
 
 static nsvcd__worst nsvcd__worst_at_first(void) {
@@ -16638,7 +16961,7 @@ static void nsvcd__note_worst(const nsvcd__collision *c, const nsvcd_answer *ans
     return;
   worst->logit = answer->logit;
   worst->pair = k;
-  worst->proven = answer->collides && answer->status >= NSVCD_STATUS_WITNESS;
+  worst->proven = answer->collides && answer->work > 0;  // only a proof takes work
   worst->time = 0;
   if (c->moments > 1) {
     const float at = (float)s + (float)c->stride * answer->contact_time;
@@ -16827,6 +17150,17 @@ static int nsvcd__leaves_limits(const nsvcd_plan_problem *problem, size_t joint,
   return value < problem->low[joint] - rounding || value > problem->high[joint] + rounding;
 }
 
+// A joint that leaves its limits at a via point, or NSVCD_NONE: moments may be few, and miss it.
+static size_t nsvcd__joint_beyond(const nsvcd_plan_problem *problem, size_t via,
+                                  const float *control) {
+  const size_t f = problem->joints;
+  for (size_t k = f; k < (via + 1) * f; k++) {
+    if (nsvcd__leaves_limits(problem, k % f, control[k]))
+      return k % f;
+  }
+  return NSVCD_NONE;
+}
+
 // Fills p->path with the joints at the moments of a trajectory, and adds what leaving the limits
 // costs. gradient: (M + 2, F), added to, or NULL.
 static void nsvcd__add_limits(nsvcd__planner *p, const nsvcd__stage *stage, const float *control,
@@ -16834,6 +17168,7 @@ static void nsvcd__add_limits(nsvcd__planner *p, const nsvcd__stage *stage, cons
   const size_t f = p->problem->joints;
   const size_t all = stage->via + 2;
   const float share = NSVCD__LIMIT_COST / (float)stage->moments;
+  cost->joint = nsvcd__joint_beyond(p->problem, stage->via, control);
   for (size_t s = 0; s < stage->moments; s++) {
     const float *w = stage->weights + s * all;
     for (size_t j = 0; j < f; j++) {
@@ -17322,7 +17657,8 @@ static void nsvcd__smoothest(nsvcd__planner *p, const nsvcd__stage *stage, float
   memcpy(control + (via + 1) * f, p->problem->goal, f * sizeof *control);
 }
 
-// Turns p->best into nearly the same curve through another number of via points.
+// Turns p->best into nearly the same curve through another number of via points. These are taken
+// into the limits, for a curve may leave them between two points.
 static void nsvcd__resample(nsvcd__planner *p, size_t from, size_t to) {
   const size_t f = p->problem->joints;
   if (from == to)
@@ -17331,7 +17667,7 @@ static void nsvcd__resample(nsvcd__planner *p, size_t from, size_t to) {
     const float t = (float)k / (float)(to + 1);
     nsvcd_spline(p->best, from, f, t, 0, p->trial + k * f);
   }
-  memcpy(p->best, p->trial, (to + 2) * f * sizeof *p->best);
+  nsvcd__change(p, to, p->trial, p->trial, 0, p->best);
 }
 
 // Are the joints within the limits, and free of collision? Fills in the answer's facts if not.

@@ -6,7 +6,7 @@
 //
 // Peg and block are bodies like the arms' own: only planner_place knows that they are held
 // (planner_plan in task_planner.h is the code to copy).
-#define _POSIX_C_SOURCE 200112L  // clock_gettime
+#define _POSIX_C_SOURCE 200112L  // scenery/clock.h
 #define NEURALSVCD_IMPLEMENTATION
 #include "task_planner.h"
 

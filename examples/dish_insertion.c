@@ -6,7 +6,7 @@
 //
 // A motion is planned with the network alone (planner_plan in task_planner.h is the code to copy)
 // and judged afterwards with the exact oracle, which knows the triangles.
-#define _POSIX_C_SOURCE 200112L  // clock_gettime
+#define _POSIX_C_SOURCE 200112L  // scenery/clock.h
 #define NEURALSVCD_IMPLEMENTATION
 #include "task_planner.h"
 

@@ -1,87 +1,102 @@
-// svcd.c - neuralsvcd.h on the command line: answers a file of problems, encodes a mesh, describes
-// a body.
+// svcd.c - neuralsvcd.h on the command line: does this body, moving so, hit that one? What is wrong
+// with a mesh? Encodes meshes, and answers whole files of problems.
 //
-// `svcd` without arguments prints how to use it; problem_file.h has the format of problem files.
-// Exit status: 0 done, 1 a file or a line was refused (file, line and reason on standard error), 2
-// usage.
-#define _POSIX_C_SOURCE 200112L  // clock_gettime, posix_memalign
+// `svcd --help` says how to use it, FORMATS.md what it reads and prints. Exit status: 0 done, 1 a
+// file or a line was refused (file, line and reason on standard error), 2 usage.
+#define _POSIX_C_SOURCE 200112L  // scenery/clock.h
 #define NEURALSVCD_IMPLEMENTATION
 #include "../neuralsvcd.h"
 #define PROGRAM "svcd"
 #include "scenery/problem_file.h"
+// these call problem_file.h's
+#include "scenery/load.h"
+#include "scenery/options.h"
+#include "scenery/problem_summary.h"
+#include "scenery/sweep_motion.h"
+// and these the oracle
+#include "scenery/poses.h"
+#include "scenery/sweep_picture.h"
 
-// ---------------------------------------------------------------------------------------- encoding
+// ---------------------------------------------------------------------------------------- settings
 
-// Loads and encodes one mesh; nsvcd_body_free gives the body back. `from`: what asks for it, for
-// messages ("file:line: "), or "".
-static const nsvcd_body *encode_file(const char *from, const char *path,
-                                     const nsvcd_encode_options *options, double *encode_seconds) {
-  nsvcd_mesh mesh;
-  size_t line = 0;
-  nsvcd_result result = nsvcd_obj_load(path, NULL, &mesh, &line);
-  if (result && line)
-    complain("%s%s:%zu: %s", from, path, line, nsvcd_result_string(result));
-  if (result && !line)
-    complain("%s%s: %s", from, path, nsvcd_result_string(result));
-  if (result)
-    return NULL;
-  const nsvcd_body *body = NULL;
-  double start = seconds();
-  result = nsvcd_encode(&mesh, options, NULL, NULL, 0, &body);
-  *encode_seconds = seconds() - start;
-  nsvcd_mesh_free(&mesh, NULL);
-  if (result)
-    complain("%s%s: %s", from, path, nsvcd_result_string(result));
-  return body;
+enum { CHECK = 1, ENCODE = 2, INFO = 4, SWEEP = 8 };
+
+typedef struct settings {  // of all commands
+  nsvcd_encode_options encode;
+  nsvcd_sweep_options sweep;
+  size_t repeat;
+  const char *from, *to, *rotate, *scale, *picture;
+  int int8, help;
+  const char *paths[2];
+  size_t path_count;
+} settings;
+
+#define AT(member) offsetof(settings, member)
+#define POINTS NSVCD_MAX_PATCHES
+#define METRES (double)NSVCD_MAX_COORDINATE
+static const option options[] = {
+    {"--help", CHECK | ENCODE | INFO | SWEEP, OPTION_FLAG, AT(help), 0, 0, NULL},
+    {"-h", CHECK | ENCODE | INFO | SWEEP, OPTION_FLAG, AT(help), 0, 0, NULL},
+    {"--scale", ENCODE | INFO | SWEEP, OPTION_TEXT, AT(scale), 0, 0, NULL},
+    {"--from", SWEEP, OPTION_TEXT, AT(from), 0, 0, NULL},
+    {"--to", SWEEP, OPTION_TEXT, AT(to), 0, 0, NULL},
+    {"--rotate", SWEEP, OPTION_TEXT, AT(rotate), 0, 0, NULL},
+    {"--picture", SWEEP, OPTION_TEXT, AT(picture), 0, 0, NULL},
+    {"--measure", SWEEP, OPTION_NUMBER, AT(sweep.measure), 1e-9, METRES, "NSVCD_MAX_COORDINATE"},
+    {"--skin", SWEEP, OPTION_NUMBER, AT(sweep.skin), 0, METRES, "NSVCD_MAX_COORDINATE"},
+    {"--clearance", CHECK | SWEEP, OPTION_NUMBER, AT(sweep.clearance), 0, METRES,
+     "NSVCD_MAX_COORDINATE"},
+    {"--first", CHECK | SWEEP, OPTION_NUMBER, AT(sweep.first), 0, 1, NULL},
+    {"--method", CHECK | SWEEP, OPTION_WORD, AT(sweep.method), NSVCD_METHOD_PROOF, 0,
+     "proof|network"},
+    {"--points", CHECK | ENCODE | SWEEP, OPTION_COUNT, AT(encode.patches), 1, POINTS,
+     "NSVCD_MAX_PATCHES"},
+    {"--radius", ENCODE, OPTION_NUMBER, AT(encode.patch_radius), 1e-12, METRES,
+     "NSVCD_MAX_COORDINATE"},
+    {"--no-triangles", ENCODE, OPTION_FLAG, AT(encode.no_triangles), 0, 0, NULL},
+    {"--no-latents", ENCODE, OPTION_FLAG, AT(encode.no_latents), 0, 0, NULL},
+    {"--latents", ENCODE, OPTION_FLAG, AT(encode.latents), 0, 0, NULL},
+    {"--pairs", CHECK, OPTION_COUNT, AT(sweep.pairs), 1, NSVCD_MAX_PAIRS, "NSVCD_MAX_PAIRS"},
+    {"--model", CHECK, OPTION_WORD, AT(sweep.model), NSVCD_MODEL_TINY, 0, "tiny|small|base"},
+    {"--recall", CHECK, OPTION_NUMBER, AT(sweep.recall), 0, 1, NULL},
+    {"--int8", CHECK, OPTION_FLAG, AT(int8), 0, 0, NULL},
+    {"--work", CHECK | SWEEP, OPTION_COUNT, AT(sweep.work), 1, 1000000000, NULL},
+    {"--repeat", CHECK | SWEEP, OPTION_COUNT, AT(repeat), 1, 1000000, NULL},
+};
+#define OPTION_COUNT_OF (sizeof options / sizeof options[0])
+
+static int usage_error(const char *what, const char *reason) {
+  complain("%s: %s", what, reason);
+  return USAGE;
 }
 
-typedef struct encoded {
-  const nsvcd_body *body;  // in the units of its file
-  double seconds;          // that encoding took
-} encoded;
+// ------------------------------------------------------------------------------------------- check
 
 // Every mesh once, in the units of its file: a question has its scale. bodies: (mesh_count),
 // zeroed.
 static int encode_meshes(const problem_file *file, const nsvcd_encode_options *options,
                          encoded *bodies) {
-  const char *slash = strrchr(file->path, '/');
-  size_t folder = slash ? (size_t)(slash - file->path) + 1 : 0;
+  const size_t folder = (size_t)(file_name(file->path) - file->path);
   for (size_t i = 0; i < file->mesh_count; i++) {
     const mesh_entry *mesh = &file->meshes[i];
     char from[1024], path[4096];
     snprintf(from, sizeof from, "%s:%zu: mesh %s: ", file->path, mesh->line, mesh->name);
     snprintf(path, sizeof path, "%.*s%s", mesh->path[0] == '/' ? 0 : (int)folder, file->path,
              mesh->path);
-    bodies[i].body = encode_file(from, path, options, &bodies[i].seconds);
+    nsvcd_mesh loaded;
+    if (!load_mesh(from, path, &loaded))
+      return 0;
+    bodies[i].body = encode_mesh(from, path, &loaded, options, &bodies[i].seconds);
+    nsvcd_mesh_free(&loaded, NULL);
     if (!bodies[i].body)
       return 0;
   }
   return 1;
 }
 
-// ------------------------------------------------------------------------------------------- check
-
-typedef struct check_options {
-  nsvcd_encode_options encode;
-  nsvcd_sweep_options sweep;
-  size_t repeat;
-  const char *path;
-} check_options;
-
-typedef struct outcome {  // of a problem
-  nsvcd_answer answer;
-  double microseconds;
-} outcome;
-
-typedef struct session {
-  problem_file file;
-  encoded *bodies;    // (file.mesh_count)
-  outcome *outcomes;  // (file.problem_count)
-} session;
-
 // Answers one problem: once to warm up, then --repeat times by the clock. The shortest time counts:
 // what is longer is the machine doing something else.
-static int answer(const session *s, const check_options *options, void *workspace, const problem *p,
+static int answer(const session *s, const settings *options, void *workspace, const problem *p,
                   outcome *out) {
   nsvcd_question question = question_of_problem(&s->file, p);
   question.a.body = s->bodies[p->moving].body;
@@ -94,15 +109,14 @@ static int answer(const session *s, const check_options *options, void *workspac
         nsvcd_sweep(&question, workspace, nsvcd_sweep_workspace_size(NULL), &out->answer);
     const double taken = 1e6 * (seconds() - start);
     if (result)
-      return complain("%s:%zu: problem %s: %s", s->file.path, p->line, p->id,
-                      nsvcd_result_string(result));
+      return complain("%s:%zu: problem %s: %s", s->file.path, p->line, p->id, reason_of(result));
     if (i > 0)
       out->microseconds = fmin(out->microseconds, taken);
   }
   return 1;
 }
 
-static int answer_all(session *s, const check_options *options) {
+static int answer_all(session *s, const settings *options) {
   void *workspace = allocate(nsvcd_sweep_workspace_size(NULL));
   int good = 1;
   for (size_t i = 0; i < s->file.problem_count && good; i++) {
@@ -122,246 +136,6 @@ static int print_answers(const session *s) {
   if (fflush(stdout) == 0 && !ferror(stdout))
     return 1;
   return complain("standard output: %s", strerror(errno));
-}
-
-// ----------------------------------------------------------------------------------------- summary
-
-static void print_share(const char *name, size_t hits, size_t count, const char *of) {
-  double low, high;
-  if (!count)
-    return;
-  wilson(hits, count, &low, &high);
-  fprintf(stderr, "%-20s %7.2f %%  [%.2f, %.2f]  %zu of %zu %s\n", name,
-          100.0 * (double)hits / (double)count, 100 * low, 100 * high, hits, count, of);
-}
-
-#define BANDS 6
-static const double band_edges[BANDS] = {0.001, 0.0025, 0.005, 0.010, 0.020, HUGE_VAL};  // metres
-static const char *const band_names[BANDS + 1] = {"0 - 1",   "1 - 2.5", "2.5 - 5", "5 - 10",
-                                                  "10 - 20", "> 20",    "nan"};
-
-static size_t band_of(double margin) {  // BANDS if unknown
-  size_t band = 0;
-  if (isnan(margin))
-    return BANDS;
-  while (fabs(margin) > band_edges[band])
-    band++;
-  return band;
-}
-
-// Counts by band (BANDS: no margin), truth and verdict.
-typedef struct tally {
-  size_t at[BANDS + 1][2][2];
-} tally;
-
-static size_t tally_sum(const tally *t, int label, int verdict) {
-  size_t sum = 0;
-  for (size_t band = 0; band <= BANDS; band++)
-    sum += t->at[band][label][verdict];
-  return sum;
-}
-static void print_ratio(size_t right, size_t count) {
-  if (!count)
-    fprintf(stderr, "  %20s", "-     ");
-  else
-    fprintf(stderr, "  %6.2f %6zu/%-6zu", 100.0 * (double)right / (double)count, right, count);
-}
-static void print_bands(const tally *t) {
-  fprintf(stderr, "\n%-12s  %20s  %20s  %20s\n", "|margin| mm", "colliding: found, %",
-          "free: cleared, %", "both, %");
-  for (size_t band = 0; band <= BANDS; band++) {
-    const size_t(*at)[2] = t->at[band];
-    size_t collide = at[1][0] + at[1][1];
-    size_t clear = at[0][0] + at[0][1];
-    if (collide + clear == 0)
-      continue;
-    fprintf(stderr, "%-12s", band_names[band]);
-    print_ratio(at[1][1], collide);
-    print_ratio(at[0][0], clear);
-    print_ratio(at[1][1] + at[0][0], collide + clear);
-    fprintf(stderr, "\n");
-  }
-}
-static void print_accuracy(const session *s) {
-  tally t;
-  memset(&t, 0, sizeof t);
-  for (size_t i = 0; i < s->file.problem_count; i++) {
-    const problem *p = &s->file.problems[i];
-    if (p->label >= 0)
-      t.at[band_of(p->margin)][p->label][s->outcomes[i].answer.collides]++;
-  }
-  size_t missed = tally_sum(&t, 1, 0);
-  size_t found = tally_sum(&t, 1, 1);
-  size_t cleared = tally_sum(&t, 0, 0);
-  size_t alarms = tally_sum(&t, 0, 1);
-  if (missed + found + cleared + alarms == 0)
-    return;
-  print_share("accuracy", found + cleared, missed + found + cleared + alarms, "right");
-  print_share("false negatives", missed, missed + found, "collisions missed");
-  print_share("false positives", alarms, alarms + cleared, "free motions stopped");
-  print_bands(&t);
-}
-
-static void print_statuses(const session *s) {
-  fprintf(stderr, "\nstatus:");
-  for (int status = NSVCD_STATUS_OK; status <= NSVCD_STATUS_UNDECIDED; status++) {
-    size_t count = 0;
-    for (size_t i = 0; i < s->file.problem_count; i++)
-      count += (int)s->outcomes[i].answer.status == status;
-    fprintf(stderr, "%s %s %.1f %%", status ? "," : "", nsvcd_status_string((nsvcd_status)status),
-            100.0 * (double)count / (double)s->file.problem_count);
-  }
-  fprintf(stderr, "\n");
-}
-
-static int compare_doubles(const void *a, const void *b) {
-  double x = *(const double *)a;
-  double y = *(const double *)b;
-  return (x > y) - (x < y);
-}
-// Sorts, and prints median, mean, 99th percentile and worst.
-static void print_distribution(const char *name, double *values, size_t count, const char *unit) {
-  double sum = 0;
-  if (!count)
-    return;
-  qsort(values, count, sizeof *values, compare_doubles);
-  for (size_t i = 0; i < count; i++)
-    sum += values[i];
-  fprintf(stderr, "%s: median %.1f, mean %.1f, 99th percentile %.1f, worst %.1f %s\n", name,
-          (values[(count - 1) / 2] + values[count / 2]) / 2, sum / (double)count,
-          values[(size_t)ceil(0.99 * (double)count) - 1], values[count - 1], unit);
-}
-static void print_costs(const session *s) {
-  const problem_file *file = &s->file;
-  size_t most = file->problem_count > file->mesh_count ? file->problem_count : file->mesh_count;
-  double *values = (double *)allocate(most * sizeof(double));
-  double bytes = 0;
-  double points = 0;
-  for (size_t i = 0; i < file->problem_count; i++)
-    values[i] = s->outcomes[i].microseconds;
-  print_distribution("a query", values, file->problem_count, "us");
-  for (size_t i = 0; i < file->mesh_count; i++) {
-    nsvcd_body_facts facts = nsvcd_body_describe(s->bodies[i].body);
-    bytes += (double)facts.size / (double)file->mesh_count;
-    points += (double)facts.patches / (double)file->mesh_count;
-    values[i] = 1e3 * s->bodies[i].seconds;
-  }
-  print_distribution("encoding a mesh", values, file->mesh_count, "ms");
-  if (file->mesh_count)
-    fprintf(stderr, "a body: %.0f bytes, %.1f points (mean)\n", bytes, points);
-  free(values);
-}
-
-static void print_summary(const session *s) {
-  const problem_file *file = &s->file;
-  size_t labels[3] = {0, 0, 0};  // -1, 0, 1
-  for (size_t i = 0; i < file->problem_count; i++)
-    labels[file->problems[i].label + 1]++;
-  fprintf(stderr, "%s: %zu problems (%zu collide, %zu free, %zu without a label), %zu meshes\n",
-          file->path, file->problem_count, labels[2], labels[1], labels[0], file->mesh_count);
-  if (!file->problem_count)
-    return;
-  print_accuracy(s);
-  print_statuses(s);
-  print_costs(s);
-}
-
-// ------------------------------------------------------------------------------------ command line
-
-static int usage(void) {
-  fprintf(stderr,
-          "svcd check [--method proof|network] [--points N] [--pairs K] [--model tiny|small|base] "
-          "[--int8]\n"
-          "           [--recall R] [--clearance METRES] [--first TOLERANCE] [--work LIMIT] "
-          "[--repeat R] FILE\n"
-          "    answers the problems of FILE, a line each on standard output, separated by tabs:\n"
-          "    ID LOGIT COLLIDES TIME MOVING_PATCH FIXED_PATCH STATUS MICROSECONDS; a summary on "
-          "standard error.\n"
-          "      --method M   proof: a witness or a certificate; network: an opinion (proof)\n"
-          "      --points N   representative points per body, 1..%d (%d; %d for the network)\n"
-          "      --pairs K    pairs of patches that the network looks at, 1..%d (8)\n"
-          "      --model M    decoder (base)\n"
-          "      --recall R   share of collisions to be found: 0.99, 0.999, 0.9999 or 0: balanced "
-          "errors (0)\n"
-          "      --clearance METRES  to come as close as this is a collision (0: to meet is)\n"
-          "      --first TOLERANCE   TIME is that of the first contact, to this share of the "
-          "motion (0: of any contact)\n"
-          "      --work LIMIT units that a proof may take (%d)\n"
-          "      --repeat R   time every query R times, report the least (5)\n"
-          "      --int8       the decoder in 8-bit integers\n"
-          "svcd encode IN.obj OUT.body|OUT.h [--points N | --radius METRES] [--no-triangles | "
-          "--no-latents | --latents]\n"
-          "    encodes a mesh, to a file or to a C array; --radius: as many points as make patches "
-          "of that radius;\n"
-          "    --no-triangles: for the network alone; --no-latents: for the proof alone; "
-          "--latents: for both, also where there\n"
-          "    are more than %d points\n"
-          "svcd info FILE.body\n"
-          "exit status: 0 done, 1 a file or line was refused, 2 usage\n",
-          NSVCD_MAX_PATCHES, NSVCD_DEFAULT_PATCHES, NSVCD_DEFAULT_NETWORK_PATCHES, NSVCD_MAX_PAIRS,
-          NSVCD_DEFAULT_WORK, NSVCD_SMALL_PATCHES);
-  return USAGE;
-}
-static int usage_error(const char *option, const char *reason) {
-  complain("%s: %s", option, reason);
-  return USAGE;
-}
-
-static int parse_model(const char *name, nsvcd_model *model) {
-  static const char *const names[] = {"tiny", "small", "base"};
-  for (int i = 0; i < 3; i++) {
-    if (strcmp(name, names[i]) != 0)
-      continue;
-    *model = (nsvcd_model)(NSVCD_MODEL_TINY + i);
-    return 1;
-  }
-  return 0;
-}
-
-static int parse_method(const char *name, nsvcd_method *method) {
-  const int proof = strcmp(name, "proof") == 0;
-  *method = proof ? NSVCD_METHOD_PROOF : NSVCD_METHOD_NETWORK;
-  return proof || strcmp(name, "network") == 0;
-}
-
-static int parse_share(const char *text, float most, float *out) {
-  return parse_float(text, out) && *out >= 0 && *out <= most;
-}
-
-// Returns DONE or USAGE.
-static int parse_check_option(const char *key, const char *value, check_options *options) {
-  if (strcmp(key, "--points") == 0)
-    return parse_count(value, 1, NSVCD_MAX_PATCHES, &options->encode.patches)
-               ? DONE
-               : usage_error(key, "out of range");
-  if (strcmp(key, "--pairs") == 0)
-    return parse_count(value, 1, NSVCD_MAX_PAIRS, &options->sweep.pairs)
-               ? DONE
-               : usage_error(key, "out of range");
-  if (strcmp(key, "--repeat") == 0)
-    return parse_count(value, 1, 1000000, &options->repeat) ? DONE
-                                                            : usage_error(key, "out of range");
-  if (strcmp(key, "--model") == 0)
-    return parse_model(value, &options->sweep.model)
-               ? DONE
-               : usage_error(key, "none of tiny, small, base");
-  if (strcmp(key, "--recall") == 0)
-    return parse_float(value, &options->sweep.recall) ? DONE : usage_error(key, "not a number");
-  if (strcmp(key, "--clearance") == 0)
-    return parse_share(value, NSVCD_MAX_COORDINATE, &options->sweep.clearance)
-               ? DONE
-               : usage_error(key, "out of range");
-  if (strcmp(key, "--first") == 0)
-    return parse_share(value, 1, &options->sweep.first) ? DONE : usage_error(key, "not in 0..1");
-  if (strcmp(key, "--work") == 0)
-    return parse_count(value, 1, 1000000000, &options->sweep.work)
-               ? DONE
-               : usage_error(key, "out of range");
-  if (strcmp(key, "--method") == 0)
-    return parse_method(value, &options->sweep.method)
-               ? DONE
-               : usage_error(key, "neither proof nor network");
-  return usage_error(key, "no such option");
 }
 
 // The library knows which recalls it was calibrated for: ask it before any work is done. A body of
@@ -389,53 +163,33 @@ static int recall_is_known(const nsvcd_sweep_options *options) {
   return result == NSVCD_OK;
 }
 
-static int parse_check(int argc, char **argv, check_options *options) {
-  memset(options, 0, sizeof *options);
-  options->repeat = 5;
-  for (int i = 0; i < argc; i++) {
-    int status = DONE;
-    if (strcmp(argv[i], "--int8") == 0) {
-      options->sweep.precision = NSVCD_PRECISION_INT8;
-      continue;
-    }
-    if (argv[i][0] != '-' && options->path)
-      return usage_error(argv[i], "one problem file at a time");
-    if (argv[i][0] != '-')
-      options->path = argv[i];
-    else if (i + 1 == argc)
-      status = usage_error(argv[i], "a value is missing, or there is no such option");
-    else {
-      status = parse_check_option(argv[i], argv[i + 1], options);
-      i++;
-    }
-    if (status != DONE)
-      return status;
-  }
-  if (!options->path)
-    return usage();
-  options->encode.no_triangles = options->sweep.method == NSVCD_METHOD_NETWORK;
-  if (options->encode.no_triangles && (options->sweep.clearance > 0 || options->sweep.first > 0)) {
+static int check_options(settings *options) {
+  nsvcd_sweep_options *sweep = &options->sweep;
+  if (options->path_count != 1)
+    return usage_error("check", "a problem file is wanted ('svcd check --help')");
+  if (options->int8)
+    sweep->precision = NSVCD_PRECISION_INT8;
+  options->encode.no_triangles = sweep->method == NSVCD_METHOD_NETWORK;
+  if (options->encode.no_triangles && (sweep->clearance > 0 || sweep->first > 0))
     return usage_error("--method network", "it knows neither --clearance nor --first");
-  }
-  if (!recall_is_known(&options->sweep))
+  if (!recall_is_known(sweep))
     return usage_error("--recall", "none of 0, 0.99, 0.999, 0.9999");
   return DONE;
 }
 
-static int check(int argc, char **argv) {
-  check_options options;
-  int status = parse_check(argc, argv, &options);
+static int check(settings *options) {
+  const int status = check_options(options);
   if (status != DONE)
     return status;
   session s;
   memset(&s, 0, sizeof s);
-  int good = read_problems(options.path, &s.file);
+  int good = read_problems(options->paths[0], &s.file);
   if (good) {
     s.bodies = (encoded *)allocate(s.file.mesh_count * sizeof *s.bodies);
     s.outcomes = (outcome *)allocate(s.file.problem_count * sizeof *s.outcomes);
     memset(s.bodies, 0, s.file.mesh_count * sizeof *s.bodies);
   }
-  good = good && encode_meshes(&s.file, &options.encode, s.bodies) && answer_all(&s, &options) &&
+  good = good && encode_meshes(&s.file, &options->encode, s.bodies) && answer_all(&s, options) &&
          print_answers(&s);
   if (good)
     print_summary(&s);
@@ -449,16 +203,9 @@ static int check(int argc, char **argv) {
 
 // --------------------------------------------------------------------------------- encode and info
 
-static int ends_with(const char *text, const char *end) {
-  size_t n = strlen(text);
-  size_t m = strlen(end);
-  return n >= m && strcmp(text + n - m, end) == 0;
-}
-
 // "parts/my-mug.h" -> "my_mug_body".
 static void array_name(const char *path, char *name, size_t size) {
-  const char *slash = strrchr(path, '/');
-  const char *base = slash ? slash + 1 : path;
+  const char *base = file_name(path);
   int digit = isdigit((unsigned char)base[0]);  // no C name begins with one
   snprintf(name, size, "%s%.*s_body", digit ? "_" : "",
            (int)(strlen(base) < 40 ? strlen(base) - 2 : 40), base);
@@ -470,23 +217,22 @@ static void array_name(const char *path, char *name, size_t size) {
 static void write_header(FILE *file, const char *in, const char *name, const nsvcd_body *body) {
   nsvcd_body_facts facts = nsvcd_body_describe(body);
   const unsigned char *bytes = (const unsigned char *)body;
-  fprintf(
-      file,
-      "// %s, encoded for neuralsvcd.h by `svcd encode`: %zu points. Little-endian hosts only.\n"
-      "//   const nsvcd_body *body;\n"
-      "//   nsvcd_result result = nsvcd_body_load(%s, sizeof %s, &body);\n"
-      "#if defined(__cplusplus)\n"
-      "alignas(%d)\n"
-      "#elif defined(__STDC_VERSION__) && __STDC_VERSION__ >= 201112L\n"
-      "_Alignas(%d)\n"
-      "#elif defined(__GNUC__)\n"
-      "__attribute__((aligned(%d)))\n"
-      "#elif defined(_MSC_VER)\n"
-      "__declspec(align(%d))\n"
-      "#endif\n"
-      "static const unsigned char %s[%zu] = {",
-      in, facts.patches, name, name, NSVCD_ALIGNMENT, NSVCD_ALIGNMENT, NSVCD_ALIGNMENT,
-      NSVCD_ALIGNMENT, name, facts.size);
+  fprintf(file,
+          "// %s, encoded for neuralsvcd.h by `svcd encode`: %zu points. For %s-endian hosts.\n"
+          "//   const nsvcd_body *body;\n"
+          "//   nsvcd_result result = nsvcd_body_load(%s, sizeof %s, &body);\n"
+          "#if defined(__cplusplus)\n"
+          "alignas(%d)\n"
+          "#elif defined(__STDC_VERSION__) && __STDC_VERSION__ >= 201112L\n"
+          "_Alignas(%d)\n"
+          "#elif defined(__GNUC__)\n"
+          "__attribute__((aligned(%d)))\n"
+          "#elif defined(_MSC_VER)\n"
+          "__declspec(align(%d))\n"
+          "#endif\n"
+          "static const unsigned char %s[%zu] = {",
+          in, facts.patches, bytes[0] == 'N' ? "little" : "big", name, name, NSVCD_ALIGNMENT,
+          NSVCD_ALIGNMENT, NSVCD_ALIGNMENT, NSVCD_ALIGNMENT, name, facts.size);
   for (size_t i = 0; i < facts.size; i++)
     fprintf(file, "%s%d,", i % 24 ? "" : "\n    ", bytes[i]);
   fprintf(file, "\n};\n");
@@ -531,79 +277,523 @@ static void print_facts(const char *path, const nsvcd_body *body) {
          (double)least, (double)most);
 }
 
-static int encode(int argc, char **argv) {
-  const char *paths[2] = {NULL, NULL};
-  nsvcd_encode_options options = {.patches = 0};
-  int path_count = 0;
-  for (int i = 0; i < argc; i++) {
-    const char *value = i + 1 < argc ? argv[i + 1] : "";
-    if (argv[i][0] != '-') {
-      if (path_count == 2)
-        return usage();
-      paths[path_count++] = argv[i];
-    } else if (strcmp(argv[i], "--no-triangles") == 0) {
-      options.no_triangles = 1;
-    } else if (strcmp(argv[i], "--no-latents") == 0) {
-      options.no_latents = 1;
-    } else if (strcmp(argv[i], "--latents") == 0) {
-      options.latents = 1;
-    } else if (strcmp(argv[i], "--points") == 0) {
-      if (!parse_count(value, 1, NSVCD_MAX_PATCHES, &options.patches))
-        return usage_error(argv[i], "out of range");
-      i++;
-    } else if (strcmp(argv[i], "--radius") == 0) {
-      if (!parse_float(value, &options.patch_radius) || options.patch_radius <= 0)
-        return usage_error(argv[i], "not a positive number of metres");
-      i++;
-    } else {
-      return usage_error(argv[i], "no such option");
-    }
-  }
-  if (path_count != 2)
-    return usage();
-  if (!ends_with(paths[1], ".body") && !ends_with(paths[1], ".h"))
-    return usage_error(paths[1], "neither .body nor .h");
-  if (options.no_triangles && options.no_latents)
+static int encode_options(const settings *options) {
+  const nsvcd_encode_options *encode = &options->encode;
+  if (options->path_count != 2)
+    return usage_error("encode", "IN.obj and OUT.body or OUT.h are wanted ('svcd encode --help')");
+  if (!ends_with(options->paths[1], ".body") && !ends_with(options->paths[1], ".h"))
+    return usage_error(options->paths[1], "neither .body nor .h");
+  if (encode->no_triangles && encode->no_latents)
     return usage_error("--no-latents", "nothing would be left");
-  if (options.latents && options.no_latents)
+  if (encode->latents && encode->no_latents)
     return usage_error("--latents", "not together with --no-latents");
-  if (options.patches && options.patch_radius > 0)
+  if (encode->patches && encode->patch_radius > 0)
     return usage_error("--radius", "not together with --points");
+  return DONE;
+}
 
-  double taken;
-  const nsvcd_body *body = encode_file("", paths[0], &options, &taken);
-  int good = body && write_body(paths[0], paths[1], body);
-  if (good)
-    print_facts(paths[1], body);
-  if (good)
-    printf("encoded in %.1f ms\n", 1e3 * taken);
-  nsvcd_body_free(body, NULL);
+static int encode(settings *options) {
+  const char *out = options->paths[1];
+  const int status = encode_options(options);
+  float scales[2];
+  thing t;
+  if (status != DONE || !take_scales(options->scale, 1, scales))
+    return USAGE;
+  const int good = load_obj(options->paths[0], scales[0], &t) &&
+                   encode_thing(&t, &options->encode) && write_body(t.path, out, t.body);
+  if (good) {
+    warn_of(&t, t.fault_count);
+    print_facts(out, t.body);
+    printf("encoded in %.1f ms\n", 1e3 * t.taken);
+  }
+  free_thing(&t);
   return good ? DONE : REFUSED;
 }
 
-static int info(int argc, char **argv) {
-  if (argc != 1)
-    return usage();
-  size_t size;
-  char *memory = read_file(argv[0], &size);
-  if (!memory)
+static void print_mesh(const thing *t) {
+  const mesh_report *r = &t->report;
+  printf("%s: an OBJ: %zu triangle%s, %zu vertices\n", t->path, r->triangles,
+         r->triangles == 1 ? "" : "s", r->vertices);
+  printf("box: %.4g x %.4g x %.4g m, from %.4g %.4g %.4g to %.4g %.4g %.4g\n",
+         r->high[0] - r->low[0], r->high[1] - r->low[1], r->high[2] - r->low[2], r->low[0],
+         r->low[1], r->low[2], r->high[0], r->high[1], r->high[2]);
+  printf("components: %zu, %zu of them closed", r->components, r->closed);
+  if (r->inwards)
+    printf(", %zu of these turned inwards: cavities, or inside out", r->inwards);
+  printf("\narea: %.4g m2", r->area);
+  if (r->closed)
+    printf(", volume of what is closed: %.4g m3", r->volume);
+  printf("\n");
+}
+
+static int info_of_mesh(const settings *options) {
+  const nsvcd_encode_options defaults = {.patches = 0};
+  float scales[2];
+  thing t;
+  if (!take_scales(options->scale, 1, scales))
+    return USAGE;
+  int good = load_obj(options->paths[0], scales[0], &t);
+  if (good) {
+    print_mesh(&t);
+    fflush(stdout);
+    good = encode_thing(&t, &defaults);
+    for (int i = 0; i < t.fault_count; i++)
+      printf("wrong: %s\n", t.faults[i]);
+    if (good && !t.fault_count)
+      printf("nothing is wrong with it\n");
+  }
+  if (good)
+    print_facts("as a body", t.body);
+  free_thing(&t);
+  return good ? DONE : REFUSED;
+}
+
+static int info(settings *options) {
+  thing t;
+  if (options->path_count != 1)
+    return usage_error("info", "an OBJ or a .body file is wanted ('svcd info --help')");
+  if (!is_body_file(options->paths[0]))
+    return info_of_mesh(options);
+  if (options->scale)
+    return usage_error("--scale", "of an OBJ; a .body file is in metres");
+  const int good = load_body(options->paths[0], 1, &t);
+  if (good)
+    print_facts(t.path, t.body);
+  free_thing(&t);
+  return good ? DONE : REFUSED;
+}
+
+// ------------------------------------------------------------------------------------------- sweep
+
+typedef struct sweep_job {
+  thing a, b;  // a moves
+  motion motion;
+  nsvcd_pose poses[MOST_POSES];
+  nsvcd_question question;
+  int by_proof;
+  void *workspace;
+  nsvcd_answer answer;
+  nsvcd_answer nearest;       // where --measure asks for it and they are free of each other
+  double microseconds;        // median, to know whether they meet
+  double microseconds_first;  // and when
+} sweep_job;
+
+// The network answers where a body holds no triangles: then nothing may be asked that it does not
+// know. Returns a status.
+static int sweep_method(sweep_job *job, nsvcd_sweep_options *sweep) {
+  const thing *bare = nsvcd_body_describe(job->a.body).triangles ? &job->b : &job->a;
+  const int proof = sweep->method != NSVCD_METHOD_NETWORK;
+  job->by_proof = proof && nsvcd_body_describe(bare->body).triangles;
+  if (job->by_proof)
+    return DONE;
+  if (sweep->method == NSVCD_METHOD_PROOF) {
+    complain("%s: it holds no triangles, and so there is no proof", bare->path);
     return REFUSED;
-  const nsvcd_body *body;
-  nsvcd_result result = nsvcd_body_load(memory, size, &body);
-  if (result)
-    complain("%s: %s", argv[0], nsvcd_result_string(result));
-  if (!result)
-    print_facts(argv[0], body);
-  free(memory);
-  return result ? REFUSED : DONE;
+  }
+  if (sweep->clearance > 0 || sweep->measure > 0 || sweep->skin > 0) {
+    complain("%s: the network knows neither --clearance, --measure nor --skin",
+             proof ? bare->path : "--method network");
+    return proof ? REFUSED : USAGE;
+  }
+  for (int i = 0; i < 2; i++) {
+    const thing *t = i ? &job->b : &job->a;
+    if (!nsvcd_body_describe(t->body).latents) {
+      complain("%s: it holds nothing for the network", t->path);
+      return REFUSED;
+    }
+  }
+  sweep->first = 0;
+  return DONE;
+}
+
+// Returns 0 after a complaint.
+static int sweep_once(sweep_job *job, nsvcd_answer *answer) {
+  const nsvcd_result result =
+      nsvcd_sweep(&job->question, job->workspace, nsvcd_sweep_workspace_size(NULL), answer);
+  return result ? complain("%s", reason_of(result)) : 1;
+}
+
+// Once to warm up, and then by the clock: the median, in microseconds. Negative after a complaint.
+static double sweep_timed(sweep_job *job, size_t repeat, nsvcd_answer *answer) {
+  double *times = (double *)allocate(repeat * sizeof *times);
+  int good = sweep_once(job, answer);
+  for (size_t i = 0; good && i < repeat; i++) {
+    const double start = seconds();
+    good = sweep_once(job, answer);
+    times[i] = 1e6 * (seconds() - start);
+  }
+  if (good)
+    qsort(times, repeat, sizeof *times, compare_doubles);
+  const double median = good ? (times[(repeat - 1) / 2] + times[repeat / 2]) / 2 : -1;
+  free(times);
+  return median;
+}
+
+// The answer, and, where they are free of each other, how near they come.
+static int sweep_ask(sweep_job *job, const settings *options) {
+  nsvcd_question *question = &job->question;
+  question->a.body = job->a.body;
+  question->a.poses = job->poses;
+  question->a.count = job->motion.count;
+  question->a.scale = job->a.scale;
+  question->b.body = job->b.body;
+  question->b.scale = job->b.scale;
+  question->options = options->sweep;
+  question->options.measure = 0;
+  for (size_t i = 0; i < job->motion.count; i++)
+    job->poses[i] = pose_rounded(&job->motion.poses[i]);
+  question->options.first = 0;
+  job->microseconds = sweep_timed(job, options->repeat, &job->answer);
+  if (job->microseconds < 0)
+    return 0;
+  if (job->answer.status != NSVCD_STATUS_CERTIFIED_FREE && options->sweep.first > 0) {
+    question->options.first = options->sweep.first;
+    job->microseconds_first = sweep_timed(job, options->repeat, &job->answer);
+  }
+  if (!(options->sweep.measure > 0) || job->answer.collides)
+    return job->microseconds_first >= 0;
+  question->options.first = 0;
+  question->options.clearance = 0;
+  question->options.measure = options->sweep.measure;
+  return sweep_once(job, &job->nearest);
+}
+
+// How it was decided.
+static void sweep_reason(const sweep_job *job, const settings *options, char *out, size_t size) {
+  const int proof = job->by_proof;
+  const char *reason = "the network's opinion";
+  if (job->answer.status == NSVCD_STATUS_WITNESS)
+    reason = options->sweep.clearance > 0 ? "proven, two triangles come so near"
+                                          : "proven, two triangles meet";
+  if (job->answer.status == NSVCD_STATUS_CERTIFIED_FREE)
+    reason = proof ? "proven, the surfaces never meet" : "proven, spheres about them never meet";
+  if (job->answer.status == NSVCD_STATUS_INSIDE)
+    reason = proof ? "proven, one is inside of the other at the start"
+                   : "estimated, one is inside of the other at the start";
+  if (job->answer.status == NSVCD_STATUS_UNDECIDED)
+    reason = "nearer than triangles are stored, or more work than --work allows";
+  snprintf(out, size, "%s", reason);
+  if (job->answer.status == NSVCD_STATUS_OK || job->answer.status == NSVCD_STATUS_LIMIT)
+    snprintf(out, size, "%s, logit %.3g", reason, (double)job->answer.logit);
+}
+
+// "hit at t = 0.4, the first contact: proven, two triangles meet".
+static void sweep_verdict(const sweep_job *job, const settings *options, char *out, size_t size) {
+  const nsvcd_answer *a = &job->answer;
+  const nsvcd_sweep_options *asked = &options->sweep;
+  const char *word = a->collides ? "hit" : "free";
+  char when[60] = "";
+  char near_by[60] = "";
+  char reason[120];
+  if (a->collides)
+    snprintf(when, sizeof when, " at t = %.4f%s", (double)a->contact_time,
+             asked->first > 0 ? ", the first contact" : "");
+  if (a->status == NSVCD_STATUS_UNDECIDED) {
+    word = a->collides ? "undecided, taken as a hit" : "undecided, taken as free";
+    snprintf(when, sizeof when, "; free until t = %.4f", (double)a->free_until);
+  }
+  if (asked->clearance > 0)
+    snprintf(near_by, sizeof near_by, ", %s %g m", a->collides ? "as near as" : "never as near as",
+             (double)asked->clearance);
+  sweep_reason(job, options, reason, sizeof reason);
+  snprintf(out, size, "%s%s%s: %s", word, when, near_by, reason);
+}
+
+// size: what is less than a millionth of it is rounding, and printed as 0.
+static void print_vector(const char *name, const float *v, double size, const char *unit) {
+  printf("%-10s", name);
+  for (int k = 0; k < 3; k++)
+    printf(" %.5g", fabs((double)v[k]) < 1e-6 * size ? 0.0 : (double)v[k]);
+  printf("%s\n", unit);
+}
+
+static void print_answer(const sweep_job *job, const settings *options) {
+  const nsvcd_answer *a = &job->answer;
+  char verdict[320];
+  double size = 0;
+  for (int k = 0; k < 3; k++)
+    size = fmax(size, job->b.high[k] - job->b.low[k]);
+  sweep_verdict(job, options, verdict, sizeof verdict);
+  printf("%s\n", verdict);
+  if (a->status == NSVCD_STATUS_WITNESS || a->status == NSVCD_STATUS_INSIDE)
+    print_vector("point", a->point, size, " m");
+  if (a->status == NSVCD_STATUS_WITNESS) {
+    // what is met of a sheet has a normal by its winding, on whichever side A is
+    const int sure = is_solid(&job->a) && is_solid(&job->b);
+    print_vector("normal", a->normal, 1, sure ? ", from B to A" : "");
+    printf("triangles  %lu of A, %lu of B, counted from 0\n", (unsigned long)a->triangle_a,
+           (unsigned long)a->triangle_b);
+  }
+  if (job->nearest.clearance_high > 0)
+    printf("clearance  %.4g to %.4g m, at t = %.4f\n", (double)job->nearest.clearance_low,
+           (double)job->nearest.clearance_high, (double)job->nearest.contact_time);
+  print_motion(&job->motion);
+  printf("time       %.1f us", job->microseconds);
+  if (job->microseconds_first > 0)
+    printf(", and %.1f us for the first contact", job->microseconds_first);
+  printf(" (median of %zu)", options->repeat);
+  if (job->a.taken + job->b.taken > 0)
+    printf("; encoding %.1f ms", 1e3 * (job->a.taken + job->b.taken));
+  printf("\n");
+  fflush(stdout);
+}
+
+// ------------------------------------------------------------------------------------- its picture
+
+// The mesh, or, of a .body file, the balls of its patches. Returns 0 after a complaint.
+static int picture_body(const thing *t, sweep_body *out) {
+  shapes_mesh balls;
+  float centre[3], radius;
+  memset(&balls, 0, sizeof balls);
+  out->name = t->path;
+  out->pale = t->memory ? 0.12 : 0.35;  // balls overlap
+  out->sheet = !t->memory && !is_solid(t);
+  for (uint32_t i = 0; t->memory && nsvcd_body_patch(t->body, i, centre, &radius); i++) {
+    const size_t first = balls.vertices;
+    shapes_ellipsoid(&balls, (double)radius, (double)radius, (double)radius, 6);
+    shapes_place(&balls, first, NULL, (double)centre[0], (double)centre[1], (double)centre[2]);
+  }
+  for (size_t i = 0; !t->memory && i < t->mesh.vertex_count; i++) {
+    const float *p = t->mesh.positions + 3 * i;
+    shapes_vertex(&balls, (double)p[0], (double)p[1], (double)p[2]);
+  }
+  const int good =
+      !balls.failed &&
+      oracle_mesh_init(&out->mesh, balls.positions, balls.vertices,
+                       t->memory ? balls.indices : t->mesh.indices,
+                       t->memory ? balls.triangles : t->mesh.triangle_count, (double)t->scale);
+  shapes_free(&balls);
+  return good ? 1 : complain("out of memory");
+}
+
+static int draw_job(const sweep_job *job, const settings *options) {
+  const nsvcd_answer *a = &job->answer;
+  sweep_picture p;
+  char verdict[320];
+  memset(&p, 0, sizeof p);
+  sweep_verdict(job, options, verdict, sizeof verdict);
+  p.title = a->collides ? "A hits B" : "A is free of B";
+  if (a->status == NSVCD_STATUS_UNDECIDED)
+    p.title = "Undecided";
+  p.verdict = verdict;
+  p.poses = job->motion.poses;
+  p.count = job->motion.count;
+  p.collides = a->collides;
+  p.shown = a->collides ? (double)a->contact_time : 0.5;
+  p.shown_as = a->collides ? "contact" : "half way";
+  if (job->nearest.clearance_high > 0) {
+    p.shown = (double)job->nearest.contact_time;
+    p.shown_as = "nearest";
+  }
+  if (a->status == NSVCD_STATUS_WITNESS) {
+    p.point = a->point;
+    p.normal = a->normal;
+  }
+  const int good = picture_body(&job->a, &p.a) && picture_body(&job->b, &p.b) &&
+                   sweep_draw(options->picture, &p);
+  oracle_mesh_free(&p.a.mesh);
+  oracle_mesh_free(&p.b.mesh);
+  if (good)
+    printf("picture    %s\n", options->picture);
+  return good;
+}
+
+static int sweep_run(sweep_job *job, settings *options, const float *scales) {
+  nsvcd_sweep_options *ask = &options->sweep;
+  const motion_told told = {options->from, options->to, options->rotate};
+  if (ask->method == NSVCD_METHOD_NETWORK)
+    options->encode.no_triangles = 1;
+  if (!load_thing(options->paths[0], scales[0], &options->encode, &job->a) ||
+      !load_thing(options->paths[1], scales[1], &options->encode, &job->b))
+    return REFUSED;
+  if (!take_motion(&told, &job->a, &job->b, &job->motion))
+    return USAGE;
+  const int status = sweep_method(job, ask);
+  if (status != DONE)
+    return status;
+  if (!sweep_ask(job, options))
+    return REFUSED;
+  print_answer(job, options);
+  return !options->picture || draw_job(job, options) ? DONE : REFUSED;
+}
+
+static int sweep(settings *options) {
+  float scales[2];
+  if (options->path_count != 2)
+    return usage_error("sweep", "two files are wanted, A and B ('svcd sweep --help')");
+  if (!take_scales(options->scale, 2, scales))
+    return USAGE;
+  sweep_job *job = (sweep_job *)allocate(sizeof *job);
+  memset(job, 0, sizeof *job);
+  job->workspace = allocate(nsvcd_sweep_workspace_size(NULL));
+  const int status = sweep_run(job, options, scales);
+  free_thing(&job->a);
+  free_thing(&job->b);
+  free(job->workspace);
+  free(job);
+  return status;
+}
+
+// -------------------------------------------------------------------------------------------- help
+
+static void help_sweep(FILE *out) {
+  fprintf(
+      out,
+      "svcd sweep A B [--from POSE] [--to POSE] [--rotate AXIS,DEGREES] [--scale S[,S]]\n"
+      "           [--picture OUT.svg] [--clearance METRES] [--measure METRES] [--skin METRES]\n"
+      "           [--first T] [--method proof|network] [--points N] [--work N] [--repeat R]\n"
+      "A moves, B rests where its file has it: do they hit each other? A and B are OBJ or .body\n"
+      "files. Without --from and --to A passes straight through the middle of B's box, from\n"
+      "outside to outside, downwards along the axis along which B is thinnest.\n"
+      "  --from, --to POSE  x,y,z[,qx,qy,qz,qw]: where A's origin is at t = 0 and t = 1, and how\n"
+      "                     it is turned; one that is not given: as the file has it\n"
+      "  --rotate AXIS,DEG  turn on the way, about A's origin: z,90\n"
+      "  --scale S[,S]      to metres: 0.001 of millimetres; of both, or of A and of B (1)\n"
+      "  --picture OUT.svg  draws B, and A at the start, at the contact and at the end\n"
+      "  --clearance M      to come as near as this is a hit (0: to meet is)\n"
+      "  --measure M        if they are free: how near do they come? to this\n"
+      "  --skin M           to touch at the start, no deeper than this, is no hit (0)\n"
+      "  --first T          the time of the contact is that of the first one, to this share of\n"
+      "                     the motion (0.001; 0: of any contact)\n"
+      "  --method M         proof: a witness or a certificate; network: an opinion (proof)\n"
+      "  --points N         patches of a body, 1..%d (%d and more; %d for the network)\n"
+      "  --work N           units that a proof may take (%d)\n"
+      "  --repeat R         timed queries, of which the median is printed (101)\n"
+      "The first line begins with hit, free or undecided; the exit status is 0 for all of them.\n",
+      NSVCD_MAX_PATCHES, NSVCD_DEFAULT_PATCHES, NSVCD_DEFAULT_NETWORK_PATCHES, NSVCD_DEFAULT_WORK);
+}
+
+static void help_info(FILE *out) {
+  fprintf(
+      out,
+      "svcd info FILE.obj|FILE.body [--scale S]\n"
+      "Of an OBJ: triangles, box, components, area and volume, the body that it makes, and\n"
+      "what is wrong with it: a size that is hardly meant, inside out, open edges, winding that\n"
+      "does not agree, non-manifold edges, triangles without area or too large for the patches.\n"
+      "Of a body: patches, bytes, triangles, sphere.\n"
+      "  --scale S  to metres: 0.001 of millimetres (1)\n");
+}
+
+static void help_encode(FILE *out) {
+  fprintf(out,
+          "svcd encode IN.obj OUT.body|OUT.h [--scale S] [--points N | --radius METRES]\n"
+          "            [--no-triangles | --no-latents | --latents]\n"
+          "Encodes a mesh, to a file or to a C array.\n"
+          "  --scale S        to metres: 0.001 of millimetres (1)\n"
+          "  --points N       patches, 1..%d (%d and more, by the number of triangles)\n"
+          "  --radius METRES  as many as make patches of this radius\n"
+          "  --no-triangles   for the network alone\n"
+          "  --no-latents     for the proof alone\n"
+          "  --latents        for both, also where there are more than %d patches\n",
+          NSVCD_MAX_PATCHES, NSVCD_DEFAULT_PATCHES, NSVCD_SMALL_PATCHES);
+}
+
+static void help_check(FILE *out) {
+  fprintf(out,
+          "svcd check [--method proof|network] [--points N] [--pairs K] [--model tiny|small|base]\n"
+          "           [--int8] [--recall R] [--clearance METRES] [--first TOLERANCE]\n"
+          "           [--work LIMIT] [--repeat R] FILE\n"
+          "Answers the problems of FILE, a line each on standard output, separated by tabs:\n"
+          "ID LOGIT COLLIDES TIME MOVING_PATCH FIXED_PATCH STATUS MICROSECONDS; a summary on\n"
+          "standard error.\n"
+          "  --method M          proof: a witness or a certificate; network: an opinion (proof)\n"
+          "  --points N          patches of a body, 1..%d (%d and more; %d for the network)\n"
+          "  --pairs K           pairs of patches that the network looks at, 1..%d (8)\n"
+          "  --model M           decoder (base)\n"
+          "  --int8              the decoder in 8-bit integers\n"
+          "  --recall R          share of collisions to be found: 0.99, 0.999, 0.9999 or 0:\n"
+          "                      balanced errors (0)\n"
+          "  --clearance METRES  to come as close as this is a collision (0: to meet is)\n"
+          "  --first TOLERANCE   TIME is that of the first contact, to this share of the motion\n"
+          "                      (0: of any contact)\n"
+          "  --work LIMIT        units that a proof may take (%d)\n"
+          "  --repeat R          time every query R times, report the least (5)\n",
+          NSVCD_MAX_PATCHES, NSVCD_DEFAULT_PATCHES, NSVCD_DEFAULT_NETWORK_PATCHES, NSVCD_MAX_PAIRS,
+          NSVCD_DEFAULT_WORK);
+}
+
+typedef struct command {
+  const char *name;
+  unsigned bit;
+  int (*run)(settings *options);
+  void (*help)(FILE *out);
+  size_t paths;   // at most
+  size_t repeat;  // where --repeat is not given
+  float first;    // where --first is not given
+} command;
+
+static const command commands[] = {
+    {"sweep", SWEEP, sweep, help_sweep, 2, 101, 0.001f},
+    {"info", INFO, info, help_info, 1, 0, 0},
+    {"encode", ENCODE, encode, help_encode, 2, 0, 0},
+    {"check", CHECK, check, help_check, 1, 5, 0},
+};
+#define COMMANDS (sizeof commands / sizeof commands[0])
+
+static void usage(FILE *out) {
+  fprintf(out,
+          "svcd - does a body, moving so, hit another one? (neuralsvcd.h)\n"
+          "  svcd sweep A.obj B.obj            A moves, B rests: do they hit, when and where\n"
+          "  svcd info FILE.obj                what a mesh is, and what is wrong with it\n"
+          "  svcd encode IN.obj OUT.body       a body, ready to be loaded, or a C array OUT.h\n"
+          "  svcd check PROBLEMS.txt           answers a file of problems\n"
+          "  svcd COMMAND --help               its options\n"
+          "Exit status: 0 done, 1 a file or a line was refused, 2 usage.\n"
+          "What it reads and prints: examples/FORMATS.md.\n");
+}
+
+static const command *find_command(const char *name) {
+  for (size_t i = 0; i < COMMANDS; i++)
+    if (strcmp(name, commands[i].name) == 0)
+      return &commands[i];
+  return NULL;
+}
+
+static int no_command(const char *name) {
+  const char *meant = NULL;
+  size_t distance = 3;
+  for (size_t i = 0; i < COMMANDS; i++)
+    consider(name, commands[i].name, &meant, &distance);
+  if (ends_with(name, ".obj") || ends_with(name, ".body"))
+    meant = "sweep A.obj B.obj";
+  if (meant)
+    complain("no command '%s'; did you mean 'svcd %s'?", name, meant);
+  else
+    complain("no command '%s': there are sweep, info, encode and check ('svcd --help')", name);
+  return USAGE;
+}
+
+static int run(const command *c, int argc, char **argv) {
+  const command_line line = {options, OPTION_COUNT_OF, c->bit, c->name, argv, argc};
+  settings given;
+  memset(&given, 0, sizeof given);
+  given.repeat = c->repeat;
+  given.sweep.first = c->first;
+  const int status = take_options(&line, &given, given.paths, c->paths, &given.path_count);
+  if (status != DONE)
+    return status;
+  if (!given.help)
+    return c->run(&given);
+  c->help(stdout);
+  return DONE;
 }
 
 int main(int argc, char **argv) {
-  if (argc > 1 && strcmp(argv[1], "check") == 0)
-    return check(argc - 2, argv + 2);
-  if (argc > 1 && strcmp(argv[1], "encode") == 0)
-    return encode(argc - 2, argv + 2);
-  if (argc > 1 && strcmp(argv[1], "info") == 0)
-    return info(argc - 2, argv + 2);
-  return usage();
+  const char *name = argc > 1 ? argv[1] : "";
+  const int help =
+      strcmp(name, "--help") == 0 || strcmp(name, "-h") == 0 || strcmp(name, "help") == 0;
+  if (argc < 2) {
+    usage(stderr);
+    return USAGE;
+  }
+  if (help && argc > 2)
+    name = argv[2];
+  const command *c = find_command(name);
+  if (help) {
+    if (argc > 2 && !c)
+      return no_command(name);
+    (c ? c->help : usage)(stdout);
+    return DONE;
+  }
+  return c ? run(c, argc - 2, argv + 2) : no_command(name);
 }

@@ -93,10 +93,166 @@ expect 0 '' build/svcd info "$dir/latents.body"
 printf 'bad' >"$dir/bad.body"
 expect 1 'bad.body: the body is damaged' build/svcd info "$dir/bad.body"
 expect 1 'none.body: No such file' build/svcd info "$dir/none.body"
+case $(head -c 4 "$dir/mug.body") in NSVB) mark=BVSN ;; *) mark=NSVB ;; esac
+{ printf $mark; tail -c +5 "$dir/mug.body"; } >"$dir/other.body"
+expect 1 'other.body: encoded on a machine of the other byte order' build/svcd info "$dir/other.body"
 expect 1 'none.obj: the file is missing' build/svcd encode "$dir/none.obj" "$dir/x.body"
 printf 'v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 4\n' >"$dir/bad.obj"
 expect 1 'bad.obj:4: an index' build/svcd encode "$dir/bad.obj" "$dir/x.body"
 test ! -e "$dir/x.body" || fail "a refused mesh left a body behind"
+
+# svcd info on meshes by hand, and what is wrong with each. cube FILE FLIP SIZE X FACES: FACES of a cube's six, added.
+cube() {
+  first=$(grep -c '^v' "$1" 2>/dev/null)
+  awk -v flip="$2" -v s="$3" -v x="$4" -v faces="$5" -v first="$first" 'BEGIN {
+    for (i = 0; i < 8; i++) print "v", x + s * (i % 2), s * (int(i / 2) % 2), s * int(i / 4)
+    split("1342 5687 1265 3784 1573 2486", face, " ")
+    for (f = 1; f <= faces; f++) {
+      line = "f"
+      for (k = 1; k <= 4; k++) line = line " " first + substr(face[f], flip ? 5 - k : k, 1)
+      print line
+    } }' >>"$1"
+}
+cube "$dir/cube.obj" 0 1 0 6
+cube "$dir/open.obj" 0 1 0 5
+cube "$dir/inside_out.obj" 1 1 0 6
+cube "$dir/mm.obj" 0 184 0 6
+cube "$dir/two.obj" 0 1 0 6
+cube "$dir/two.obj" 0 1 3 6
+cube "$dir/cavity.obj" 0 4 0 6
+cube "$dir/cavity.obj" 1 1 1 6
+cp "$dir/cube.obj" "$dir/degenerate.obj"
+echo 'f 1 2 2' >>"$dir/degenerate.obj"
+cp "$dir/cube.obj" "$dir/fin.obj"
+printf 'v 5 5 5\nf 1 2 9\n' >>"$dir/fin.obj"
+sed 's/^f 1 3 4 2/f 2 4 3 1/' "$dir/cube.obj" >"$dir/turned.obj"
+printf 'v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\nf 3 2 1\n' >"$dir/flat.obj"
+# says FILE COUNT TEXT...: of an OBJ `info` prints so many faults, and these texts; `encode` warns of as many.
+says() {
+  file=$1 count=$2
+  shift 2
+  expect 0 '' build/svcd info "$dir/$file.obj"
+  test "$(grep -c '^wrong: ' "$dir/out")" = "$count" || fail "info $file, not $count faults: $(grep '^wrong' "$dir/out")"
+  for text; do grep -q "$text" "$dir/out" || fail "info $file, no '$text': $(cat "$dir/out")"; done
+  expect 0 '' build/svcd encode "$dir/$file.obj" "$dir/x.body"
+  test "$(grep -c 'warning: ' "$dir/err")" = "$count" || fail "encode $file, not $count warnings: $(cat "$dir/err")"
+}
+says cube 0 'cube.obj: an OBJ: 12 triangles, 8 vertices' 'box: 1 x 1 x 1 m' 'components: 1, 1 of them closed$' \
+  'area: 6 m2, volume of what is closed: 1 m3' 'nothing is wrong with it' 'as a body: 192 points'
+says open 1 'wrong: 4 open edges' 'components: 1, 0 of them closed' 'area: 5 m2$'
+says inside_out 1 'wrong: inside out: its volume is -1 m3' '1 of these turned inwards'
+says mm 1 'wrong: a body of 184 m: are these millimetres? try --scale 0.001'
+says two 0 'components: 2, 2 of them closed$' 'volume of what is closed: 2 m3'
+says cavity 0 'components: 2, 2 of them closed, 1 of these turned inwards' 'volume of what is closed: 63 m3'
+says degenerate 1 'wrong: 1 degenerate triangle:'
+says fin 2 'wrong: 2 open edges' 'wrong: 1 non-manifold edge:' 'components: 1, 0 of them closed'
+says turned 1 'wrong: 4 edges of inconsistent winding' 'components: 1, 0 of them closed'
+says flat 1 'wrong: flat' 'components: 1, 1 of them closed'
+expect 0 '' build/svcd info --scale 0.001 "$dir/mm.obj"
+grep -q 'box: 0.184 x 0.184 x 0.184 m' "$dir/out" || fail "info --scale: $(cat "$dir/out")"
+grep -q 'nothing is wrong' "$dir/out" || fail "184 mm are wrong: $(cat "$dir/out")"
+expect 0 '' build/svcd info --scale 1e-6 "$dir/mm.obj"
+grep -q 'wrong: a body of 0.000184 m: .*--scale 0.001$' "$dir/out" || fail "info of 0.2 mm: $(cat "$dir/out")"
+expect 0 '' build/svcd encode --scale=0.001 "$dir/mm.obj" "$dir/x.body"
+grep -q 'radius 0.1[0-9]* m' "$dir/out" || fail "encode --scale: $(cat "$dir/out")"
+for scale in 0 -1 x 1e7 nan 1,2; do expect 2 'scale' build/svcd info "$dir/cube.obj" --scale $scale; done
+# A floor of two triangles, and small ones: patches follow the area.
+{ printf 'v 0 0 0\nv 99 0 0\nv 99 99 0\nv 0 99 0\nf 1 2 3 4\n'
+  awk 'BEGIN { for (i = 0; i < 4000; i++) print "v", i % 64 / 64, int(i / 64) / 64, 1 "\nv", i % 64 / 64 + .01, int(i / 64) / 64, \
+    1 "\nv", i % 64 / 64, int(i / 64) / 64 + .01, 1 "\nf -1 -2 -3" }'; } >"$dir/floor.obj"
+says floor 3 'wrong: 2 triangles are too large for the patches'
+printf 'v 0 0 0\nv 1 0 0\nv 0 1e9 0\nf 1 2 3\n' >"$dir/large.obj"
+expect 1 "large.obj:3: .*NSVCD_MAX_COORDINATE: 1e+06.*: 'v 0 1e9 0'" build/svcd info "$dir/large.obj"
+printf 'v 0 0 0\nv 1 0 0\nv 2 0 0\nf 1 2 3\n' >"$dir/line.obj"
+expect 1 'line.obj: there is no triangle, or no area' build/svcd info "$dir/line.obj"
+grep -q 'wrong: 1 degenerate triangle' "$dir/out" || fail "info of no area: $(cat "$dir/out")"
+printf 'solid x\n' >"$dir/x.stl"
+expect 1 'x.stl: svcd reads OBJ and .body files' build/svcd info "$dir/x.stl"
+
+# svcd sweep: verdicts that are known. verdict TEXT ARGUMENTS...: what the first line says.
+verdict() {
+  wanted=$1
+  shift
+  expect 0 '' build/svcd sweep --repeat 1 "$@"
+  head -1 "$dir/out" | grep -q -e "$wanted" || fail "no '$wanted': sweep $*: $(cat "$dir/out" "$dir/err")"
+}
+line() { grep -q -e "$1" "$dir/out" || fail "no '$1': $(cat "$dir/out")"; }
+verdict '^hit at t = 0.4[0-9]*, the first contact: proven, two triangles meet$' "$dir/cube.obj" "$dir/cube.obj" \
+  --scale .5,1 --from .25,.25,5 --to .25,.25,-5
+awk 'NR == 1 { sub(",", "", $5); exit !($5 >= 0.4 && $5 <= 0.401) }' "$dir/out" || fail "the first contact: $(cat "$dir/out")"
+line '^normal *0 0 1, from B to A$'
+line '^triangles *[0-9]* of A, [23] of B, counted from 0$'
+line '^point *[0-9.]* [0-9.]* [01][0-9.]* m$'
+line '^motion *A from 0.25 0.25 5 to 0.25 0.25 -5$'
+line '^time *[0-9.]* us, and [0-9.]* us for the first contact (median of 1); encoding [0-9.]* ms$'
+verdict '^free: proven, the surfaces never meet$' "$dir/cube.obj" "$dir/cube.obj" --from 2,0,5 --to=2,0,-5 --measure 0.001
+awk '/^clearance/ { good = $2 <= 1 && $4 >= 1 && $4 - $2 < 0.0021 } END { exit !good }' "$dir/out" || fail "they pass at 1 m: $(cat "$dir/out")"
+verdict '^free, never as near as 0.9 m: ' "$dir/cube.obj" "$dir/cube.obj" --from 2,0,5 --to 2,0,-5 --clearance 0.9
+verdict '^hit .* as near as 1.1 m: ' "$dir/cube.obj" "$dir/cube.obj" --from 2,0,5 --to 2,0,-5 --clearance 1.1
+verdict '^hit at t = 0.0000, .*one is inside of the other' "$dir/cube.obj" "$dir/mm.obj" --from 5,5,5 --to 6,6,6
+verdict '^free' "$dir/cube.obj" "$dir/cube.obj" --from 0,0,1 --to 0,0,5 --skin 0.001
+verdict '^hit at t = 0.0000' "$dir/cube.obj" "$dir/cube.obj" --from 0,0,1 --to 0,0,5
+verdict '^undecided, taken as a hit; free until t = 0.[0-9]*: ' "$dir/cube.obj" "$dir/cube.obj" --work 1
+verdict '^hit' "$dir/cube.obj" "$dir/open.obj"
+! grep -q 'from B to A' "$dir/out" || fail "the side of a sheet is not known: $(cat "$dir/out")"
+# A turns on its way, and reaches B where it turns far enough that way; a whole turn is not none.
+verdict '^free' "$dir/cube.obj" "$dir/cube.obj" --from 0.5,2.2,0 --to 0.5,2.2,0
+verdict '^hit' "$dir/cube.obj" "$dir/cube.obj" --from 0.5,2.2,0 --to 0.5,2.2,0 --rotate z,-135
+line 'turning -135 degrees about z'
+verdict '^free' "$dir/cube.obj" "$dir/cube.obj" --from 0.5,2.2,0 --to 0.5,2.2,0 --rotate z,45
+verdict '^hit' "$dir/cube.obj" "$dir/cube.obj" --from 0.5,2.2,0 --to 0.5,2.2,0 --rotate z,360
+verdict '^hit' "$dir/cube.obj" "$dir/cube.obj" --from 0.5,2.2,0 --to 0.5,2.2,0,0,0,-0.9239,0.3827
+line 'turning 135 degrees about'
+# Without a motion: through B where it is thinnest, from outside to outside; two cubes side by side leave a way.
+verdict '^free' "$dir/cube.obj" "$dir/two.obj"
+line '^motion *A from 1.5 1.9 0 to 1.5 -1.9 0: straight through B along y, where it is thinnest$'
+verdict '^hit' "$dir/cube.obj" "$dir/two.obj" --scale 2.1,1
+verdict '^hit' "$dir/mm.obj" "$dir/cube.obj" --scale 0.001,1
+test ! -s "$dir/err" || fail "184 mm are warned of: $(cat "$dir/err")"
+verdict '^hit' "$dir/mm.obj" "$dir/cube.obj"
+grep -q 'warning: .*mm.obj: a body of 184 m' "$dir/err" || fail "no warning of 184 m: $(cat "$dir/err")"
+# .body files, and the network.
+expect 0 '' build/svcd encode "$dir/cube.obj" "$dir/cube.body"
+verdict '^free: proven' "$dir/cube.body" "$dir/cube.obj" --from -2,0,5 --to -2,0,-5 --scale 1.9,1
+verdict '^hit .*proven' "$dir/cube.body" "$dir/cube.obj" --from -2,0,5 --to -2,0,-5 --scale 2.1,1
+verdict '^free: proven' "$dir/cube.obj" "$dir/cube.body" --from 2,0,5 --to 2,0,-5 --scale 1,1.9
+verdict '^hit .*proven' "$dir/cube.obj" "$dir/cube.body" --from 2,0,5 --to 2,0,-5 --scale 1,2.1
+verdict "^hit .*: the network's opinion, logit" "$dir/latents.body" "$dir/cube.obj"
+verdict "^hit .*: the network's opinion, logit" "$dir/cube.obj" "$dir/cube.obj" --method network
+expect 1 'latents.body: the network knows neither' build/svcd sweep "$dir/latents.body" "$dir/cube.obj" --measure 0.1
+expect 1 'latents.body: it holds no triangles' build/svcd sweep "$dir/latents.body" "$dir/cube.obj" --method proof
+expect 1 'proof.body: it holds nothing for the network' build/svcd sweep "$dir/proof.body" "$dir/cube.obj" --method network
+expect 2 'network knows neither' build/svcd sweep "$dir/cube.obj" "$dir/cube.obj" --method network --skin 0.1
+# Pictures are XML, whatever the names are: of a hit, of what is free, of what is not closed, of bodies.
+cp "$dir/cube.obj" "$dir/a&<b>.obj"
+picture() {
+  rm -f "$dir/x.svg"
+  expect 0 '' build/svcd sweep --repeat 1 "$@" --picture "$dir/x.svg"
+  line '^picture *.*x.svg$'
+  tail -1 "$dir/x.svg" | grep -q '^</svg>$' || fail "the picture is not whole: sweep $*"
+  if command -v xmllint >/dev/null; then xmllint --noout "$dir/x.svg" || fail "the picture is not XML: sweep $*"; fi
+}
+picture "$dir/a&<b>.obj" "$dir/cube.obj"
+grep -q '>contact<' "$dir/x.svg" || fail "no contact in the picture"
+picture "$dir/cube.obj" "$dir/two.obj"
+grep -q '>half way<' "$dir/x.svg" || fail "no 'half way' in the picture"
+picture "$dir/cube.obj" "$dir/two.obj" --measure 0.01
+grep -q '>nearest<' "$dir/x.svg" || fail "no 'nearest' in the picture"
+picture "$dir/open.obj" "$dir/mug.body" --scale 0.05,1
+picture "$dir/flat.obj" "$dir/flat.obj"
+expect 1 'cannot be written' build/svcd sweep "$dir/cube.obj" "$dir/cube.obj" --picture "$dir/no folder/x.svg"
+# What is wrong is named.
+expect 1 'none.obj: the file is missing' build/svcd sweep "$dir/cube.obj" "$dir/none.obj"
+expect 1 "bad.obj:4: an index .*: 'f 1 2 4'" build/svcd sweep "$dir/bad.obj" "$dir/cube.obj"
+expect 1 'bad.body: the body is damaged' build/svcd sweep "$dir/cube.obj" "$dir/bad.body"
+expect 2 'did you mean --from' build/svcd sweep "$dir/cube.obj" "$dir/cube.obj" --form 1,2,3
+expect 2 'did you mean --from' build/svcd sweep "$dir/cube.obj" "$dir/cube.obj" --form=1,2,3
+expect 2 'the length 2, not 1' build/svcd sweep "$dir/cube.obj" "$dir/cube.obj" --to 1,2,3,0,0,0,2
+expect 2 'not together with another rotation' build/svcd sweep "$dir/cube.obj" "$dir/cube.obj" --to 1,2,3,0,0,1,0 --rotate z,9
+for option in --from=1,2 --from=1,2,x --from=1,2,nan --from=1,2,3,4 --from=1,2,2e6 '--from=1,2,3,' --to= --rotate=w,9 '--rotate=z,' \
+  --rotate=z,99999 --scale=1,2,3 --scale=0 --measure=0 --measure=-1 --clearance=2e6 --skin=-1 --points=0 --method=magic --picture; do
+  expect 2 "${option%%=*}" build/svcd sweep "$dir/cube.obj" "$dir/cube.obj" "$option"
+done
 
 # The baked array, as C and C++.
 cat >"$dir/baked.c" <<END
@@ -146,7 +302,7 @@ done
 awk '{ t[NR] = $1 } END { exit !(NR == 3 && t[2] <= t[1] && t[3] < t[2] && t[2] < 0.5 && t[3] > 0.3) }' "$dir/times" ||
   fail "times of contact: $(cat "$dir/times")"
 expect 2 'out of range' build/svcd check --clearance -1 "$dir/two.txt"
-expect 2 'not in 0..1' build/svcd check --first 2 "$dir/two.txt"
+expect 2 'not a number in 0..1' build/svcd check --first 2 "$dir/two.txt"
 expect 2 'neither' build/svcd check --method network --first 0.1 "$dir/two.txt"
 
 # Problem files that must be refused, with file, line and reason. refused LINE REASON TEXT
@@ -199,14 +355,24 @@ expect 1 "$dir: Is a directory" build/svcd check "$dir"
 
 # Usage.
 expect 2 'svcd check' build/svcd
-expect 2 'svcd check' build/svcd frobnicate
+expect 2 "no command 'frobnicate'" build/svcd frobnicate
+expect 2 "no command 'swep'; did you mean 'svcd sweep'" build/svcd swep a.obj b.obj
+expect 2 "did you mean 'svcd sweep A.obj B.obj'" build/svcd a.obj b.obj
 expect 2 'svcd check' build/svcd check
-expect 2 'svcd check' build/svcd info
-expect 2 'svcd check' build/svcd encode "$dir/my.obj"
+expect 2 'svcd info' build/svcd info
+expect 2 'svcd encode' build/svcd encode "$dir/my.obj"
+expect 2 'svcd sweep' build/svcd sweep "$dir/my.obj"
+expect 2 'one file too many' build/svcd info "$dir/my.obj" "$dir/my.obj"
+for help in --help -h help 'help sweep' 'sweep --help' 'info -h' 'encode --help' 'check --help'; do
+  # shellcheck disable=SC2086
+  expect 0 '' build/svcd $help
+  test ! -s "$dir/err" || fail "svcd $help on standard error: $(head -1 "$dir/err")"
+  grep -q '^svcd ' "$dir/out" || fail "svcd $help says: $(head -1 "$dir/out")"
+done
 expect 2 'neither .body nor .h' build/svcd encode "$dir/my.obj" "$dir/my.txt"
 expect 2 'not together' build/svcd encode "$dir/my.obj" "$dir/my.body" --points 3 --radius 1
 expect 2 'no such option' build/svcd encode "$dir/my.obj" "$dir/my.body" --speed 3
-expect 2 'one problem file' build/svcd check "$dir/good.txt" "$dir/good.txt"
+expect 2 'one file too many' build/svcd check "$dir/good.txt" "$dir/good.txt"
 for option in '--points 0' '--points 65537' '--pairs 257' '--pairs x' '--model huge' '--recall 0.5' '--recall nan' \
   '--repeat 0' '--speed 3' '--points' '--method both' '--work 0' '--work x'; do
   # shellcheck disable=SC2086

@@ -45,11 +45,13 @@ for cc in $(compilers "${CC:-cc}" gcc clang); do
   keep
   compile "$cc" c c11 -O0
   compile "$cc" c c17 -O0
+  compile "$cc" c c99 "-DNSVCD_STATIC -O0"  # no warning of what nobody calls
 done
 for cxx in $(compilers "${CXX:-c++}" g++ clang++); do
   compile "$cxx" cc c++11 "-O2 -fno-pic"
   keep
   compile "$cxx" cc c++17 -O0
+  compile "$cxx" cc c++11 "-DNSVCD_STATIC -O0"
 done
 test "$objects" -gt 0 || fail "no compiler"
 
@@ -73,7 +75,6 @@ if test "$(uname -m)" = x86_64; then
   compile "${CC:-cc}" c c99 "-mavx2 -mfma -O0"
   compile "${CXX:-c++}" cc c++11 "-mavx512f -O0"
 fi
-compile "${CC:-cc}" c c99 "-DNSVCD_STATIC -Wno-unused-function -O0"
 for without in PROOF NETWORK "NETWORK ENCODER" "PROOF ENCODER" ENCODER OBJ SMALL BASE INT8 FLOAT GRADIENT OPTIMIZER "GRADIENT OPTIMIZER" "SMALL BASE" "ENCODER SMALL BASE FLOAT STDIO"; do
   compile "${CC:-cc}" c c99 "$(printf ' -DNSVCD_NO_%s' $without) -O0"
 done
@@ -95,6 +96,41 @@ printf '#define NEURALSVCD_IMPLEMENTATION\n#define NSVCD_NO_NETWORK\n#include "n
 "${CC:-cc}" -std=c99 $strict -O0 -c "$dir/alone/proof.c" -o "$dir/alone/proof.o" || fail "NSVCD_NO_NETWORK without weights.h"
 echo "header: NSVCD_NO_NETWORK without weights.h"
 
+# A build that lacks something scales a body whole or not at all.
+cat >"$dir/scale.c" <<END
+#define NEURALSVCD_IMPLEMENTATION
+#include "$here/neuralsvcd.h"
+#include <stdio.h>
+static uint64_t memory[1 << 17];
+int main(int argc, char **argv) {
+  const nsvcd_body *body = NULL;
+#ifdef ENCODES
+  nsvcd_mesh mesh;
+  if (argc != 3 || nsvcd_obj_load(argv[1], NULL, &mesh, NULL)) return 1;
+  if (nsvcd_encode(&mesh, NULL, NULL, memory, sizeof memory, &body)) return 1;
+#else
+  FILE *from = fopen(argv[1], "rb");
+  const size_t size = argc == 3 && from ? fread(memory, 1, sizeof memory, from) : 0;
+  if (nsvcd_body_load(memory, size, &body)) return 1;
+  const nsvcd_result result = nsvcd_body_scale(body, 3, memory, sizeof memory, &body);
+  if (result) return puts(nsvcd_result_string(result)) < 0;
+#endif
+  FILE *to = fopen(argv[2], "wb");
+  return fwrite(body, 1, nsvcd_body_describe(body).size, to) == 0 || fclose(to);
+}
+END
+scale() {  # flags, from, to
+  "${CC:-cc}" -std=c99 -Wall -Wextra -O0 $1 "$dir/scale.c" -o "$dir/scale" -lm || fail "bodies that are scaled, $1"
+  (cd "$dir" && ./scale "$2" "$3") || fail "a body is not scaled, $1"
+}
+scale -DENCODES mug.obj mug.body
+scale "" mug.body full.body
+scale -DNSVCD_NO_NETWORK mug.body proof.body
+cmp "$dir/full.body" "$dir/proof.body" || fail "without the network another body comes out"
+said=$(scale -DNSVCD_NO_PROOF mug.body network.body)
+test ! -e "$dir/network.body" && test -n "$said" || fail "triangles that keep their size in a scaled body"
+echo "header: bodies are scaled whole, or refused"
+
 # -fno-pic: else tables of constant pointers count as data, for the loader relocates them.
 for object in "$dir"/kept_*.o; do
   bad=$(nm -g --defined-only "$object" | awk '$3 !~ /^_?nsvcd_[a-z]/ || $3 ~ /^_?nsvcd__/ { print $3 }')
@@ -106,8 +142,9 @@ done
 echo "header: no unprefixed symbol, no mutable data"
 
 # Macros: what is there after the header and not after what it includes.
-case $(uname -m) in x86_64) other=arm_neon ;; *) other=mmintrin ;; esac  # what the header includes for other processors
-includes=$(sed -n 's/^ *#include <\(.*\)>/#include <\1>/p' neuralsvcd.h | grep -v $other)
+# Not what the header includes for other processors and compilers.
+case $(uname -m) in x86_64) other='arm_neon|<intrin|wasm' ;; *) other='intrin|wasm' ;; esac
+includes=$(sed -n 's/^ *#include <\(.*\)>/#include <\1>/p' neuralsvcd.h | grep -Ev "$other")
 printf '%s\n' "$includes" >"$dir/none.c"
 "${CC:-cc}" -std=c99 -dM -E "$dir/none.c" | sort >"$dir/before"
 "${CC:-cc}" -std=c99 -dM -E "$dir/twice.c" | sort >"$dir/after"

@@ -5,9 +5,14 @@
 check_state check;
 
 void test_results(void);
+void test_math(void);
+void test_vectors(void);
+void test_memory(void);
 void test_mesh(void);
 void test_patches(void);
+void test_regions(void);
 void test_surface(void);
+void test_weights(void);
 void test_encoder(void);
 void test_latent_rotation(void);
 void test_body(void);
@@ -39,9 +44,14 @@ typedef struct test_file {
 static const test_file files[] = {
     // the sections of the header, in its order
     OF(results),
+    OF(math),
+    OF(vectors),
+    OF(memory),
     OF(mesh),
     OF(patches),
+    OF(regions),
     OF(surface),
+    OF(weights),
     OF(encoder),
     OF(latent_rotation),
     OF(body),

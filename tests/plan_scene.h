@@ -37,6 +37,7 @@ typedef struct plan_scene {
   nsvcd_body_pair pairs[PLAN_BODIES * PLAN_BODIES];
   nsvcd_pose rest[PLAN_BODIES];
   double length;  // of the quaternions that place() gives; 0: 1
+  int filling;    // what each byte of the workspace holds before
   size_t placed, attached;
   // What the progress callback saw.
   size_t again;  // refinements after the first of a seed

@@ -190,5 +190,16 @@ static int query_same_answer(const nsvcd_answer *a, const nsvcd_answer *b) {  //
          a->collides == b->collides && a->patch_a == b->patch_a && a->patch_b == b->patch_b &&
          a->status == b->status && a->candidates == b->candidates;
 }
+// The same, and all that only a proof says.
+static int query_same_proof(const nsvcd_answer *a, const nsvcd_answer *b) {
+  return query_same_answer(a, b) && a->work == b->work && a->triangle_a == b->triangle_a &&
+         a->triangle_b == b->triangle_b &&
+         memcmp(&a->free_until, &b->free_until, sizeof a->free_until) == 0 &&
+         memcmp(&a->clearance_low, &b->clearance_low, sizeof a->clearance_low) == 0 &&
+         memcmp(&a->clearance_high, &b->clearance_high, sizeof a->clearance_high) == 0 &&
+         memcmp(a->point, b->point, sizeof a->point) == 0 &&
+         memcmp(a->normal, b->normal, sizeof a->normal) == 0 &&
+         memcmp(a->lift, b->lift, sizeof a->lift) == 0;
+}
 
 #endif

@@ -142,6 +142,16 @@ static void body_malice(void) {
   CHECK_EQ(nsvcd_body_load(copy, size, &loaded), NSVCD_ERROR_BODY);
 }
 
+// What is looked for in a blob to the bit is a float to the last digit: where constants are reckoned
+// in double (s390x; x87 as C99), another would not be what was stored.
+#define TEXT_OF(macro) TEXT(macro)
+#define TEXT(text) #text
+static void body_padding_is_a_float(void) {
+  const double written = strtod(&TEXT_OF(NSVCD__NOWHERE)[1], NULL);  // behind the bracket
+  CHECK_LE(written, -1e14);
+  CHECK_EQ((float)written, written);
+}
+
 static void body_scale(void) {
   const float scales[5] = {0.25f, 1, 3.7f, 1e-4f, 1e4f};
   for (size_t n = 0; n < 5; n++) {
@@ -181,6 +191,7 @@ void test_body(void) {
   RUN(body_order);
   RUN(body_corruption);
   RUN(body_malice);
+  RUN(body_padding_is_a_float);
   RUN(body_scale);
 }
 

@@ -1,5 +1,6 @@
 // What a query costs: the bound that nsvcd_sweep states, batches, threads, numbers read, and stack.
-// Sections: broad phase, proof, query.
+// Across sections (broad phase, proof, query), and a file of its own: here the header counts what
+// it does (NSVCD__TALLY), and threads ask.
 #define _POSIX_C_SOURCE 200809L
 #define NSVCD_STATIC
 #define NEURALSVCD_IMPLEMENTATION
@@ -12,7 +13,7 @@
 #endif
 static OF_THREAD struct {
   size_t tests, ranked, judged, planes, pairs, tries, numbers;
-  size_t collision;  // of no interest here
+  size_t collision, boxes;  // of no interest here
 } tally;
 #define NSVCD__TALLY(what, amount) (tally.what += (amount))
 #include "../neuralsvcd.h"
@@ -249,6 +250,8 @@ static void cost_batch_refuses_as_a_query_does(void) {
 typedef struct cost_thread {
   pthread_t thread;
   const cost_batch *work;
+  const nsvcd_sweep_options *options;
+  size_t first;  // question: threads do not all ask the same at a time
   nsvcd_answer single[COST_MOTIONS], batch[COST_MOTIONS];
   nsvcd_result result;
 } cost_thread;
@@ -256,16 +259,17 @@ typedef struct cost_thread {
 static void *cost_run(void *argument) {
   cost_thread *t = (cost_thread *)argument;
   const query_scene *s = &t->work->scene;
-  query_memory memory = query_reserve(nsvcd_sweep_workspace_size(NULL));
+  const size_t size = nsvcd_sweep_workspace_size(NULL);
+  query_memory memory = query_reserve(size);
   t->result = NSVCD_OK;
   for (int round = 0; round < 5 && !t->result; round++) {
-    for (size_t m = 0; m < COST_MOTIONS && !t->result; m++) {
-      t->result =
-          ask(s->moving, t->work->poses + m * QUERY_POSES, QUERY_POSES, s->fixed, &s->fixed_pose,
-              NULL, memory.at, nsvcd_sweep_workspace_size(NULL), &t->single[m]);
+    for (size_t n = 0; n < COST_MOTIONS && !t->result; n++) {
+      const size_t m = (t->first + n) % COST_MOTIONS;
+      t->result = ask(s->moving, t->work->poses + m * QUERY_POSES, QUERY_POSES, s->fixed,
+                      &s->fixed_pose, t->options, memory.at, size, &t->single[m]);
     }
     if (!t->result)
-      t->result = cost_ask_batch(t->work, NULL, memory.at, t->batch);
+      t->result = cost_ask_batch(t->work, t->options, memory.at, t->batch);
   }
   query_release(&memory);
   return NULL;
@@ -273,26 +277,63 @@ static void *cost_run(void *argument) {
 
 // Threads that share bodies, each with a workspace of its own, answer as one thread does, to the
 // bit.
+static void cost_check_threads(const cost_batch *work, const nsvcd_sweep_options *options) {
+  static cost_thread threads[COST_THREADS], alone;
+  alone.work = work;
+  alone.options = options;
+  cost_run(&alone);
+  CHECK_EQ(alone.result, NSVCD_OK);
+  for (size_t t = 0; t < COST_THREADS; t++) {
+    threads[t].work = work;
+    threads[t].options = options;
+    threads[t].first = t * COST_MOTIONS / COST_THREADS;
+    CHECK_EQ(pthread_create(&threads[t].thread, NULL, cost_run, &threads[t]), 0);
+  }
+  for (size_t t = 0; t < COST_THREADS; t++)
+    pthread_join(threads[t].thread, NULL);
+  for (size_t t = 0; t < COST_THREADS; t++) {
+    CHECK_EQ(threads[t].result, NSVCD_OK);
+    for (size_t m = 0; m < COST_MOTIONS; m++) {
+      CHECK(query_same_proof(&threads[t].single[m], &alone.single[m]));
+      CHECK(query_same_proof(&threads[t].batch[m], &alone.batch[m]));
+    }
+  }
+}
+
 static void cost_threads_agree(void) {
   static cost_batch b;
-  static cost_thread threads[COST_THREADS], alone;
   for (uint64_t seed = 1; seed <= 8; seed++) {
     cost_open(&b, seed);
-    alone.work = &b;
-    cost_run(&alone);
-    for (size_t t = 0; t < COST_THREADS; t++) {
-      threads[t].work = &b;
-      CHECK_EQ(pthread_create(&threads[t].thread, NULL, cost_run, &threads[t]), 0);
+    cost_check_threads(&b, NULL);
+    query_scene_close(&b.scene);
+  }
+}
+
+// The same by proof: whether they meet, when first, how close they come, and what they rest on; of
+// small bodies and of one that is searched tile by tile.
+static void cost_threads_agree_by_proof(void) {
+  static cost_batch b;
+  for (uint64_t seed = 1; seed <= 8; seed++) {
+    nsvcd_sweep_options options = query_options(0, NSVCD_MODEL_DEFAULT, 0);
+    nsvcd_encode_options encoding;
+    const nsvcd_body *bodies[2];
+    cost_open(&b, seed);
+    memset(&encoding, 0, sizeof encoding);
+    encoding.no_latents = 1;
+    encoding.patches = seed % 4 == 0 ? 700 : 0;
+    for (size_t k = 0; k < 2; k++) {
+      nsvcd_mesh mesh = query_solid(2 * seed + k, k ? 0.3 : 0.2);
+      CHECK_EQ(nsvcd_encode(&mesh, &encoding, NULL, NULL, 0, &bodies[k]), NSVCD_OK);
+      nsvcd_mesh_free(&mesh, NULL);
     }
-    for (size_t t = 0; t < COST_THREADS; t++)
-      pthread_join(threads[t].thread, NULL);
-    for (size_t t = 0; t < COST_THREADS; t++) {
-      CHECK_EQ(threads[t].result, NSVCD_OK);
-      for (size_t m = 0; m < COST_MOTIONS; m++) {
-        CHECK(query_same_answer(&threads[t].single[m], &alone.single[m]));
-        CHECK(query_same_answer(&threads[t].batch[m], &alone.batch[m]));
-      }
-    }
+    b.scene.moving = bodies[0];
+    b.scene.fixed = bodies[1];
+    options.first = seed % 4 == 1 ? 0.01f : 0;
+    options.measure = seed % 4 == 2 ? 0.001f : 0;
+    options.skin = seed % 4 == 3 ? 0.001f : 0;
+    cost_check_threads(&b, &options);
+    nsvcd_body_free(bodies[0], NULL);
+    nsvcd_body_free(bodies[1], NULL);
     query_scene_close(&b.scene);
   }
 }
@@ -426,6 +467,7 @@ void test_cost(void) {
   RUN(cost_batch_follows_who_moves);
   RUN(cost_batch_refuses_as_a_query_does);
   RUN(cost_threads_agree);
+  RUN(cost_threads_agree_by_proof);
   RUN(cost_reads_numbers_once);
   RUN(cost_stack_is_bounded);
 }

@@ -1,7 +1,7 @@
-// Bodies of more patches than a tile: the levels of spheres above the groups and the walk through
-// them, meshes encoded region by region, and what is answered about a level, against the oracle and
-// against its local pieces. Sections: regions, body, facets, encoding, proof, winding number, query,
-// optimizer.
+// Levels: bodies of more patches than a tile. The spheres above the groups and the walk through
+// them, meshes encoded region by region, and what is answered, against the oracle and against local
+// pieces. Across sections (regions, body, facets, encoding, proof, winding number, query,
+// optimizer), and a file of its own: all of it needs one level of 60,000 triangles, made once.
 #define _POSIX_C_SOURCE 200809L
 #define NSVCD_STATIC
 #define NEURALSVCD_IMPLEMENTATION

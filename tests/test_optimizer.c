@@ -622,6 +622,7 @@ static plan_outcome plan_run(plan_scene *s) {
   const size_t bundle = o->refine.draws ? o->refine.draws : 10;
   query_memory memory = query_reserve(size + PLAN_GUARD);
   size_t written = 0;
+  memset(memory.at, s->filling, size);
   s->reports = s->disorders = s->out_of_place = s->placed = s->again = 0;
   memset(&out, untouched, sizeof out);
   out.via = o->refine.iterations == NSVCD_NONE ? (o->explore.via_points ? o->explore.via_points : 5)
@@ -660,6 +661,10 @@ static plan_outcome plan_run(plan_scene *s) {
   CHECK(a->joint == NSVCD_NONE || a->joint < f);
   if (a->status == NSVCD_PLAN_CONVERGED)
     CHECK(!a->collides && a->joint == NSVCD_NONE);
+  for (size_t k = 0; k < numbers && a->status == NSVCD_PLAN_CONVERGED; k++) {
+    CHECK_GE(out.control[k], s->low[k % f] - 2e-5f);
+    CHECK_LE(out.control[k], s->high[k % f] + 2e-5f);
+  }
   // there is a reason, and only one
   if (a->status == NSVCD_PLAN_START || a->status == NSVCD_PLAN_GOAL) {
     CHECK((a->joint != NSVCD_NONE) !=
@@ -752,6 +757,7 @@ static void plan_is_deterministic(void) {
   s.options.explore.iterations = 10;
   s.options.explore.draws = 50;
   const plan_outcome first = plan_run(&s);
+  s.filling = 0xff;
   const plan_outcome second = plan_run(&s);
   CHECK_EQ(first.result, NSVCD_OK);
   CHECK(plan_same(&first, &second, 3));
@@ -897,6 +903,27 @@ static void plan_proves_at_the_end(void) {
   CHECK_NEAR(through.answer.time, 0.5, 0.25);
 }
 
+// A proof that finds the ball inside of the box, at the one pose that is looked at, is as good a
+// reason to search on as one that finds it in its surface.
+static void plan_goes_on_after_a_proof_of_inside(void) {
+  static plan_scene s;
+  plan_begin(&s, PLAN_XYZ, 2);
+  s.bodies[0] = plan_solid(PLAN_BALL);
+  s.bodies[1] = plan_solid(PLAN_BOX);
+  plan_pair(&s, 0, 1);
+  s.start[0] = -0.4f;
+  s.goal[0] = 0.4f;
+  s.options.discrete = 1;
+  s.options.explore.segments = s.options.refine.segments = s.options.check = 2;
+  s.options.seeds = 1;
+  s.options.collision = -1;  // hits cost nothing: the search goes straight through
+  const plan_outcome through = plan_run(&s);
+  CHECK_EQ(through.answer.status, NSVCD_PLAN_LIMIT);
+  CHECK_EQ(through.answer.logit, NSVCD_LOGIT_CERTAIN);
+  CHECK_NEAR(through.answer.time, 0.5, 1e-6);
+  CHECK_GE(s.again, 3);
+}
+
 // Half a millimetre beside a wall, and along it: the network calls the start a hit, the proof does
 // not.
 static void plan_starts_beside_a_wall(void) {
@@ -1001,6 +1028,65 @@ static void plan_takes_a_custom_cost(void) {
 }
 
 // ------------------------------------------------------------------------------------------ errors
+
+// A cost that draws the body far out of the limits of its first joint, but never collides.
+static float plan_lure(void *user, const nsvcd_pose *poses, size_t samples, float limit,
+                       int *collides, float *gradient) {
+  const plan_scene *s = (const plan_scene *)user;
+  const size_t stride = s->problem.body_count;
+  double sum = 0;
+  (void)limit;
+  *collides = 0;
+  for (size_t i = 0; i < samples; i++) {
+    const double away = 3 - (double)poses[i * stride].position[0];
+    sum += away * away;
+    if (gradient)
+      gradient[6 * i * stride] += (float)(-2 * away);
+  }
+  return (float)sum;
+}
+
+// Between coarse moments a trajectory may leave its limits unseen; its via points do not.
+static void plan_via_points_keep_the_limits(void) {
+  static plan_scene s;
+  plan_begin(&s, PLAN_XYZ, 1);
+  s.problem.collision = plan_lure;
+  s.start[0] = -0.5f;
+  s.goal[0] = 1.8f;
+  s.options.seeds = 1;
+  s.options.velocity = s.options.acceleration = s.options.jerk = 0.01f;
+  s.options.explore.draws = 40;
+  size_t converged = 0;
+  for (size_t n = 0; n < 125; n++) {
+    s.options.explore.segments = 1 + n % 5;
+    s.options.refine.segments = 1 + n / 5 % 5;
+    s.options.check = 1 + n / 25;
+    const plan_outcome out = plan_run(&s);
+    CHECK_EQ(out.result, NSVCD_OK);
+    converged += out.answer.status == NSVCD_PLAN_CONVERGED;
+  }
+  printf("  %zu of 125 coarse plans converged\n", converged);
+  CHECK_GE(converged, 50);
+
+  // Nor is a trajectory called free whose via points leave them between the moments.
+  plan_inside in;
+  float control[12 * PLAN_JOINTS];
+  CHECK(plan_open(&s, &in));
+  nsvcd__planner *p = &in.planner;
+  p->check.moments = 2;
+  nsvcd__stage_init(&p->options, &p->check);
+  nsvcd__smoothest(p, &p->refine, control);
+  const nsvcd__cost within = nsvcd__cost_of(p, &p->check, control, INFINITY, NULL, NULL);
+  CHECK(nsvcd__is_free(&within));
+  for (size_t k = 3; k < 33; k++) {
+    const float kept = control[k];
+    control[k] = k % 2 ? 2.001f : -2.001f;
+    const nsvcd__cost beyond = nsvcd__cost_of(p, &p->check, control, INFINITY, NULL, NULL);
+    CHECK_EQ(beyond.joint, k % 3);
+    control[k] = kept;
+  }
+  plan_close(&in);
+}
 
 static void plan_refuses(plan_scene *s, nsvcd_result expected, int measured) {
   if (!measured)
@@ -1485,10 +1571,12 @@ void test_optimizer(void) {
   RUN(plan_can_be_cancelled);
   RUN(plan_grasped_bodies_move_along);
   RUN(plan_proves_at_the_end);
+  RUN(plan_goes_on_after_a_proof_of_inside);
   RUN(plan_starts_beside_a_wall);
   RUN(plan_stages_can_be_left_out);
   RUN(plan_discrete_looks_at_poses);
   RUN(plan_takes_a_custom_cost);
+  RUN(plan_via_points_keep_the_limits);
   RUN(plan_refuses_options_out_of_range);
   RUN(plan_works_at_the_ends_of_its_options);
   RUN(plan_refuses_problems);

@@ -486,8 +486,6 @@ static void proof_report(const char *name, const replay *sum) {
 
 static struct {
   size_t count;
-  // a doubt that ends in a contact is its beginning: then triangles are near each other
-  int may_be_doubts;
   double worst_gap, worst_normal;  // over what is allowed
   size_t no_normal, off[3];  // normals that are 0, or off by more than 0.001, 0.01, 0.1 radians
 } witnesses;
@@ -586,10 +584,12 @@ static void proof_check_normal(const attack *a, const oracle_triangle *y) {
   CHECK_LE(error, tolerance);
 }
 
-static void proof_check_witness(const attack *a) {
+// The triangles that an answer names meet then and there, or, where they are in doubt, come as near
+// as it says.
+static void proof_check_triangles(const attack *a, int meets) {
   const nsvcd_answer *w = &a->answer;
   CHECK(w->triangle_a < a->moving->triangles && w->triangle_b < a->fixed->triangles);
-  CHECK(w->contact_time >= 0 && w->contact_time <= 1 && w->collides == 1);
+  CHECK(w->contact_time >= w->free_until && w->contact_time <= 1);
   if (w->triangle_a >= a->moving->triangles || w->triangle_b >= a->fixed->triangles)
     return;
   const double scale = (double)a->motion.moving.scale;
@@ -606,8 +606,8 @@ static void proof_check_witness(const attack *a) {
   // Half a unit in the last place of a float in [0.5, 1].
   const double moved = proof_speed_bound(a, (double)w->contact_time, 3e-8) + 1e-12 * (size + far);
   const double rounded = 6e-8 * (oracle_length(point.v[0])) + 1e-30;
-  const int meets = !witnesses.may_be_doubts;
-  const double allowed = fmax(quantum_x + quantum_y, (double)w->clearance_high) + moved;
+  const double far_off = meets ? quantum_x + quantum_y : (double)w->clearance_high;
+  const double allowed = far_off + moved;
   const double gap = proof_triangle_distance(&x, &y);
   CHECK_LE(gap, allowed);
   CHECK_LE(proof_triangle_distance(&x, &point), (meets ? quantum_x : allowed) + moved + rounded);
@@ -615,11 +615,16 @@ static void proof_check_witness(const attack *a) {
       proof_track_speed(&a->motion.fixed, a->fixed->size, (double)w->contact_time, 3e-8) +
       1e-12 * (size + far);
   CHECK_LE(proof_triangle_distance(&y, &point), quantum_y + rounded + fixed_moved);
+  if (!meets)
+    return;
   witnesses.count++;
   witnesses.worst_gap = fmax(witnesses.worst_gap, gap / allowed);
+  proof_check_normal(a, &y);
+}
 
-  if (meets)
-    proof_check_normal(a, &y);
+static void proof_check_witness(const attack *a) {
+  CHECK_EQ(a->answer.collides, 1);
+  proof_check_triangles(a, 1);
 }
 
 // -------------------------------------------------------------------------------------------------
@@ -1327,9 +1332,7 @@ static void proof_check_first(attack *a, float tolerance, timing_sum *sum) {
     CHECK_EQ(first->free_until, 1);
   if (first->status != NSVCD_STATUS_WITNESS)
     return;
-  witnesses.may_be_doubts = 1;
   proof_check_witness(a);
-  witnesses.may_be_doubts = 0;
   const int at_start = !(proof_distance_at(a, 0) > 0);
   sum->at_start += at_start;
   if (at_start)
@@ -1337,6 +1340,29 @@ static void proof_check_first(attack *a, float tolerance, timing_sum *sum) {
   const double late = (double)first->contact_time - (double)first->free_until;
   sum->worst = fmax(sum->worst, late / (double)tolerance);
   CHECK_LE(late, (double)tolerance * 1.00001 + 3e-7);
+}
+
+// What comes within the tolerance may be left undecided, but is not called a contact.
+static void proof_check_first_with_doubts(attack *a, double tolerance, timing_sum *sum) {
+  const double size = a->moving->size + a->fixed->size;
+  nsvcd_sweep_options options = proof_options();
+  options.first = 0.001f;
+  options.tolerance = (float)(tolerance * size);
+  CHECK_EQ(proof_ask_with(a, &options), NSVCD_OK);
+  const nsvcd_answer *first = &a->answer;
+  proof_count(sum, first->status);
+  if (first->status == NSVCD_STATUS_INSIDE)
+    return;
+  sum->wrong += proof_comes_within(a, 0, (double)first->free_until, 1e-6 * size);
+  if (first->status == NSVCD_STATUS_WITNESS) {
+    const double late = (double)first->contact_time - (double)first->free_until;
+    CHECK_LE(late, 0.001 * 1.00001 + 3e-7);
+    proof_check_witness(a);
+  }
+  if (first->status == NSVCD_STATUS_UNDECIDED) {
+    CHECK_LE(first->clearance_high, options.tolerance + 4 * proof_quanta(a) + 1e-6 * size);
+    proof_check_triangles(a, 0);
+  }
 }
 
 // With hardly any work allowed: what is said to be free until then is.
@@ -1367,23 +1393,37 @@ static int proof_timing_scene(shapes_rng *rng, attack *a) {
 }
 
 static void proof_finds_first_contacts(void) {
-  static const float tolerances[4] = {0.1f, 0.01f, 1e-3f, 1e-4f};
+  static const float tolerances[3] = {0.1f, 0.01f, 1e-3f};
   const size_t wanted = (size_t)(200 * proof_many());
   shapes_rng rng = {88};
-  timing_sum sum, hasty;
+  timing_sum sum, fine, doubtful, hasty;
   memset(&sum, 0, sizeof sum);
+  memset(&fine, 0, sizeof fine);
+  memset(&doubtful, 0, sizeof doubtful);
   memset(&hasty, 0, sizeof hasty);
   while (sum.asked < wanted) {
     attack a;
     if (!proof_timing_scene(&rng, &a))
       continue;
-    proof_check_first(&a, tolerances[shapes_pick(&rng, 4)], &sum);
+    proof_check_first(&a, tolerances[shapes_pick(&rng, 3)], &sum);
+    proof_check_first(&a, 1e-4f, &fine);
+    proof_check_first_with_doubts(&a, pow(10, shapes_uniform(&rng, -4, -1)), &doubtful);
     for (size_t limit = 2; limit < 300; limit *= 2)
       proof_check_first_in_haste(&a, limit, &hasty);
   }
   printf("  with little work: %zu undecided but for their beginnings, %zu of those wrong\n",
          hasty.asked, hasty.wrong);
   CHECK_EQ(hasty.wrong, 0);
+  printf("  with a tolerance: %zu first contacts, %zu undecided; %zu wrong\n", doubtful.contacts,
+         doubtful.undecided, doubtful.wrong);
+  CHECK_EQ(doubtful.wrong, 0);
+  CHECK_GE(doubtful.contacts, 20);
+  CHECK_GE(doubtful.undecided, 15);
+  // so short a time is less than what it may take to pass through the quanta
+  printf("  to 1e-4: %zu first contacts, %zu undecided; %zu wrong; late by %.3f of that\n",
+         fine.contacts, fine.undecided, fine.wrong, fine.worst);
+  CHECK_EQ(fine.wrong, 0);
+  CHECK_GE(fine.contacts, fine.asked / 3);
   CHECK_GE(hasty.asked, 20);
   printf(
       "  %zu questions: first contacts %zu, %zu of them at the start; free %zu, inside %zu, "
@@ -1426,6 +1466,7 @@ static void proof_check_measure(attack *a, float tolerance, timing_sum *sum) {
   const nsvcd_answer *w = &a->answer;
   proof_count(sum, w->status);
   CHECK(w->clearance_low >= 0 && w->clearance_low <= w->clearance_high);
+  CHECK_EQ(w->free_until, w->status == NSVCD_STATUS_CERTIFIED_FREE);
   if (w->status == NSVCD_STATUS_INSIDE)
     return;
   if (w->clearance_low > 0)
@@ -1762,6 +1803,129 @@ static void proof_knows_what_is_within(void) {
     proof_free(&inner[k]);
   for (int k = 0; k < 3; k++)
     proof_free(&outer[k]);
+}
+
+// As nsvcd__crossings, but all triangles of a patch whose sphere the ray meets are asked in double.
+static int proof_crossings(const nsvcd__facets *f, const nsvcd__ray *ray, int *unclear) {
+  static uint32_t crossed[1000];
+  size_t count = 0;
+  int sum = 0;
+  for (size_t i = 0; i < f->body->patches; i++) {
+    if (!(nsvcd__patches_on_ray(f->body, ray, i / NSVCD__GROUP) >> i % NSVCD__GROUP & 1))
+      continue;
+    nsvcd__numbers numbers = nsvcd__numbers_of(f, i);
+    for (size_t n = f->first_triangle[i]; n < f->first_triangle[i + 1]; n++) {
+      nsvcd__d3 corners[3];
+      nsvcd__read_number(&numbers, n);
+      if (!numbers.encloses)
+        continue;
+      nsvcd__facet_triangle(f, i, n, corners);
+      const double margin = (double)f->quanta[i] + ray->margin;
+      const int crossing = nsvcd__ray_crosses(ray, corners, margin, unclear);
+      size_t known = 0;
+      while (known < count && crossed[known] != numbers.number)
+        known++;
+      if (!crossing || known < count || count == 1000)
+        continue;
+      crossed[count++] = numbers.number;
+      sum += crossing;
+    }
+  }
+  return sum;
+}
+
+// A ray from somewhere about a body that passes close to an edge.
+static nsvcd__ray proof_ray_at_edge(shapes_rng *rng, const nsvcd__facets *f, double margin) {
+  const size_t listing = shapes_next(rng) % f->listed;
+  const double radius = (double)f->body->radius;
+  size_t patch = 0;
+  nsvcd__d3 t[3];
+  nsvcd__ray ray;
+  while (f->first_triangle[patch + 1] <= listing)
+    patch++;
+  nsvcd__facet_triangle(f, patch, listing, t);
+  const nsvcd__d3 aim = nsvcd__d3_mix(t[0], t[1], shapes_uniform(rng, 0, 1));
+  const double sign = shapes_pick(rng, 2) ? 1 : -1;
+  const double off = sign * pow(10, shapes_uniform(rng, -6, -1));
+  const nsvcd__d3 to = nsvcd__d3_add_scaled(aim, off, nsvcd__d3_sub(t[2], aim));
+  const nsvcd__d3 away = nsvcd__d3_of(shapes_uniform(rng, -1, 1), shapes_uniform(rng, -1, 1),
+                                      shapes_uniform(rng, -1, 1));
+  ray.from = nsvcd__d3_add_scaled(nsvcd__d3_load(f->body->centre), radius, away);
+  ray.direction = nsvcd__d3_unit(nsvcd__d3_sub(to, ray.from), nsvcd__d3_of(0, 0, 1));
+  ray.margin = margin;
+  return ray;
+}
+
+// Rays that pass close to edges: what is left out in floats is nothing in double. Of a fine ball far
+// from its origin, where rounding is more than the quanta.
+static void proof_rays_miss_nothing(void) {
+  nsvcd__query *query = any_query();
+  shapes_rng rng = {92};
+  for (int n = 0; n < 3; n++) {
+    size_t clear = 0;
+    size_t wrong = 0;
+    shapes_mesh shape;
+    memset(&shape, 0, sizeof shape);
+    shapes_ellipsoid(&shape, 0.1, 0.1, 0.1, 40);
+    shapes_place(&shape, 0, NULL, n == 0 ? 0 : 3, n == 2 ? 30 : 0, 1);
+    proof_body ball = proof_of_shape(&shape, 1, 256);
+    const nsvcd__facets f = nsvcd__facets_of(nsvcd__triangles_of(ball.body));
+    for (int trial = 0; trial < 6000; trial++) {
+      const nsvcd__ray ray = proof_ray_at_edge(&rng, &f, 1e-13);
+      int unclear = 0;
+      int unclear_in_double = 0;
+      const int sum = nsvcd__crossings(query->proof, &f, &ray, &unclear);
+      const int in_double = proof_crossings(&f, &ray, &unclear_in_double);
+      clear += !unclear_in_double;
+      wrong += unclear != unclear_in_double || (!unclear && sum != in_double);
+    }
+    printf("  %zu rays of 6000 clear of edges, %zu wrong\n", clear, wrong);
+    CHECK_EQ(wrong, 0);
+    CHECK(clear > 300 && clear < 5700);
+    proof_free(&ball);
+  }
+  free(query);
+}
+
+// A cube in a room, nearer to its walls than the tolerance at the start, which then goes on to
+// meet one, or not: what is said is about the start.
+static void proof_says_where_inside(void) {
+  shapes_mesh shape;
+  attack a;
+  memset(&shape, 0, sizeof shape);
+  shapes_box(&shape, 1, 1, 1, 1);
+  proof_body room = proof_of_shape(&shape, 1, 0);
+  memset(&shape, 0, sizeof shape);
+  shapes_box(&shape, 0.1, 0.1, 0.1, 1);
+  proof_body cube = proof_of_shape(&shape, 1, 0);
+  const oracle_pose fixed = {{0, 0, 0}, {0, 0, 0, 1}};
+  for (int n = 0; n < 6; n++) {
+    const int meets = n % 2;
+    nsvcd_sweep_options options = proof_options();
+    const oracle_pose poses[2] = {{{-0.447, -0.447, -0.447}, {0, 0, 0, 1}},
+                                  {{meets ? 1 : 0, 0, 0}, {0, 0, 0, 1}}};
+    a.moving = &cube;
+    a.fixed = &room;
+    proof_motion_set(&a.motion, poses, 2, &fixed);
+    options.first = n < 4 ? 0.01f : 0;
+    options.measure = n < 4 ? 0 : 1e-3f;
+    options.tolerance = n < 2 ? 0 : 0.02f;
+    CHECK_EQ(proof_ask_with(&a, &options), NSVCD_OK);
+    if (n == 5) {  // the nearest is sought first
+      CHECK_EQ(a.answer.status, NSVCD_STATUS_WITNESS);
+      continue;
+    }
+    CHECK_EQ(a.answer.status, NSVCD_STATUS_INSIDE);
+    CHECK_EQ(a.answer.contact_time, 0);
+    CHECK_EQ(a.answer.triangle_a, NSVCD_NO_TRIANGLE);
+    CHECK_EQ(a.answer.triangle_b, NSVCD_NO_TRIANGLE);
+    for (int k = 0; k < 3; k++) {
+      CHECK_EQ(a.answer.normal[k], 0);
+      CHECK_LE(fabs((double)a.answer.point[k] + 0.447), 0.0501);
+    }
+  }
+  proof_free(&room);
+  proof_free(&cube);
 }
 
 // -------------------------------------------------------------------------------------------------
@@ -2401,6 +2565,8 @@ void test_proof(void) {
   RUN(proof_leaves_contacts);
   RUN(proof_lifts_are_true);
   RUN(proof_knows_what_is_within);
+  RUN(proof_says_where_inside);
+  RUN(proof_rays_miss_nothing);
   RUN(proof_answers_are_the_same_again);
   RUN(proof_sides_do_not_matter);
   RUN(proof_keeps_its_limit);

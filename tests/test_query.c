@@ -238,7 +238,9 @@ static void query_sizes_at_the_limits(void) {
   const nsvcd_body *body = NULL;
   CHECK_EQ(nsvcd_encode(&speck, &query_latents, NULL, memory.at,
                         nsvcd_body_size(NSVCD_SMALL_PATCHES), &body),
-           NSVCD_ERROR_NUMBER);
+           NSVCD_ERROR_EMPTY);
+  nsvcd_encode_options of_triangles = {.no_latents = 1};
+  CHECK_EQ(nsvcd_encode(&speck, &of_triangles, NULL, NULL, 0, &body), NSVCD_ERROR_EMPTY);
   CHECK(body == NULL);
   query_release(&memory);
   nsvcd_mesh_free(&speck, NULL);
@@ -463,6 +465,52 @@ static void query_recall_raises_the_logit(void) {
   query_scene_close(&s);
 }
 
+// What a query about bodies of so many patches subtracts from its logits.
+static double query_threshold(size_t model, size_t column, size_t a, size_t b) {
+  nsvcd_sweep_options options = query_options(8, NSVCD_MODEL_BASE, nsvcd_w_recall[column]);
+  nsvcd__settings settings;
+  options.model = (nsvcd_model)(NSVCD_MODEL_TINY + model);
+  CHECK_EQ(nsvcd__settings_of(&options, a, b, &settings), NSVCD_OK);
+  return (double)settings.threshold;
+}
+
+// Thresholds are those of weights.h where bodies have a calibrated number of patches, N = 32 to 512.
+// Between, they follow log2 N, of two bodies its mean; beyond, they stay.
+static void query_thresholds_are_interpolated(void) {
+  for (size_t n = 0; n < 3 * NSVCD_W_RECALLS; n++) {
+    const size_t model = n / NSVCD_W_RECALLS;
+    const size_t k = n % NSVCD_W_RECALLS;
+    const float(*rows)[NSVCD_W_RECALLS] = nsvcd_w_threshold[model];
+    for (size_t row = 0; row < NSVCD_W_SIZES; row++) {
+      const size_t size = (size_t)32 << row;
+      const double at = (double)rows[row][k];
+      CHECK_NEAR(query_threshold(model, k, size, size), at, 1e-6);
+      CHECK_NEAR(query_threshold(model, k, size / 2, 2 * size), at, 1e-6);
+      if (row + 1 == NSVCD_W_SIZES)
+        continue;
+      const double next = (double)rows[row + 1][k];
+      double before = at;
+      for (size_t between = size + 1; between < 2 * size; between++) {
+        const double share = log2((double)between / (double)size);
+        const double found = query_threshold(model, k, between, between);
+        CHECK_NEAR(found, at + share * (next - at), 1e-5);
+        CHECK_GE((found - before) * (next - at), 0);
+        before = found;
+      }
+      // of two bodies
+      CHECK_NEAR(query_threshold(model, k, size, 2 * size), 0.5 * (at + next), 1e-6);
+      CHECK_NEAR(query_threshold(model, k, 2 * size, size), 0.5 * (at + next), 1e-6);
+    }
+    const double least = (double)rows[0][k];
+    const double most = (double)rows[NSVCD_W_SIZES - 1][k];
+    CHECK_NEAR(query_threshold(model, k, 1, 1), least, 1e-6);
+    CHECK_NEAR(query_threshold(model, k, 31, 32), least, 1e-6);
+    CHECK_NEAR(query_threshold(model, k, 1, 512), least, 0);
+    CHECK_NEAR(query_threshold(model, k, 512, 513), most, 1e-6);
+    CHECK_NEAR(query_threshold(model, k, NSVCD_MAX_PATCHES, NSVCD_MAX_PATCHES), most, 1e-6);
+  }
+}
+
 // ------------------------------------------------------------------------------------------ errors
 
 static nsvcd_answer query_untouched(void) {
@@ -548,6 +596,8 @@ static void query_refuses_bad_questions(void) {
   }
   bad = good;
   bad.b = bad.a;
+  query_refuses_question(&bad, NSVCD_ERROR_SAME);
+  bad.b.scale = 1;  // which 0 means too
   query_refuses_question(&bad, NSVCD_ERROR_SAME);
   const nsvcd_pose elsewhere = query_pose(0.01, 0, 0);
   bad.b.poses = &elsewhere;  // the same body at another place is a question like any other
@@ -820,6 +870,90 @@ static void query_sizes_are_what_is_asked(void) {
   CHECK_EQ(nsvcd_sweep_workspace_size(&question), 0);
 }
 
+#define QUERY_GUARD 256
+
+// Asks with exactly the workspace that is asked for, wherever it begins: the answer is that of a
+// large one, and no byte before or after is written. Returns how many bytes at its end were left
+// unused, at least.
+static size_t query_stays_within(const nsvcd_question *question) {
+  const size_t size = nsvcd_sweep_workspace_size(question);
+  query_memory memory = query_reserve(QUERY_GUARD + 64 + size + QUERY_GUARD);
+  nsvcd_answer want;
+  nsvcd_answer answer = query_untouched();
+  const nsvcd_answer before = query_untouched();
+  size_t unused = size;
+  CHECK_EQ(nsvcd_sweep(question, query_workspace(), nsvcd_sweep_workspace_size(NULL), &want),
+           NSVCD_OK);
+  CHECK_EQ(nsvcd_sweep(question, memory.at, size - 1, &answer), NSVCD_ERROR_WORKSPACE);
+  CHECK(memcmp(&answer, &before, sizeof answer) == 0);
+  for (size_t from = QUERY_GUARD; from < QUERY_GUARD + 64; from += NSVCD_ALIGNMENT) {
+    const char *bytes = (const char *)memory.at;
+    size_t end = from + size;
+    size_t written = 0;
+    memset(memory.at, 0x5a, QUERY_GUARD + 64 + size + QUERY_GUARD);
+    CHECK_EQ(nsvcd_sweep(question, (char *)memory.at + from, size, &answer), NSVCD_OK);
+    CHECK(query_same_proof(&answer, &want));
+    for (size_t n = 0; n < from; n++)
+      written += bytes[n] != 0x5a;
+    for (size_t n = end; n < QUERY_GUARD + 64 + size + QUERY_GUARD; n++)
+      written += bytes[n] != 0x5a;
+    CHECK_EQ(written, 0);
+    while (end > from && bytes[end - 1] == 0x5a)
+      end--;
+    unused = from + size - end < unused ? from + size - end : unused;
+  }
+  query_release(&memory);
+  return unused;
+}
+
+// Proofs of all kinds about bodies of few and many patches that turn so much that all segments are
+// used.
+static void query_proofs_stay_within_their_workspace(void) {
+  static const size_t sizes[5] = {1, 64, 192, 512, 700};
+  const nsvcd_body *bodies[2][5];
+  nsvcd_pose spin[QUERY_POSES];
+  size_t statuses[NSVCD_STATUS_UNDECIDED + 1] = {0};
+  size_t unused = SIZE_MAX;
+  for (size_t n = 0; n < 10; n++) {
+    const nsvcd_encode_options options = {.patches = sizes[n % 5], .no_latents = n % 5 == 2};
+    nsvcd_mesh mesh = query_solid(n / 5 + 1, 0.3);
+    CHECK_EQ(nsvcd_encode(&mesh, &options, NULL, NULL, 0, &bodies[n / 5][n % 5]), NSVCD_OK);
+    nsvcd_mesh_free(&mesh, NULL);
+  }
+  for (size_t n = 0; n < 250; n++) {
+    const size_t way = n % 5;
+    for (size_t k = 0; k < QUERY_POSES; k++) {
+      const float half = 12.0f * (float)k / (QUERY_POSES - 1);
+      spin[k] = query_pose(0.16 + 0.05 * (double)way, 0.01 * (double)k, 0);
+      spin[k].rotation[2] = sinf(half);
+      spin[k].rotation[3] = cosf(half);
+    }
+    nsvcd_question question =
+        question_of(bodies[0][n / 5 % 5], spin, QUERY_POSES, bodies[1][n / 25 % 5], NULL, NULL);
+    question.options.method = NSVCD_METHOD_PROOF;
+    question.options.segments = n < 125 ? 16 : 0;
+    question.options.first = n % 7 == 1 ? 0.01f : 0;
+    question.options.measure = n % 7 == 2 ? 0.001f : 0;
+    question.options.skin = n % 7 == 3 ? 0.002f : 0;
+    question.options.clearance = n % 7 == 4 ? 0.01f : 0;
+    question.options.work = n % 7 == 5 ? 20 : 0;
+    const size_t left = query_stays_within(&question);
+    unused = left < unused ? left : unused;
+    nsvcd_answer answer;
+    CHECK_EQ(nsvcd_sweep(&question, query_workspace(), nsvcd_sweep_workspace_size(NULL), &answer),
+             NSVCD_OK);
+    statuses[answer.status]++;
+  }
+  printf("  %zu witnesses, %zu free, %zu undecided; %zu bytes unused at the end\n",
+         statuses[NSVCD_STATUS_WITNESS], statuses[NSVCD_STATUS_CERTIFIED_FREE],
+         statuses[NSVCD_STATUS_UNDECIDED], unused);
+  CHECK(statuses[NSVCD_STATUS_WITNESS] > 10 && statuses[NSVCD_STATUS_CERTIFIED_FREE] > 10);
+  CHECK(statuses[NSVCD_STATUS_UNDECIDED] > 5);
+  CHECK_LE(unused, 64);  // else nothing came near the end
+  for (size_t n = 0; n < 10; n++)
+    nsvcd_body_free(bodies[n / 5][n % 5], NULL);
+}
+
 // A spinning body, cut into 16 segments instead of 64: what is proven is as true, and no less is.
 static void query_few_segments_are_as_right(void) {
   size_t hits = 0;
@@ -865,9 +999,65 @@ static void query_few_segments_are_as_right(void) {
   CHECK(hits > 5 && hits < 36);
 }
 
+// Asks whether two boxes, the one at rest at a pose that the other may have, are nearer than that.
+static int query_is_near(const nsvcd_body *a, const nsvcd_pose *pose, const nsvcd_body *b,
+                         float clearance) {
+  nsvcd_sweep_options options;
+  memset(&options, 0, sizeof options);
+  options.clearance = clearance;
+  return query_ask(a, pose, 1, b, NULL, &options).collides;
+}
+
+// What a proof leaves undecided, the network has an opinion on. What is known stays as it is: that
+// they meet, and how near they come, then.
+static void query_opinions_leave_what_is_known(void) {
+  nsvcd_mesh meshes[2] = {query_box(0.1, 0.2, 0.3), query_box(0.2, 0.3, 0.1)};
+  const nsvcd_body *bodies[2];
+  size_t known = 0;
+  size_t opinions = 0;
+  shapes_rng rng = {7};
+  for (size_t k = 0; k < 2; k++) {
+    CHECK_EQ(nsvcd_encode(&meshes[k], NULL, NULL, NULL, 0, &bodies[k]), NSVCD_OK);
+    nsvcd_mesh_free(&meshes[k], NULL);
+  }
+  for (size_t n = 0; n < 600; n++) {
+    nsvcd_pose path[2];
+    nsvcd_sweep_options options;
+    memset(&options, 0, sizeof options);
+    query_random_pose(&rng, 0.3, &path[0]);
+    path[1] = path[0];
+    for (size_t k = 0; k < 3; k++)
+      path[1].position[k] += (float)shapes_uniform(&rng, -0.5, 0.5);
+    options.first = n % 3 ? 1e-3f : 0;
+    options.work = 1 + n % 20;
+    options.tolerance = n % 2 ? 0.02f : 0;
+    const nsvcd_answer answer = query_ask(bodies[0], path, 2, bodies[1], NULL, &options);
+    if (answer.status != NSVCD_STATUS_UNDECIDED)
+      continue;
+    const int names = answer.triangle_a != NSVCD_NO_TRIANGLE;
+    CHECK_EQ(names, answer.clearance_high < HUGE_VALF);
+    CHECK_EQ(names, answer.triangle_b != NSVCD_NO_TRIANGLE);
+    known += names;
+    opinions += !(fabsf(answer.logit) >= NSVCD_LOGIT_CERTAIN);
+    if (!names)
+      continue;
+    nsvcd_pose then = path[0];
+    for (size_t k = 0; k < 3; k++)
+      then.position[k] += answer.contact_time * (path[1].position[k] - path[0].position[k]);
+    CHECK_EQ(query_is_near(bodies[0], &then, bodies[1], 1.001f * answer.clearance_high + 1e-6f), 1);
+  }
+  printf("  undecided: %zu name triangles; %zu have an opinion\n", known, opinions);
+  CHECK_GE(known, 20);
+  CHECK_GE(opinions, 5);
+  for (size_t k = 0; k < 2; k++)
+    nsvcd_body_free(bodies[k], NULL);
+}
+
 void test_query(void) {
   RUN(query_sizes_are_what_is_asked);
+  RUN(query_proofs_stay_within_their_workspace);
   RUN(query_few_segments_are_as_right);
+  RUN(query_opinions_leave_what_is_known);
   RUN(query_answers_are_the_same_to_the_bit);
   RUN(query_answers_make_sense);
   RUN(query_logit_is_invariant_under_rigid_motion);
@@ -885,6 +1075,7 @@ void test_query(void) {
   RUN(query_all_pairs_are_enough);
   RUN(query_more_pairs_never_lose_a_collision);
   RUN(query_recall_raises_the_logit);
+  RUN(query_thresholds_are_interpolated);
   RUN(query_refuses_bad_arguments);
   RUN(query_refuses_bad_questions);
   RUN(query_refuses_bad_poses);

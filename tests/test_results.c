@@ -19,8 +19,17 @@ static void mesh_result_strings(void) {
         0);
 }
 
+// A person is told the limits themselves.
+static void mesh_result_strings_name_limits(void) {
+  CHECK(strstr(nsvcd_result_string(NSVCD_ERROR_NUMBER), "a million metres") != NULL);
+  CHECK_EQ(NSVCD_MAX_COORDINATE, 1e6f);
+  CHECK(strstr(nsvcd_result_string(NSVCD_ERROR_EMPTY), "1e-12 metres") != NULL);
+  CHECK_EQ(NSVCD_MIN_RADIUS, 1e-12f);
+}
+
 void test_results(void) {
   RUN(mesh_result_strings);
+  RUN(mesh_result_strings_name_limits);
 }
 
 CHECK_ALONE(test_results)

@@ -170,12 +170,24 @@ static void plan_cholesky_solves(void) {
   }
 }
 
+static void plan_spline_refuses(void) {
+  const float control[2] = {0, 1};
+  const size_t bad[] = {4, 6, SIZE_MAX};
+  for (size_t n = 0; n < 3; n++) {
+    float x = 7;
+    nsvcd_spline(control, 0, 1, 0.5f, bad[n], &x);
+    nsvcd_spline(control, NSVCD_MAX_VIA_POINTS + 1, 1, 0.5f, 0, &x);
+    CHECK_EQ(x, 7);
+  }
+}
+
 void test_spline(void) {
   RUN(plan_spline_passes_through_its_points_and_rests_at_both_ends);
   RUN(plan_spline_derivatives);
   RUN(plan_spline_weights_are_a_partition_of_unity);
   RUN(plan_mean_squares_are_integrals);
   RUN(plan_cholesky_solves);
+  RUN(plan_spline_refuses);
 }
 
 CHECK_ALONE(test_spline)

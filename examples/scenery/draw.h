@@ -88,19 +88,33 @@ DRAW_DEF void draw_push(draw_list *list, const draw_triangle *triangle) {
   }
   list->triangles[list->count++] = *triangle;
 }
+// Can none of it be seen in the panel? corners: projected.
+DRAW_DEF int draw_is_outside(const draw_view *view, const double (*corners)[3]) {
+  const double size[2] = {view->width, view->height};
+  for (int axis = 0; axis < 2; axis++) {
+    const double a = corners[0][axis];
+    const double b = corners[1][axis];
+    const double c = corners[2][axis];
+    if (fmax(a, fmax(b, c)) < -1 || fmin(a, fmin(b, c)) > size[axis] + 1)
+      return 1;
+  }
+  return 0;
+}
 // Halves the longest edge until none is longer than view->cut.
 DRAW_DEF void draw_split(draw_list *list, const double (*world)[3], draw_triangle *triangle) {
   double longest = 0;
-  double d[3];
-  double depth = 0;
+  double d[3], p[3][3];
   int edge = 0;
   for (int i = 0; i < 3; i++) {
+    draw_project(list->view, world[i], p[i]);
     oracle_sub(world[(i + 1) % 3], world[i], d);
     if (oracle_length(d) > longest) {
       longest = oracle_length(d);
       edge = i;
     }
   }
+  if (draw_is_outside(list->view, (const double(*)[3])p))
+    return;
   if (longest > list->view->cut) {
     double a[3][3], b[3][3];
     memcpy(a, world, sizeof a);
@@ -111,14 +125,12 @@ DRAW_DEF void draw_split(draw_list *list, const double (*world)[3], draw_triangl
     draw_split(list, (const double(*)[3])b, triangle);
     return;
   }
+  triangle->depth = 0;
   for (int i = 0; i < 3; i++) {
-    double p[3];
-    draw_project(list->view, world[i], p);
-    triangle->corners[i][0] = p[0];
-    triangle->corners[i][1] = p[1];
-    depth += p[2] / 3;
+    triangle->corners[i][0] = p[i][0];
+    triangle->corners[i][1] = p[i][1];
+    triangle->depth += p[i][2] / 3;
   }
-  triangle->depth = depth;
   draw_push(list, triangle);
 }
 // One triangle, unless it is seen from inside.
@@ -144,6 +156,19 @@ DRAW_DEF void draw_solid(draw_list *list, const oracle_mesh *mesh, const oracle_
                          const draw_colour *colour, double opacity) {
   for (size_t i = 0; i < mesh->triangle_count; i++)
     draw_one(list, &mesh->triangles[i], pose, colour, opacity);
+}
+// The same, from both sides: for what is not closed, or inside out.
+DRAW_DEF void draw_sheet(draw_list *list, const oracle_mesh *mesh, const oracle_pose *pose,
+                         const draw_colour *colour, double opacity) {
+  for (size_t i = 0; i < mesh->triangle_count; i++) {
+    oracle_triangle back = mesh->triangles[i];
+    memcpy(back.v[1], mesh->triangles[i].v[2], sizeof back.v[1]);
+    memcpy(back.v[2], mesh->triangles[i].v[1], sizeof back.v[2]);
+    for (int k = 0; k < 3; k++)
+      back.normal[k] = -back.normal[k];
+    draw_one(list, &mesh->triangles[i], pose, colour, opacity);
+    draw_one(list, &back, pose, colour, opacity);
+  }
 }
 DRAW_DEF void draw_shape(draw_list *list, const shapes_mesh *shape, double scale,
                          const oracle_pose *pose, const draw_colour *colour) {

@@ -1,14 +1,14 @@
 // problem_file.h - reads problem files (version 1), with messages that name file, line and reason;
 // what svcd.c and the benchmark share: memory, clock, numbers, intervals. No part of the library.
-// Include neuralsvcd.h first, and define _POSIX_C_SOURCE 200112L before anything (clock_gettime,
-// posix_memalign) and PROGRAM, the name that messages begin with.
+// Include neuralsvcd.h first, and define _POSIX_C_SOURCE 200112L before anything (clock.h) and
+// PROGRAM, the name that messages begin with.
 //
 //   nsvcd-problems 1
 //   mesh NAME PATH                        # OBJ, relative to the problem file
 //   problem ID MOVING SCALE FIXED SCALE  x y z qx qy qz qw  LABEL MARGIN COUNT [FIXED_COUNT]
 //   x y z qx qy qz qw                     # COUNT lines: pose of the moving body at t = i/(COUNT-1)
 //   x y z qx qy qz qw                     # FIXED_COUNT lines: the same of the other body, which
-//                                         then moves too; the pose # on the problem line, else its
+//                                         then moves too; the pose on the problem line, else its
 //                                         pose, does not count
 //
 // LABEL: 1 collides, 0 free, -1 unknown. MARGIN in metres: least distance if free, minus the depth
@@ -41,11 +41,11 @@ static int complain(const char *format, ...) {
   return 0;
 }
 
-// Memory aligned for bodies and workspaces. A tool may give up when there is none; the library
-// never does.
+// Memory for bodies and workspaces: malloc's is aligned for any type, and so to NSVCD_ALIGNMENT. A
+// tool may give up when there is none; the library never does.
 static void *allocate(size_t size) {
-  void *memory = NULL;
-  if (posix_memalign(&memory, NSVCD_ALIGNMENT, size ? size : 1) == 0)
+  void *memory = malloc(size ? size : 1);
+  if (memory)
     return memory;
   complain("out of memory");
   exit(REFUSED);

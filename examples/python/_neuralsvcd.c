@@ -1,0 +1,111 @@
+// _neuralsvcd.c - the library as neuralsvcd.py loads it, with ctypes, which knows nothing of the
+// header. So that a changed header cannot break it silently, prototypes are compared here, and the
+// layout of structs is told to neuralsvcd.py, which compares it on import.
+#define NSVCD_NO_STDIO  // Python reads the files
+#define NEURALSVCD_IMPLEMENTATION
+#include "../../neuralsvcd.h"
+
+// As neuralsvcd.py calls them. Where the header says otherwise, this does not compile.
+const char *nsvcd_result_string(nsvcd_result);
+nsvcd_result nsvcd_obj_parse(const char *, size_t, const nsvcd_allocator *, nsvcd_mesh *, size_t *);
+nsvcd_result nsvcd_mesh_cut(const nsvcd_mesh *, const float[3], const float[3],
+                            const nsvcd_allocator *, nsvcd_mesh *);
+void nsvcd_mesh_free(nsvcd_mesh *, const nsvcd_allocator *);
+nsvcd_result nsvcd_encode(const nsvcd_mesh *, const nsvcd_encode_options *, const nsvcd_allocator *,
+                          void *, size_t, const nsvcd_body **);
+void nsvcd_body_free(const nsvcd_body *, const nsvcd_allocator *);
+nsvcd_result nsvcd_body_load(const void *, size_t, const nsvcd_body **);
+nsvcd_result nsvcd_body_scale(const nsvcd_body *, float, void *, size_t, const nsvcd_body **);
+nsvcd_body_facts nsvcd_body_describe(const nsvcd_body *);
+int nsvcd_body_patch(const nsvcd_body *, uint32_t, float[3], float *);
+size_t nsvcd_sweep_workspace_size(const nsvcd_question *);
+nsvcd_result nsvcd_sweep(const nsvcd_question *, void *, size_t, nsvcd_answer *);
+nsvcd_result nsvcd_sweep_batch(const nsvcd_question *, size_t, void *, size_t, nsvcd_answer *);
+nsvcd_result nsvcd_sweep_gradient(const nsvcd_question *, void *, size_t, nsvcd_answer *, float *,
+                                  float *);
+void nsvcd_spline(const float *, size_t, size_t, float, size_t, float *);
+size_t nsvcd_plan_workspace_size(const nsvcd_plan_problem *, const nsvcd_plan_options *);
+nsvcd_result nsvcd_plan(const nsvcd_plan_problem *, const nsvcd_plan_options *, void *, size_t,
+                        float *, nsvcd_plan_answer *);
+
+// A struct is at 0, a field at its offset; a constant has its value for the place, and no size.
+typedef struct neuralsvcd_layout {
+  const char *name;
+  size_t place, size;
+} neuralsvcd_layout;
+
+// clang-format off
+#define STRUCT(type) {"nsvcd_" #type, 0, sizeof(nsvcd_##type)}
+#define FIELD(type, field) \
+  {"nsvcd_" #type "." #field, offsetof(nsvcd_##type, field), sizeof(((nsvcd_##type *)0)->field)}
+#define CONSTANT(name) {"NSVCD_" #name, (size_t)(NSVCD_##name), 0}
+
+static const neuralsvcd_layout layouts[] = {
+    STRUCT(mesh), FIELD(mesh, positions), FIELD(mesh, indices), FIELD(mesh, vertex_count),
+    FIELD(mesh, triangle_count),
+    STRUCT(encode_options), FIELD(encode_options, patches), FIELD(encode_options, patch_radius),
+    FIELD(encode_options, open), FIELD(encode_options, no_triangles),
+    FIELD(encode_options, no_latents), FIELD(encode_options, latents),
+    FIELD(encode_options, progress), FIELD(encode_options, user),
+    STRUCT(body_facts), FIELD(body_facts, size), FIELD(body_facts, patches),
+    FIELD(body_facts, centre), FIELD(body_facts, radius), FIELD(body_facts, mean_patch_radius),
+    FIELD(body_facts, triangles), FIELD(body_facts, listings), FIELD(body_facts, quantum),
+    FIELD(body_facts, latents),
+    STRUCT(pose), FIELD(pose, position), FIELD(pose, rotation),
+    STRUCT(sweep_options), FIELD(sweep_options, pairs), FIELD(sweep_options, model),
+    FIELD(sweep_options, precision), FIELD(sweep_options, recall), FIELD(sweep_options, method),
+    FIELD(sweep_options, work), FIELD(sweep_options, segments), FIELD(sweep_options, tolerance),
+    FIELD(sweep_options, clearance), FIELD(sweep_options, first), FIELD(sweep_options, measure),
+    FIELD(sweep_options, skin),
+    STRUCT(mover), FIELD(mover, body), FIELD(mover, poses), FIELD(mover, count),
+    FIELD(mover, scale),
+    STRUCT(question), FIELD(question, a), FIELD(question, b), FIELD(question, options),
+    STRUCT(answer), FIELD(answer, logit), FIELD(answer, collides), FIELD(answer, contact_time),
+    FIELD(answer, free_until), FIELD(answer, clearance_low), FIELD(answer, clearance_high),
+    FIELD(answer, patch_a), FIELD(answer, patch_b), FIELD(answer, status),
+    FIELD(answer, candidates), FIELD(answer, point), FIELD(answer, normal),
+    FIELD(answer, triangle_a), FIELD(answer, triangle_b), FIELD(answer, lift), FIELD(answer, work),
+    STRUCT(body_pair), FIELD(body_pair, a), FIELD(body_pair, b),
+    STRUCT(plan_progress), FIELD(plan_progress, seed), FIELD(plan_progress, iteration),
+    FIELD(plan_progress, iterations), FIELD(plan_progress, refining), FIELD(plan_progress, cost),
+    FIELD(plan_progress, collision), FIELD(plan_progress, control),
+    FIELD(plan_progress, via_points),
+    STRUCT(plan_problem), FIELD(plan_problem, joints), FIELD(plan_problem, low),
+    FIELD(plan_problem, high), FIELD(plan_problem, start), FIELD(plan_problem, goal),
+    FIELD(plan_problem, bodies), FIELD(plan_problem, body_count), FIELD(plan_problem, pairs),
+    FIELD(plan_problem, pair_count), FIELD(plan_problem, place), FIELD(plan_problem, jacobian),
+    FIELD(plan_problem, collision), FIELD(plan_problem, progress), FIELD(plan_problem, user),
+    STRUCT(plan_stage), FIELD(plan_stage, via_points), FIELD(plan_stage, segments),
+    FIELD(plan_stage, iterations), FIELD(plan_stage, draws), FIELD(plan_stage, noise),
+    STRUCT(plan_options), FIELD(plan_options, seed), FIELD(plan_options, seeds),
+    FIELD(plan_options, explore), FIELD(plan_options, refine), FIELD(plan_options, velocity),
+    FIELD(plan_options, acceleration), FIELD(plan_options, jerk), FIELD(plan_options, collision),
+    FIELD(plan_options, duration), FIELD(plan_options, margin),
+    FIELD(plan_options, discrete), FIELD(plan_options, check),
+    FIELD(plan_options, sweep),
+    STRUCT(plan_answer), FIELD(plan_answer, status), FIELD(plan_answer, collides),
+    FIELD(plan_answer, joint), FIELD(plan_answer, pair), FIELD(plan_answer, logit),
+    FIELD(plan_answer, time), FIELD(plan_answer, cost), FIELD(plan_answer, smoothness),
+    FIELD(plan_answer, via_points), FIELD(plan_answer, seeds), FIELD(plan_answer, iterations),
+    FIELD(plan_answer, trajectories), FIELD(plan_answer, sweeps),
+    CONSTANT(ERROR_ARGUMENT), CONSTANT(ERROR_IO), CONSTANT(ERROR_MEMORY), CONSTANT(ERROR_SYNTAX),
+    CONSTANT(ERROR_INDEX), CONSTANT(ERROR_NUMBER), CONSTANT(ERROR_EMPTY), CONSTANT(ERROR_TOO_LARGE),
+    CONSTANT(ERROR_POSE), CONSTANT(ERROR_SCALE), CONSTANT(ERROR_TOLERANCE), CONSTANT(ERROR_SAME),
+    CONSTANT(ERROR_BODY), CONSTANT(ERROR_WORKSPACE), CONSTANT(ERROR_CANCELLED),
+    CONSTANT(STATUS_OK), CONSTANT(STATUS_CERTIFIED_FREE), CONSTANT(STATUS_INSIDE),
+    CONSTANT(STATUS_LIMIT), CONSTANT(STATUS_WITNESS), CONSTANT(STATUS_UNDECIDED),
+    CONSTANT(MODEL_DEFAULT), CONSTANT(MODEL_TINY), CONSTANT(MODEL_SMALL), CONSTANT(MODEL_BASE),
+    CONSTANT(PRECISION_FLOAT), CONSTANT(PRECISION_INT8),
+    CONSTANT(METHOD_DEFAULT), CONSTANT(METHOD_PROOF), CONSTANT(METHOD_NETWORK),
+    CONSTANT(PLAN_CONVERGED), CONSTANT(PLAN_LIMIT), CONSTANT(PLAN_CANCELLED), CONSTANT(PLAN_START),
+    CONSTANT(PLAN_GOAL),
+    CONSTANT(NO_TRIANGLE), CONSTANT(MAX_VIA_POINTS), CONSTANT(NONE),
+};
+// clang-format on
+
+extern const neuralsvcd_layout *neuralsvcd_layouts(size_t *count);
+
+const neuralsvcd_layout *neuralsvcd_layouts(size_t *count) {
+  *count = sizeof layouts / sizeof *layouts;
+  return layouts;
+}

@@ -1,0 +1,964 @@
+"""Does this body, moving along this trajectory, hit that body? neuralsvcd.h for Python, by ctypes.
+
+    rack = Body(*load_obj("dish_rack.obj"))
+    answer = sweep(mug, rack, path)          # path: (k, 7)
+    if answer.collides: print(answer.contact_time)
+
+Units are metres and radians, time is in [0, 1]. A pose is x y z and a unit quaternion x y z w; a
+motion is an array (k, 7) of poses, uniform in time, position linear and rotation slerp in between.
+Arrays may be of any numeric type and stride: they are copied, as float32. What an answer is worth,
+and what each option and field means in full, is said in neuralsvcd.h under the same names.
+
+Threads may share everything here. The library has its memory for each thread, and while it works,
+other Python threads run. What it refuses is raised as Error; arrays of the wrong shape or type are
+ValueError and TypeError.
+"""
+from __future__ import annotations
+
+import ctypes
+import enum
+import functools
+import math
+import operator
+import os
+import struct
+import threading
+from collections.abc import Callable, Sequence
+from ctypes import byref, c_char, c_char_p, c_float, c_int, c_size_t, c_uint32, c_uint64, c_void_p
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any, ClassVar, NamedTuple, Optional, Union
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+__all__ = [
+    "Answer", "Body", "Code", "Error", "Facts", "Gradient", "LEAVE_OUT", "Mesh", "Method", "Model", "NO_TRIANGLE",
+    "Options", "Plan", "PlanOptions", "PlanStatus", "Precision", "Progress", "Stage", "Status", "cut_mesh", "load_obj",
+    "parse_obj", "plan", "spline", "sweep", "sweep_batch", "sweep_gradient",
+]
+
+Floats = NDArray[np.float32]
+Vector = tuple[float, float, float]
+
+# ---------------------------------------------------------------------------------- enumerations, as in neuralsvcd.h
+
+
+class Code(enum.IntEnum):
+    """Why something was refused: nsvcd_result."""
+    ARGUMENT = 1
+    IO = 2
+    MEMORY = 3
+    SYNTAX = 4
+    INDEX = 5
+    NUMBER = 6
+    EMPTY = 7
+    TOO_LARGE = 8
+    POSE = 9
+    SCALE = 10
+    TOLERANCE = 11
+    SAME = 12
+    BODY = 13
+    WORKSPACE = 14
+    CANCELLED = 15
+
+
+class Status(enum.IntEnum):
+    """What an answer is: nsvcd_status."""
+    OK = 0
+    CERTIFIED_FREE = 1
+    INSIDE = 2
+    LIMIT = 3
+    WITNESS = 4
+    UNDECIDED = 5
+
+
+class Model(enum.IntEnum):
+    """The network's decoders: nsvcd_model."""
+    DEFAULT = 0
+    TINY = 1
+    SMALL = 2
+    BASE = 3
+
+
+class Precision(enum.IntEnum):
+    """The decoder's arithmetic: nsvcd_precision."""
+    FLOAT = 0
+    INT8 = 1
+
+
+class Method(enum.IntEnum):
+    """How a question is answered: nsvcd_method."""
+    DEFAULT = 0
+    PROOF = 1
+    NETWORK = 2
+
+
+class PlanStatus(enum.IntEnum):
+    """What a plan is: nsvcd_plan_status."""
+    CONVERGED = 0
+    LIMIT = 1
+    CANCELLED = 2
+    START = 3
+    GOAL = 4
+
+
+NO_TRIANGLE = 0xffffffff  # in the arrays of sweep_batch
+_MAX_VIA_POINTS = 32
+LEAVE_OUT = c_size_t(-1).value  # Stage.iterations
+
+_PREFIXES = {Code: "ERROR_", Status: "STATUS_", Model: "MODEL_", Precision: "PRECISION_", Method: "METHOD_",
+             PlanStatus: "PLAN_"}
+
+# ------------------------------------------------------------------------------------------- structs of neuralsvcd.h
+
+_PROGRESS = ctypes.CFUNCTYPE(c_int, c_float, c_void_p)
+_PLACE = ctypes.CFUNCTYPE(None, c_void_p, c_void_p, c_void_p)
+_PLAN_PROGRESS = ctypes.CFUNCTYPE(c_int, c_void_p, c_void_p)
+
+
+def _struct(name: str, /, **kinds: Any) -> Any:
+    return type(name, (ctypes.Structure,), {"_fields_": list(kinds.items())})
+
+
+_Mesh = _struct("nsvcd_mesh", positions=c_void_p, indices=c_void_p, vertex_count=c_size_t, triangle_count=c_size_t)
+_EncodeOptions = _struct(
+    "nsvcd_encode_options", patches=c_size_t, patch_radius=c_float, open=c_int, no_triangles=c_int, no_latents=c_int,
+    latents=c_int, progress=_PROGRESS, user=c_void_p)
+_BodyFacts = _struct(
+    "nsvcd_body_facts", size=c_size_t, patches=c_size_t, centre=c_float * 3, radius=c_float, mean_patch_radius=c_float,
+    triangles=c_size_t, listings=c_size_t, quantum=c_float, latents=c_int)
+_Pose = _struct("nsvcd_pose", position=c_float * 3, rotation=c_float * 4)
+_SweepOptions = _struct(
+    "nsvcd_sweep_options", pairs=c_size_t, model=c_int, precision=c_int, recall=c_float, method=c_int, work=c_size_t,
+    segments=c_size_t, tolerance=c_float, clearance=c_float, first=c_float, measure=c_float, skin=c_float)
+_Mover = _struct("nsvcd_mover", body=c_void_p, poses=c_void_p, count=c_size_t, scale=c_float)
+_Question = _struct("nsvcd_question", a=_Mover, b=_Mover, options=_SweepOptions)
+_Answer = _struct(
+    "nsvcd_answer", logit=c_float, collides=c_int, contact_time=c_float, free_until=c_float, clearance_low=c_float,
+    clearance_high=c_float, patch_a=c_uint32, patch_b=c_uint32, status=c_int, candidates=c_size_t, point=c_float * 3,
+    normal=c_float * 3, triangle_a=c_uint32, triangle_b=c_uint32, lift=c_float * 3, work=c_size_t)
+_BodyPair = _struct("nsvcd_body_pair", a=c_uint32, b=c_uint32)
+_PlanProgress = _struct(
+    "nsvcd_plan_progress", seed=c_size_t, iteration=c_size_t, iterations=c_size_t, refining=c_int, cost=c_float,
+    collision=c_float, control=c_void_p, via_points=c_size_t)
+_PlanProblem = _struct(
+    "nsvcd_plan_problem", joints=c_size_t, low=c_void_p, high=c_void_p, start=c_void_p, goal=c_void_p, bodies=c_void_p,
+    body_count=c_size_t, pairs=c_void_p, pair_count=c_size_t, place=_PLACE, jacobian=_PLACE, collision=c_void_p,
+    progress=_PLAN_PROGRESS, user=c_void_p)
+_PlanStage = _struct("nsvcd_plan_stage", via_points=c_size_t, segments=c_size_t, iterations=c_size_t, draws=c_size_t,
+                     noise=c_float)
+_PlanOptions = _struct(
+    "nsvcd_plan_options", seed=c_uint64, seeds=c_size_t, explore=_PlanStage, refine=_PlanStage, velocity=c_float,
+    acceleration=c_float, jerk=c_float, collision=c_float, duration=c_float, margin=c_float,
+    discrete=c_int, check=c_size_t, sweep=_SweepOptions)
+_PlanAnswer = _struct(
+    "nsvcd_plan_answer", status=c_int, collides=c_int, joint=c_size_t, pair=c_size_t, logit=c_float, time=c_float,
+    cost=c_float, smoothness=c_float, via_points=c_size_t, seeds=c_size_t, iterations=c_size_t, trajectories=c_size_t,
+    sweeps=c_size_t)
+_STRUCTS = (_Mesh, _EncodeOptions, _BodyFacts, _Pose, _SweepOptions, _Mover, _Question, _Answer, _BodyPair,
+            _PlanProgress, _PlanProblem, _PlanStage, _PlanOptions, _PlanAnswer)
+_Layout = _struct("neuralsvcd_layout", name=c_char_p, place=c_size_t, size=c_size_t)
+
+_PROTOTYPES = {
+    "nsvcd_result_string": (c_char_p, c_int),
+    "nsvcd_obj_parse": (c_int, c_char_p, c_size_t, c_void_p, c_void_p, c_void_p),
+    "nsvcd_mesh_cut": (c_int, c_void_p, c_void_p, c_void_p, c_void_p, c_void_p),
+    "nsvcd_mesh_free": (None, c_void_p, c_void_p),
+    "nsvcd_encode": (c_int, c_void_p, c_void_p, c_void_p, c_void_p, c_size_t, c_void_p),
+    "nsvcd_body_free": (None, c_void_p, c_void_p),
+    "nsvcd_body_load": (c_int, c_void_p, c_size_t, c_void_p),
+    "nsvcd_body_scale": (c_int, c_void_p, c_float, c_void_p, c_size_t, c_void_p),
+    "nsvcd_body_describe": (_BodyFacts, c_void_p),
+    "nsvcd_body_patch": (c_int, c_void_p, c_uint32, c_void_p, c_void_p),
+    "nsvcd_sweep_workspace_size": (c_size_t, c_void_p),
+    "nsvcd_sweep": (c_int, c_void_p, c_void_p, c_size_t, c_void_p),
+    "nsvcd_sweep_batch": (c_int, c_void_p, c_size_t, c_void_p, c_size_t, c_void_p),
+    "nsvcd_sweep_gradient": (c_int, c_void_p, c_void_p, c_size_t, c_void_p, c_void_p, c_void_p),
+    "nsvcd_spline": (None, c_void_p, c_size_t, c_size_t, c_float, c_size_t, c_void_p),
+    "nsvcd_plan_workspace_size": (c_size_t, c_void_p, c_void_p),
+    "nsvcd_plan": (c_int, c_void_p, c_void_p, c_void_p, c_size_t, c_void_p, c_void_p),
+    "neuralsvcd_layouts": (c_void_p, c_void_p),
+}
+
+
+def _expected_layouts() -> dict[str, tuple[int, int]]:
+    """What neuralsvcd_layouts of _neuralsvcd.c must say, if all above is as in neuralsvcd.h."""
+    expected = {"NSVCD_NO_TRIANGLE": (NO_TRIANGLE, 0), "NSVCD_MAX_VIA_POINTS": (_MAX_VIA_POINTS, 0),
+                "NSVCD_NONE": (LEAVE_OUT, 0)}
+    for values, prefix in _PREFIXES.items():
+        expected.update({f"NSVCD_{prefix}{value.name}": (value.value, 0) for value in values})
+    for kind in _STRUCTS:
+        expected[kind.__name__] = (0, ctypes.sizeof(kind))
+        for name, _ in kind._fields_:
+            member = getattr(kind, name)
+            expected[f"{kind.__name__}.{name}"] = (member.offset, member.size)
+    return expected
+
+
+def _load_library() -> ctypes.CDLL:
+    """The library beside this file, as a wheel has it, or the one that `make python` has built."""
+    here = Path(__file__).resolve().parent
+    places = [here / "_neuralsvcd.abi3.so", here.parent.parent / "build" / "_neuralsvcd.so"]
+    path = next((place for place in places if place.exists()), None)
+    if path is None:
+        raise ImportError(f"neuralsvcd: the library is not built: make python; looked for {places[0]}, {places[1]}")
+    library = ctypes.CDLL(str(path))
+    for name, (result, *arguments) in _PROTOTYPES.items():
+        function = getattr(library, name)
+        function.restype = result
+        function.argtypes = arguments
+    count = c_size_t()
+    first = library.neuralsvcd_layouts(byref(count))
+    table = (_Layout * count.value).from_address(first)
+    found = {entry.name.decode(): (entry.place, entry.size) for entry in table}
+    expected = _expected_layouts()
+    wrong = sorted(name for name in {*found, *expected} if found.get(name) != expected.get(name))
+    if wrong:
+        raise ImportError(f"neuralsvcd: {path} is of another neuralsvcd.h than neuralsvcd.py: {', '.join(wrong)}")
+    return library
+
+
+_library = _load_library()
+
+# -------------------------------------------------------------------------------------------------------------- errors
+
+
+class Error(Exception):
+    """What the library refuses.
+
+    code   why
+    where  of a file its name, of an argument that, or ""
+    line   of OBJ text, from 1; 0: none is at fault
+    index  of sweep_batch: the first motion at fault, else None
+    """
+
+    def __init__(self, code: int, where: str = "", line: int = 0, index: Optional[int] = None) -> None:
+        super().__init__(code, where, line, index)
+        self.code = Code(code)
+        self.where = where
+        self.line = line
+        self.index = index
+
+    def __str__(self) -> str:
+        place = [self.where] if self.where else []
+        if self.line:
+            place.append(f"line {self.line}")
+        if self.index is not None:
+            place.append(f"motion {self.index}")
+        return ": ".join([*place, _library.nsvcd_result_string(self.code).decode()])
+
+
+def _check(code: int) -> None:
+    if code:
+        raise Error(code)
+
+
+# -------------------------------------------------------------------------------------------- from Python to C, checked
+
+
+def _numeric(value: ArrayLike, shape: tuple[Optional[int], ...], name: str) -> NDArray[Any]:
+    """As an array of real numbers of this shape, where None stands for any length."""
+    array = np.asarray(value)
+    if array.dtype.kind not in "fiu":
+        raise TypeError(f"{name}: an array of numbers is needed, not of {array.dtype}")
+    fits = array.ndim == len(shape)
+    for want, have in zip(shape, array.shape):
+        fits = fits and want in (None, have)
+    if not fits:
+        wanted = ", ".join("n" if length is None else str(length) for length in shape)
+        raise ValueError(f"{name}: an array ({wanted}) is needed, not {array.shape}")
+    return array
+
+
+def _floats(value: ArrayLike, shape: tuple[Optional[int], ...], name: str) -> Floats:
+    """A copy in C order, so that nothing changes it while the library reads it."""
+    return np.array(_numeric(value, shape, name), np.float32, order="C")
+
+
+def _indices(value: ArrayLike, columns: int, name: str) -> NDArray[np.uint32]:
+    array = _numeric(value, (None, columns), name)
+    if array.dtype.kind == "f":
+        raise TypeError(f"{name}: an array of integers is needed, not of {array.dtype}")
+    if array.size and not (0 <= array.min() and array.max() <= 0xffffffff):
+        raise Error(Code.INDEX, name)
+    return np.array(array, np.uint32, order="C")
+
+
+def _address(array: Any) -> int:
+    """Of a numpy array that can be written. array.ctypes.data takes three times as long."""
+    return ctypes.addressof(c_char.from_buffer(array)) if array.size else int(array.ctypes.data)
+
+
+def _memory(size: int) -> NDArray[np.uint8]:
+    """Bytes, aligned as the library wants them."""
+    return np.empty(size // 8 + 1, np.uint64).view(np.uint8)[:size]
+
+
+def _number(kind: Any, value: Any, name: str) -> Any:
+    """A number of a C type. ctypes itself would cut off what does not fit."""
+    if kind is c_float:
+        rounded = c_float(value)
+        if value and not rounded.value:
+            raise ValueError(f"{name}: {value} is 0 as a float")
+        return rounded
+    most = 0x7fffffff if kind is c_int else kind(-1).value
+    number = operator.index(value)
+    if not 0 <= number <= most:
+        raise ValueError(f"{name}: {number} is not in 0..{most}")
+    return number
+
+
+def _filled(structure: Any, **values: Any) -> Any:
+    """A struct with these fields. Those that hold structs themselves are given as Options and the like."""
+    out = structure()
+    for name, kind in structure._fields_:
+        value = values.get(name)
+        if value is None:
+            continue
+        setattr(out, name, value._c if issubclass(kind, ctypes.Structure) else _number(kind, value, name))
+    return out
+
+
+class _Workspace(threading.local):
+    """Memory for any question, of each thread."""
+
+    def __init__(self) -> None:
+        self.size = _library.nsvcd_sweep_workspace_size(None)
+        self.memory = _memory(self.size)
+        self.address = _address(self.memory)
+
+
+_workspace = _Workspace()
+
+# -------------------------------------------------------------------------------------------------------------- meshes
+
+
+class Mesh(NamedTuple):
+    """Triangles, counter-clockwise seen from outside.
+
+    vertices   (n, 3) float32, metres
+    triangles  (m, 3) uint32, of vertices
+    """
+    vertices: Floats
+    triangles: NDArray[np.uint32]
+
+
+def _c_mesh(vertices: ArrayLike, triangles: ArrayLike) -> Any:
+    kept = _floats(vertices, (None, 3), "vertices"), _indices(triangles, 3, "triangles")
+    mesh = _Mesh(_address(kept[0]), _address(kept[1]), len(kept[0]), len(kept[1]))
+    mesh.kept = kept
+    return mesh
+
+
+def _taken(mesh: Any) -> Mesh:
+    """A copy of a mesh of the library's, which is given back."""
+    def copied(address: int, rows: int, kind: Any) -> NDArray[Any]:
+        return np.frombuffer((kind * (3 * rows)).from_address(address), kind).reshape(rows, 3).copy()
+    try:
+        return Mesh(copied(mesh.positions, mesh.vertex_count, c_float),
+                    copied(mesh.indices, mesh.triangle_count, c_uint32))
+    finally:
+        _library.nsvcd_mesh_free(byref(mesh), None)
+
+
+def parse_obj(text: Union[str, bytes], where: str = "") -> Mesh:
+    """The mesh that OBJ text describes. `where` names it in an Error, which has the line at fault."""
+    data = text.encode() if isinstance(text, str) else bytes(text)
+    mesh, line = _Mesh(), c_size_t()
+    code = _library.nsvcd_obj_parse(data, len(data), None, byref(mesh), byref(line))
+    if code:
+        raise Error(code, where, line.value)
+    return _taken(mesh)
+
+
+def load_obj(path: Union[str, os.PathLike[str]]) -> Mesh:
+    """The mesh in an OBJ file. OSError if it cannot be read."""
+    return parse_obj(Path(path).read_bytes(), os.fspath(path))
+
+
+def cut_mesh(vertices: ArrayLike, triangles: ArrayLike, low: ArrayLike, high: ArrayLike) -> Mesh:
+    """The part of a mesh within a box from low (3) to high (3), metres; to be encoded as `open`."""
+    corners = _floats(low, (3,), "low"), _floats(high, (3,), "high")
+    mesh, part = _c_mesh(vertices, triangles), _Mesh()
+    _check(_library.nsvcd_mesh_cut(byref(mesh), *map(_address, corners), None, byref(part)))
+    return _taken(part)
+
+
+# -------------------------------------------------------------------------------------------------------------- bodies
+
+
+class Facts(NamedTuple):
+    """What a body is: nsvcd_body_facts.
+
+    size               bytes
+    patches            parts of its surface
+    centre, radius     of a sphere that contains it, metres
+    mean_patch_radius  metres
+    triangles          of the mesh; 0: none are stored
+    listings           triangles and parts of them that are stored
+    quantum            stored triangles are within this of the mesh's, metres
+    latents            the network can answer
+    """
+    size: int
+    patches: int
+    centre: Vector
+    radius: float
+    mean_patch_radius: float
+    triangles: int
+    listings: int
+    quantum: float
+    latents: bool
+
+
+class Body:
+    """An encoded mesh. It does not change; threads may share it; it can be pickled and copied.
+
+    vertices      (n, 3) metres
+    triangles     (m, 3) integers
+    patches       1 to 65536; 0: by the number of triangles
+    patch_radius  metres; with patches = 0: as many as have about this radius; 0: unasked
+    open          the mesh is not closed: nothing counts as inside it
+    no_triangles  for the network alone
+    no_latents    for the proof alone
+    latents       for the network too, also of more than 512 patches
+    progress      called now and then with what is done, in [0, 1]. If it returns something true, Error(CANCELLED);
+                  what it raises ends the encoding
+    """
+
+    __slots__ = ("_memory", "_address", "__weakref__")
+    _memory: NDArray[np.uint8]
+    _address: int
+
+    def __init__(self, vertices: ArrayLike, triangles: ArrayLike, *, patches: int = 0, patch_radius: float = 0,
+                 open: bool = False, no_triangles: bool = False, no_latents: bool = False, latents: bool = False,
+                 progress: Optional[Callable[[float], Any]] = None) -> None:
+        mesh = _c_mesh(vertices, triangles)
+        options = _filled(_EncodeOptions, patches=patches, patch_radius=patch_radius, open=open,
+                          no_triangles=no_triangles, no_latents=no_latents, latents=latents)
+        caught: list[BaseException] = []
+        if progress:
+            options.progress = _PROGRESS(functools.partial(_cancels, progress, caught))
+        body = c_void_p()
+        code = _library.nsvcd_encode(byref(mesh), byref(options), None, None, 0, byref(body))
+        if caught:
+            raise caught[0]
+        _check(code)
+        try:
+            size = _library.nsvcd_body_describe(body).size
+            memory = _memory(size)
+            ctypes.memmove(_address(memory), body, size)
+        finally:
+            _library.nsvcd_body_free(body, None)
+        self._keep(memory)
+
+    def _keep(self, memory: NDArray[np.uint8]) -> None:
+        self._address = _address(memory)
+        memory.flags.writeable = False
+        self._memory = memory
+
+    @classmethod
+    def from_bytes(cls, data: Any) -> Body:
+        """A body from what bytes(body) gave, or any other buffer. Every byte is checked; the buffer is not kept."""
+        given = memoryview(data).cast("B")
+        memory = _memory(len(given))
+        memory[:] = given
+        body = c_void_p()
+        _check(_library.nsvcd_body_load(_address(memory), len(memory), byref(body)))
+        self = cls.__new__(cls)
+        self._keep(memory[:_library.nsvcd_body_describe(body).size])
+        return self
+
+    @classmethod
+    def load(cls, path: Union[str, os.PathLike[str]]) -> Body:
+        """A body from a file of save, or of `svcd encode`."""
+        return cls.from_bytes(Path(path).read_bytes())
+
+    def save(self, path: Union[str, os.PathLike[str]]) -> None:
+        """Writes the body into a file."""
+        Path(path).write_bytes(self._memory.data)
+
+    def __bytes__(self) -> bytes:
+        return self._memory.tobytes()
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        return Body.from_bytes, (bytes(self),)
+
+    def __repr__(self) -> str:
+        return f"<neuralsvcd.Body: {self.facts.patches} patches, {self.facts.size} bytes>"
+
+    def scaled(self, scale: float) -> Body:
+        """A copy, scaled about the origin. A question has scales of its own."""
+        memory = _memory(len(self._memory))
+        scaled = c_void_p()
+        factor = _number(c_float, scale, "scale")
+        _check(_library.nsvcd_body_scale(self._address, factor, _address(memory), len(memory), byref(scaled)))
+        body = Body.__new__(Body)
+        body._keep(memory)
+        return body
+
+    @property
+    def facts(self) -> Facts:
+        facts = _library.nsvcd_body_describe(self._address)
+        return Facts(facts.size, facts.patches, _vector(facts.centre), facts.radius, facts.mean_patch_radius,
+                     facts.triangles, facts.listings, facts.quantum, bool(facts.latents))
+
+    def patch(self, index: int) -> tuple[Vector, float]:
+        """Centre and radius of the sphere about a patch, metres, body frame."""
+        if not 0 <= operator.index(index) < self.facts.patches:
+            raise IndexError(f"no patch {index}")
+        centre, radius = (c_float * 3)(), c_float()
+        _library.nsvcd_body_patch(self._address, index, byref(centre), byref(radius))
+        return _vector(centre), radius.value
+
+
+def _vector(c: Any) -> Vector:
+    return c[0], c[1], c[2]
+
+
+def _cancels(progress: Callable[[Any], Any], caught: list[BaseException], done: Any, _: Any) -> int:
+    """For C: 1 if the callback wants an end. ctypes would swallow what it raises."""
+    try:
+        return 1 if caught or progress(done) else 0
+    except BaseException as error:  # KeyboardInterrupt too
+        caught.append(error)
+        return 1
+
+
+# ------------------------------------------------------------------------------------------------------------- queries
+
+
+class _Options:
+    """A dataclass with the fields of a struct, and that struct."""
+    _struct: ClassVar[Any]
+    _c: Any
+
+    def __post_init__(self) -> None:
+        object.__setattr__(self, "_c", _filled(self._struct, **vars(self)))
+
+    def __reduce__(self) -> tuple[Any, ...]:  # the struct is made anew
+        return type(self), tuple(getattr(self, name) for name, _ in self._struct._fields_)
+
+
+@dataclass(frozen=True)
+class Options(_Options):
+    """How a question is asked: nsvcd_sweep_options. What is 0 is the default.
+
+    pairs      of patches that the network looks at, 1 to 256; 8
+    model, precision, recall  of the network; recall: 0, 0.99, 0.999 or 0.9999
+    method     proof where both bodies have triangles, else network
+    work       units that a proof may take; 100000
+    segments   a motion is cut into at most so many, a multiple of 16 up to 64; 64
+    tolerance  metres: what comes closer and does not meet may be left undecided
+    By proof only:
+    clearance  metres: to come as close as this counts as a collision
+    first      share of the motion, up to 1: contact_time is that of the first contact, to this
+    measure    metres: clearance_low and clearance_high are the least distance, to this. Not with first
+    skin       metres: a contact at the start that is no deeper does not count
+    """
+    pairs: int = 0
+    model: Model = Model.DEFAULT
+    precision: Precision = Precision.FLOAT
+    recall: float = 0
+    method: Method = Method.DEFAULT
+    work: int = 0
+    segments: int = 0
+    tolerance: float = 0
+    clearance: float = 0
+    first: float = 0
+    measure: float = 0
+    skin: float = 0
+    _struct = _SweepOptions
+
+
+_DEFAULTS = Options()
+
+
+class Answer(NamedTuple):
+    """nsvcd_answer. As a condition it is answer.collides.
+
+    logit         of collision; +-100 by proof
+    collides      the verdict
+    contact_time  in [0, 1]
+    free_until    in [0, 1]: by proof, no contact is before this
+    clearance_low, clearance_high  metres: they stay farther apart than low until free_until, and come as near as high,
+                  at contact_time; inf: not known
+    patch_a, patch_b  that decided; 0, 0: none
+    status        what the verdict is worth
+    candidates    pairs of patches whose spheres meet, by the network
+    point         where they meet, world, metres
+    normal        unit normal there, from b to a, world; or 0
+    triangle_a, triangle_b  as numbered in the meshes; None but of a WITNESS
+    lift          metres, world: by what a was lifted off b for options.skin
+    work          units that the proof took
+    """
+    logit: float
+    collides: bool
+    contact_time: float
+    free_until: float
+    clearance_low: float
+    clearance_high: float
+    patch_a: int
+    patch_b: int
+    status: Status
+    candidates: int
+    point: Vector
+    normal: Vector
+    triangle_a: Optional[int]
+    triangle_b: Optional[int]
+    lift: Vector
+    work: int
+
+    def __bool__(self) -> bool:
+        return self.collides
+
+
+# All fields at once, vectors as three numbers: field by field takes twice the time.
+_FIELDS = struct.Struct("".join(
+    f"{kind._length_}{kind._type_._type_}" if issubclass(kind, ctypes.Array) else kind._type_
+    for _, kind in _Answer._fields_))
+
+
+def _answer_of(c: Any) -> Answer:
+    v: Any = _FIELDS.unpack(c)
+    triangle_a = None if v[16] == NO_TRIANGLE else v[16]
+    triangle_b = None if v[17] == NO_TRIANGLE else v[17]
+    return Answer(v[0], bool(v[1]), v[2], v[3], v[4], v[5], v[6], v[7], Status(v[8]), v[9], v[10:13], v[13:16],
+                  triangle_a, triangle_b, v[18:21], v[21])
+
+
+def _motion(poses: Optional[ArrayLike], shape: tuple[Optional[int], ...], name: str) -> Optional[Floats]:
+    if poses is None:
+        return None
+    motion = _floats(poses, shape, name)
+    if not motion.shape[-2]:
+        raise ValueError(f"{name}: no pose; None is at rest at the origin")
+    return motion
+
+
+def _mover(body: Body, motion: Optional[Floats], scale: float, side: str) -> Any:
+    if not isinstance(body, Body):
+        raise TypeError(f"{side}: a Body is needed, not {type(body).__name__}")
+    factor = c_float(scale)
+    if not factor.value:
+        raise ValueError(f"scale_{side}: {scale}")  # in C that is 1
+    if motion is None:
+        return body._address, None, 0, factor
+    return body._address, _address(motion), len(motion), factor
+
+
+def _question(a: Body, b: Body, poses_a: Optional[ArrayLike], poses_b: Optional[ArrayLike], scale_a: float,
+              scale_b: float, options: Options) -> Any:
+    motion_a = _motion(poses_a, (None, 7), "poses_a")
+    # The same array twice is the same motion, which the library refuses of one body.
+    motion_b = motion_a if poses_b is poses_a else _motion(poses_b, (None, 7), "poses_b")
+    question = _Question(_mover(a, motion_a, scale_a, "a"), _mover(b, motion_b, scale_b, "b"), options._c)
+    question.kept = motion_a, motion_b
+    return question
+
+
+def sweep(a: Body, b: Body, poses_a: Optional[ArrayLike] = None, poses_b: Optional[ArrayLike] = None, *,
+          scale_a: float = 1, scale_b: float = 1, options: Options = _DEFAULTS) -> Answer:
+    """Do two bodies hit each other?
+
+    poses_a, poses_b  (k, 7) x y z in metres, unit quaternion x y z w, uniform in time; k may differ; one pose: it rests
+                      there; None: it rests at the origin
+    scale_a, scale_b  of the bodies, about their origins, 1e-6 to 1e6
+    """
+    question = _question(a, b, poses_a, poses_b, scale_a, scale_b, options)
+    answer = _Answer()
+    _check(_library.nsvcd_sweep(byref(question), _workspace.address, _workspace.size, byref(answer)))
+    return _answer_of(answer)
+
+
+class Gradient(NamedTuple):
+    """The network's answer, and the derivatives of its logit by the poses.
+
+    by_a, by_b  (k, 6) float32, one row for a body without poses: by a displacement of the body's origin (metres,
+                world), then by a small rotation about it (rotation vector, radians, world, applied on the left)
+    """
+    answer: Answer
+    by_a: Floats
+    by_b: Floats
+
+
+def sweep_gradient(a: Body, b: Body, poses_a: Optional[ArrayLike] = None, poses_b: Optional[ArrayLike] = None, *,
+                   scale_a: float = 1, scale_b: float = 1, options: Options = _DEFAULTS) -> Gradient:
+    """As sweep, by the network, with derivatives; zero where no network answered."""
+    question = _question(a, b, poses_a, poses_b, scale_a, scale_b, options)
+    answer = _Answer()
+    by_a, by_b = (np.zeros((1 if motion is None else len(motion), 6), np.float32) for motion in question.kept)
+    _check(_library.nsvcd_sweep_gradient(byref(question), _workspace.address, _workspace.size, byref(answer),
+                                         _address(by_a), _address(by_b)))
+    return Gradient(_answer_of(answer), by_a, by_b)
+
+
+# -------------------------------------------------------------------------------------------------------- many motions
+
+
+def _answers_type() -> np.dtype[Any]:
+    """nsvcd_answer for numpy, with a bool for `collides`: the first byte of an int that is 0 or 1 on a little-endian
+    machine, as bodies demand one. So it can choose rows."""
+    plain = np.dtype(_Answer)
+    assert plain.names and plain.fields
+    formats = ["?" if name == "collides" else plain.fields[name][0] for name in plain.names]
+    return np.dtype({"names": plain.names, "formats": formats, "itemsize": plain.itemsize,
+                     "offsets": [plain.fields[name][1] for name in plain.names]})
+
+
+_QUESTIONS = np.dtype(_Question)
+_ANSWERS = _answers_type()
+
+Bodies = Union[Body, Sequence[Body]]
+
+
+class _Side(NamedTuple):
+    """Body a or body b of all questions of a batch; each one, or one for each question."""
+    name: str
+    bodies: Bodies
+    motions: Optional[Floats]
+    scales: Floats
+
+    def lengths(self) -> set[int]:
+        lengths = set() if isinstance(self.bodies, Body) else {len(self.bodies)}
+        if self.motions is not None and self.motions.ndim == 3:
+            lengths.add(len(self.motions))
+        if self.scales.ndim == 1:
+            lengths.add(len(self.scales))
+        return lengths
+
+    def write(self, movers: NDArray[Any]) -> None:
+        bodies = [self.bodies] if isinstance(self.bodies, Body) else self.bodies
+        if not all(isinstance(body, Body) for body in bodies):
+            raise TypeError(f"{self.name}: bodies are needed")
+        movers["body"] = [body._address for body in bodies]
+        movers["scale"] = self.scales
+        if self.motions is not None:
+            step = self.motions.strides[0] if self.motions.ndim == 3 else 0
+            movers["poses"] = _address(self.motions) + step * np.arange(len(movers), dtype=np.uintp)
+            movers["count"] = self.motions.shape[-2]
+
+
+def _side(name: str, bodies: Bodies, poses: Optional[ArrayLike], scale: ArrayLike) -> _Side:
+    given = np.asarray(scale)
+    scales = _floats(given, (None,) * min(given.ndim, 1), f"scale_{name}")
+    if not scales.all():
+        raise ValueError(f"scale_{name}: 0")
+    kept: Bodies = bodies if isinstance(bodies, Body) else tuple(bodies)
+    for_all = poses is not None and np.ndim(poses) == 2
+    return _Side(name, kept, _motion(poses, (None, 7) if for_all else (None, None, 7), f"poses_{name}"), scales)
+
+
+def _first_fault(questions: NDArray[Any]) -> int:
+    start, step = _address(questions), questions.itemsize
+    return next(k for k in range(len(questions)) if not _library.nsvcd_sweep_workspace_size(start + k * step))
+
+
+def sweep_batch(a: Bodies, b: Bodies, poses_a: Optional[ArrayLike] = None, poses_b: Optional[ArrayLike] = None, *,
+                scale_a: ArrayLike = 1, scale_b: ArrayLike = 1, options: Options = _DEFAULTS) -> NDArray[Any]:
+    """Answers n questions in one call of the library, one after the other.
+
+    a, b              a body for all, or a sequence of n
+    poses_a, poses_b  (n, k, 7), or (k, 7) for all, or None
+    scale_a, scale_b  (n), or a number for all
+
+    Returns a structured array (n) with the fields of Answer: answers["collides"] is an array of bool,
+    answers["status"] one of Status as numbers, answers["point"] (n, 3); triangles may be NO_TRIANGLE. One after another
+    on the same two bodies: the network is first asked where the motion before collided; see nsvcd_sweep_batch.
+    """
+    side_a, side_b = _side("a", a, poses_a, scale_a), _side("b", b, poses_b, scale_b)
+    if poses_b is poses_a:
+        side_b = side_b._replace(motions=side_a.motions)  # as in _question
+    lengths = side_a.lengths() | side_b.lengths()
+    if len(lengths) != 1:
+        raise ValueError(f"lengths differ: {sorted(lengths)}" if lengths else "nothing says how many motions there are")
+    questions = np.zeros(lengths.pop(), _QUESTIONS)
+    answers = np.zeros(len(questions), _ANSWERS)
+    if not len(questions):
+        return answers
+    side_a.write(questions["a"])
+    side_b.write(questions["b"])
+    questions["options"] = np.frombuffer(options._c, _QUESTIONS["options"])[0]
+    code = _library.nsvcd_sweep_batch(_address(questions), len(questions), _workspace.address, _workspace.size,
+                                      _address(answers))
+    if code:
+        raise Error(code, index=_first_fault(questions))
+    return answers
+
+
+# -------------------------------------------------------------------------------------------------------- trajectories
+
+
+def spline(control: ArrayLike, t: ArrayLike, derivative: int = 0) -> Floats:
+    """The joints at times t, or their derivatives by t, of a trajectory through control points.
+
+    control     (M + 2, F) start, M via points, goal; M up to 32
+    t           of any shape; taken into [0, 1]
+    derivative  0: the joints; 1, 2, 3: velocity, acceleration, jerk
+    Returns t's shape, and (F).
+    """
+    points = _floats(control, (None, None), "control")
+    if not 2 <= len(points) <= _MAX_VIA_POINTS + 2:
+        raise ValueError(f"control: 2 to {_MAX_VIA_POINTS + 2} points, not {len(points)}")
+    if derivative not in range(4):
+        raise ValueError(f"derivative: {derivative} is not in 0..3")
+    times = np.asarray(t, np.float32)
+    out = np.empty((times.size, points.shape[1]), np.float32)
+    for time, row in zip(times.ravel().tolist(), out):
+        _library.nsvcd_spline(_address(points), len(points) - 2, len(row), time, derivative, _address(row))
+    return out.reshape(*times.shape, points.shape[1])
+
+
+@dataclass(frozen=True)
+class Stage(_Options):
+    """A stage of the planner: nsvcd_plan_stage. What is 0 is the default.
+
+    via_points  of the trajectory
+    segments    of the trajectory, each swept as one motion
+    iterations  at most; LEAVE_OUT: leave the stage out
+    draws       random trajectories in an iteration of MPPI, or gradients in a bundle of L-BFGS
+    noise       their standard deviation, radians or metres
+    """
+    via_points: int = 0
+    segments: int = 0
+    iterations: int = 0
+    draws: int = 0
+    noise: float = 0
+    _struct = _PlanStage
+
+
+@dataclass(frozen=True)
+class PlanOptions(_Options):
+    """How a motion is planned: nsvcd_plan_options. What is 0 is the default.
+
+    seed, seeds       of all random numbers; starts, tried until one ends free: 6
+    explore, refine   the stages, MPPI and L-BFGS
+    velocity, acceleration, jerk  weights of the means of squares over the motion: 10, 2, 10
+    collision         weight of the logits' sum: 20
+    duration          seconds, which only weights the terms above: 20
+    margin            logits above minus this cost: 2
+    discrete          poses instead of sweeps
+    check             segments of the last check
+    sweep             of all queries
+    """
+    seed: int = 0
+    seeds: int = 0
+    explore: Stage = Stage()
+    refine: Stage = Stage()
+    velocity: float = 0
+    acceleration: float = 0
+    jerk: float = 0
+    collision: float = 0
+    duration: float = 0
+    margin: float = 0
+    discrete: bool = False
+    check: int = 0
+    sweep: Options = _DEFAULTS
+    _struct = _PlanOptions
+
+
+class Progress(NamedTuple):
+    """nsvcd_plan_progress; control is (M + 2, F)."""
+    seed: int
+    iteration: int
+    iterations: int
+    refining: bool
+    cost: float
+    collision: float
+    control: Floats
+
+
+class Plan(NamedTuple):
+    """nsvcd_plan_answer, and the trajectory.
+
+    control       (M + 2, F) start, via points, goal: see spline
+    status        CONVERGED: within the limits, and proven free where bodies have triangles
+    collides      by the last check, or of the start or the goal where the status says so
+    joint, pair   that leaves its limits; of the greatest logit; or None
+    logit, time   the greatest of the last check, and when
+    cost, smoothness  of the trajectory; the latter without collision and limits
+    seeds, iterations, trajectories, sweeps  how many it took
+    """
+    control: Floats
+    status: PlanStatus
+    collides: bool
+    joint: Optional[int]
+    pair: Optional[int]
+    logit: float
+    time: float
+    cost: float
+    smoothness: float
+    seeds: int
+    iterations: int
+    trajectories: int
+    sweeps: int
+
+
+def _view(address: int, *shape: int) -> Floats:
+    floats: Any = (c_float * math.prod(shape)).from_address(address)
+    return np.frombuffer(floats, np.float32).reshape(shape)
+
+
+def plan(bodies: Sequence[Optional[Body]], pairs: ArrayLike, place: Callable[[Floats], ArrayLike], start: ArrayLike,
+         goal: ArrayLike, low: ArrayLike, high: ArrayLike, *,
+         jacobian: Optional[Callable[[Floats], ArrayLike]] = None,
+         progress: Optional[Callable[[Progress], Any]] = None, options: PlanOptions = PlanOptions()) -> Plan:
+    """Finds a smooth trajectory of F joints on which no pair of bodies meets.
+
+    bodies       B; one in no pair may be None
+    pairs        (P, 2) bodies that can meet, by their indices; the one that rests, or the larger one, second
+    place        joints (F) -> poses (B, 7), world: forward kinematics, which must depend on nothing else. It is called
+                 some ten thousand times
+    start, goal  (F)
+    low, high    (F) limits
+    jacobian     joints (F) -> (B, 6, F): of each body by a joint, displacement of the origin and rotation vector, world
+                 axes; None: by differences of place
+    progress     called once in an iteration; if it returns something true, the plan is CANCELLED
+    What a callback raises ends the planning, and is raised here. A cost of collision of one's own is not bound.
+    """
+    first = _floats(start, (None,), "start")
+    joints = len(first)
+    rows = [first, *(_floats(row, (joints,), name) for row, name in ((goal, "goal"), (low, "low"), (high, "high")))]
+    kept = tuple(bodies)
+    if not all(body is None or isinstance(body, Body) for body in kept):
+        raise TypeError("bodies: each a Body, or None")
+    addresses = (c_void_p * len(kept))(*(c_void_p(body._address if body else None) for body in kept))
+    met = _indices(pairs, 2, "pairs")
+    caught: list[BaseException] = []
+
+    def call(function: Callable[[Floats], ArrayLike], name: str, given: int, out: int, *shape: int) -> None:
+        target = _view(out, *shape)
+        try:
+            target[:] = np.nan if caught else _numeric(function(_view(given, joints).copy()), shape, name)
+        except BaseException as error:  # ctypes would swallow it
+            caught.append(error)
+            target[:] = np.nan
+
+    def tell(address: int) -> Any:
+        if not progress:
+            return None
+        c = _PlanProgress.from_address(address)
+        control = _view(c.control, c.via_points + 2, joints).copy()
+        return progress(Progress(c.seed, c.iteration, c.iterations, bool(c.refining), c.cost, c.collision, control))
+
+    problem = _PlanProblem(
+        joints=joints, start=_address(rows[0]), goal=_address(rows[1]), low=_address(rows[2]), high=_address(rows[3]),
+        bodies=ctypes.addressof(addresses), body_count=len(kept), pairs=_address(met), pair_count=len(met),
+        place=_PLACE(lambda _, given, out: call(place, "place", given, out, len(kept), 7)),
+        progress=_PLAN_PROGRESS(lambda user, address: _cancels(tell, caught, address, user)))
+    if jacobian:
+        derive = jacobian
+        problem.jacobian = _PLACE(lambda _, given, out: call(derive, "jacobian", given, out, len(kept), 6, joints))
+    size = _library.nsvcd_plan_workspace_size(byref(problem), byref(options._c))
+    workspace = _memory(size)
+    control = np.empty((_MAX_VIA_POINTS + 2, joints), np.float32)
+    answer = _PlanAnswer()
+    code = _library.nsvcd_plan(byref(problem), byref(options._c), _address(workspace), size, _address(control),
+                               byref(answer))
+    if caught:
+        raise caught[0]
+    _check(code)
+    joint, pair = (None if index == LEAVE_OUT else index for index in (answer.joint, answer.pair))
+    return Plan(control[:answer.via_points + 2].copy(), PlanStatus(answer.status), bool(answer.collides), joint, pair,
+                answer.logit, answer.time, answer.cost, answer.smoothness, answer.seeds, answer.iterations,
+                answer.trajectories, answer.sweeps)

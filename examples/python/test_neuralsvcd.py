@@ -1,0 +1,797 @@
+"""Tests of neuralsvcd.py: `make check-python`, or, after `make python build/svcd`, `python3 -m unittest` here."""
+from __future__ import annotations
+
+import copy
+import gc
+import io
+import os
+import pickle
+import re
+import shutil
+import subprocess
+import sys
+import tempfile
+import threading
+import time
+import types
+import unittest
+import weakref
+import zipfile
+from concurrent.futures import ThreadPoolExecutor
+from contextlib import redirect_stdout
+from pathlib import Path
+
+import numpy as np
+
+import neuralsvcd as nsvcd
+from neuralsvcd import Body, Code, Error, Method, Options, PlanOptions, PlanStatus, Stage, Status
+
+HERE = Path(__file__).resolve().parent
+ROOT = HERE.parent.parent
+ASSETS = HERE.parent / "assets"
+SVCD = ROOT / "build" / "svcd"
+PROBLEMS = ROOT / "tests" / "data" / "problems.txt"
+
+REST = [[0, 0, 0, 0, 0, 0, 1]]
+LOW = [[0, -0.4, 0.3, 0, 0, 0, 1], [0, 0, 0, 0, 0, 0, 1]]  # the mug meets the rack
+HIGH = [[0, -0.4, 0.5, 0, 0, 0, 1], [0, 0.4, 0.5, 0, 0, 0, 1]]  # it does not
+BY_NETWORK = Options(method=Method.NETWORK)
+
+CUBE = np.array([[x, y, z] for x in (-1, 1) for y in (-1, 1) for z in (-1, 1)], float)
+FACES = np.array([[0, 1, 3], [0, 3, 2], [4, 6, 7], [4, 7, 5], [0, 4, 5], [0, 5, 1], [2, 3, 7], [2, 7, 6], [0, 2, 6],
+                  [0, 6, 4], [1, 5, 7], [1, 7, 3]])
+
+
+def setUpModule() -> None:
+    global MUG, RACK, BOX
+    MUG, RACK = (Body(*nsvcd.load_obj(ASSETS / name)) for name in ("mug.obj", "dish_rack.obj"))
+    BOX = Body(CUBE, FACES)
+
+
+def at(*position: float) -> list[list[float]]:
+    return [[*position, 0, 0, 0, 1]]
+
+
+def line(start: float, end: float) -> list[list[float]]:
+    """Along x."""
+    return at(start, 0, 0) + at(end, 0, 0)
+
+
+def raised(function, *arguments, **named) -> Error:
+    """The Error that a call raises."""
+    try:
+        function(*arguments, **named)
+    except Error as error:
+        return error
+    raise AssertionError("no Error")
+
+
+def problems_of(path: Path) -> tuple[dict[str, Path], list[tuple]]:
+    """Meshes by name, and problems (id, mesh, scale, other mesh, scale, poses, pose) of a problem file."""
+    meshes, problems = {}, []
+    for fields in (line.split() for line in path.read_text().split("\n")[1:] if line and line[0] != "#"):
+        if fields[0] == "mesh":
+            meshes[fields[1]] = path.parent / fields[2]
+        elif fields[0] == "problem":
+            problems.append((fields[1], fields[2], float(fields[3]), fields[4], float(fields[5]), [],
+                             [[float(x) for x in fields[6:13]]]))
+        else:
+            problems[-1][5].append([float(x) for x in fields])
+    return meshes, problems
+
+
+class AgainstC(unittest.TestCase):
+    """The same questions to build/svcd, another program in C."""
+
+    def setUp(self) -> None:
+        if not SVCD.exists() or not PROBLEMS.exists():
+            self.skipTest("no build/svcd: not tested")
+
+    def compare(self, arguments: list[str], options: Options, **encoding) -> None:
+        command = [str(SVCD), "check", "--repeat", "1", *arguments, str(PROBLEMS)]
+        lines = subprocess.run(command, check=True, capture_output=True, text=True).stdout.splitlines()
+        meshes, problems = problems_of(PROBLEMS)
+        bodies = {name: Body(*nsvcd.load_obj(path), **encoding) for name, path in meshes.items()}
+        self.assertEqual(len(lines), len(problems))
+        self.assertGreater(len(lines), 400)
+        same_patches = 0
+        for line, (name, a, scale_a, b, scale_b, poses, pose) in zip(lines, problems):
+            answer = nsvcd.sweep(bodies[a], bodies[b], poses, pose, scale_a=scale_a, scale_b=scale_b, options=options)
+            expected = line.split("\t")
+            found = [name, str(int(answer.collides)), answer.status.name.lower().replace("_", "-")]
+            self.assertEqual(found, [expected[0], expected[2], expected[6]])
+            # A compiler may round otherwise in another program.
+            self.assertAlmostEqual(answer.logit, float(expected[1]), delta=0.05)
+            self.assertAlmostEqual(answer.contact_time, float(expected[3]), delta=1e-4)
+            same_patches += [str(answer.patch_a), str(answer.patch_b)] == expected[4:6]
+        self.assertGreater(same_patches, 0.98 * len(lines))
+
+    def test_proof(self) -> None:
+        self.compare([], Options())
+
+    def test_first_contacts(self) -> None:
+        self.compare(["--first", "0.01", "--clearance", "0.002"], Options(first=0.01, clearance=0.002))
+
+    def test_network(self) -> None:
+        self.compare(["--method", "network", "--model", "small", "--int8", "--pairs", "4", "--recall", "0.99"],
+                     Options(method=Method.NETWORK, model=nsvcd.Model.SMALL, precision=nsvcd.Precision.INT8, pairs=4,
+                             recall=0.99), no_triangles=True)
+
+    def test_bodies(self) -> None:
+        with tempfile.TemporaryDirectory() as folder:
+            path = Path(folder) / "mug.body"
+            subprocess.run([SVCD, "encode", ASSETS / "mug.obj", path], check=True, capture_output=True)
+            self.assertEqual(path.stat().st_size, len(bytes(MUG)))
+            self.assertEqual(nsvcd.sweep(Body.load(path), RACK, LOW).status, Status.WITNESS)
+
+
+class Queries(unittest.TestCase):
+    def test_quickstart(self) -> None:
+        hit, clear = nsvcd.sweep(MUG, RACK, LOW), nsvcd.sweep(MUG, RACK, HIGH)
+        self.assertEqual((hit.status, hit.collides, bool(hit), hit.logit), (Status.WITNESS, True, True, 100))
+        self.assertEqual((clear.status, clear.collides, bool(clear)), (Status.CERTIFIED_FREE, False, False))
+        self.assertEqual((clear.triangle_a, clear.triangle_b, clear.free_until), (None, None, 1))
+        self.assertLess(hit.triangle_a, MUG.facts.triangles)
+        self.assertIsInstance(hit.status, Status)
+
+    def test_every_field(self) -> None:
+        # Boxes of side 2: that at -5 moves by 6 along x, and meets the other at x = -1, when it has gone a half.
+        answer = nsvcd.sweep(BOX, BOX, line(-5, 1), options=Options(first=0.001))
+        self.assertAlmostEqual(answer.contact_time, 0.5, delta=0.002)
+        self.assertTrue(answer.contact_time - 0.0011 <= answer.free_until <= 0.5)
+        self.assertAlmostEqual(answer.point[0], -1, delta=0.02)
+        self.assertAlmostEqual(np.linalg.norm(answer.normal), 1, delta=1e-5)
+        self.assertTrue(0 <= answer.triangle_a < 12 and 0 <= answer.triangle_b < 12)
+        self.assertGreater(answer.work, 0)
+        self.assertLess(max(answer.patch_a, answer.patch_b), BOX.facts.patches)
+        answer = nsvcd.sweep(BOX, BOX, line(-5, -3), options=Options(measure=0.001))
+        self.assertTrue(1 - 0.0011 <= answer.clearance_low <= 1 <= answer.clearance_high <= 1.0011)
+        self.assertAlmostEqual(answer.contact_time, 1, delta=0.01)
+        self.assertEqual(answer.status, Status.CERTIFIED_FREE)
+        self.assertTrue(nsvcd.sweep(BOX, BOX, line(-5, -3), options=Options(clearance=1.1)).collides)
+        self.assertFalse(nsvcd.sweep(BOX, BOX, line(-5, -3), options=Options(clearance=0.9)).collides)
+        # A box stands on another, 0.01 in it, and slides along.
+        slide = at(0, 0, 1.99) + at(0.5, 0, 1.99)
+        self.assertTrue(nsvcd.sweep(BOX, BOX, slide).collides)
+        answer = nsvcd.sweep(BOX, BOX, slide, options=Options(skin=0.02))
+        self.assertFalse(answer.collides)
+        np.testing.assert_allclose(answer.lift, [0, 0, 0.02], atol=1e-3)
+        inside = nsvcd.sweep(BOX, BOX, REST, scale_a=0.1)
+        self.assertEqual((inside.status, inside.contact_time), (Status.INSIDE, 0))
+        undecided = nsvcd.sweep(MUG, RACK, at(0.05, -0.4, 0.2) + at(0.05, 0, 0.1), options=Options(work=1))
+        self.assertEqual(undecided.status, Status.UNDECIDED)
+        network = nsvcd.sweep(MUG, RACK, LOW, options=BY_NETWORK)
+        self.assertIn(network.status, (Status.OK, Status.LIMIT))
+        self.assertGreater(network.candidates, 0)
+        every_pair = nsvcd.sweep(MUG, RACK, LOW, options=Options(method=Method.NETWORK, pairs=256))
+        self.assertEqual(every_pair.status, Status.OK)
+
+    def test_poses_and_scales(self) -> None:
+        self.assertFalse(nsvcd.sweep(BOX, BOX, at(2.5, 0, 0)))
+        self.assertTrue(nsvcd.sweep(BOX, BOX, at(2.5, 0, 0), scale_a=2))
+        self.assertTrue(nsvcd.sweep(BOX, BOX, at(2.5, 0, 0), scale_b=2))
+        half = np.sqrt(0.5)  # an eighth of a turn about z: the corner is at x = sqrt 2
+        self.assertTrue(nsvcd.sweep(BOX, BOX, [[2.3, 0, 0, 0, 0, np.sin(np.pi / 8), np.cos(np.pi / 8)]]))
+        self.assertFalse(nsvcd.sweep(BOX, BOX, [[2.3, 0, 0, 0, 0, half, half]]))
+        self.assertTrue(nsvcd.sweep(BOX, BOX, line(-5, 0), line(5, 0)))
+        self.assertFalse(nsvcd.sweep(BOX, BOX, line(-5, 0), line(0, 5)))
+        three = at(-3, 0, 0) + at(0, 10, 0) + at(3, 0, 0)
+        self.assertFalse(nsvcd.sweep(BOX, BOX, three, at(0, 0, 0) + at(0, 0, 0)))
+
+    def test_gradient(self) -> None:
+        """Against differences, by where the bodies are."""
+        path, rest = np.array(LOW, float), np.array(at(0.01, 0.02, 0))
+        path[:, :3] += np.random.default_rng(5).normal([0, 0, 0.05], 0.03, (2, 3))
+        gradient = nsvcd.sweep_gradient(MUG, RACK, path, rest, options=BY_NETWORK)
+        self.assertEqual((gradient.by_a.shape, gradient.by_b.shape), ((2, 6), (1, 6)))
+        self.assertEqual(gradient.answer, nsvcd.sweep(MUG, RACK, path, rest, options=BY_NETWORK))
+        found = np.concatenate([gradient.by_a[:, :3].ravel(), gradient.by_b[:, :3].ravel()])
+        differences = []
+        for poses in (path, rest):
+            for place in np.ndindex(len(poses), 3):
+                logits = []
+                for step in (2e-5, -4e-5):
+                    poses[place] += step
+                    logits.append(nsvcd.sweep(MUG, RACK, path, rest, options=BY_NETWORK).logit)
+                poses[place] += 2e-5
+                differences.append((logits[0] - logits[1]) / 4e-5)
+        np.testing.assert_allclose(differences, found, atol=0.05 * np.abs(found).max())
+        self.assertEqual(nsvcd.sweep_gradient(MUG, RACK, options=BY_NETWORK).by_a.shape, (1, 6))
+
+    def test_the_same_twice(self) -> None:
+        path = np.array(LOW)
+        self.assertEqual(raised(nsvcd.sweep, MUG, MUG).code, Code.SAME)
+        self.assertEqual(raised(nsvcd.sweep, MUG, MUG, path, path).code, Code.SAME)
+
+    def test_options_are_values(self) -> None:
+        options = Options(first=0.01, method=Method.PROOF)
+        self.assertEqual(options, Options(first=0.01, method=Method.PROOF))
+        self.assertEqual(pickle.loads(pickle.dumps(options)), options)
+        self.assertEqual(nsvcd.sweep(MUG, RACK, LOW, options=pickle.loads(pickle.dumps(options))),
+                         nsvcd.sweep(MUG, RACK, LOW, options=options))
+        plan = PlanOptions(explore=Stage(iterations=nsvcd.LEAVE_OUT), sweep=options)
+        self.assertEqual(pickle.loads(pickle.dumps(plan)), plan)
+        with self.assertRaises(AttributeError):
+            options.first = 1
+
+    def test_answers_are_values(self) -> None:
+        answer = nsvcd.sweep(MUG, RACK, LOW)
+        self.assertEqual(answer, pickle.loads(pickle.dumps(answer)))
+        self.assertEqual(answer, nsvcd.sweep(MUG, RACK, LOW))
+
+
+class Batches(unittest.TestCase):
+    def setUp(self) -> None:
+        random = np.random.default_rng(5)
+        self.paths = np.tile(np.array(LOW), (60, 1, 1))
+        self.paths[:, :, :3] += random.normal(0, 0.2, (60, 2, 3))
+
+    def same(self, row: np.void, answer: nsvcd.Answer) -> None:
+        for name, value in answer._asdict().items():
+            value = nsvcd.NO_TRIANGLE if value is None else value
+            np.testing.assert_array_equal(row[name], np.asarray(value, row[name].dtype), name)
+
+    def test_answers_are_those_of_sweep(self) -> None:
+        for options in (Options(), Options(first=0.01), Options(measure=0.001)):
+            answers = nsvcd.sweep_batch(MUG, RACK, self.paths, options=options)
+            self.assertEqual(answers.shape, (60,))
+            for row, path in zip(answers, self.paths):
+                self.same(row, nsvcd.sweep(MUG, RACK, path, options=options))
+        answers = nsvcd.sweep_batch(MUG, RACK, self.paths)
+        self.assertTrue(0 < answers["collides"].sum() < 60)
+        self.assertEqual(len(answers[answers["collides"]]), (answers["status"] != Status.CERTIFIED_FREE).sum())
+
+    def test_each_its_own(self) -> None:
+        bodies, scales = [MUG, BOX] * 30, np.linspace(0.5, 2, 60)
+        other = np.tile(np.array(HIGH + LOW[::-1]), (60, 1, 1))
+        answers = nsvcd.sweep_batch(bodies, RACK, self.paths, other, scale_a=scales, scale_b=2)
+        for k, row in enumerate(answers):
+            self.same(row, nsvcd.sweep(bodies[k], RACK, self.paths[k], other[k], scale_a=scales[k], scale_b=2))
+        answers = nsvcd.sweep_batch(RACK, tuple(bodies), poses_b=LOW)
+        for body, row in zip(bodies, answers):
+            self.same(row, nsvcd.sweep(RACK, body, None, LOW))
+        self.assertEqual(len(nsvcd.sweep_batch(RACK, MUG, scale_b=[1, 2, 3])), 3)
+
+    def test_none(self) -> None:
+        for k in (1, 2):
+            answers = nsvcd.sweep_batch(MUG, RACK, np.zeros((0, k, 7)))
+            self.assertEqual((answers.shape, answers["point"].shape), ((0,), (0, 3)))
+        self.assertEqual(len(nsvcd.sweep_batch([], RACK)), 0)
+
+    def test_strides(self) -> None:
+        expected = nsvcd.sweep_batch(MUG, RACK, self.paths)
+        wide = np.zeros((120, 2, 9), np.float32)
+        wide[::2, :, 1:8] = self.paths
+        for paths in (wide[::2, :, 1:8], np.asfortranarray(self.paths), self.paths.tolist(), self.paths[::-1][::-1]):
+            np.testing.assert_array_equal(nsvcd.sweep_batch(MUG, RACK, paths), expected)
+
+    def test_refused(self) -> None:
+        self.paths[37, 1, 4] = np.nan
+        self.paths[50, 0, 6] = 2
+        error = raised(nsvcd.sweep_batch, MUG, RACK, self.paths)
+        self.assertEqual((error.code, error.index), (Code.POSE, 37))
+        self.assertIn("motion 37", str(error))
+        same = self.paths[:9]
+        self.assertEqual(raised(nsvcd.sweep_batch, MUG, MUG, same, same).code, Code.SAME)
+        error = raised(nsvcd.sweep_batch, [MUG, RACK, MUG], MUG, scale_a=[2, 1, 1])
+        self.assertEqual((error.code, error.index), (Code.SAME, 2))
+        for arguments in ((MUG, RACK), (MUG, RACK, self.paths, self.paths[1:]), ([MUG], RACK, self.paths),
+                          (MUG, RACK, self.paths[:, :0]), (MUG, RACK, self.paths[:, :, :6]),
+                          (MUG, RACK, self.paths[0, 0])):
+            with self.assertRaises(ValueError):
+                nsvcd.sweep_batch(*arguments)
+        for scale in (0, [1] * 59 + [0], [1, 2], [[1]]):
+            with self.assertRaises(ValueError):
+                nsvcd.sweep_batch(MUG, RACK, self.paths, scale_a=scale)
+        for bodies in ([MUG] * 59 + [None], "x" * 60, None):
+            with self.assertRaises(TypeError):
+                nsvcd.sweep_batch(bodies, RACK, self.paths)
+
+
+class Arrays(unittest.TestCase):
+    def test_all_that_numpy_has(self) -> None:
+        expected = nsvcd.sweep(MUG, RACK, LOW)
+        wide = np.zeros((4, 14))
+        wide[::2, ::2] = LOW
+        locked = np.array(LOW, np.float32)
+        locked.flags.writeable = False
+        for path in (np.array(LOW), np.array(LOW, np.float32), np.array(LOW, ">f8"), np.asfortranarray(LOW),
+                     wide[::2, ::2], np.array(LOW)[::-1][::-1], locked, tuple(map(tuple, LOW)),
+                     np.array(LOW, np.longdouble)):
+            self.assertEqual(nsvcd.sweep(MUG, RACK, path), expected)
+        self.assertEqual(nsvcd.sweep(BOX, RACK, np.array(REST, np.int8)), nsvcd.sweep(BOX, RACK, REST))
+        vertices, faces = nsvcd.load_obj(ASSETS / "mug.obj")
+        for kind in (np.int8 if len(vertices) < 128 else np.int16, np.uint16, np.int64, np.uint64, ">i4"):
+            self.assertEqual(bytes(Body(vertices.astype(float), np.asfortranarray(faces.astype(kind)))), bytes(MUG))
+        self.assertEqual(bytes(Body(vertices.tolist(), faces.tolist())), bytes(MUG))
+
+    def test_what_is_given_stays_as_it_is(self) -> None:
+        vertices, faces = CUBE.astype(np.float32), FACES.astype(np.uint32)
+        body, before = Body(vertices, faces), bytes(BOX)
+        vertices[:] = 7
+        faces[:] = 0
+        self.assertEqual(bytes(body), before)
+        self.assertEqual(nsvcd.sweep(body, MUG), nsvcd.sweep(BOX, MUG))
+
+    def test_shapes(self) -> None:
+        for path in ([], [[]], LOW[0], [LOW], np.zeros((2, 6)), np.zeros((2, 8)), np.zeros((0, 7)), 1, [[1, 2], [3]]):
+            with self.assertRaises(ValueError, msg=str(path)):
+                nsvcd.sweep(MUG, RACK, path)
+            with self.assertRaises(ValueError, msg=str(path)):
+                nsvcd.sweep(MUG, RACK, None, path)
+        for vertices, faces in ((CUBE[:, :2], FACES), (CUBE, FACES[:, :2]), (CUBE[0], FACES), (CUBE, FACES[0]),
+                                ([], [])):
+            with self.assertRaises(ValueError):
+                Body(vertices, faces)
+
+    def test_types(self) -> None:
+        for path in ("path", [["0"] * 7], np.array(LOW, complex), np.array(LOW, object), np.ones((2, 7), bool), [None]):
+            with self.assertRaises(TypeError, msg=str(path)):
+                nsvcd.sweep(MUG, RACK, path)
+        with self.assertRaises(TypeError):
+            Body(CUBE, FACES.astype(float))
+        for body in (None, "mug", bytes(MUG), 1):
+            with self.assertRaises(TypeError):
+                nsvcd.sweep(body, RACK)
+            with self.assertRaises(TypeError):
+                nsvcd.sweep(MUG, body)
+
+    def test_numbers(self) -> None:
+        for bad in (np.nan, np.inf, -np.inf):
+            for column in range(7):
+                path = np.array(LOW)
+                path[1, column] = bad
+                self.assertEqual(raised(nsvcd.sweep, MUG, RACK, path).code, Code.POSE)
+                self.assertEqual(raised(nsvcd.sweep, MUG, RACK, LOW, path).code, Code.POSE)
+            vertices = CUBE.copy()
+            vertices[3, 1] = bad
+            self.assertEqual(raised(Body, vertices, FACES).code, Code.NUMBER)
+        path = np.array(LOW)
+        path[0, 3:] = [0, 0, 0, 1.01]
+        self.assertEqual(raised(nsvcd.sweep, MUG, RACK, path).code, Code.POSE)
+
+    def test_indices(self) -> None:
+        for bad in (-1, 8, 2**32, 2**32 + 1, 2**63 - 1):  # 2**32 is 0 in 32 bits
+            faces = FACES.copy()
+            faces[5, 1] = bad
+            self.assertEqual(raised(Body, CUBE, faces).code, Code.INDEX)
+        self.assertEqual(raised(Body, CUBE, FACES[:0]).code, Code.EMPTY)
+        self.assertIn(raised(Body, CUBE[:0], FACES[:0]).code, (Code.EMPTY, Code.INDEX))
+        self.assertEqual(raised(Body, CUBE[:0], FACES).code, Code.INDEX)
+
+    def test_scales(self) -> None:
+        for name in ("scale_a", "scale_b"):
+            for bad in (-1, np.nan, np.inf, 1e-9, 1e9):
+                self.assertEqual(raised(nsvcd.sweep, MUG, RACK, LOW, **{name: bad}).code, Code.SCALE)
+            for bad in (0, 1e-60):  # which is 1 in C
+                with self.assertRaises(ValueError):
+                    nsvcd.sweep(MUG, RACK, LOW, **{name: bad})
+            with self.assertRaises(TypeError):
+                nsvcd.sweep(MUG, RACK, LOW, **{name: "1"})
+        self.assertEqual(nsvcd.sweep(MUG, RACK, LOW, scale_a=np.float32(2)), nsvcd.sweep(MUG, RACK, LOW, scale_a=2))
+
+    def test_options(self) -> None:
+        for named in ({"work": -1}, {"pairs": 2**64}, {"segments": -16}, {"model": 2**32}, {"first": 1e-60}):
+            with self.assertRaises(ValueError, msg=str(named)):
+                Options(**named)
+        for named in ({"work": 1.5}, {"first": "0.1"}, {"method": "proof"}):
+            with self.assertRaises(TypeError, msg=str(named)):
+                Options(**named)
+        for named, code in (({"pairs": 257}, Code.ARGUMENT), ({"segments": 17}, Code.ARGUMENT),
+                            ({"method": 7}, Code.ARGUMENT), ({"model": 9}, Code.ARGUMENT),
+                            ({"recall": 0.5}, Code.ARGUMENT), ({"first": 2}, Code.TOLERANCE),
+                            ({"clearance": -1}, Code.TOLERANCE), ({"skin": np.nan}, Code.TOLERANCE),
+                            ({"measure": 1e300}, Code.TOLERANCE), ({"tolerance": -1}, Code.TOLERANCE),
+                            ({"first": 0.1, "measure": 0.1}, Code.ARGUMENT),
+                            ({"first": 0.1, "method": Method.NETWORK}, Code.ARGUMENT)):
+            self.assertEqual(raised(nsvcd.sweep, MUG, RACK, LOW, options=Options(**named)).code, code, named)
+        self.assertEqual(raised(nsvcd.sweep_gradient, MUG, RACK, LOW, options=Options(method=Method.PROOF)).code,
+                         Code.ARGUMENT)
+        for named in ({"patches": -1}, {"patches": 2**64}):
+            with self.assertRaises(ValueError):
+                Body(CUBE, FACES, **named)
+        self.assertEqual(raised(Body, CUBE, FACES, patches=65537).code, Code.ARGUMENT)
+        self.assertEqual(raised(Body, CUBE, FACES, no_triangles=True, no_latents=True).code, Code.ARGUMENT)
+
+
+class Meshes(unittest.TestCase):
+    def test_obj(self) -> None:
+        text = "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nf 1 2 3 4\n"
+        for given in (text, text.encode()):
+            vertices, triangles = nsvcd.parse_obj(given)
+            self.assertEqual((vertices.dtype, triangles.dtype), (np.float32, np.uint32))
+            self.assertEqual((vertices.shape, triangles.shape), ((4, 3), (2, 3)))
+            self.assertEqual(set(triangles.ravel().tolist()), {0, 1, 2, 3})
+        triangles[0, 0] = 0  # one's own
+
+    def test_obj_errors(self) -> None:
+        error = raised(nsvcd.parse_obj, "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 4\n", "mug")
+        self.assertEqual((error.code, error.line), (Code.INDEX, 4))
+        self.assertTrue(str(error).startswith("mug: line 4: "), str(error))
+        self.assertEqual(raised(nsvcd.parse_obj, "v 0 0 0\nv 0 0 zero\nf 1 2 1\n").line, 2)
+        self.assertEqual(raised(nsvcd.parse_obj, "").code, Code.EMPTY)
+        with tempfile.TemporaryDirectory() as folder:
+            path = Path(folder) / "bad ö.obj"
+            path.write_text("v 0 0 0\nf 1\n")
+            error = raised(nsvcd.load_obj, path)
+            self.assertEqual((error.code, error.line, error.where), (Code.SYNTAX, 2, str(path)))
+            with self.assertRaises(FileNotFoundError):
+                nsvcd.load_obj(Path(folder) / "none.obj")
+            with self.assertRaises(OSError):
+                nsvcd.load_obj(folder)
+
+    def test_cut(self) -> None:
+        part = nsvcd.cut_mesh(CUBE, FACES, [-2, -2, -2], [0, 2, 2])
+        self.assertEqual((part.vertices[:, 0].min(), part.vertices[:, 0].max()), (-1, 0))
+        self.assertFalse(nsvcd.sweep(Body(*part, open=True), BOX, at(2.5, 0, 0), scale_b=0.5))
+        self.assertEqual(raised(nsvcd.cut_mesh, CUBE, FACES, [2, 2, 2], [3, 3, 3]).code, Code.EMPTY)
+        with self.assertRaises(ValueError):
+            nsvcd.cut_mesh(CUBE, FACES, [0, 0], [1, 1, 1])
+
+
+class Errors(unittest.TestCase):
+    def test_texts(self) -> None:
+        for code in Code:
+            self.assertGreater(len(str(Error(code))), 5)
+        self.assertEqual(len({str(Error(code)) for code in Code}), len(Code))
+
+    def test_pickle(self) -> None:
+        error = pickle.loads(pickle.dumps(Error(Code.POSE, "file", 3, 4)))
+        self.assertEqual((error.code, error.where, error.line, error.index), (Code.POSE, "file", 3, 4))
+        self.assertIs(type(error), Error)
+
+
+class Bodies(unittest.TestCase):
+    def test_facts(self) -> None:
+        facts = BOX.facts
+        self.assertEqual((facts.triangles, facts.latents, facts.size), (12, True, len(bytes(BOX))))
+        self.assertTrue(3**0.5 <= facts.radius < 2 and max(map(abs, facts.centre)) < 0.1)
+        self.assertTrue(facts.listings >= 12 and 0 < facts.quantum < 1e-3 and facts.mean_patch_radius > 0)
+        self.assertEqual(Body(CUBE, FACES, patches=50).facts.patches, 50)
+        self.assertGreater(Body(CUBE, FACES, patch_radius=0.1).facts.patches, 192)
+        self.assertEqual(Body(CUBE, FACES, no_triangles=True).facts.triangles, 0)
+        self.assertFalse(Body(CUBE, FACES, no_latents=True).facts.latents)
+        self.assertFalse(Body(CUBE, FACES, patches=600).facts.latents)
+        self.assertTrue(Body(CUBE, FACES, patches=600, latents=True).facts.latents)
+        self.assertTrue(nsvcd.sweep(BOX, BOX, scale_b=0.1))
+        self.assertFalse(nsvcd.sweep(Body(CUBE, FACES, open=True), BOX, scale_b=0.1))
+        self.assertIn("192 patches", repr(BOX))
+
+    def test_patches(self) -> None:
+        centre, radius = BOX.patch(0)
+        self.assertAlmostEqual(max(map(abs, centre)), 1, delta=radius)
+        for index in (-1, BOX.facts.patches, 2**32):
+            with self.assertRaises(IndexError):
+                BOX.patch(index)
+
+    def test_bytes(self) -> None:
+        data = bytes(MUG)
+        aligned = np.frombuffer(b"1234567" + data, np.uint8)
+        for given in (data, bytearray(data), memoryview(data), aligned[7:], np.frombuffer(data, np.uint64),
+                      data + b"more"):
+            body = Body.from_bytes(given)
+            self.assertEqual(bytes(body), data)
+            self.assertEqual(nsvcd.sweep(body, RACK, LOW), nsvcd.sweep(MUG, RACK, LOW))
+        given = bytearray(data)
+        body = Body.from_bytes(given)
+        given[:] = bytes(len(given))
+        self.assertEqual(bytes(body), data)
+        with tempfile.TemporaryDirectory() as folder:
+            MUG.save(Path(folder) / "mug.body")
+            self.assertEqual(bytes(Body.load(Path(folder) / "mug.body")), data)
+            with self.assertRaises(FileNotFoundError):
+                Body.load(Path(folder) / "none.body")
+        for body in (pickle.loads(pickle.dumps(MUG)), copy.copy(MUG), copy.deepcopy(MUG)):
+            self.assertEqual(bytes(body), data)
+
+    def test_damaged(self) -> None:
+        data = bytes(MUG)
+        changed = bytearray(data)
+        changed[5000] ^= 1
+        for given in (b"", b"x", data[:-1], data[1:], changed, bytes(len(data))):
+            self.assertEqual(raised(Body.from_bytes, given).code, Code.BODY)
+        for given in (5, "body", None):
+            with self.assertRaises(TypeError):
+                Body.from_bytes(given)
+
+    def test_scaled(self) -> None:
+        double = BOX.scaled(2)
+        self.assertAlmostEqual(double.facts.radius, 2 * BOX.facts.radius, places=5)
+        for x, hits in ((2.9, True), (3.1, False)):
+            self.assertEqual(nsvcd.sweep(double, BOX, at(x, 0, 0)).collides, hits)
+        for bad in (0, -1, np.nan, 1e30):
+            self.assertEqual(raised(BOX.scaled, bad).code, Code.ARGUMENT)
+
+    def test_cannot_be_changed(self) -> None:
+        with self.assertRaises(ValueError):
+            BOX._memory[0] = 1
+
+    def test_progress(self) -> None:
+        told = []
+        vertices, faces = nsvcd.load_obj(ASSETS / "mug.obj")
+        self.assertEqual(bytes(Body(vertices, faces, progress=told.append)), bytes(MUG))
+        self.assertTrue(told and all(0 <= done <= 1 for done in told))
+        self.assertEqual(raised(Body, vertices, faces, progress=lambda done: True).code, Code.CANCELLED)
+        for kind in (ZeroDivisionError, KeyboardInterrupt):
+            def fail(done: float) -> None:
+                raise kind
+            with self.assertRaises(kind):
+                Body(vertices, faces, progress=fail)
+
+    def test_nothing_leaks(self) -> None:
+        def resident() -> int:
+            gc.collect()
+            return int(Path("/proc/self/statm").read_text().split()[1]) * os.sysconf("SC_PAGE_SIZE")
+        if not Path("/proc/self/statm").exists():
+            self.skipTest("no /proc: not tested")
+        text = (ASSETS / "mug.obj").read_bytes()
+
+        def work() -> None:
+            for _ in range(60):
+                Body(CUBE, FACES)
+                raised(Body.from_bytes, b"x")
+                for _ in range(10):
+                    nsvcd.parse_obj(text)
+        work()
+        before = resident()
+        work()
+        self.assertLess(resident() - before, 30 * len(bytes(BOX)))
+
+
+class Threads(unittest.TestCase):
+    def test_share_bodies(self) -> None:
+        paths = np.tile(np.array(LOW), (200, 1, 1))
+        paths[:, :, :3] += np.random.default_rng(7).normal(0, 0.2, (200, 2, 3))
+        for options in (Options(first=0.01), BY_NETWORK):
+            expected = [nsvcd.sweep(MUG, RACK, path, options=options) for path in paths]
+
+            def ask(_: int) -> bool:
+                batch = nsvcd.sweep_batch(MUG, RACK, paths, options=Options(first=0.01))
+                return ([nsvcd.sweep(MUG, RACK, path, options=options) for path in paths] == expected and
+                        len(batch) == len(paths))
+            with ThreadPoolExecutor(16) as pool:
+                self.assertEqual(list(pool.map(ask, range(32))), [True] * 32)
+
+    def test_others_run_meanwhile(self) -> None:
+        """A thread that counts, while another one is in the library. Were the GIL kept, there were a gap as long."""
+        paths = np.tile(np.array(LOW), (5000, 1, 1))
+        calls = {"sweep_batch": lambda: nsvcd.sweep_batch(MUG, RACK, paths, options=Options(first=0.001)),
+                 "Body": lambda: Body(*nsvcd.load_obj(ASSETS / "dish_rack.obj"), patches=4000)}
+        for name, call in calls.items():
+            for _ in range(5):  # the machine may have been busy
+                start = time.perf_counter()
+                call()
+                alone = time.perf_counter() - start
+                thread = threading.Thread(target=call)
+                gap, last = 0.0, time.perf_counter()
+                thread.start()
+                while thread.is_alive():
+                    now = time.perf_counter()
+                    gap, last = max(gap, now - last), now
+                if gap < alone / 3:
+                    break
+            self.assertLess(gap, alone / 3, f"{name}, which takes {alone:.3f} s")
+
+    def test_bodies_live_as_long_as_they_are_used(self) -> None:
+        paths = np.tile(np.array(LOW), (3000, 1, 1))
+        expected = nsvcd.sweep_batch(MUG, RACK, paths)
+        results = []
+        for _ in range(5):
+            mug = copy.copy(MUG)
+            gone = weakref.ref(mug)
+            threads = [threading.Thread(target=lambda *given: results.append(nsvcd.sweep_batch(*given)),
+                                        args=(body, RACK, paths)) for body in (mug, [mug] * len(paths))]
+            for thread in threads:
+                thread.start()
+            del mug, threads[:-1]
+            gc.collect()
+            thread.join()
+            del thread, threads
+            while threading.active_count() > 1:
+                time.sleep(0.001)
+            gc.collect()
+            self.assertIsNone(gone())
+        self.assertEqual(len(results), 10)
+        for found in results:
+            np.testing.assert_array_equal(found, expected)
+
+
+def place(joints: np.ndarray) -> np.ndarray:
+    """A gantry that carries the mug; the rack rests: examples/plan.c."""
+    return np.array([[*joints, 0, 0, 0, 1], [0, 0, 0, 0, 0, 0, 1]])
+
+
+def gantry(**named) -> nsvcd.Plan:
+    given = {"bodies": [MUG, RACK], "pairs": [[0, 1]], "place": place, "start": [0, -0.5, 0], "goal": [0, 0.5, 0],
+             "low": [-1, -1, 0], "high": [1, 1, 1]}
+    return nsvcd.plan(**{**given, **named})
+
+
+class Planning(unittest.TestCase):
+    def test_gantry(self) -> None:
+        plan = gantry()
+        self.assertEqual((plan.status, plan.collides, plan.joint), (PlanStatus.CONVERGED, False, None))
+        self.assertEqual(plan.control.shape, (12, 3))
+        np.testing.assert_array_equal(plan.control[[0, -1]], np.float32([[0, -0.5, 0], [0, 0.5, 0]]))
+        joints = nsvcd.spline(plan.control, np.linspace(0, 1, 89))
+        self.assertEqual(nsvcd.sweep(MUG, RACK, [place(row)[0] for row in joints]).status, Status.CERTIFIED_FREE)
+        self.assertTrue(plan.sweeps > 0 and plan.seeds == 1 and plan.iterations > 0)
+        self.assertTrue(plan.cost >= plan.smoothness > 0)
+
+    def test_jacobian(self) -> None:
+        moves = np.zeros((2, 6, 3))
+        moves[0, :3] = np.eye(3)
+        np.testing.assert_allclose(gantry(jacobian=lambda joints: moves).control, gantry().control, atol=1e-2)
+
+    def test_options_and_progress(self) -> None:
+        told = []
+        plan = gantry(progress=told.append, options=PlanOptions(
+            seed=3, explore=Stage(iterations=nsvcd.LEAVE_OUT), refine=Stage(via_points=4),
+            sweep=Options(clearance=0.01)))
+        self.assertEqual(plan.control.shape, (6, 3))
+        self.assertTrue(told and all(one.refining and one.control.shape == (6, 3) for one in told))
+        joints = nsvcd.spline(plan.control, np.linspace(0, 1, 89))
+        path = [place(row)[0] for row in joints]
+        self.assertEqual(plan.status, PlanStatus.CONVERGED)
+        self.assertGreater(nsvcd.sweep(MUG, RACK, path, options=Options(measure=0.001)).clearance_high, 0.0095)
+        self.assertEqual(gantry(progress=lambda now: True).status, PlanStatus.CANCELLED)
+        self.assertEqual(gantry(start=[0, 0, 0]).status, PlanStatus.START)
+        plan = gantry(goal=[0, 0.5, 3])
+        self.assertEqual((plan.status, plan.joint), (PlanStatus.GOAL, 2))
+
+    def test_callbacks_that_raise(self) -> None:
+        def after(calls: int, kind: type[BaseException]):
+            left = [calls]
+
+            def fail(*_) -> np.ndarray:
+                left[0] -= 1
+                if left[0] < 0:
+                    raise kind
+                return place(*_)
+            return fail
+        for kind in (ZeroDivisionError, KeyboardInterrupt):
+            for calls in (0, 1, 500):
+                with self.assertRaises(kind):
+                    gantry(place=after(calls, kind))
+            with self.assertRaises(kind):
+                gantry(jacobian=after(0, kind))
+            with self.assertRaises(kind):
+                gantry(progress=after(0, kind))
+        with self.assertRaises(ValueError):
+            gantry(place=lambda joints: place(joints)[0])  # which numpy would repeat
+        with self.assertRaises(TypeError):
+            gantry(place=lambda joints: None)
+        self.assertEqual(raised(gantry, place=lambda joints: np.zeros((2, 7))).code, Code.POSE)
+
+    def test_refused(self) -> None:
+        for named in ({"goal": [0, 0]}, {"start": [[0, 0, 0]]}, {"pairs": [0, 1]}):
+            with self.assertRaises(ValueError):
+                gantry(**named)
+        for named in ({"bodies": [MUG, "rack"]}, {"pairs": [[0.0, 1.0]]}):
+            with self.assertRaises(TypeError):
+                gantry(**named)
+        for named, code in (({"pairs": [[0, 2]]}, Code.ARGUMENT), ({"pairs": [[0, -1]]}, Code.INDEX),
+                            ({"bodies": [MUG, None]}, Code.ARGUMENT), ({"low": [np.nan] * 3}, Code.NUMBER),
+                            ({"low": [2, 2, 2]}, Code.ARGUMENT),
+                            ({"options": PlanOptions(seeds=2000)}, Code.ARGUMENT)):
+            self.assertEqual(raised(gantry, **named).code, code, named)
+
+    def test_bodies_live_as_long_as_they_are_used(self) -> None:
+        bodies, seen = [copy.copy(MUG), copy.copy(RACK)], []
+        gone = [weakref.ref(body) for body in bodies]
+
+        def forget(joints: np.ndarray) -> np.ndarray:
+            if bodies:
+                bodies.clear()
+                gc.collect()
+            seen.append(all(ref() is not None for ref in gone))
+            return place(joints)
+        gantry(bodies=bodies, place=forget, options=PlanOptions(seeds=1, explore=Stage(iterations=nsvcd.LEAVE_OUT),
+                                                                refine=Stage(iterations=1, draws=1)))
+        self.assertTrue(seen and all(seen))
+        gc.collect()
+        self.assertEqual([ref() for ref in gone], [None, None])
+
+    def test_spline(self) -> None:
+        control = np.array([[0, 1], [2, 3], [5, -1], [1, 1]])
+        np.testing.assert_allclose(nsvcd.spline(control, [0, 1 / 3, 2 / 3, 1]), control, atol=1e-5)
+        self.assertEqual(nsvcd.spline(control, 0.5).shape, (2,))
+        self.assertEqual(nsvcd.spline(control, np.zeros((3, 4))).shape, (3, 4, 2))
+        np.testing.assert_allclose(nsvcd.spline(control, [0, 1], 1), 0, atol=1e-5)
+        rate = (nsvcd.spline(control, 0.4 + 1e-3) - nsvcd.spline(control, 0.4 - 1e-3)) / 2e-3
+        np.testing.assert_allclose(nsvcd.spline(control, 0.4, 1), rate, rtol=1e-2)
+        for bad in (control[:1], np.zeros((35, 2)), control[0]):
+            with self.assertRaises(ValueError):
+                nsvcd.spline(bad, 0)
+        with self.assertRaises(ValueError):
+            nsvcd.spline(control, 0, 4)
+
+
+class Layouts(unittest.TestCase):
+    """The module as it stands, but for one mistake, does not load."""
+
+    def load(self, old: str, new: str) -> None:
+        text = Path(nsvcd.__file__).read_text()
+        self.assertEqual(text.count(old), 1, old)
+        module = types.ModuleType("changed")
+        module.__file__ = nsvcd.__file__
+        sys.modules["changed"] = module  # where dataclasses look
+        try:
+            exec(compile(text.replace(old, new), "changed", "exec"), module.__dict__)
+        finally:
+            del sys.modules["changed"]
+
+    def test_mistakes(self) -> None:
+        self.load("contact_time=c_float,", "contact_time=c_float,")
+        for old, new, name in (
+                ("contact_time=c_float, free_until=c_float", "free_until=c_float, contact_time=c_float",
+                 "nsvcd_answer.free_until"),
+                ("lift=c_float * 3, work=c_size_t", "lift=c_float * 3", "nsvcd_answer.work"),
+                ("skin=c_float", "skin=c_float, next=c_size_t", "nsvcd_sweep_options.next"),
+                ("count=c_size_t, scale=c_float", "count=c_uint32, scale=c_float", "nsvcd_mover.count"),
+                ("discrete=c_int", "apart=c_int", "nsvcd_plan_options.apart"),
+                ("    WITNESS = 4", "    WITNESS = 6", "NSVCD_STATUS_WITNESS"),
+                ("    CANCELLED = 15\n", "", "NSVCD_ERROR_CANCELLED"),
+                ("_MAX_VIA_POINTS = 32", "_MAX_VIA_POINTS = 33", "NSVCD_MAX_VIA_POINTS")):
+            with self.assertRaisesRegex(ImportError, f"another neuralsvcd.h.*{name}", msg=new):
+                self.load(old, new)
+
+
+class Readme(unittest.TestCase):
+    def test_example(self) -> None:
+        text = (HERE / "README.md").read_text()
+        example, = re.findall(r"^```python\n(.*?)^```", text, re.M | re.S)
+        expected, = re.findall(r"^```text\n(.*?)^```", text, re.M | re.S)
+        folder = os.getcwd()
+        os.chdir(ROOT)
+        try:
+            with redirect_stdout(io.StringIO()) as printed:
+                exec(example, {})
+        finally:
+            os.chdir(folder)
+        self.assertEqual(printed.getvalue(), expected)
+        self.assertLessEqual(text.count("\n"), 60)
+
+
+class Wheel(unittest.TestCase):
+    def test_from_a_clean_checkout(self) -> None:
+        """Only what the build needs is copied; the wheel runs in an environment of its own, far from the sources."""
+        tools = subprocess.run([sys.executable, "-c", "import setuptools, wheel, pip, venv"], capture_output=True)
+        if tools.returncode or not (ROOT / "neuralsvcd.h").exists():
+            self.skipTest("no setuptools, wheel, pip or venv: not tested")
+        with tempfile.TemporaryDirectory() as name:
+            folder = Path(name)
+            sources = folder / "checkout" / "examples" / "python"
+            sources.mkdir(parents=True)
+            for file in ("neuralsvcd.h", "weights.h", "LICENSE"):
+                shutil.copy(ROOT / file, folder / "checkout")
+            for file in ("neuralsvcd.py", "_neuralsvcd.c", "setup.py", "pyproject.toml", "README.md"):
+                shutil.copy(HERE / file, sources)
+
+            def run(*command: object, cwd: Path = folder, **variables: str) -> str:
+                environment = {key: value for key, value in os.environ.items() if key != "PYTHONPATH"}
+                done = subprocess.run([str(word) for word in command], cwd=cwd, capture_output=True, text=True,
+                                      env={**environment, **variables})
+                self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
+                return done.stdout
+            pip = ["-m", "pip", "--disable-pip-version-check"]
+            run(sys.executable, *pip, "wheel", ".", "--no-deps", "--no-build-isolation", "--no-index", "-w", folder,
+                cwd=sources, CFLAGS="-O1")
+            wheel, = folder.glob("*.whl")
+            self.assertIn("-abi3-", wheel.name)
+            names = zipfile.ZipFile(wheel).namelist()
+            for part in ("neuralsvcd.py", "_neuralsvcd.abi3.so"):
+                self.assertIn(part, names)
+            self.assertTrue(any(part.endswith("LICENSE") for part in names))
+            run(sys.executable, "-m", "venv", "--system-site-packages", "--without-pip", "own")
+            python = folder / "own" / "bin" / "python"
+            run(python, *pip, "install", "--no-deps", "--no-index", wheel)
+            shutil.rmtree(folder / "checkout")
+            shutil.copy(ASSETS / "mug.obj", folder)
+            printed = run(python, "-c", "import neuralsvcd as n; mug = n.Body(*n.load_obj('mug.obj'));"
+                          "print(n.__file__, n.sweep(mug, mug, [[0.01, 0, 0, 0, 0, 0, 1]]).status.name)")
+            self.assertRegex(printed, rf"^{re.escape(str(folder.resolve() / 'own'))}/\S*neuralsvcd\.py WITNESS\n$")
+
+
+if __name__ == "__main__":
+    unittest.main()

@@ -1,0 +1,143 @@
+// sweep_motion.h - how A moves, as it is told on a command line: from a pose to a pose, turning on
+// its way; or, if nothing is told, straight through B. Include load.h first.
+#ifndef NSVCD_SCENERY_SWEEP_MOTION_H
+#define NSVCD_SCENERY_SWEEP_MOTION_H
+
+#include "oracle.h"
+#include "shapes.h"
+
+#define TURN_STEP 90.0     // degrees between two poses: slerp takes the shorter arc
+#define TURN_MOST 36000.0  // degrees
+#define MOST_POSES 402
+
+static const char axes[] = "xyz";
+
+typedef struct motion {
+  oracle_pose poses[MOST_POSES];
+  size_t count;
+  int through;  // the axis along which A passes through B; -1: as it was told
+  int turn;     // the axis about which it turns
+  double degrees;
+} motion;
+
+// The numbers of a list, separated by commas or blanks; 0 if it is none, or if there are more.
+static size_t take_numbers(const char *text, double *out, size_t most) {
+  size_t count = 0;
+  while (*text) {
+    char *end;
+    const double x = strtod(text, &end);
+    if (end == text || count == most || !(fabs(x) <= (double)NSVCD_MAX_COORDINATE))
+      return 0;
+    out[count++] = x;
+    text = end + strspn(end, " ");
+    if (*text == ',' && text[1])
+      text++;
+    else if (*text && end == text)
+      return 0;
+  }
+  return count;
+}
+
+// "x,y,z" leaves the rotation as it is; "x,y,z,qx,qy,qz,qw" not. Returns 0 after a complaint.
+static int take_pose(const char *name, const char *text, oracle_pose *pose) {
+  double n[7];
+  const size_t count = take_numbers(text, n, 7);
+  if (count != 3 && count != 7)
+    return complain("%s %s: not x,y,z nor x,y,z,qx,qy,qz,qw, each up to %g (NSVCD_MAX_COORDINATE)",
+                    name, text, (double)NSVCD_MAX_COORDINATE);
+  memcpy(pose->position, n, sizeof pose->position);
+  if (count == 3)
+    return 1;
+  memcpy(pose->rotation, n + 3, sizeof pose->rotation);
+  const double length = sqrt(oracle_dot(n + 3, n + 3) + n[6] * n[6]);
+  if (fabs(length - 1) > 0.01)
+    return complain("%s %s: the quaternion qx,qy,qz,qw has the length %.4g, not 1", name, text,
+                    length);
+  oracle_quat_normalize(pose->rotation);
+  return 1;
+}
+
+// "z,90". Returns 0 after a complaint.
+static int take_turn(const char *text, motion *m) {
+  const char *letter = text[0] ? strchr(axes, text[0]) : NULL;
+  if (!letter || text[1] != ',' || !parse_number(text + 2, &m->degrees) ||
+      !(fabs(m->degrees) <= TURN_MOST))
+    return complain("--rotate %s: not AXIS,DEGREES, as in z,90; up to %g degrees", text, TURN_MOST);
+  m->turn = (int)(letter - axes);
+  return 1;
+}
+
+// A passes through the middle of B's box, from outside to outside, downwards along the axis along
+// which B is thinnest. Returns the axis.
+static int pass_through(const thing *a, const thing *b, oracle_pose *from, oracle_pose *to) {
+  int axis = 0;
+  double longest = 0;
+  for (int k = 0; k < 3; k++) {
+    if (b->high[k] - b->low[k] < b->high[axis] - b->low[axis])
+      axis = k;
+    longest = fmax(longest, fmax(a->high[k] - a->low[k], b->high[k] - b->low[k]));
+    from->position[k] = (b->low[k] + b->high[k] - a->low[k] - a->high[k]) / 2;
+    to->position[k] = from->position[k];
+  }
+  const double thick = a->high[axis] - a->low[axis];
+  const double away = (b->high[axis] - b->low[axis]) / 2 + thick + longest / 10;
+  from->position[axis] += away;
+  to->position[axis] -= away;
+  return axis;
+}
+
+typedef struct motion_told {
+  const char *from, *to, *rotate;  // NULL: not
+} motion_told;
+
+// Returns 0 after a complaint.
+static int take_motion(const motion_told *told, const thing *a, const thing *b, motion *m) {
+  oracle_pose from = {{0, 0, 0}, {0, 0, 0, 1}};
+  oracle_pose to = from;
+  m->through = told->from || told->to ? -1 : pass_through(a, b, &from, &to);
+  m->degrees = 0;
+  if (told->from && !take_pose("--from", told->from, &from))
+    return 0;
+  if (told->to)
+    memcpy(to.rotation, from.rotation, sizeof to.rotation);
+  if (told->to && !take_pose("--to", told->to, &to))
+    return 0;
+  m->count = 2;
+  m->poses[0] = from;
+  m->poses[1] = to;
+  if (!told->rotate)
+    return 1;
+  if (!take_turn(told->rotate, m))
+    return 0;
+  if (memcmp(from.rotation, to.rotation, sizeof to.rotation) != 0)
+    return complain("--rotate: not together with another rotation in --to");
+  const size_t steps = (size_t)fmax(1, ceil(fabs(m->degrees) / TURN_STEP));
+  const double axis[3] = {m->turn == 0, m->turn == 1, m->turn == 2};
+  for (size_t i = 0; i <= steps; i++) {
+    const double f = (double)i / (double)steps;
+    double turn[4];
+    m->poses[i] = oracle_pose_between(&from, &to, f);
+    oracle_axis_angle(axis, f * m->degrees * SHAPES_PI / 180, turn);
+    oracle_quat_mul(turn, from.rotation, m->poses[i].rotation);
+  }
+  m->count = steps + 1;
+  return 1;
+}
+
+static void print_motion(const motion *m) {
+  const oracle_pose *from = &m->poses[0];
+  const oracle_pose *to = &m->poses[m->count - 1];
+  double axis[3];
+  const double arc = oracle_quat_arc(from->rotation, to->rotation, axis) * 180 / SHAPES_PI;
+  printf("motion     A from %.6g %.6g %.6g to %.6g %.6g %.6g", from->position[0], from->position[1],
+         from->position[2], to->position[0], to->position[1], to->position[2]);
+  if (m->degrees != 0)
+    printf(", turning %g degrees about %c", m->degrees, axes[m->turn]);
+  else if (arc > 1e-6)
+    printf(", turning %.4g degrees about %.3g %.3g %.3g", arc, axis[0], axis[1], axis[2]);
+  if (m->through >= 0)
+    printf(": straight through B along %c, where it is thinnest", axes[m->through]);
+  printf("\n");
+}
+
+#endif

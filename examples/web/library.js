@@ -1,0 +1,65 @@
+// library.js - neuralsvcd.h as web.c exports it, for JavaScript. page.js comes after it.
+
+const METHODS = {proof: 1, network: 2};  // nsvcd_method
+const STATUS = {OK: 0, CERTIFIED_FREE: 1, INSIDE: 2, LIMIT: 3, WITNESS: 4, UNDECIDED: 5};
+
+// Compiles the module. What it returns throws an Error with `line` where the library says no.
+async function createLibrary(bytes) {
+  const {instance} = await WebAssembly.instantiate(bytes);
+  const c = instance.exports;
+  // Views are made anew each time: those of memory that has grown are void.
+  const floats = (at, count) => new Float32Array(c.memory.buffer, at, count);
+  const words = (at, count) => new Uint32Array(c.memory.buffer, at, count);
+  const text = (at) => {
+    const from = new Uint8Array(c.memory.buffer, at);
+    return new TextDecoder().decode(from.slice(0, from.indexOf(0)));
+  };
+  const check = (result, line = 0) => {
+    if (result)
+      throw Object.assign(new Error(text(c.web_result_string(result))), {line});
+  };
+
+  // Body 0 or 1, from the bytes of an OBJ file.
+  function encode(which, obj) {
+    const at = c.web_text(obj.length);
+    if (!at)
+      throw new Error('out of memory');
+    new Uint8Array(c.memory.buffer).set(obj, at);
+    check(c.web_encode(which, at, obj.length), c.web_error_line());
+  }
+  // nsvcd_mesh, copied.
+  function mesh(which) {
+    const [positions, indices, vertices, triangles] = words(c.web_mesh(which), 4);
+    return {positions: floats(positions, 3 * vertices).slice(),
+      indices: words(indices, 3 * triangles).slice()};
+  }
+  // nsvcd_body_facts.
+  function facts(which) {
+    const at = c.web_facts(which);
+    const [size, patches] = words(at, 2);
+    return {size, patches, centre: [...floats(at + 8, 3)], radius: floats(at + 20, 1)[0]};
+  }
+  // Asks so many times; answer() is the last one's.
+  function sweep({motion, scales, first, clearance, method}, times) {
+    const poses = motion.flatMap(({position, rotation}) => [...position, ...rotation]);
+    floats(c.web_motion(), 14).set(poses);
+    check(c.web_sweep(...scales, first, clearance, METHODS[method], times));
+  }
+  // nsvcd_answer.
+  function answer() {
+    const at = c.web_answer();
+    const f = floats(at, 22);
+    const w = words(at, 22);
+    return {
+      logit: f[0],
+      collides: w[1] !== 0,
+      time: f[2],
+      freeUntil: f[3],
+      apart: f[4],
+      status: w[8],
+      point: [...f.slice(10, 13)], normal: [...f.slice(13, 16)],
+      triangles: [w[16], w[17]],
+    };
+  }
+  return {encode, mesh, facts, sweep, answer};
+}

@@ -1,0 +1,101 @@
+// web.c - neuralsvcd.h as a WebAssembly module for page.js: two bodies, one motion, one answer.
+//
+// The module imports nothing. What page.js reads are the library's own structs in linear memory:
+// all their fields have four bytes on wasm32, so that a struct is an array of floats or words.
+// `web_encode` and `web_sweep` return an nsvcd_result, which `web_result_string` puts into words.
+#define NSVCD_NO_STDIO
+#define NSVCD_NO_INT8
+#define NSVCD_NO_GRADIENT
+#define NEURALSVCD_IMPLEMENTATION
+#include "../../neuralsvcd.h"
+
+#include <stdlib.h>
+
+// library.js counts on it.
+_Static_assert(sizeof(nsvcd_answer) == 4 * 22 && sizeof(nsvcd_pose) == 4 * 7, "a field is a word");
+
+#define EXPORT(name) __attribute__((export_name(#name))) name
+
+// A and B.
+typedef struct side {
+  nsvcd_mesh mesh;
+  const nsvcd_body *body;
+  nsvcd_body_facts facts;
+} side;
+
+static side sides[2];
+static nsvcd_pose motion[2];  // of A; B rests at the origin
+static nsvcd_answer answer;
+static void *workspace;
+static size_t workspace_size;
+static size_t error_line;
+
+// Room for a text of so many bytes, to be written by the page and read by web_encode; NULL without
+// memory.
+char *EXPORT(web_text)(size_t size) {
+  return (char *)malloc(size);
+}
+
+// Reads OBJ text and encodes it as A (0) or B (1); gives the text back. On failure the body stays
+// what it was, and web_error_line is the line at fault, or 0.
+nsvcd_result EXPORT(web_encode)(size_t which, char *text, size_t size) {
+  nsvcd_mesh mesh;
+  const nsvcd_body *body = NULL;
+  nsvcd_result result = nsvcd_obj_parse(text, size, NULL, &mesh, &error_line);
+  free(text);
+  if (result)
+    return result;
+  result = nsvcd_encode(&mesh, NULL, NULL, NULL, 0, &body);
+  if (result) {
+    nsvcd_mesh_free(&mesh, NULL);
+    return result;
+  }
+  nsvcd_mesh_free(&sides[which].mesh, NULL);
+  nsvcd_body_free(sides[which].body, NULL);
+  sides[which].mesh = mesh;
+  sides[which].body = body;
+  sides[which].facts = nsvcd_body_describe(body);
+  return NSVCD_OK;
+}
+
+// Asks `times` times whether A hits B, for the clock; once is enough for web_answer.
+nsvcd_result EXPORT(web_sweep)(float scale_a, float scale_b, float first, float clearance,
+                               nsvcd_method method, size_t times) {
+  nsvcd_question question = {0};
+  question.a.body = sides[0].body;
+  question.a.poses = motion;
+  question.a.count = 2;
+  question.a.scale = scale_a;
+  question.b.body = sides[1].body;
+  question.b.scale = scale_b;
+  question.options.first = first;
+  question.options.clearance = clearance;
+  question.options.method = method;
+  if (!workspace) {
+    workspace_size = nsvcd_sweep_workspace_size(NULL);
+    workspace = malloc(workspace_size);
+  }
+  nsvcd_result result = NSVCD_OK;
+  for (size_t i = 0; i < times && !result; i++)
+    result = nsvcd_sweep(&question, workspace, workspace_size, &answer);
+  return result;
+}
+
+nsvcd_pose *EXPORT(web_motion)(void) {
+  return motion;
+}
+const nsvcd_answer *EXPORT(web_answer)(void) {
+  return &answer;
+}
+const nsvcd_mesh *EXPORT(web_mesh)(size_t which) {
+  return &sides[which].mesh;
+}
+const nsvcd_body_facts *EXPORT(web_facts)(size_t which) {
+  return &sides[which].facts;
+}
+size_t EXPORT(web_error_line)(void) {
+  return error_line;
+}
+const char *EXPORT(web_result_string)(nsvcd_result result) {
+  return nsvcd_result_string(result);
+}
