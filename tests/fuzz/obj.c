@@ -22,14 +22,21 @@ typedef struct token {
   size_t length;
 } token;
 
+// Length of the end of a line at p: LF, CR or CR LF.
+static size_t newline_at(const text *t, const char *p) {
+  const size_t left = (size_t)(t->end - p);
+  if (left >= 2 && memcmp(p, "\r\n", 2) == 0)
+    return 2;
+  return left >= 1 && (*p == '\n' || *p == '\r');
+}
+
 // Length of what parts two tokens of a statement at p.
 static size_t gap_at(const text *t, const char *p) {
   const size_t left = (size_t)(t->end - p);
-  if (left >= 1 && strchr(" \t\r\v\f", *p) && *p)
+  if (left >= 1 && strchr(" \t\v\f", *p) && *p)
     return 1;
-  if (left >= 2 && memcmp(p, "\\\n", 2) == 0)
-    return 2;
-  return left >= 3 && memcmp(p, "\\\r\n", 3) == 0 ? 3 : 0;
+  const size_t newline = left >= 2 && *p == '\\' ? newline_at(t, p + 1) : 0;
+  return newline ? 1 + newline : 0;
 }
 
 // The next token of a statement; 0 where it has no more: then the next statement follows. A comment
@@ -38,17 +45,17 @@ static int next_token(text *t, token *out) {
   for (size_t gap = gap_at(t, t->at); gap > 0; gap = gap_at(t, t->at))
     t->at += gap;
   if (t->at < t->end && *t->at == '#') {
-    while (t->at < t->end && *t->at != '\n')
+    while (t->at < t->end && newline_at(t, t->at) == 0)
       t->at++;
   }
   if (t->at == t->end)
     return 0;
-  if (*t->at == '\n') {
-    t->at++;
+  const size_t newline = newline_at(t, t->at);
+  t->at += newline;
+  if (newline > 0)
     return 0;
-  }
   out->at = t->at;
-  while (t->at < t->end && *t->at != '\n' && gap_at(t, t->at) == 0)
+  while (t->at < t->end && newline_at(t, t->at) == 0 && gap_at(t, t->at) == 0)
     t->at++;
   out->length = (size_t)(t->at - out->at);
   return 1;
@@ -141,12 +148,13 @@ static int parse(const char *data, size_t size, int fail_at, nsvcd_result *resul
   nsvcd_allocator allocator = {failing_heap_alloc, failing_heap_free, NULL};
   nsvcd_mesh mesh = {NULL, NULL, 7, 7};
   size_t line = 999;
+  const text all = {data, data + size};
   size_t lines = 1;
   heap.fail_at = fail_at;
   allocator.user = &heap;
   *result = nsvcd_obj_parse(data, size, &allocator, &mesh, &line);
   for (size_t k = 0; k < size; k++)
-    lines += data[k] == '\n';
+    lines += newline_at(&all, data + k) == 1;
   FUZZ_CHECK(line <= lines);
   if (*result) {
     FUZZ_CHECK(!mesh.positions && !mesh.indices);

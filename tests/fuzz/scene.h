@@ -215,11 +215,9 @@ static void scene_check_proof(const nsvcd_question *question, const nsvcd_answer
     const nsvcd_body_facts b = nsvcd_body_describe(question->b.body);
     FUZZ_CHECK(answer->triangle_a < a.triangles && answer->triangle_b < b.triangles);
     FUZZ_CHECK(answer->free_until <= answer->contact_time);
-    // Surfaces within a tolerance may be taken for the beginning of a contact: how long they are so
-    // near is not bounded.
-    if (first > 0 && !(question->options.tolerance > 0))
+    if (first > 0)
       FUZZ_CHECK(answer->free_until >= answer->contact_time - first - 1e-6f);
-    if (!(first > 0))
+    else
       FUZZ_CHECK(answer->free_until <= 0);
   }
 }
