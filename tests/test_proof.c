@@ -1805,6 +1805,88 @@ static void proof_knows_what_is_within(void) {
     proof_free(&outer[k]);
 }
 
+// As nsvcd__crossings, but all triangles of a patch whose sphere the ray meets are asked in double.
+static int proof_crossings(const nsvcd__facets *f, const nsvcd__ray *ray, int *unclear) {
+  static uint32_t crossed[1000];
+  size_t count = 0;
+  int sum = 0;
+  for (size_t i = 0; i < f->body->patches; i++) {
+    if (!(nsvcd__patches_on_ray(f->body, ray, i / NSVCD__GROUP) >> i % NSVCD__GROUP & 1))
+      continue;
+    nsvcd__numbers numbers = nsvcd__numbers_of(f, i);
+    for (size_t n = f->first_triangle[i]; n < f->first_triangle[i + 1]; n++) {
+      nsvcd__d3 corners[3];
+      nsvcd__read_number(&numbers, n);
+      if (!numbers.encloses)
+        continue;
+      nsvcd__facet_triangle(f, i, n, corners);
+      const double margin = (double)f->quanta[i] + ray->margin;
+      const int crossing = nsvcd__ray_crosses(ray, corners, margin, unclear);
+      size_t known = 0;
+      while (known < count && crossed[known] != numbers.number)
+        known++;
+      if (!crossing || known < count || count == 1000)
+        continue;
+      crossed[count++] = numbers.number;
+      sum += crossing;
+    }
+  }
+  return sum;
+}
+
+// A ray from somewhere about a body that passes close to an edge.
+static nsvcd__ray proof_ray_at_edge(shapes_rng *rng, const nsvcd__facets *f, double margin) {
+  const size_t listing = shapes_next(rng) % f->listed;
+  const double radius = (double)f->body->radius;
+  size_t patch = 0;
+  nsvcd__d3 t[3];
+  nsvcd__ray ray;
+  while (f->first_triangle[patch + 1] <= listing)
+    patch++;
+  nsvcd__facet_triangle(f, patch, listing, t);
+  const nsvcd__d3 aim = nsvcd__d3_mix(t[0], t[1], shapes_uniform(rng, 0, 1));
+  const double sign = shapes_pick(rng, 2) ? 1 : -1;
+  const double off = sign * pow(10, shapes_uniform(rng, -6, -1));
+  const nsvcd__d3 to = nsvcd__d3_add_scaled(aim, off, nsvcd__d3_sub(t[2], aim));
+  const nsvcd__d3 away = nsvcd__d3_of(shapes_uniform(rng, -1, 1), shapes_uniform(rng, -1, 1),
+                                      shapes_uniform(rng, -1, 1));
+  ray.from = nsvcd__d3_add_scaled(nsvcd__d3_load(f->body->centre), radius, away);
+  ray.direction = nsvcd__d3_unit(nsvcd__d3_sub(to, ray.from), nsvcd__d3_of(0, 0, 1));
+  ray.margin = margin;
+  return ray;
+}
+
+// Rays that pass close to edges: what is left out in floats is nothing in double. Of a fine ball far
+// from its origin, where rounding is more than the quanta.
+static void proof_rays_miss_nothing(void) {
+  nsvcd__query *query = any_query();
+  shapes_rng rng = {92};
+  for (int n = 0; n < 3; n++) {
+    size_t clear = 0;
+    size_t wrong = 0;
+    shapes_mesh shape;
+    memset(&shape, 0, sizeof shape);
+    shapes_ellipsoid(&shape, 0.02, 0.02, 0.02, 40);
+    shapes_place(&shape, 0, NULL, n == 0 ? 0 : 3, n == 2 ? 100 : 0, 1);
+    proof_body ball = proof_of_shape(&shape, 1, 256);
+    const nsvcd__facets f = nsvcd__facets_of(nsvcd__triangles_of(ball.body));
+    for (int trial = 0; trial < 6000; trial++) {
+      const nsvcd__ray ray = proof_ray_at_edge(&rng, &f, 1e-13);
+      int unclear = 0;
+      int unclear_in_double = 0;
+      const int sum = nsvcd__crossings(query->proof, &f, &ray, &unclear);
+      const int in_double = proof_crossings(&f, &ray, &unclear_in_double);
+      clear += !unclear_in_double;
+      wrong += unclear != unclear_in_double || (!unclear && sum != in_double);
+    }
+    printf("  %zu rays of 6000 clear of edges, %zu wrong\n", clear, wrong);
+    CHECK_EQ(wrong, 0);
+    CHECK(clear > 300 && clear < 5700);
+    proof_free(&ball);
+  }
+  free(query);
+}
+
 // A cube in a room, nearer to its walls than the tolerance at the start, which then goes on to
 // meet one, or not: what is said is about the start.
 static void proof_says_where_inside(void) {
@@ -2484,6 +2566,7 @@ void test_proof(void) {
   RUN(proof_lifts_are_true);
   RUN(proof_knows_what_is_within);
   RUN(proof_says_where_inside);
+  RUN(proof_rays_miss_nothing);
   RUN(proof_answers_are_the_same_again);
   RUN(proof_sides_do_not_matter);
   RUN(proof_keeps_its_limit);
