@@ -618,9 +618,9 @@ typedef struct nsvcd_answer {
   // known. With options.measure the nearest ones found, but for INSIDE. Otherwise NSVCD_NO_TRIANGLE
   uint32_t triangle_a;
   uint32_t triangle_b;
-  // metres, world, at the start: by what a was lifted off b for options.skin; it turns with b. The
-  // answer is about the motion so displaced. 0: nothing was touched, or a is pressed in deeper than
-  // the skin, or held from all sides
+  // metres, world, at the start: by what a was lifted off b for options.skin; it turns with b, or,
+  // where both move and a is the larger, with a. The answer is about the motion so displaced. 0:
+  // nothing was touched, or a is pressed in deeper than the skin, or held from all sides
   float lift[3];
   // units that the proof took
   size_t work;
@@ -14276,13 +14276,15 @@ static int nsvcd__names_triangles(const nsvcd__proof *p, nsvcd__verdict verdict)
   return p->has_contact || is_doubt;
 }
 
-// Answers with the contact that a proof has found: when, where, and of what.
-static void nsvcd__answer_with_contact(const nsvcd__proof *p, nsvcd_answer *answer) {
+// Answers with the contact that a proof has found: when, where, and of what. swapped: it is the
+// fixed body that counts as lifted, the other way.
+static void nsvcd__answer_with_contact(const nsvcd__proof *p, int swapped, nsvcd_answer *answer) {
   const nsvcd__contact *found = &p->found;
   const int rests = p->motion->moving.count == 1 && !p->motion->fixed_moves;
   const double time = rests ? 0 : found->tick / (double)p->motion->ticks;
   const nsvcd__to_world world = nsvcd__to_world_at(p->motion, time);
-  const nsvcd__d3 seen = nsvcd__d3_scale(found->point, world.unit);
+  const nsvcd__d3 lift = nsvcd__d3_scale(nsvcd__d3_widen(p->motion->lift), swapped);
+  const nsvcd__d3 seen = nsvcd__d3_scale(nsvcd__d3_sub(found->point, lift), world.unit);
   const nsvcd__d3 turned = nsvcd__dmat3_apply(&world.rotation, seen);
   const nsvcd__f3 point = nsvcd__f3_round(nsvcd__d3_add(turned, world.position));
   const nsvcd__f3 normal = nsvcd__f3_round(nsvcd__dmat3_apply(&world.rotation, found->normal));
@@ -14413,7 +14415,7 @@ static void nsvcd__answer_by_proof(nsvcd__task *task, nsvcd__query *query, nsvcd
   nsvcd__answer_free(answer);
   answer->work = p->work;
   if (nsvcd__names_triangles(p, verdict) || verdict == NSVCD__WITHIN)
-    nsvcd__answer_with_contact(p, answer);
+    nsvcd__answer_with_contact(p, task->swapped, answer);
   const int measured = p->measure > 0 && (verdict == NSVCD__FREE || verdict == NSVCD__MEETS);
   if (measured)
     verdict = nsvcd__verdict_of_distance(p, (double)task->clearance);

@@ -1613,6 +1613,41 @@ static void proof_leaves_contacts(void) {
   }
 }
 
+// A crate pushed along a floor against a wall, or the floor lifted off the crate: a lift the other
+// way, and the point where the body that is lifted then is.
+static void proof_points_are_of_the_lifted(void) {
+  proof_body floor = proof_floor(1, 2);
+  proof_body crate = proof_crate(1);
+  nsvcd_pose path[2] = {{{0, 0, 0.1f}, {0, 0, 0, 1}}, {{0.45f, 0, 0.1f}, {0, 0, 0, 1}}};
+  nsvcd_question question;
+  nsvcd_answer answers[2];
+  memset(&question, 0, sizeof question);
+  question.options.method = NSVCD_METHOD_PROOF;
+  question.options.skin = 0.01f;
+  question.options.first = 1e-3f;
+  for (int swapped = 0; swapped < 2; swapped++) {
+    nsvcd_mover *mover = swapped ? &question.b : &question.a;
+    nsvcd_mover *rest = swapped ? &question.a : &question.b;
+    memset(rest, 0, sizeof *rest);
+    mover->body = crate.body;
+    mover->poses = path;
+    mover->count = 2;
+    rest->body = floor.body;
+    CHECK_EQ(nsvcd_sweep(&question, proof_workspace(), nsvcd_sweep_workspace_size(NULL),
+                         &answers[swapped]),
+             NSVCD_OK);
+    CHECK_EQ(answers[swapped].status, NSVCD_STATUS_WITNESS);
+  }
+  CHECK_NEAR(answers[0].lift[2], 0.01, 1e-5);
+  CHECK_NEAR(answers[0].point[0], 0.5, 5e-5);  // the wall, to its quantum
+  for (int k = 0; k < 3; k++) {
+    CHECK_EQ(answers[1].lift[k], -answers[0].lift[k]);
+    CHECK_NEAR(answers[1].point[k], answers[0].point[k] + answers[1].lift[k], 1e-6);
+  }
+  proof_free(&floor);
+  proof_free(&crate);
+}
+
 // The distance at t when the moving body is displaced by the lift, which turns with the fixed one.
 static double proof_lifted_distance(const attack *a, const double *lift, double t) {
   const oracle_pose start = proof_pose_at(&a->motion.fixed, 0);
@@ -2563,6 +2598,7 @@ void test_proof(void) {
   RUN(proof_finds_first_contacts);
   RUN(proof_keeps_clearances);
   RUN(proof_leaves_contacts);
+  RUN(proof_points_are_of_the_lifted);
   RUN(proof_lifts_are_true);
   RUN(proof_knows_what_is_within);
   RUN(proof_says_where_inside);
