@@ -547,7 +547,7 @@ typedef struct nsvcd_sweep_options {
   float first;
   // metres: clearance_low and clearance_high are the least distance over the motion, to this, but
   // for what the stored triangles are off by (nsvcd_body_facts.quantum). 0: unasked. Not with
-  // `first`
+  // `first`. With `clearance` the status says whether that is kept, however wide this is
   float measure;
   // metres: a contact at the start that is no deeper than this does not count, nor does what is
   // nearer than the clearance by no more than this. So a body may rest on another, slide along it
@@ -610,8 +610,8 @@ typedef struct nsvcd_answer {
   // metres, world. Of the triangles named below, where they meet at that time, or on one of them
   // where they are nearest. INSIDE: a point of what is inside
   float point[3];
-  // world. Unit normal of one of these, from b to a, or, where they are apart, the direction of that
-  // from b's to a's. 0 where none are named, and where that triangle has no area
+  // world. Unit normal of one of these, from b to a, or, where they are apart, the direction of
+  // that from b's to a's. 0 where none are named, and where that triangle has no area
   float normal[3];
   // as numbered in the caller's meshes. WITNESS: those that meet. UNDECIDED: two that come too near
   // to tell, or meet, with options.first the earliest known; NSVCD_NO_TRIANGLE where none are
@@ -9552,9 +9552,9 @@ static void nsvcd__candidates_start(nsvcd__candidates *kept, nsvcd__candidate *i
 //
 // THE LEAST DISTANCE. Contacts lower the clearance: it begins as a distance that two vertices
 // have, and whenever triangles are found nearer than that, it becomes their distance less
-// `measure`. What has been parted stays parted, by more than that. So both are one search whose
-// question shrinks, and in the end all of the motion that matters is proven free at the clearance
-// that matters.
+// `measure`, but not less than the clearance that is asked for while they keep that. What has been
+// parted stays parted, by more than that. So both are one search whose question shrinks, and in the
+// end all of the motion that matters is proven free at the clearance that matters.
 //
 // Work is counted in units: a plane sought for two hulls, 16 triangles against the box of 16, one
 // of them against these, a couple at one time, a ray against 16 triangles. A query stops
@@ -9694,6 +9694,7 @@ typedef struct nsvcd__proof {
   float lengths;     // extents of both bodies
   double tolerance;  // beyond the quanta
   double clearance, measure, first;
+  double asked;  // the clearance, as long as only farther contacts are known
   size_t work, limit;  // units
   double end;          // ticks: what begins then or later does not matter
 
@@ -10832,7 +10833,8 @@ static nsvcd__verdict nsvcd__take_contact(nsvcd__proof *p, const nsvcd__couple *
   p->found = nsvcd__contact_at(p, couple, u, nearest);
   if (p->measure > 0) {
     const int touches = !(p->found.distance > 0);
-    p->clearance = touches ? 0 : fmax(0, p->found.distance - p->measure);
+    const double least = p->found.distance > p->asked ? p->asked : 0;
+    p->clearance = touches ? 0 : fmax(least, p->found.distance - p->measure);
     return touches ? NSVCD__MEETS : NSVCD__TAKEN;
   }
   if (p->first > 0) {
@@ -14359,6 +14361,7 @@ static void nsvcd__proof_begin(nsvcd__task *task, nsvcd__query *query) {
   p->lengths = task->motion.scale * p->moving.body->extent + p->fixed.body->extent;
   p->tolerance = (double)task->tolerance;
   p->clearance = (double)task->clearance;
+  p->asked = p->clearance;
   p->measure = (double)task->measure;
   p->first = (double)task->first;
   p->limit = task->work;
@@ -14380,7 +14383,7 @@ static nsvcd__verdict nsvcd__verdict_of_distance(const nsvcd__proof *p, double c
   const int is_near = p->has_contact && p->found.distance <= clearance;
   if (is_near)
     return NSVCD__MEETS;
-  const int is_clear = clearance > 0 ? p->clearance > clearance : 1;
+  const int is_clear = p->clearance >= clearance;
   return is_clear ? NSVCD__FREE : NSVCD__UNDECIDED;
 }
 

@@ -1458,6 +1458,22 @@ static void proof_check_clearance(attack *a, float clearance, timing_sum *sum) {
   CHECK_LE((double)w->clearance_high, (double)clearance * (1 + 1e-5) + quanta);
 }
 
+// However widely the least distance is asked for, a clearance is kept or not.
+static void proof_check_both(attack *a, float clearance, float tolerance, timing_sum *sum) {
+  nsvcd_sweep_options options = proof_options();
+  options.clearance = clearance;
+  CHECK_EQ(proof_ask_with(a, &options), NSVCD_OK);
+  const nsvcd_status alone = a->answer.status;
+  options.measure = tolerance;
+  CHECK_EQ(proof_ask_with(a, &options), NSVCD_OK);
+  const nsvcd_answer *w = &a->answer;
+  proof_count(sum, w->status);
+  sum->wrong +=
+      alone != w->status && alone != NSVCD_STATUS_UNDECIDED && w->status != NSVCD_STATUS_UNDECIDED;
+  if (w->status == NSVCD_STATUS_CERTIFIED_FREE)
+    CHECK_GE((double)w->clearance_low, (double)clearance * (1 - 1e-5));
+}
+
 static void proof_check_measure(attack *a, float tolerance, timing_sum *sum) {
   const double size = a->moving->size + a->fixed->size;
   nsvcd_sweep_options options = proof_options();
@@ -1485,22 +1501,24 @@ static void proof_check_measure(attack *a, float tolerance, timing_sum *sum) {
 
 static void proof_keeps_clearances(void) {
   shapes_rng rng = {89};
-  timing_sum sums[2];
+  timing_sum sums[3];
+  static const char *const names[3] = {"clearance", "least", "both"};
   memset(sums, 0, sizeof sums);
   while (sums[0].asked < (size_t)(400 * proof_many())) {
     attack a;
     if (!proof_timing_scene(&rng, &a))
       continue;
     const double size = a.moving->size + a.fixed->size;
-    proof_check_clearance(&a, (float)(size * pow(10, shapes_uniform(&rng, -5, 0.3))), &sums[0]);
+    const float clearance = (float)(size * pow(10, shapes_uniform(&rng, -5, 0.3)));
+    proof_check_clearance(&a, clearance, &sums[0]);
+    proof_check_both(&a, clearance, (float)size, &sums[2]);
     proof_check_measure(&a, (float)(size * pow(10, shapes_uniform(&rng, -5, -1))), &sums[1]);
   }
-  for (int k = 0; k < 2; k++) {
+  for (int k = 0; k < 3; k++) {
     const timing_sum *sum = &sums[k];
     printf("  %s: %zu questions, near %zu, free %zu, inside %zu, undecided %zu; %zu wrong",
-           k ? "least" : "clearance", sum->asked, sum->contacts, sum->free, sum->inside,
-           sum->undecided, sum->wrong);
-    printf(k ? "; brackets up to %.2f of the tolerance and eight quanta\n" : "\n", sum->worst);
+           names[k], sum->asked, sum->contacts, sum->free, sum->inside, sum->undecided, sum->wrong);
+    printf(k == 1 ? "; brackets up to %.2f of the tolerance and eight quanta\n" : "\n", sum->worst);
     CHECK_EQ(sum->wrong, 0);
     CHECK_GE(sum->free, 50);
     CHECK_GE(sum->contacts, 50);
