@@ -428,8 +428,8 @@ NSVCDDEF nsvcd_result nsvcd_body_trust(const void *memory, size_t size, const ns
 //   memory     (capacity) bytes, not NULL, aligned to NSVCD_ALIGNMENT; may be where the body is
 //   scaled     not NULL; set to the copy; left as it was on failure
 //   allocates  nothing
-//   errors     ARGUMENT (also if the copy were smaller or larger than a body may be), WORKSPACE; with
-//              NSVCD_NO_PROOF also BODY: it has triangles, which that cannot scale
+//   errors     ARGUMENT (also if the copy were smaller or larger than a body may be), WORKSPACE;
+//              with NSVCD_NO_PROOF also BODY: it has triangles, which that cannot scale
 NSVCDDEF nsvcd_result nsvcd_body_scale(const nsvcd_body *body, float scale, void *memory,
                                        size_t capacity, const nsvcd_body **scaled);
 
@@ -9694,7 +9694,7 @@ typedef struct nsvcd__proof {
   float lengths;     // extents of both bodies
   double tolerance;  // beyond the quanta
   double clearance, measure, first;
-  double asked;  // the clearance, as long as only farther contacts are known
+  double asked;        // the clearance, as long as only farther contacts are known
   size_t work, limit;  // units
   double end;          // ticks: what begins then or later does not matter
 
@@ -11035,7 +11035,8 @@ static nsvcd__verdict nsvcd__settle_short_part(nsvcd__proof *p, const nsvcd__cou
   // say less, but for certain
   if (p->measure > 0 && p->clearance > 0) {
     const double close = couple->slack + p->tolerance;
-    p->clearance = fmax(0, p->clearance - 2 * close);
+    const double least = p->clearance > p->asked ? p->asked : 0;
+    p->clearance = fmax(least, p->clearance - 2 * close);
     return NSVCD__FREE;
   }
   nsvcd__take_doubt(p, couple, u, end);
