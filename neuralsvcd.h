@@ -566,7 +566,7 @@ typedef struct nsvcd_sweep_options {
   float first;
   // metres: clearance_low and clearance_high are the least distance over the motion, to this, but
   // for what the stored triangles are off by (nsvcd_body_facts.quantum). 0: unasked. Not with
-  // `first`
+  // `first`. With `clearance` the status says whether that is kept, however wide this is
   float measure;
   // metres: a contact at the start that is no deeper than this does not count, nor does what is
   // nearer than the clearance by no more than this. So a body may rest on another, slide along it
@@ -638,9 +638,9 @@ typedef struct nsvcd_answer {
   // known. With options.measure the nearest ones found, but for INSIDE. Otherwise NSVCD_NO_TRIANGLE
   uint32_t triangle_a;
   uint32_t triangle_b;
-  // metres, world, at the start: by what a was lifted off b for options.skin; it turns with b. The
-  // answer is about the motion so displaced. 0: nothing was touched, or a is pressed in deeper than
-  // the skin, or held from all sides
+  // metres, world, at the start: by what a was lifted off b for options.skin; it turns with b, or,
+  // where both move and a is the larger, with a. The answer is about the motion so displaced. 0:
+  // nothing was touched, or a is pressed in deeper than the skin, or held from all sides
   float lift[3];
   // units that the proof took
   size_t work;
@@ -9812,9 +9812,9 @@ static void nsvcd__candidates_start(nsvcd__candidates *kept, nsvcd__candidate *i
 //
 // THE LEAST DISTANCE. Contacts lower the clearance: it begins as a distance that two vertices
 // have, and whenever triangles are found nearer than that, it becomes their distance less
-// `measure`. What has been parted stays parted, by more than that. So both are one search whose
-// question shrinks, and in the end all of the motion that matters is proven free at the clearance
-// that matters.
+// `measure`, but not less than the clearance that is asked for while they keep that. What has been
+// parted stays parted, by more than that. So both are one search whose question shrinks, and in the
+// end all of the motion that matters is proven free at the clearance that matters.
 //
 // Work is counted in units: a plane sought for two hulls, 16 triangles against the box of 16, one
 // of them against these, a couple at one time, a ray against 16 triangles. A query stops
@@ -9954,6 +9954,7 @@ typedef struct nsvcd__proof {
   float lengths;     // extents of both bodies
   double tolerance;  // beyond the quanta
   double clearance, measure, first;
+  double asked;        // the clearance, as long as only farther contacts are known
   size_t work, limit;  // units
   double end;          // ticks: what begins then or later does not matter
 
@@ -11092,7 +11093,8 @@ static nsvcd__verdict nsvcd__take_contact(nsvcd__proof *p, const nsvcd__couple *
   p->found = nsvcd__contact_at(p, couple, u, nearest);
   if (p->measure > 0) {
     const int touches = !(p->found.distance > 0);
-    p->clearance = touches ? 0 : fmax(0, p->found.distance - p->measure);
+    const double least = p->found.distance > p->asked ? p->asked : 0;
+    p->clearance = touches ? 0 : fmax(least, p->found.distance - p->measure);
     return touches ? NSVCD__MEETS : NSVCD__TAKEN;
   }
   if (p->first > 0) {
@@ -11293,7 +11295,8 @@ static nsvcd__verdict nsvcd__settle_short_part(nsvcd__proof *p, const nsvcd__cou
   // say less, but for certain
   if (p->measure > 0 && p->clearance > 0) {
     const double close = couple->slack + p->tolerance;
-    p->clearance = fmax(0, p->clearance - 2 * close);
+    const double least = p->clearance > p->asked ? p->asked : 0;
+    p->clearance = fmax(least, p->clearance - 2 * close);
     return NSVCD__FREE;
   }
   nsvcd__take_doubt(p, couple, u, end);
@@ -14537,13 +14540,15 @@ static int nsvcd__names_triangles(const nsvcd__proof *p, nsvcd__verdict verdict)
   return p->has_contact || is_doubt;
 }
 
-// Answers with the contact that a proof has found: when, where, and of what.
-static void nsvcd__answer_with_contact(const nsvcd__proof *p, nsvcd_answer *answer) {
+// Answers with the contact that a proof has found: when, where, and of what. swapped: it is the
+// fixed body that counts as lifted, the other way.
+static void nsvcd__answer_with_contact(const nsvcd__proof *p, int swapped, nsvcd_answer *answer) {
   const nsvcd__contact *found = &p->found;
   const int rests = p->motion->moving.count == 1 && !p->motion->fixed_moves;
   const double time = rests ? 0 : found->tick / (double)p->motion->ticks;
   const nsvcd__to_world world = nsvcd__to_world_at(p->motion, time);
-  const nsvcd__d3 seen = nsvcd__d3_scale(found->point, world.unit);
+  const nsvcd__d3 lift = nsvcd__d3_scale(nsvcd__d3_widen(p->motion->lift), swapped);
+  const nsvcd__d3 seen = nsvcd__d3_scale(nsvcd__d3_sub(found->point, lift), world.unit);
   const nsvcd__d3 turned = nsvcd__dmat3_apply(&world.rotation, seen);
   const nsvcd__f3 point = nsvcd__f3_round(nsvcd__d3_add(turned, world.position));
   const nsvcd__f3 normal = nsvcd__f3_round(nsvcd__dmat3_apply(&world.rotation, found->normal));
@@ -14618,6 +14623,7 @@ static void nsvcd__proof_begin(nsvcd__task *task, nsvcd__query *query) {
   p->lengths = task->motion.scale * p->moving.body->extent + p->fixed.body->extent;
   p->tolerance = (double)task->tolerance;
   p->clearance = (double)task->clearance;
+  p->asked = p->clearance;
   p->measure = (double)task->measure;
   p->first = (double)task->first;
   p->limit = task->work;
@@ -14639,7 +14645,7 @@ static nsvcd__verdict nsvcd__verdict_of_distance(const nsvcd__proof *p, double c
   const int is_near = p->has_contact && p->found.distance <= clearance;
   if (is_near)
     return NSVCD__MEETS;
-  const int is_clear = clearance > 0 ? p->clearance > clearance : 1;
+  const int is_clear = p->clearance >= clearance;
   return is_clear ? NSVCD__FREE : NSVCD__UNDECIDED;
 }
 
@@ -14674,7 +14680,7 @@ static void nsvcd__answer_by_proof(nsvcd__task *task, nsvcd__query *query, nsvcd
   nsvcd__answer_free(answer);
   answer->work = p->work;
   if (nsvcd__names_triangles(p, verdict) || verdict == NSVCD__WITHIN)
-    nsvcd__answer_with_contact(p, answer);
+    nsvcd__answer_with_contact(p, task->swapped, answer);
   const int measured = p->measure > 0 && (verdict == NSVCD__FREE || verdict == NSVCD__MEETS);
   if (measured)
     verdict = nsvcd__verdict_of_distance(p, (double)task->clearance);

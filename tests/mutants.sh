@@ -83,7 +83,7 @@ contacts end too much|p->end = fmin(p->found.tick - p->first, p->unsure);|p->end
 a start that is not asked|  if (p->first > 0 \&\& p->has_contact \&\& p->end <= 0 \&\& p->found.tick > 0)|  if (0)
 a doubt taken for free|  return p->unsure < (has_end ? p->found.tick - p->first : NSVCD__NEVER);|  return !has_end \&\& p->unsure < NSVCD__NEVER;
 half the first distance|return 1.0001 * nsvcd__vertices_apart(|return 0.5 * nsvcd__vertices_apart(
-distance without tolerance|fmax(0, p->found.distance - p->measure);|fmax(0, p->found.distance * 1.01);
+distance without tolerance|fmax(least, p->found.distance - p->measure);|fmax(least, p->found.distance * 1.01);
 exact poses not lifted|at.position = nsvcd__d3_add(at.position, arc->lift);|at.position = nsvcd__d3_add(at.position, nsvcd__d3_scale(arc->lift, 0));
 lift the wrong way|if (lacks > 0)\n        lift = nsvcd__d3_add(|if (lacks > 0)\n        lift = nsvcd__d3_sub(
 a window of another patch|p->window > 0 \&\& p->fixed_blocks[0].first == first|p->window > 0

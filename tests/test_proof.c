@@ -1458,6 +1458,22 @@ static void proof_check_clearance(attack *a, float clearance, timing_sum *sum) {
   CHECK_LE((double)w->clearance_high, (double)clearance * (1 + 1e-5) + quanta);
 }
 
+// However widely the least distance is asked for, a clearance is kept or not.
+static void proof_check_both(attack *a, float clearance, float tolerance, timing_sum *sum) {
+  nsvcd_sweep_options options = proof_options();
+  options.clearance = clearance;
+  CHECK_EQ(proof_ask_with(a, &options), NSVCD_OK);
+  const nsvcd_status alone = a->answer.status;
+  options.measure = tolerance;
+  CHECK_EQ(proof_ask_with(a, &options), NSVCD_OK);
+  const nsvcd_answer *w = &a->answer;
+  proof_count(sum, w->status);
+  sum->wrong +=
+      alone != w->status && alone != NSVCD_STATUS_UNDECIDED && w->status != NSVCD_STATUS_UNDECIDED;
+  if (w->status == NSVCD_STATUS_CERTIFIED_FREE)
+    CHECK_GE((double)w->clearance_low, (double)clearance * (1 - 1e-5));
+}
+
 static void proof_check_measure(attack *a, float tolerance, timing_sum *sum) {
   const double size = a->moving->size + a->fixed->size;
   nsvcd_sweep_options options = proof_options();
@@ -1485,22 +1501,24 @@ static void proof_check_measure(attack *a, float tolerance, timing_sum *sum) {
 
 static void proof_keeps_clearances(void) {
   shapes_rng rng = {89};
-  timing_sum sums[2];
+  timing_sum sums[3];
+  static const char *const names[3] = {"clearance", "least", "both"};
   memset(sums, 0, sizeof sums);
   while (sums[0].asked < (size_t)(400 * proof_many())) {
     attack a;
     if (!proof_timing_scene(&rng, &a))
       continue;
     const double size = a.moving->size + a.fixed->size;
-    proof_check_clearance(&a, (float)(size * pow(10, shapes_uniform(&rng, -5, 0.3))), &sums[0]);
+    const float clearance = (float)(size * pow(10, shapes_uniform(&rng, -5, 0.3)));
+    proof_check_clearance(&a, clearance, &sums[0]);
+    proof_check_both(&a, clearance, (float)size, &sums[2]);
     proof_check_measure(&a, (float)(size * pow(10, shapes_uniform(&rng, -5, -1))), &sums[1]);
   }
-  for (int k = 0; k < 2; k++) {
+  for (int k = 0; k < 3; k++) {
     const timing_sum *sum = &sums[k];
     printf("  %s: %zu questions, near %zu, free %zu, inside %zu, undecided %zu; %zu wrong",
-           k ? "least" : "clearance", sum->asked, sum->contacts, sum->free, sum->inside,
-           sum->undecided, sum->wrong);
-    printf(k ? "; brackets up to %.2f of the tolerance and eight quanta\n" : "\n", sum->worst);
+           names[k], sum->asked, sum->contacts, sum->free, sum->inside, sum->undecided, sum->wrong);
+    printf(k == 1 ? "; brackets up to %.2f of the tolerance and eight quanta\n" : "\n", sum->worst);
     CHECK_EQ(sum->wrong, 0);
     CHECK_GE(sum->free, 50);
     CHECK_GE(sum->contacts, 50);
@@ -1611,6 +1629,41 @@ static void proof_leaves_contacts(void) {
     proof_free(&floor);
     proof_free(&crate);
   }
+}
+
+// A crate pushed along a floor against a wall, or the floor lifted off the crate: a lift the other
+// way, and the point where the body that is lifted then is.
+static void proof_points_are_of_the_lifted(void) {
+  proof_body floor = proof_floor(1, 2);
+  proof_body crate = proof_crate(1);
+  nsvcd_pose path[2] = {{{0, 0, 0.1f}, {0, 0, 0, 1}}, {{0.45f, 0, 0.1f}, {0, 0, 0, 1}}};
+  nsvcd_question question;
+  nsvcd_answer answers[2];
+  memset(&question, 0, sizeof question);
+  question.options.method = NSVCD_METHOD_PROOF;
+  question.options.skin = 0.01f;
+  question.options.first = 1e-3f;
+  for (int swapped = 0; swapped < 2; swapped++) {
+    nsvcd_mover *mover = swapped ? &question.b : &question.a;
+    nsvcd_mover *rest = swapped ? &question.a : &question.b;
+    memset(rest, 0, sizeof *rest);
+    mover->body = crate.body;
+    mover->poses = path;
+    mover->count = 2;
+    rest->body = floor.body;
+    CHECK_EQ(nsvcd_sweep(&question, proof_workspace(), nsvcd_sweep_workspace_size(NULL),
+                         &answers[swapped]),
+             NSVCD_OK);
+    CHECK_EQ(answers[swapped].status, NSVCD_STATUS_WITNESS);
+  }
+  CHECK_NEAR(answers[0].lift[2], 0.01, 1e-5);
+  CHECK_NEAR(answers[0].point[0], 0.5, 5e-5);  // the wall, to its quantum
+  for (int k = 0; k < 3; k++) {
+    CHECK_EQ(answers[1].lift[k], -answers[0].lift[k]);
+    CHECK_NEAR(answers[1].point[k], answers[0].point[k] + answers[1].lift[k], 1e-6);
+  }
+  proof_free(&floor);
+  proof_free(&crate);
 }
 
 // The distance at t when the moving body is displaced by the lift, which turns with the fixed one.
@@ -1866,8 +1919,8 @@ static void proof_rays_miss_nothing(void) {
     size_t wrong = 0;
     shapes_mesh shape;
     memset(&shape, 0, sizeof shape);
-    shapes_ellipsoid(&shape, 0.1, 0.1, 0.1, 40);
-    shapes_place(&shape, 0, NULL, n == 0 ? 0 : 3, n == 2 ? 30 : 0, 1);
+    shapes_ellipsoid(&shape, 0.02, 0.02, 0.02, 40);
+    shapes_place(&shape, 0, NULL, n == 0 ? 0 : 3, n == 2 ? 100 : 0, 1);
     proof_body ball = proof_of_shape(&shape, 1, 256);
     const nsvcd__facets f = nsvcd__facets_of(nsvcd__triangles_of(ball.body));
     for (int trial = 0; trial < 6000; trial++) {
@@ -2563,6 +2616,7 @@ void test_proof(void) {
   RUN(proof_finds_first_contacts);
   RUN(proof_keeps_clearances);
   RUN(proof_leaves_contacts);
+  RUN(proof_points_are_of_the_lifted);
   RUN(proof_lifts_are_true);
   RUN(proof_knows_what_is_within);
   RUN(proof_says_where_inside);
