@@ -142,7 +142,7 @@ check-header: | build  # as C99 to C++17, strictly, and what it leaves in the na
 check-examples: all build/make_assets  # they run, and they say no as examples/FORMATS.md demands
 	tests/examples.sh
 check-packages:  # installed, found by pkg-config and CMake, as one file, in a project's folder
-	CC="$(CC)" tests/packages.sh
+	+CC="$(CC)" tests/packages.sh
 check-problems: build/problems build/svcd  # every set that the generator can make
 	tests/bench/problems.sh
 
