@@ -10,7 +10,7 @@ rm -f $out/table.part
 # What is bounded, and by what.
 bounds() {
   case "$1" in
-    sanitizers) echo "TESTS=${SANITIZED:-results mesh body facets encoding encoder decoder latent_rotation motion spline winding_number processor}" ;;
+    sanitizers) echo "TESTS=${SANITIZED:-mesh body facets encoding query}" ;;
     cross) echo "PROBLEMS=${PROBLEMS:-40}" ;;
   esac
 }
