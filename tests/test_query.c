@@ -469,6 +469,7 @@ static void query_recall_raises_the_logit(void) {
 static double query_threshold(size_t model, size_t column, size_t a, size_t b) {
   nsvcd_sweep_options options = query_options(8, NSVCD_MODEL_BASE, nsvcd_w_recall[column]);
   nsvcd__settings settings;
+  memset(&settings, 0, sizeof settings);
   options.model = (nsvcd_model)(NSVCD_MODEL_TINY + model);
   CHECK_EQ(nsvcd__settings_of(&options, a, b, &settings), NSVCD_OK);
   return (double)settings.threshold;
