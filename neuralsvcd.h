@@ -240,7 +240,7 @@ typedef enum nsvcd_result {
   NSVCD_ERROR_SYNTAX,
   // an index that is zero, or refers to no vertex
   NSVCD_ERROR_INDEX,
-  // a coordinate is not finite, or larger than NSVCD_MAX_COORDINATE; a mesh is too small
+  // a coordinate is not finite, or larger than NSVCD_MAX_COORDINATE
   NSVCD_ERROR_NUMBER,
   // no triangle, no area, or all of it within NSVCD_MIN_RADIUS
   NSVCD_ERROR_EMPTY,
@@ -2206,7 +2206,7 @@ NSVCD__INLINE nsvcd__v3 nsvcd__v3_transform(const nsvcd__transform *t, nsvcd__v3
   return nsvcd__v3_fma(a.x, nsvcd__v3_set(columns.x), sum);
 }
 
-// Of quaternions of any length but 0.
+// Of quaternions that need not be of unit length, but whose squares float holds.
 static inline nsvcd__vmat3 nsvcd__vmat3_of(nsvcd__vquat q) {
   const nsvcd__v one = nsvcd__v_set(1);
   const nsvcd__v3 axis = nsvcd__vquat_axis(q);
@@ -8112,6 +8112,11 @@ static int nsvcd__poses_are_valid(const nsvcd_pose *poses, size_t count) {
 // What a mover that is at rest at the origin is given.
 static const nsvcd_pose nsvcd__at_origin = {{0, 0, 0}, {0, 0, 0, 1}};
 
+// A mover's scale, which is 1 where 0 is given.
+static float nsvcd__scale_of(const nsvcd_mover *mover) {
+  return mover->scale > 0 ? mover->scale : 1;
+}
+
 static size_t nsvcd__pose_count(const nsvcd_mover *mover) {
   return mover->poses ? mover->count : 1;
 }
@@ -8179,8 +8184,8 @@ static void nsvcd__motion_init(const nsvcd_mover *moving, const nsvcd_mover *fix
   motion->moving = nsvcd__track_of(moving);
   motion->fixed = nsvcd__track_of(fixed);
   motion->fixed_moves = motion->fixed.count > 1;
-  motion->unit = fixed->scale > 0 ? fixed->scale : 1;
-  motion->scale = (moving->scale > 0 ? moving->scale : 1) / motion->unit;
+  motion->unit = nsvcd__scale_of(fixed);
+  motion->scale = nsvcd__scale_of(moving) / motion->unit;
   motion->per_scale = 1 / motion->scale;
   motion->lift = nsvcd__f3_of(0, 0, 0);
   nsvcd__motion_set_ticks(motion, 1);
@@ -12891,8 +12896,8 @@ static nsvcd__verdict nsvcd__is_within(nsvcd__proof *p) {
   return NSVCD__WITHIN;
 }
 
-// Does a doubt come before all that was found? A contact is the first one, to the tolerance, only
-// where none does.
+// Does a doubt come before all that was found? A contact is the first one, to `first`, only where
+// none does.
 static int nsvcd__is_doubtful(const nsvcd__proof *p) {
   const int has_end = p->first > 0 && p->has_contact;
   return p->unsure < (has_end ? p->found.tick - p->first : NSVCD__NEVER);
@@ -14723,9 +14728,9 @@ static nsvcd_method nsvcd__method_of(const nsvcd_body *moving, const nsvcd_body 
 static int nsvcd__is_itself(const nsvcd_question *question) {
   const nsvcd_mover *a = &question->a;
   const nsvcd_mover *b = &question->b;
-  const float size_a = a->scale > 0 ? a->scale : 1;
-  const float size_b = b->scale > 0 ? b->scale : 1;
-  const int same_size = !(size_a < size_b) && !(size_b < size_a);
+  const float scale_a = nsvcd__scale_of(a);
+  const float scale_b = nsvcd__scale_of(b);
+  const int same_size = !(scale_a < scale_b) && !(scale_b < scale_a);
   return a->body == b->body && a->poses == b->poses && a->count == b->count && same_size;
 }
 
@@ -14788,8 +14793,8 @@ static int nsvcd__is_swapped(const nsvcd_mover *a, const nsvcd_mover *b) {
   const size_t count_b = nsvcd__pose_count(b);
   if ((count_a > 1) != (count_b > 1))
     return count_b > 1;
-  const float size_a = (a->scale > 0 ? a->scale : 1) * a->body->extent;
-  const float size_b = (b->scale > 0 ? b->scale : 1) * b->body->extent;
+  const float size_a = nsvcd__scale_of(a) * a->body->extent;
+  const float size_b = nsvcd__scale_of(b) * b->body->extent;
   if (size_a < size_b || size_b < size_a)
     return size_b < size_a;
   if (a->body->checksum != b->body->checksum)
@@ -15937,6 +15942,7 @@ static nsvcd_result nsvcd__sweep_gradient(const nsvcd_question *question, void *
 #define nsvcd__row_left NSVCD__AT(row_left)
 #define nsvcd__run_layer NSVCD__AT(run_layer)
 #define nsvcd__same_bodies NSVCD__AT(same_bodies)
+#define nsvcd__scale_of NSVCD__AT(scale_of)
 #define nsvcd__scenes NSVCD__AT(scenes)
 #define nsvcd__scenes_of NSVCD__AT(scenes_of)
 #define nsvcd__score NSVCD__AT(score)

@@ -85,15 +85,18 @@ static const nsvcd_body *query_encode(const nsvcd_mesh *mesh, size_t points, que
   CHECK_EQ(nsvcd_encode(mesh, &options, NULL, memory->at, size, &body), NSVCD_OK);
   return body;
 }
+static nsvcd_answer query_answer(const nsvcd_question *question) {
+  nsvcd_answer answer;
+  memset(&answer, 0, sizeof answer);
+  CHECK_EQ(nsvcd_sweep(question, query_workspace(), nsvcd_sweep_workspace_size(NULL), &answer),
+           NSVCD_OK);
+  return answer;
+}
 static nsvcd_answer query_ask(const nsvcd_body *moving, const nsvcd_pose *poses, size_t count,
                               const nsvcd_body *fixed, const nsvcd_pose *fixed_pose,
                               const nsvcd_sweep_options *options) {
-  nsvcd_answer answer;
-  memset(&answer, 0, sizeof answer);
-  CHECK_EQ(ask(moving, poses, count, fixed, fixed_pose, options, query_workspace(),
-               nsvcd_sweep_workspace_size(NULL), &answer),
-           NSVCD_OK);
-  return answer;
+  const nsvcd_question question = question_of(moving, poses, count, fixed, fixed_pose, options);
+  return query_answer(&question);
 }
 
 static nsvcd_pose query_pose(double x, double y, double z) {

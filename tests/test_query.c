@@ -318,8 +318,7 @@ static void query_both_may_move(void) {
     const nsvcd_answer before = query_scene_ask(&s);
     const double angle = seed % 2 ? 1.6 : 0;
     const nsvcd_question question = query_carried(&s, seed, angle, poses, others);
-    CHECK_EQ(nsvcd_sweep(&question, query_workspace(), nsvcd_sweep_workspace_size(NULL), &answer),
-             NSVCD_OK);
+    answer = query_answer(&question);
     // seen from the same body
     if (before.candidates > 0 && !nsvcd__is_swapped(&question.a, &question.b)) {
       compared++;
@@ -350,12 +349,10 @@ static void query_sides_do_not_matter(void) {
     if (seed % 8 == 3)
       question.a.scale = 1.5f;
     const nsvcd_mover a = question.a;
-    CHECK_EQ(nsvcd_sweep(&question, query_workspace(), nsvcd_sweep_workspace_size(NULL), &one),
-             NSVCD_OK);
+    one = query_answer(&question);
     question.a = question.b;
     question.b = a;
-    CHECK_EQ(nsvcd_sweep(&question, query_workspace(), nsvcd_sweep_workspace_size(NULL), &other),
-             NSVCD_OK);
+    other = query_answer(&question);
     const uint32_t patch = other.patch_a;
     other.patch_a = other.patch_b;
     other.patch_b = patch;
@@ -380,8 +377,7 @@ static void query_scales_in_the_question(void) {
       memory[b] = query_reserve(size);
       mover->scale = scales[b];
     }
-    CHECK_EQ(nsvcd_sweep(&question, query_workspace(), nsvcd_sweep_workspace_size(NULL), &one),
-             NSVCD_OK);
+    one = query_answer(&question);
     for (int b = 0; b < 2; b++) {
       nsvcd_mover *mover = b ? &question.b : &question.a;
       const size_t size = nsvcd_body_describe(mover->body).size;
@@ -389,8 +385,7 @@ static void query_scales_in_the_question(void) {
                NSVCD_OK);
       mover->scale = 0;
     }
-    CHECK_EQ(nsvcd_sweep(&question, query_workspace(), nsvcd_sweep_workspace_size(NULL), &other),
-             NSVCD_OK);
+    other = query_answer(&question);
     CHECK_EQ(one.status, other.status);
     CHECK_NEAR(one.logit, other.logit, 1e-3 * (1 + fabs((double)one.logit)));
     query_release(&memory[0]);
@@ -604,8 +599,7 @@ static void query_refuses_bad_questions(void) {
   bad.b.poses = &elsewhere;  // the same body at another place is a question like any other
   bad.b.count = 1;
   nsvcd_answer answer;
-  CHECK_EQ(nsvcd_sweep(&bad, query_workspace(), nsvcd_sweep_workspace_size(NULL), &answer),
-           NSVCD_OK);
+  answer = query_answer(&bad);
   query_scene_close(&s);
 }
 
@@ -848,8 +842,7 @@ static void query_sizes_are_what_is_asked(void) {
       query_memory memory = query_reserve(network + 64 + 16);
       nsvcd_answer one, other;
       CHECK_EQ(nsvcd_sweep(&question, memory.at, network - 1, &other), NSVCD_ERROR_WORKSPACE);
-      CHECK_EQ(nsvcd_sweep(&question, query_workspace(), nsvcd_sweep_workspace_size(NULL), &other),
-               NSVCD_OK);
+      other = query_answer(&question);
       // wherever it begins, and no byte before or after
       for (size_t from = 0; from < 64; from += NSVCD_ALIGNMENT) {
         char *at_place = (char *)memory.at + from;
@@ -941,8 +934,7 @@ static void query_proofs_stay_within_their_workspace(void) {
     const size_t left = query_stays_within(&question);
     unused = left < unused ? left : unused;
     nsvcd_answer answer;
-    CHECK_EQ(nsvcd_sweep(&question, query_workspace(), nsvcd_sweep_workspace_size(NULL), &answer),
-             NSVCD_OK);
+    answer = query_answer(&question);
     statuses[answer.status]++;
   }
   printf("  %zu witnesses, %zu free, %zu undecided; %zu bytes unused at the end\n",
