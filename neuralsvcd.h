@@ -560,9 +560,9 @@ typedef struct nsvcd_sweep_options {
   // By proof only:
   // metres: to come as close as this counts as a collision; 0: to meet does
   float clearance;
-  // share of the motion, up to 1: contact_time is that of the first contact, to this, and all
-  // before is proven free. 0: of any contact. Surfaces that are within the quanta or the tolerance
-  // of each other for longer than this, before they meet, are left undecided
+  // share of the motion, up to 1: contact_time is that of the first contact, to this. 0: of any
+  // contact. It may be later where surfaces are within the quanta or the tolerance of each other
+  // for longer than this before they meet, or more work is needed: see free_until
   float first;
   // metres: clearance_low and clearance_high are the least distance over the motion, to this, but
   // for what the stored triangles are off by (nsvcd_body_facts.quantum). 0: unasked. Not with
@@ -601,17 +601,16 @@ typedef struct nsvcd_answer {
   // decoder, which ranks the pairs, is clear (beyond +-3), that one answers. By proof:
   // +-NSVCD_LOGIT_CERTAIN; where it is undecided, the network's
   float logit;
-  // logit > 0. UNDECIDED: yes where a contact is known; else the network's opinion on whether they
-  // meet, or yes where there is none or something else is asked
+  // logit > 0. UNDECIDED: the network's opinion on whether they meet, or yes where there is none or
+  // something else is asked
   int collides;
-  // in [0,1]. WITNESS: when the triangles meet; with options.first that is the first contact, and 0
-  // if they meet at the start. UNDECIDED: when the triangles named are as near as clearance_high.
-  // INSIDE: 0. By the network, and UNDECIDED where no triangles are named: when the most suspicious
-  // pair comes closest
+  // in [0,1]. WITNESS: when the triangles meet; with options.first the first contact is then, or
+  // before that but not before free_until; 0 if they meet at the start. UNDECIDED: when the
+  // triangles named are as near as clearance_high. INSIDE: 0. By the network, and UNDECIDED where
+  // no triangles are named: when the most suspicious pair comes closest
   float contact_time;
-  // in [0,1]. By proof: no contact is before this. CERTIFIED_FREE: 1. WITNESS: 0, or with
-  // options.first no less than contact_time - first. UNDECIDED with options.first: when doubt
-  // begins, also where a contact follows
+  // in [0,1]. By proof: no contact is before this. CERTIFIED_FREE: 1. With options.first: when
+  // doubt begins, or, where none does before it, contact_time - first of a WITNESS. Otherwise 0
   float free_until;
   // metres. By proof: they stay farther apart than clearance_low until free_until, with
   // options.measure all the time, and come as near as clearance_high, at contact_time. What stored
@@ -634,8 +633,8 @@ typedef struct nsvcd_answer {
   // where that triangle has no area
   float normal[3];
   // as numbered in the caller's meshes. WITNESS: those that meet. UNDECIDED: two that come too near
-  // to tell, or meet, with options.first the earliest known; NSVCD_NO_TRIANGLE where none are
-  // known. With options.measure the nearest ones found, but for INSIDE. Otherwise NSVCD_NO_TRIANGLE
+  // to tell, with options.first the earliest; NSVCD_NO_TRIANGLE where none are known. With
+  // options.measure the nearest ones found, but for INSIDE. Otherwise NSVCD_NO_TRIANGLE
   uint32_t triangle_a;
   uint32_t triangle_b;
   // metres, world, at the start: by what a was lifted off b for options.skin; it turns with b, or,
@@ -9811,9 +9810,8 @@ static void nsvcd__candidates_start(nsvcd__candidates *kept, nsvcd__candidate *i
 // was reached.
 //
 // FIRST CONTACT. Contacts end the motion: whenever one is found, only what is more than `first`
-// before it matters from then on, and is proven free or gives an earlier contact. So does a doubt,
-// where a contact follows: whatever follows it is not known to be the first. Segments are searched
-// some at a time, in their order, so that the first ones found are early ones.
+// before it matters from then on, and is proven free, or gives an earlier contact, or is in doubt.
+// Segments are searched some at a time, in their order, so that what is found first is early.
 //
 // THE LEAST DISTANCE. Contacts lower the clearance: it begins as a distance that two vertices
 // have, and whenever triangles are found nearer than that, it becomes their distance less
@@ -11103,7 +11101,7 @@ static nsvcd__verdict nsvcd__take_contact(nsvcd__proof *p, const nsvcd__couple *
     return touches ? NSVCD__MEETS : NSVCD__TAKEN;
   }
   if (p->first > 0) {
-    p->end = fmin(p->found.tick - p->first, p->unsure);
+    p->end = p->found.tick - p->first;
     return p->end > 0 ? NSVCD__TAKEN : NSVCD__MEETS;
   }
   return NSVCD__MEETS;
@@ -11121,8 +11119,6 @@ static NSVCD__APART void nsvcd__take_doubt(nsvcd__proof *p, const nsvcd__couple 
   const nsvcd__nearest nearest = nsvcd__triangles_nearest(posed, couple->fixed);
   p->doubt = nsvcd__contact_at(p, couple, middle, &nearest);
   p->unsure = tick;
-  if (p->first > 0 && p->has_contact)
-    p->end = fmin(p->end, tick);
 }
 
 // What of the arc matters: the share of it at which the rest does not.
@@ -11309,8 +11305,9 @@ static nsvcd__verdict nsvcd__settle_short_part(nsvcd__proof *p, const nsvcd__cou
 }
 
 // Settles a couple from u0 to u1 of the arc: halves the time until, in each part, a plane parts the
-// triangles, or there is a contact, or they come too close to tell. The planes tried are the one
-// that parted a couple last, and one at the nearest points of the middle.
+// triangles, or there is a contact, or they come too close to tell. After each doubt parts need be
+// less short: what is still asked is whether they meet. The planes tried are the one that parted a
+// couple last, and one at the nearest points of the middle.
 static NSVCD__APART nsvcd__verdict nsvcd__settle_couple(nsvcd__proof *p,
                                                         const nsvcd__couple *couple, double u0,
                                                         double u1) {
@@ -11319,7 +11316,7 @@ static NSVCD__APART nsvcd__verdict nsvcd__settle_couple(nsvcd__proof *p,
   const double close = couple->slack + p->tolerance;
   double *ends = p->couple_ends;
   size_t left = 1;
-  int undecided = 0;
+  size_t doubts = 0;
   int taken = 0;
   ends[0] = u1;
   for (double u = u0; left > 0;) {
@@ -11348,7 +11345,8 @@ static NSVCD__APART nsvcd__verdict nsvcd__settle_couple(nsvcd__proof *p,
     }
     if (apart)
       nsvcd__certify_couple(p, couple, u, end);
-    const int tiny = speed * (end - u) <= 0.25 * close || left > NSVCD__HALVINGS;
+    const double least = 0.25 * close * (double)(1 + doubts);
+    const int tiny = speed * (end - u) <= least || left > NSVCD__HALVINGS;
     if (!apart && !tiny) {
       ends[left++] = middle;
       p->parts++;
@@ -11361,12 +11359,12 @@ static NSVCD__APART nsvcd__verdict nsvcd__settle_couple(nsvcd__proof *p,
       taken |= settled == NSVCD__TAKEN;
       if (settled != NSVCD__UNDECIDED)
         continue;
-      undecided = 1;
+      doubts++;
     }
     u = end;
     left--;
   }
-  return taken ? NSVCD__TAKEN : undecided ? NSVCD__UNDECIDED : NSVCD__FREE;
+  return taken ? NSVCD__TAKEN : doubts ? NSVCD__UNDECIDED : NSVCD__FREE;
 }
 
 // ---- blocks of triangles
@@ -12896,20 +12894,15 @@ static nsvcd__verdict nsvcd__is_within(nsvcd__proof *p) {
   return NSVCD__WITHIN;
 }
 
-// Does a doubt come before all that was found? A contact is the first one, to `first`, only where
-// none does.
-static int nsvcd__is_doubtful(const nsvcd__proof *p) {
-  const int has_end = p->first > 0 && p->has_contact;
-  return p->unsure < (has_end ? p->found.tick - p->first : NSVCD__NEVER);
+// Ticks: nothing meets before this, or NEVER.
+static double nsvcd__clear_until(const nsvcd__proof *p) {
+  return fmin(fmin(p->end, p->unsure), p->lost ? p->settled : NSVCD__NEVER);
 }
 
-// What is said of triangles that came too near to tell, unless others met before, or, with
-// `measure`, came nearer.
+// What is said of triangles that came too near to tell, unless, with `measure`, others came nearer.
 static nsvcd__verdict nsvcd__is_undecided(nsvcd__proof *p) {
-  const int is_nearer = p->doubt.distance < p->found.distance;
-  const int is_earlier = p->doubt.tick < p->found.tick;
-  const int is_better = !p->has_contact || (p->measure > 0 ? is_nearer : is_earlier);
-  if (p->unsure < NSVCD__NEVER && is_better)
+  const int is_nearer = !p->has_contact || p->doubt.distance < p->found.distance;
+  if (p->unsure < NSVCD__NEVER && is_nearer)
     p->found = p->doubt;
   return NSVCD__UNDECIDED;
 }
@@ -12933,12 +12926,15 @@ static nsvcd__verdict nsvcd__prove(nsvcd__proof *p, nsvcd__search *search) {
   if (p->lost)
     p->settled = 0;  // whether one is within the other, at the start
   p->lost |= verdict == NSVCD__UNDECIDED;
-  if (verdict == NSVCD__MEETS && !(p->first > 0 && nsvcd__is_doubtful(p)))
+  if (verdict == NSVCD__MEETS)
     return verdict;
-  if (p->lost || nsvcd__is_doubtful(p))
-    return nsvcd__is_undecided(p);
-  if (p->within)
+  const double clear = nsvcd__clear_until(p);
+  if (p->within && clear > 0)
     return nsvcd__is_within(p);
+  if (p->first > 0 && p->has_contact)
+    return NSVCD__MEETS;
+  if (clear < NSVCD__NEVER)
+    return nsvcd__is_undecided(p);
   return p->has_contact ? NSVCD__MEETS : NSVCD__FREE;
 }
 
@@ -14267,6 +14263,7 @@ static void nsvcd__answer_free(nsvcd_answer *answer) {
   memset(answer, 0, sizeof *answer);
   answer->logit = -NSVCD_LOGIT_CERTAIN;
   answer->status = NSVCD_STATUS_CERTIFIED_FREE;
+  answer->clearance_high = HUGE_VALF;
   answer->triangle_a = NSVCD_NO_TRIANGLE;
   answer->triangle_b = NSVCD_NO_TRIANGLE;
 }
@@ -14570,8 +14567,7 @@ static void nsvcd__answer_with_contact(const nsvcd__proof *p, int swapped, nsvcd
 static void nsvcd__answer_with_bounds(const nsvcd__proof *p, nsvcd__verdict verdict, int measured,
                                       nsvcd_answer *answer) {
   const double unit = (double)p->motion->unit;
-  const double known = p->lost ? p->settled : NSVCD__NEVER;
-  const double until = fmin(fmin(p->end, p->unsure), known) / (double)p->motion->ticks;
+  const double until = nsvcd__clear_until(p) / (double)p->motion->ticks;
   const int is_free = verdict == NSVCD__FREE;
   double proven = is_free;
   if (!is_free && p->first > 0 && verdict != NSVCD__WITHIN)
@@ -14579,7 +14575,6 @@ static void nsvcd__answer_with_bounds(const nsvcd__proof *p, nsvcd__verdict verd
   const double low = measured || is_free ? p->clearance : 0;
   answer->free_until = (float)(proven < 1 ? proven * (1 - 1e-7) : 1);
   answer->clearance_low = (float)(low * unit * (1 - 1e-6));
-  answer->clearance_high = HUGE_VALF;
   if (verdict == NSVCD__WITHIN) {
     answer->clearance_high = 0;
   } else if (nsvcd__names_triangles(p, verdict)) {
@@ -14679,7 +14674,7 @@ static void nsvcd__answer_by_proof(nsvcd__task *task, nsvcd__query *query, nsvcd
   if (p->skin > 0)
     nsvcd__lift_motion(p, search);
   nsvcd__verdict verdict = nsvcd__prove(p, search);
-  if (p->first > 0 && p->has_contact && p->end <= 0 && p->found.tick > 0)
+  if (p->first > 0 && p->has_contact && nsvcd__clear_until(p) <= 0 && p->found.tick > 0)
     verdict = nsvcd__prove_start(p, search, verdict);
 
   nsvcd__answer_free(answer);
@@ -14917,8 +14912,6 @@ static void nsvcd__add_opinion(nsvcd__task *task, nsvcd__query *query, nsvcd_ans
     return;
   if (options->clearance > 0 || options->measure > 0 || options->skin > 0)
     return;
-  if (query->proof->has_contact)
-    return;  // that is known
   nsvcd__answer_by_network(task, query, NULL, &opinion);
   answer->logit = opinion.logit;
   answer->collides = opinion.collides;
@@ -15712,6 +15705,7 @@ static nsvcd_result nsvcd__sweep_gradient(const nsvcd_question *question, void *
 #define nsvcd__chords_way NSVCD__AT(chords_way)
 #define nsvcd__clamp01 NSVCD__AT(clamp01)
 #define nsvcd__clamp_share NSVCD__AT(clamp_share)
+#define nsvcd__clear_until NSVCD__AT(clear_until)
 #define nsvcd__clearance2 NSVCD__AT(clearance2)
 #define nsvcd__clearance_of NSVCD__AT(clearance_of)
 #define nsvcd__clearances NSVCD__AT(clearances)
@@ -15816,7 +15810,6 @@ static nsvcd_result nsvcd__sweep_gradient(const nsvcd_question *question, void *
 #define nsvcd__is_around NSVCD__AT(is_around)
 #define nsvcd__is_clear NSVCD__AT(is_clear)
 #define nsvcd__is_contained NSVCD__AT(is_contained)
-#define nsvcd__is_doubtful NSVCD__AT(is_doubtful)
 #define nsvcd__is_enclosed NSVCD__AT(is_enclosed)
 #define nsvcd__is_harmless NSVCD__AT(is_harmless)
 #define nsvcd__is_held NSVCD__AT(is_held)

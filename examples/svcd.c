@@ -94,6 +94,12 @@ static int encode_meshes(const problem_file *file, const nsvcd_encode_options *o
   return 1;
 }
 
+// Is the first contact known to the time that was asked for? Surfaces that come nearer than triangles
+// are stored can hide it.
+static int knows_first(const nsvcd_answer *answer, float first) {
+  return answer->contact_time - answer->free_until <= first * 1.0001f + 1e-6f;
+}
+
 // Answers one problem: once to warm up, then --repeat times by the clock. The shortest time counts:
 // what is longer is the machine doing something else.
 static int answer(const session *s, const settings *options, void *workspace, const problem *p,
@@ -113,6 +119,9 @@ static int answer(const session *s, const settings *options, void *workspace, co
     if (i > 0)
       out->microseconds = fmin(out->microseconds, taken);
   }
+  const float first = options->sweep.first;
+  if (first > 0 && out->answer.status == NSVCD_STATUS_WITNESS && !knows_first(&out->answer, first))
+    out->answer.status = NSVCD_STATUS_UNDECIDED;
   return 1;
 }
 
@@ -488,6 +497,9 @@ static void sweep_verdict(const sweep_job *job, const settings *options, char *o
   if (a->collides)
     snprintf(when, sizeof when, " at t = %.4f%s", (double)a->contact_time,
              asked->first > 0 ? ", the first contact" : "");
+  if (a->status == NSVCD_STATUS_WITNESS && asked->first > 0 && !knows_first(a, asked->first))
+    snprintf(when, sizeof when, " at t = %.4f, and not before t = %.4f", (double)a->contact_time,
+             (double)a->free_until);
   if (a->status == NSVCD_STATUS_UNDECIDED) {
     word = a->collides ? "undecided, taken as a hit" : "undecided, taken as free";
     snprintf(when, sizeof when, "; free until t = %.4f", (double)a->free_until);

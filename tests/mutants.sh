@@ -79,9 +79,9 @@ search without clearance|block->spread[l] += clearance;|block->spread[l] += 0 * 
 clipped without twice the bulge|    block->bulge[l] *= 2;\n    block->drift[l] *= 2;\n|    block->bulge[l] *= 0.1f;\n
 clipped too early|return (double)search->begin[segment] < p->end;|return (double)search->begin[segment] < 0.9 * p->end;
 every other segment|s += NSVCD__IN_ORDER) {|s += 2 * NSVCD__IN_ORDER) {
-contacts end too much|p->end = fmin(p->found.tick - p->first, p->unsure);|p->end = fmin(0.9 * p->found.tick - p->first, p->unsure);
-a start that is not asked|  if (p->first > 0 \&\& p->has_contact \&\& p->end <= 0 \&\& p->found.tick > 0)|  if (0)
-a doubt taken for free|  return p->unsure < (has_end ? p->found.tick - p->first : NSVCD__NEVER);|  return !has_end \&\& p->unsure < NSVCD__NEVER;
+contacts end too much|p->end = p->found.tick - p->first;|p->end = 0.9 * p->found.tick - p->first;
+a start that is not asked|  if (p->first > 0 \&\& p->has_contact \&\& nsvcd__clear_until(p) <= 0 \&\& p->found.tick > 0)|  if (0)
+a doubt taken for free|  return fmin(fmin(p->end, p->unsure), p->lost ? p->settled : NSVCD__NEVER);|  return fmin(p->end, p->lost ? p->settled : NSVCD__NEVER);
 half the first distance|return 1.0001 * nsvcd__vertices_apart(|return 0.5 * nsvcd__vertices_apart(
 distance without tolerance|fmax(least, p->found.distance - p->measure);|fmax(least, p->found.distance * 1.01);
 exact poses not lifted|at.position = nsvcd__d3_add(at.position, arc->lift);|at.position = nsvcd__d3_add(at.position, nsvcd__d3_scale(arc->lift, 0));

@@ -598,8 +598,7 @@ static void query_refuses_bad_questions(void) {
   const nsvcd_pose elsewhere = query_pose(0.01, 0, 0);
   bad.b.poses = &elsewhere;  // the same body at another place is a question like any other
   bad.b.count = 1;
-  nsvcd_answer answer;
-  answer = query_answer(&bad);
+  (void)query_answer(&bad);
   query_scene_close(&s);
 }
 
@@ -1001,6 +1000,14 @@ static int query_is_near(const nsvcd_body *a, const nsvcd_pose *pose, const nsvc
   return query_ask(a, pose, 1, b, NULL, &options).collides;
 }
 
+// A path along the top of a box of this height, over it by less than triangles are stored to.
+static void query_slide(shapes_rng *rng, double height, nsvcd_pose *path) {
+  for (size_t k = 0; k < 2; k++) {
+    const double x = shapes_uniform(rng, -0.1, 0.1);
+    path[k] = query_pose(x, shapes_uniform(rng, -0.1, 0.1), height + 5e-6);
+  }
+}
+
 // What a proof leaves undecided, the network has an opinion on. What is known stays as it is: that
 // they meet, and how near they come, then.
 static void query_opinions_leave_what_is_known(void) {
@@ -1013,6 +1020,11 @@ static void query_opinions_leave_what_is_known(void) {
     CHECK_EQ(nsvcd_encode(&meshes[k], NULL, NULL, NULL, 0, &bodies[k]), NSVCD_OK);
     nsvcd_mesh_free(&meshes[k], NULL);
   }
+  nsvcd_sweep_options by_network;
+  memset(&by_network, 0, sizeof by_network);
+  by_network.method = NSVCD_METHOD_NETWORK;
+  const nsvcd_answer opinion = query_ask(bodies[0], NULL, 0, bodies[1], NULL, &by_network);
+  CHECK_EQ(opinion.clearance_high, HUGE_VALF);  // it knows of none
   for (size_t n = 0; n < 600; n++) {
     nsvcd_pose path[2];
     nsvcd_sweep_options options;
@@ -1022,7 +1034,9 @@ static void query_opinions_leave_what_is_known(void) {
     for (size_t k = 0; k < 3; k++)
       path[1].position[k] += (float)shapes_uniform(&rng, -0.5, 0.5);
     options.first = n % 3 ? 1e-3f : 0;
-    options.work = 1 + n % 20;
+    options.work = n % 4 ? 1 + n % 20 : 1000;
+    if (n % 4 == 0)
+      query_slide(&rng, 0.2, path);
     options.tolerance = n % 2 ? 0.02f : 0;
     const nsvcd_answer answer = query_ask(bodies[0], path, 2, bodies[1], NULL, &options);
     if (answer.status != NSVCD_STATUS_UNDECIDED)

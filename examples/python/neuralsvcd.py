@@ -579,7 +579,7 @@ class Answer(NamedTuple):
 
     logit         of collision; +-100 by proof
     collides      the verdict
-    contact_time  in [0, 1]
+    contact_time  in [0, 1]; with options.first the first contact is between free_until and this
     free_until    in [0, 1]: by proof, no contact is before this
     clearance_low, clearance_high  metres: they stay farther apart than low until free_until, and come as near as high,
                   at contact_time; inf: not known
@@ -588,7 +588,7 @@ class Answer(NamedTuple):
     candidates    pairs of patches whose spheres meet, by the network
     point         where they meet, world, metres
     normal        unit normal there, from b to a, world; or 0
-    triangle_a, triangle_b  as numbered in the meshes; None but of a WITNESS
+    triangle_a, triangle_b  as numbered in the meshes; None: none are named
     lift          metres, world: by what a was lifted off b for options.skin
     work          units that the proof took
     """
