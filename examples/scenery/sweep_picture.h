@@ -160,7 +160,7 @@ static void sweep_label(FILE *svg, const draw_view *view, const sweep_picture *p
           "fill=\"" DRAW_INK
           "\" stroke=\"#fff\" stroke-width=\"4\" stroke-linejoin=\"round\" paint-order=\"stroke\">"
           "%s</text>\n",
-          fmax(60, x), fmax(20, y), beside ? "end" : "middle", text);
+          fmax(80, x), fmax(20, y), beside ? "end" : "middle", text);
 }
 
 // The way of the middle of A.
