@@ -132,6 +132,45 @@ static void query_scaled_bodies_are_bodies_of_scaled_meshes(void) {
   CHECK_GE(close, compared - 1);  // one may tip over in the choice of patches
 }
 
+// What is not within a scaled bound of the body and the rounding of a vertex is not within the
+// body's: bounds of patch i are multiplied outward.
+static int facets_are_outward(const nsvcd_body *body, const nsvcd_body *scaled, double scale,
+                              size_t i) {
+  const nsvcd__facets a = nsvcd__facets_of(nsvcd__triangles_of(body));
+  const nsvcd__facets b = nsvcd__facets_of(nsvcd__triangles_of(scaled));
+  const nsvcd__disc from = nsvcd__disc_at(a.discs, body->padded, i);
+  const nsvcd__disc to = nsvcd__disc_at(b.discs, body->padded, i);
+  // half a unit in the last place of a scaled vertex, as far as one can be
+  const double far =
+      (double)nsvcd__f3_length(nsvcd__facet_centre(&b, i)) + 32768.0 * (double)b.steps[i];
+  const double least = 6e-8 * far;
+  return (double)to.low <= scale * (double)from.low - least &&
+         (double)to.high >= scale * (double)from.high + least &&
+         (double)to.across >= scale * (double)from.across + least &&
+         (double)b.slacks[i] >= scale * (double)a.slacks[i] + least &&
+         (double)b.quanta[i] >= scale * (double)a.quanta[i] + least;
+}
+
+static void facets_are_scaled_outward(void) {
+  static const float scales[4] = {0.001f, 0.3f, 1.7f, 1000};
+  size_t inward = 0;
+  nsvcd_mesh mesh = query_solid(4, 0.2);
+  const nsvcd_body *body = NULL;
+  CHECK_EQ(nsvcd_encode(&mesh, NULL, NULL, NULL, 0, &body), NSVCD_OK);
+  nsvcd_mesh_free(&mesh, NULL);
+  const size_t size = nsvcd_body_describe(body).size;
+  query_memory memory = query_reserve(size);
+  for (size_t k = 0; k < 4; k++) {
+    const nsvcd_body *scaled = NULL;
+    CHECK_EQ(nsvcd_body_scale(body, scales[k], memory.at, size, &scaled), NSVCD_OK);
+    for (size_t i = 0; i < body->patches; i++)
+      inward += !facets_are_outward(body, scaled, (double)scales[k], i);
+  }
+  CHECK_EQ(inward, 0);
+  query_release(&memory);
+  nsvcd_body_free(body, NULL);
+}
+
 static void query_scale_refuses_bad_input(void) {
   nsvcd_mesh mesh = query_box(0.1, 0.1, 0.1);
   query_memory memory;
@@ -332,6 +371,7 @@ void test_facets(void) {
   RUN(query_blobs_of_the_other_byte_order);
   RUN(query_facts_contain_the_mesh);
   RUN(query_scaled_bodies_are_bodies_of_scaled_meshes);
+  RUN(facets_are_scaled_outward);
   RUN(query_scale_refuses_bad_input);
   RUN(proof_forged_blobs);
 }

@@ -90,13 +90,14 @@ static void processor_proofs_agree(void) {
 }
 
 // Each rounds in its own way: the network's logits are nearly the same, its gradients too.
-static void processor_networks_agree(void) {
+static float processor_worst_logit(nsvcd_precision precision) {
   float worst = 0;
   for (uint64_t seed = 1; seed <= 60; seed++) {
     processor_scene s;
     processor_open(&s, seed);
     s.question.options.method = NSVCD_METHOD_NETWORK;
     s.question.options.model = NSVCD_MODEL_TINY;  // no other decoder is asked
+    s.question.options.precision = precision;
     const nsvcd_answer first = processor_ask(&processor_sets[0], &s.question);
     for (size_t n = 1; n < processor_count(); n++) {
       const nsvcd_answer answer = processor_ask(&processor_sets[n], &s.question);
@@ -106,8 +107,16 @@ static void processor_networks_agree(void) {
     }
     processor_close(&s);
   }
-  printf("  logits of different instruction sets differ by %.2g at most\n", (double)worst);
-  CHECK_LE(worst, 1e-4);
+  return worst;
+}
+
+static void processor_networks_agree(void) {
+  const float floats = processor_worst_logit(NSVCD_PRECISION_FLOAT);
+  const float bytes = processor_worst_logit(NSVCD_PRECISION_INT8);
+  printf("  logits of different instruction sets differ by %.2g at most, in bytes by %.2g\n",
+         (double)floats, (double)bytes);
+  CHECK_LE(floats, 1e-4);
+  CHECK_LE(bytes, 0.1);  // a value may be rounded to another byte
 }
 
 // The public functions ask the best one at hand: their answers are its, to the bit.

@@ -19,6 +19,21 @@ static void mesh_result_strings(void) {
         0);
 }
 
+// What answers say of themselves: each has a text of its own.
+static void status_strings(void) {
+  for (int i = 0; i <= NSVCD_STATUS_UNDECIDED + 1; i++)
+    for (int j = 0; j < i; j++)
+      CHECK(strcmp(nsvcd_status_string((nsvcd_status)i), nsvcd_status_string((nsvcd_status)j)) !=
+            0);
+  for (int i = 0; i <= NSVCD_PLAN_GOAL + 1; i++) {
+    const char *text = nsvcd_plan_status_string((nsvcd_plan_status)i);
+    for (int j = 0; j < i; j++)
+      CHECK(strcmp(text, nsvcd_plan_status_string((nsvcd_plan_status)j)) != 0);
+  }
+  CHECK(strcmp(nsvcd_status_string(NSVCD_STATUS_CERTIFIED_FREE), "certified-free") == 0);
+  CHECK(strcmp(nsvcd_plan_status_string(NSVCD_PLAN_GOAL), "infeasible goal") == 0);
+}
+
 // A person is told the limits themselves.
 static void mesh_result_strings_name_limits(void) {
   CHECK(strstr(nsvcd_result_string(NSVCD_ERROR_NUMBER), "a million metres") != NULL);
@@ -30,6 +45,7 @@ static void mesh_result_strings_name_limits(void) {
 void test_results(void) {
   RUN(mesh_result_strings);
   RUN(mesh_result_strings_name_limits);
+  RUN(status_strings);
 }
 
 CHECK_ALONE(test_results)
