@@ -766,6 +766,36 @@ static void plan_is_deterministic(void) {
   CHECK(memcmp(first.control, other.control, 36 * sizeof(float)) != 0);
 }
 
+// Options that are zero are those that the header writes beside them. The goal is in a shell: all
+// seeds are used; limits are so wide that they do not narrow the noise.
+static void plan_defaults_are_what_is_written(void) {
+  static const nsvcd_plan_options written = {.seeds = 6,
+                                             .explore = {5, 24, 40, 100, 0.3f},
+                                             .refine = {10, 22, 10, 10, 0.01f},
+                                             .velocity = 10,
+                                             .acceleration = 2,
+                                             .jerk = 10,
+                                             .collision = 20,
+                                             .duration = 20,
+                                             .margin = 2,
+                                             .check = 96};
+  static plan_scene s;
+  plan_wall_scene(&s);
+  s.bodies[1] = plan_body(PLAN_SHELL);
+  s.rest[1] = query_pose((double)s.goal[0] + 0.1, 0, 0);
+  for (size_t j = 0; j < 3; j++) {
+    s.low[j] = -2;
+    s.high[j] = 2;
+  }
+  memset(&s.options, 0, sizeof s.options);
+  const plan_outcome defaults = plan_run(&s);
+  s.options = written;
+  const plan_outcome same = plan_run(&s);
+  CHECK_EQ(defaults.result, NSVCD_OK);
+  CHECK_EQ(defaults.answer.seeds, 6);
+  CHECK(plan_same(&defaults, &same, 3));
+}
+
 // Of several starts, none of which ends free, the best is kept: with one more the answer costs no
 // more.
 static void plan_keeps_the_best_of_its_seeds(void) {
@@ -1567,6 +1597,7 @@ void test_optimizer(void) {
   RUN(plan_cost_stops_at_its_limit);
   RUN(plan_goes_round_a_wall);
   RUN(plan_is_deterministic);
+  RUN(plan_defaults_are_what_is_written);
   RUN(plan_keeps_the_best_of_its_seeds);
   RUN(plan_can_be_cancelled);
   RUN(plan_grasped_bodies_move_along);
