@@ -7459,7 +7459,7 @@ static int nsvcd__facets_are_sound(const nsvcd_body *body) {
     return 0;
   if (!nsvcd__all_within(f.quanta, padded, NSVCD__MAX_LENGTH))
     return 0;
-  if (!nsvcd__all_within(f.seeds, 3 * f.components, NSVCD_MAX_COORDINATE))
+  if (!nsvcd__all_within(f.seeds, 3 * f.components, NSVCD__MAX_LENGTH))
     return 0;
   for (size_t i = 0; i < padded; i++) {
     const nsvcd__disc disc = nsvcd__disc_at(f.discs, padded, i);

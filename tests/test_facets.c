@@ -171,6 +171,24 @@ static void facets_are_scaled_outward(void) {
   nsvcd_body_free(body, NULL);
 }
 
+// One patch may reach farther than its middle: what is scaled so far can be loaded.
+static void facets_scaled_far_are_loaded(void) {
+  float positions[12] = {-0.3f, 0, -250000, 0.4f, 0.3f, 0, 0.4f, -0.4f, 0, 0.5f, -0.4f, 0.4f};
+  uint32_t indices[12] = {0, 1, 2, 0, 2, 3, 0, 3, 1, 1, 3, 2};
+  const nsvcd_mesh mesh = {positions, indices, 4, 4};
+  nsvcd_encode_options options = {.patches = 1, .no_latents = 1};
+  const nsvcd_body *body = NULL;
+  const nsvcd_body *scaled = NULL;
+  CHECK_EQ(nsvcd_encode(&mesh, &options, NULL, NULL, 0, &body), NSVCD_OK);
+  const size_t size = nsvcd_body_describe(body).size;
+  query_memory memory = query_reserve(size);
+  CHECK_EQ(nsvcd_body_scale(body, 7, memory.at, size, &scaled), NSVCD_OK);
+  CHECK_EQ(nsvcd_body_load(scaled, size, &scaled), NSVCD_OK);
+  CHECK_EQ(nsvcd_body_scale(body, 1000, memory.at, size, &scaled), NSVCD_ERROR_ARGUMENT);
+  query_release(&memory);
+  nsvcd_body_free(body, NULL);
+}
+
 static void query_scale_refuses_bad_input(void) {
   nsvcd_mesh mesh = query_box(0.1, 0.1, 0.1);
   query_memory memory;
@@ -372,6 +390,7 @@ void test_facets(void) {
   RUN(query_facts_contain_the_mesh);
   RUN(query_scaled_bodies_are_bodies_of_scaled_meshes);
   RUN(facets_are_scaled_outward);
+  RUN(facets_scaled_far_are_loaded);
   RUN(query_scale_refuses_bad_input);
   RUN(proof_forged_blobs);
 }
