@@ -94,10 +94,12 @@ static int encode_meshes(const problem_file *file, const nsvcd_encode_options *o
   return 1;
 }
 
-// Is the first contact known to the time that was asked for? Surfaces that come nearer than triangles
-// are stored can hide it.
-static int knows_first(const nsvcd_answer *answer, float first) {
-  return answer->contact_time - answer->free_until <= first * 1.0001f + 1e-6f;
+// Is a contact known, but not to `first`, if that was asked for, whether it is the first one?
+// Surfaces that come nearer than triangles are stored can hide that.
+static int hides_first(const nsvcd_answer *answer, float first) {
+  const float late = answer->contact_time - answer->free_until;
+  const int is_wide = late > first * 1.0001f + 1e-6f;
+  return first > 0 && answer->status == NSVCD_STATUS_WITNESS && is_wide;
 }
 
 // Answers one problem: once to warm up, then --repeat times by the clock. The shortest time counts:
@@ -119,8 +121,7 @@ static int answer(const session *s, const settings *options, void *workspace, co
     if (i > 0)
       out->microseconds = fmin(out->microseconds, taken);
   }
-  const float first = options->sweep.first;
-  if (first > 0 && out->answer.status == NSVCD_STATUS_WITNESS && !knows_first(&out->answer, first))
+  if (hides_first(&out->answer, options->sweep.first))
     out->answer.status = NSVCD_STATUS_UNDECIDED;
   return 1;
 }
@@ -497,7 +498,7 @@ static void sweep_verdict(const sweep_job *job, const settings *options, char *o
   if (a->collides)
     snprintf(when, sizeof when, " at t = %.4f%s", (double)a->contact_time,
              asked->first > 0 ? ", the first contact" : "");
-  if (a->status == NSVCD_STATUS_WITNESS && asked->first > 0 && !knows_first(a, asked->first))
+  if (hides_first(a, asked->first))
     snprintf(when, sizeof when, " at t = %.4f, and not before t = %.4f", (double)a->contact_time,
              (double)a->free_until);
   if (a->status == NSVCD_STATUS_UNDECIDED) {

@@ -30,6 +30,7 @@ checks | while IFS='|' read -r name said; do
   target=check-$name
   test "$name" != tests || target=run-tests
   bound=$(bounds "$name")
+  test "$name" != cross || test -z "${ARCHS:-}" || said="$ARCHS, under QEMU"
   begin=$(date +%s)
   $MAKE $target ${bound:+"$bound"} >"$out/$name.txt" 2>&1 </dev/null
   status=$?

@@ -1324,7 +1324,6 @@ static void proof_check_lateness(const attack *a, double first, double tolerance
   }
   sum->blurred++;
   const double apart = proof_distance_at(a, until);
-  printf("%g %g %g late %g\n", apart, tolerance, proof_quanta(a), late);
   CHECK_LE(apart, tolerance + 4 * proof_quanta(a) + 1e-6 * size);
 }
 

@@ -313,12 +313,11 @@ static void query_both_may_move(void) {
   for (uint64_t seed = 1; seed <= 60; seed++) {
     query_scene s;
     nsvcd_pose poses[QUERY_POSES], others[QUERY_POSES];
-    nsvcd_answer answer;
     query_scene_open(&s, seed);
     const nsvcd_answer before = query_scene_ask(&s);
     const double angle = seed % 2 ? 1.6 : 0;
     const nsvcd_question question = query_carried(&s, seed, angle, poses, others);
-    answer = query_answer(&question);
+    const nsvcd_answer answer = query_answer(&question);
     // seen from the same body
     if (before.candidates > 0 && !nsvcd__is_swapped(&question.a, &question.b)) {
       compared++;
@@ -337,7 +336,6 @@ static void query_sides_do_not_matter(void) {
   for (uint64_t seed = 1; seed <= 40; seed++) {
     query_scene s;
     nsvcd_pose poses[QUERY_POSES], others[QUERY_POSES];
-    nsvcd_answer one, other;
     query_scene_open(&s, seed);
     nsvcd_question question = query_carried(&s, seed, 1.6, poses, others);
     if (seed % 4 == 0)
@@ -349,10 +347,10 @@ static void query_sides_do_not_matter(void) {
     if (seed % 8 == 3)
       question.a.scale = 1.5f;
     const nsvcd_mover a = question.a;
-    one = query_answer(&question);
+    const nsvcd_answer one = query_answer(&question);
     question.a = question.b;
     question.b = a;
-    other = query_answer(&question);
+    nsvcd_answer other = query_answer(&question);
     const uint32_t patch = other.patch_a;
     other.patch_a = other.patch_b;
     other.patch_b = patch;
@@ -932,8 +930,7 @@ static void query_proofs_stay_within_their_workspace(void) {
     question.options.work = n % 7 == 5 ? 20 : 0;
     const size_t left = query_stays_within(&question);
     unused = left < unused ? left : unused;
-    nsvcd_answer answer;
-    answer = query_answer(&question);
+    const nsvcd_answer answer = query_answer(&question);
     statuses[answer.status]++;
   }
   printf("  %zu witnesses, %zu free, %zu undecided; %zu bytes unused at the end\n",
