@@ -3,6 +3,7 @@ notice. From the repository's root:
 
   python3 tests/mutate.py --count 100 --seed 1 --jobs 16             all of them
   python3 tests/mutate.py --count 100 --seed 1 --part 0 --of 4       every fourth: mutant n is the same whatever the parts
+  python3 tests/mutate.py --numbers 20,26 --seed 1                   these two
   python3 tests/mutate.py --list --count 20 --seed 1                 shows them, and runs nothing
 
 A mutant is caught if a test fails, crashes, or takes more than LIMIT times as long as on the header itself and LEAST
@@ -334,6 +335,7 @@ def options_of() -> argparse.Namespace:
     parser.add_argument("--seed", type=int, default=1)
     parser.add_argument("--part", type=int, default=0)
     parser.add_argument("--of", type=int, default=1)
+    parser.add_argument("--numbers", default="", help="these only, by commas, in this order")
     parser.add_argument("--jobs", type=int, default=1)
     parser.add_argument("--seconds", type=float, default=float("inf"), help="no mutant is begun after so many")
     parser.add_argument("--section", default="", help="of these sections only, by commas")
@@ -349,7 +351,9 @@ def main() -> int:
     options = options_of()
     begin = time.monotonic()
     bench = Bench(options)
-    numbers = range(options.part, options.count, options.of)
+    numbers = list(range(options.part, options.count, options.of))
+    if options.numbers:
+        numbers = [int(number) for number in options.numbers.split(",")]
     print(f"mutate: {len(bench.sites)} places for a mistake in {len({site.line for site in bench.sites})} lines")
     if options.list:
         print("".join(described(bench.draw(number)) for number in numbers))
