@@ -9924,9 +9924,9 @@ typedef struct nsvcd__touch {
 } nsvcd__touch;
 
 typedef enum nsvcd__verdict {
-  NSVCD__FREE,
+  NSVCD__FREE,  // of a part of a proof: but for doubts, which the proof remembers
   NSVCD__MEETS,
-  NSVCD__UNDECIDED,
+  NSVCD__UNDECIDED,  // of a part: the work allowed is spent
   NSVCD__WITHIN,
   NSVCD__TOO_LONG,  // a span that had better be halved
   NSVCD__TAKEN      // a contact was found that changes what is asked: ask again
@@ -11287,7 +11287,7 @@ static void nsvcd__certify_couple(const nsvcd__proof *p, const nsvcd__couple *co
 }
 
 // What becomes of a part of the arc that is too short to be halved: a passage, an answer that says
-// less, or doubt. NSVCD__TAKEN and NSVCD__FREE: look at it again.
+// less, or doubt, which is NSVCD__UNDECIDED. NSVCD__TAKEN and NSVCD__FREE: look at it again.
 static nsvcd__verdict nsvcd__settle_short_part(nsvcd__proof *p, const nsvcd__couple *couple,
                                                double u, double end, double speed) {
   const nsvcd__verdict passage = nsvcd__find_passage(p, couple, u, end, speed);
@@ -11364,7 +11364,7 @@ static NSVCD__APART nsvcd__verdict nsvcd__settle_couple(nsvcd__proof *p,
     u = end;
     left--;
   }
-  return taken ? NSVCD__TAKEN : doubts ? NSVCD__UNDECIDED : NSVCD__FREE;
+  return taken ? NSVCD__TAKEN : NSVCD__FREE;
 }
 
 // ---- blocks of triangles
@@ -11835,7 +11835,6 @@ static nsvcd__verdict nsvcd__settle_row(nsvcd__proof *p, size_t i, size_t j, siz
   nsvcd__block *fixed = &p->fixed_blocks[n];
   const float quanta = nsvcd__quanta_of(p, i, j);
   const float reach = p->moving.body->extent + p->moving.quanta[i];
-  nsvcd__verdict verdict = NSVCD__FREE;
   uint32_t below = 0;
   p->work++;
   uint32_t met = nsvcd__row_left(p, i, j, l, fixed, 2, span, margin);
@@ -11858,14 +11857,12 @@ static nsvcd__verdict nsvcd__settle_row(nsvcd__proof *p, size_t i, size_t j, siz
     const nsvcd__couple couple =
         nsvcd__couple_of(p, i, j, listing, fixed->first + nsvcd__lowest_bit(met));
     const nsvcd__verdict one = nsvcd__settle_couple(p, &couple, u0, u1);
-    if (one == NSVCD__MEETS || one == NSVCD__TAKEN || nsvcd__is_spent(p))
+    if (one != NSVCD__FREE)
       return one;
-    if (one == NSVCD__UNDECIDED)
-      verdict = one;
     if (p->parts > patience)
       return NSVCD__TOO_LONG;
   }
-  return verdict;
+  return NSVCD__FREE;
 }
 
 // All couples of an item's patches over a span from u0 to u1 of the arc.
@@ -11877,7 +11874,6 @@ static NSVCD__APART nsvcd__verdict nsvcd__settle_triangles(nsvcd__proof *p, size
   const float reach = p->moving.body->extent + p->moving.quanta[i];
   const float margin =
       nsvcd__quanta_of(p, i, j) + span->spread + nsvcd__clearance_of(p) + span->bulge * reach;
-  nsvcd__verdict verdict = NSVCD__FREE;
   p->parts = 0;
   for (size_t b = p->fixed.first_triangle[j]; b < fixed_end; b += NSVCD__WINDOW * NSVCD__LANES) {
     nsvcd__window_load(p, j, b);
@@ -11898,17 +11894,13 @@ static NSVCD__APART nsvcd__verdict nsvcd__settle_triangles(nsvcd__proof *p, size
           }
           const nsvcd__verdict row =
               nsvcd__settle_row(p, i, j, l, n, span, margin, u0, u1, patience);
-          if (row == NSVCD__MEETS || row == NSVCD__TOO_LONG || row == NSVCD__TAKEN)
+          if (row != NSVCD__FREE)
             return row;
-          if (nsvcd__is_spent(p))
-            return NSVCD__UNDECIDED;
-          if (row == NSVCD__UNDECIDED)
-            verdict = row;
         }
       }
     }
   }
-  return verdict;
+  return NSVCD__FREE;
 }
 
 static void nsvcd__certify_item(const nsvcd__proof *p, const nsvcd__span *span,
@@ -11927,7 +11919,6 @@ static nsvcd__verdict nsvcd__settle_arc(nsvcd__proof *p, const nsvcd__item *item
                                         double u0, double u1) {
   double *ends = p->arc_ends;
   size_t left = 1;
-  nsvcd__verdict verdict = NSVCD__FREE;
   ends[0] = u1;
   nsvcd__arc_at(p, first);
   for (double u = u0; left > 0;) {
@@ -11942,7 +11933,7 @@ static nsvcd__verdict nsvcd__settle_arc(nsvcd__proof *p, const nsvcd__item *item
       const size_t patience = may_halve ? NSVCD__PATIENCE_TO_PART : (size_t)-1;
       const nsvcd__verdict part =
           nsvcd__settle_triangles(p, item->moving, item->fixed, &p->span, u, end, patience);
-      if (part == NSVCD__MEETS || nsvcd__is_spent(p))
+      if (part == NSVCD__MEETS || part == NSVCD__UNDECIDED)
         return part;
       if (part == NSVCD__TAKEN)
         continue;
@@ -11950,20 +11941,17 @@ static nsvcd__verdict nsvcd__settle_arc(nsvcd__proof *p, const nsvcd__item *item
         ends[left++] = 0.5 * (u + end);
         continue;
       }
-      if (part == NSVCD__UNDECIDED)
-        verdict = part;
     }
     u = end;
     left--;
   }
-  return verdict;
+  return NSVCD__FREE;
 }
 
 // Settles an item that no plane parts over its segment, arc by arc.
 static nsvcd__verdict nsvcd__settle_item(nsvcd__proof *p, const nsvcd__search *search,
                                          const nsvcd__item *item) {
   const uint32_t end = search->begin[item->segment + 1u];
-  nsvcd__verdict verdict = NSVCD__FREE;
   for (uint32_t at = search->begin[item->segment]; at < end && (double)at < p->end;) {
     double u0;
     const uint32_t first = nsvcd__arc_and_share(p->motion, (double)at, &u0);
@@ -11971,13 +11959,11 @@ static nsvcd__verdict nsvcd__settle_item(nsvcd__proof *p, const nsvcd__search *s
     const uint32_t next = end < knot ? end : knot;
     const double u1 = (double)(next - first) / (double)(knot - first);
     const nsvcd__verdict part = nsvcd__settle_arc(p, item, first, u0, u1);
-    if (part == NSVCD__MEETS || nsvcd__is_spent(p))
+    if (part != NSVCD__FREE)
       return part;
-    if (part == NSVCD__UNDECIDED)
-      verdict = part;
     at = next;
   }
-  return verdict;
+  return NSVCD__FREE;
 }
 
 // The height over p->held above which a moving patch stays in a segment, all allowances taken off.

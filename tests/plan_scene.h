@@ -40,7 +40,8 @@ typedef struct plan_scene {
   int filling;    // what each byte of the workspace holds before
   size_t placed, attached;
   // What the progress callback saw.
-  size_t again;  // refinements after the first of a seed
+  size_t again;          // refinements after the first of a seed
+  size_t iterations[2];  // that MPPI and L-BFGS may have
   size_t reports, cancel_at, disorders, last_seed, last_iteration, out_of_place;
   int last_refining;
   float last_cost;
@@ -249,6 +250,7 @@ static int plan_progress(void *user, const nsvcd_plan_progress *progress) {
   }
   for (size_t k = 0; k < (progress->via_points + 2) * f; k++)
     s->out_of_place += !isfinite(progress->control[k]);
+  s->iterations[progress->refining] = progress->iterations;
   s->last_seed = progress->seed;
   s->last_iteration = progress->iteration;
   s->last_refining = progress->refining;

@@ -789,6 +789,8 @@ static void plan_defaults_are_what_is_written(void) {
   }
   memset(&s.options, 0, sizeof s.options);
   const plan_outcome defaults = plan_run(&s);
+  CHECK_EQ(s.iterations[0], written.explore.iterations);
+  CHECK_EQ(s.iterations[1], written.refine.iterations);
   s.options = written;
   const plan_outcome same = plan_run(&s);
   CHECK_EQ(defaults.result, NSVCD_OK);
@@ -797,11 +799,12 @@ static void plan_defaults_are_what_is_written(void) {
 }
 
 // Of several starts, none of which ends free, the best is kept: with one more the answer costs no
-// more.
+// more, and is the same where it costs as much.
 static void plan_keeps_the_best_of_its_seeds(void) {
   static plan_scene s;
+  static plan_outcome best;
   int better = 0;
-  float before = INFINITY;
+  best.answer.cost = INFINITY;
   plan_wall_scene(&s);
   s.bodies[1] = plan_body(PLAN_SHELL);  // around the goal
   s.rest[1] = query_pose((double)s.goal[0] + 0.1, 0, 0);
@@ -812,11 +815,26 @@ static void plan_keeps_the_best_of_its_seeds(void) {
     const plan_outcome out = plan_run(&s);
     CHECK_EQ(out.answer.status, NSVCD_PLAN_LIMIT);
     CHECK_EQ(out.answer.seeds, seeds);
-    CHECK_LE(out.answer.cost, before);
-    better += seeds > 1 && out.answer.cost < before;
-    before = out.answer.cost;
+    CHECK_LE(out.answer.cost, best.answer.cost);
+    const int is_better = out.answer.cost < best.answer.cost;
+    const size_t bytes = (out.via + 2) * s.problem.joints * sizeof(float);
+    if (!is_better)
+      CHECK(memcmp(out.control, best.control, bytes) == 0);
+    better += seeds > 1 && is_better;
+    best = out;
   }
   CHECK(better >= 1 && better < 11);
+}
+
+// Where the first trajectory is free and none that is drawn is any better, exploring ends soon.
+static void plan_stops_exploring_when_nothing_gets_better(void) {
+  static plan_scene s;
+  plan_wall_scene(&s);
+  s.rest[1] = query_pose(0, 0, 5);
+  s.options.refine.iterations = NSVCD_NONE;
+  const plan_outcome out = plan_run(&s);
+  CHECK_EQ(out.answer.status, NSVCD_PLAN_CONVERGED);
+  CHECK_EQ(out.answer.iterations, NSVCD__PATIENCE);
 }
 
 static void plan_can_be_cancelled(void) {
@@ -1599,6 +1617,7 @@ void test_optimizer(void) {
   RUN(plan_is_deterministic);
   RUN(plan_defaults_are_what_is_written);
   RUN(plan_keeps_the_best_of_its_seeds);
+  RUN(plan_stops_exploring_when_nothing_gets_better);
   RUN(plan_can_be_cancelled);
   RUN(plan_grasped_bodies_move_along);
   RUN(plan_proves_at_the_end);
