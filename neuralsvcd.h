@@ -1201,7 +1201,7 @@ static inline nsvcd__d3 nsvcd__d3_cross(nsvcd__d3 a, nsvcd__d3 b) {
 static inline double nsvcd__d3_length(nsvcd__d3 a) {
   return sqrt(nsvcd__d3_dot(a, a));
 }
-static inline double nsvcd__d3_gap(nsvcd__d3 a, nsvcd__d3 b) {  // squared distance
+static inline double nsvcd__d3_squared_distance(nsvcd__d3 a, nsvcd__d3 b) {
   const nsvcd__d3 offset = nsvcd__d3_sub(a, b);
   return nsvcd__d3_dot(offset, offset);
 }
@@ -3241,7 +3241,7 @@ typedef struct nsvcd__patches {
   // (S) the patch of each sample drawn
   uint16_t *owners;
   // (S) squared, to the nearest centre so far; it lies where `samples` will be
-  float *distances;
+  float *squares;
   // (S) lists of the samples of each centre, while centres are added; it lies there too
   uint32_t *next_sample;
   uint32_t *first_sample;  // (N)
@@ -3251,7 +3251,7 @@ typedef struct nsvcd__patches {
   // (N, NEIGHBOURS) the other centres nearest to each, in order of distance
   uint32_t *neighbours;
   // (N, NEIGHBOURS) a quarter of their squared distance
-  float *quarter_gaps;
+  float *quarter_squares;
 } nsvcd__patches;
 
 // ---- samples
@@ -3351,8 +3351,8 @@ static uint32_t *nsvcd__next_words(float **next, size_t count) {
 // count: up to NSVCD_SMALL_PATCHES, so that nothing overflows.
 static int nsvcd__patches_alloc(nsvcd__patches *p, size_t count, size_t samples,
                                 const nsvcd_allocator *allocator) {
-  const size_t gaps = NSVCD__NEIGHBOURS * count;
-  const size_t words = 13 * count + 2 * gaps + 1 + 12 * samples + (samples + 1) / 2;
+  const size_t links = NSVCD__NEIGHBOURS * count;
+  const size_t words = 13 * count + 2 * links + 1 + 12 * samples + (samples + 1) / 2;
   const size_t sums = count * sizeof(nsvcd__patch_sum);
   memset(p, 0, sizeof *p);
   p->memory = nsvcd__alloc(allocator, sums + words * sizeof(float));
@@ -3371,14 +3371,14 @@ static int nsvcd__patches_alloc(nsvcd__patches *p, size_t count, size_t samples,
   p->drawn = nsvcd__next_f3s(&next, samples);
   p->drawn_normals = nsvcd__next_f3s(&next, samples);
   p->samples = nsvcd__next_f3s(&next, samples);
-  p->distances = (float *)(void *)p->samples;
-  p->next_sample = (uint32_t *)(void *)(p->distances + samples);
+  p->squares = (float *)(void *)p->samples;
+  p->next_sample = (uint32_t *)(void *)(p->squares + samples);
   p->normals = nsvcd__next_f3s(&next, samples);
-  p->quarter_gaps = nsvcd__next_floats(&next, gaps);
+  p->quarter_squares = nsvcd__next_floats(&next, links);
   p->squared_reach = nsvcd__next_floats(&next, count);
   p->first_sample = nsvcd__next_words(&next, count);
   p->farthest_sample = nsvcd__next_words(&next, count);
-  p->neighbours = nsvcd__next_words(&next, gaps);
+  p->neighbours = nsvcd__next_words(&next, links);
   p->offsets = nsvcd__next_words(&next, count + 1);
   p->owners = (uint16_t *)(void *)next;
   return 1;
@@ -3392,30 +3392,30 @@ static void nsvcd__patches_free(nsvcd__patches *p, const nsvcd_allocator *alloca
 // ---- clusters: farthest point sampling, then Lloyd's algorithm
 
 // The squared distance of a point from a centre.
-static float nsvcd__centre_distance(const nsvcd__patches *p, uint32_t centre, nsvcd__f3 at) {
+static float nsvcd__squared_to_centre(const nsvcd__patches *p, uint32_t centre, nsvcd__f3 at) {
   const nsvcd__f3 offset = nsvcd__f3_sub(p->centres[centre], at);
   return nsvcd__f3_dot(offset, offset);
 }
 
-// Lists the nearest other centres of centre i; a short list ends in gaps of infinity.
+// Lists the nearest other centres of centre i; a short list ends in infinities.
 static void nsvcd__link_centre(nsvcd__patches *p, uint32_t i) {
   const size_t last = NSVCD__NEIGHBOURS - 1;
   uint32_t *neighbours = p->neighbours + (size_t)i * NSVCD__NEIGHBOURS;
-  float *gaps = p->quarter_gaps + (size_t)i * NSVCD__NEIGHBOURS;
+  float *quarters = p->quarter_squares + (size_t)i * NSVCD__NEIGHBOURS;
   for (size_t k = 0; k <= last; k++) {
     neighbours[k] = i;
-    gaps[k] = HUGE_VALF;
+    quarters[k] = HUGE_VALF;
   }
   for (uint32_t j = 0; j < p->count; j++) {
-    const float gap = 0.25f * nsvcd__centre_distance(p, j, p->centres[i]);
-    if (j == i || gap >= gaps[last])
+    const float quarter = 0.25f * nsvcd__squared_to_centre(p, j, p->centres[i]);
+    if (j == i || quarter >= quarters[last])
       continue;
     size_t k = last;
-    for (; k > 0 && gaps[k - 1] > gap; k--) {
-      gaps[k] = gaps[k - 1];
+    for (; k > 0 && quarters[k - 1] > quarter; k--) {
+      quarters[k] = quarters[k - 1];
       neighbours[k] = neighbours[k - 1];
     }
-    gaps[k] = gap;
+    quarters[k] = quarter;
     neighbours[k] = j;
   }
 }
@@ -3427,31 +3427,31 @@ static void nsvcd__link_centres(nsvcd__patches *p) {
 // A centre, and its squared distance from the point in question.
 typedef struct nsvcd__near_centre {
   uint32_t centre;
-  float distance;
+  float square;
 } nsvcd__near_centre;
 
 // Keeps the nearer one of the nearest so far and centre i; of equals the first.
 static void nsvcd__look_at_centre(const nsvcd__patches *p, uint32_t i, nsvcd__f3 at,
                                   nsvcd__near_centre *best) {
-  const float distance = nsvcd__centre_distance(p, i, at);
-  const int equal = !(distance < best->distance) && !(distance > best->distance);
-  if (distance > best->distance || (equal && i >= best->centre))
+  const float square = nsvcd__squared_to_centre(p, i, at);
+  const int equal = !(square < best->square) && !(square > best->square);
+  if (square > best->square || (equal && i >= best->centre))
     return;
   best->centre = i;
-  best->distance = distance;
+  best->square = square;
 }
 
 // The centre nearest to a point, found from a guess. A centre twice as far from the guess as the
 // point is cannot be nearer to the point (triangle inequality). So the guess's neighbours usually
 // decide; where they do not, they give a better guess.
 static uint32_t nsvcd__nearest_centre(const nsvcd__patches *p, uint32_t guess, nsvcd__f3 at) {
-  nsvcd__near_centre best = {guess, nsvcd__centre_distance(p, guess, at)};
+  nsvcd__near_centre best = {guess, nsvcd__squared_to_centre(p, guess, at)};
   for (;;) {
     const uint32_t *neighbours = p->neighbours + (size_t)guess * NSVCD__NEIGHBOURS;
-    const float *gaps = p->quarter_gaps + (size_t)guess * NSVCD__NEIGHBOURS;
-    const float own = best.distance;
+    const float *quarters = p->quarter_squares + (size_t)guess * NSVCD__NEIGHBOURS;
+    const float own = best.square;
     size_t k = 0;
-    for (; k < NSVCD__NEIGHBOURS && gaps[k] <= own; k++)
+    for (; k < NSVCD__NEIGHBOURS && quarters[k] <= own; k++)
       nsvcd__look_at_centre(p, neighbours[k], at, &best);
     if (k < NSVCD__NEIGHBOURS)
       return best.centre;
@@ -3469,14 +3469,14 @@ static void nsvcd__forget_samples(nsvcd__patches *p, uint32_t centre) {
   p->squared_reach[centre] = -1;
 }
 
-// distance: squared.
-static void nsvcd__give_sample(nsvcd__patches *p, uint32_t s, uint32_t owner, float distance) {
+// square: of its distance from the owner.
+static void nsvcd__give_sample(nsvcd__patches *p, uint32_t s, uint32_t owner, float square) {
   p->owners[s] = (uint16_t)owner;
-  p->distances[s] = distance;
+  p->squares[s] = square;
   p->next_sample[s] = p->first_sample[owner];
   p->first_sample[owner] = s;
-  if (distance > p->squared_reach[owner]) {
-    p->squared_reach[owner] = distance;
+  if (square > p->squared_reach[owner]) {
+    p->squared_reach[owner] = square;
     p->farthest_sample[owner] = s;
   }
 }
@@ -3488,17 +3488,17 @@ static void nsvcd__add_centre(nsvcd__patches *p, uint32_t centre, uint32_t from)
   p->centres[centre] = p->drawn[from];
   nsvcd__forget_samples(p, centre);
   for (uint32_t owner = 0; owner < centre; owner++) {
-    const float gap = nsvcd__centre_distance(p, owner, p->drawn[from]);
-    if (0.25f * gap > p->squared_reach[owner])
+    const float square = nsvcd__squared_to_centre(p, owner, p->drawn[from]);
+    if (0.25f * square > p->squared_reach[owner])
       continue;
     uint32_t s = p->first_sample[owner];
     nsvcd__forget_samples(p, owner);
     while (s != NSVCD__NO_SAMPLE) {
       const uint32_t next = p->next_sample[s];
-      const float old = p->distances[s];
-      const float distance = nsvcd__centre_distance(p, centre, p->drawn[s]);
-      const int nearer = distance < old;
-      nsvcd__give_sample(p, s, nearer ? centre : owner, nearer ? distance : old);
+      const float old = p->squares[s];
+      const float fresh = nsvcd__squared_to_centre(p, centre, p->drawn[s]);
+      const int nearer = fresh < old;
+      nsvcd__give_sample(p, s, nearer ? centre : owner, nearer ? fresh : old);
       s = next;
     }
   }
@@ -3507,8 +3507,8 @@ static void nsvcd__add_centre(nsvcd__patches *p, uint32_t centre, uint32_t from)
 static void nsvcd__give_all_samples(nsvcd__patches *p) {  // to centre 0
   nsvcd__forget_samples(p, 0);
   for (uint32_t s = 0; s < p->sample_count; s++) {
-    const float distance = nsvcd__centre_distance(p, 0, p->drawn[s]);
-    nsvcd__give_sample(p, s, 0, distance);
+    const float square = nsvcd__squared_to_centre(p, 0, p->drawn[s]);
+    nsvcd__give_sample(p, s, 0, square);
   }
 }
 
@@ -3564,8 +3564,8 @@ static void nsvcd__move_centres(nsvcd__patches *p) {
 // Makes a sum reach to a point.
 static void nsvcd__reach_to(nsvcd__patches *p, size_t patch, nsvcd__d3 at) {
   nsvcd__patch_sum *sum = &p->sums[patch];
-  const double distance = nsvcd__d3_gap(at, nsvcd__d3_widen(p->centres[patch]));
-  sum->squared_reach = fmax(sum->squared_reach, distance);
+  const double square = nsvcd__d3_squared_distance(at, nsvcd__d3_widen(p->centres[patch]));
+  sum->squared_reach = fmax(sum->squared_reach, square);
 }
 
 // Root, rounded up: a radius may be too large by a rounding, never too small.
@@ -3609,9 +3609,9 @@ typedef struct nsvcd__edge_squares {
 
 static inline nsvcd__edge_squares nsvcd__squares_of(const nsvcd__triangle *t) {
   nsvcd__edge_squares out;
-  out.ab = nsvcd__d3_gap(t->a, t->b);
-  out.bc = nsvcd__d3_gap(t->b, t->c);
-  out.ca = nsvcd__d3_gap(t->c, t->a);
+  out.ab = nsvcd__d3_squared_distance(t->a, t->b);
+  out.bc = nsvcd__d3_squared_distance(t->b, t->c);
+  out.ca = nsvcd__d3_squared_distance(t->c, t->a);
   return out;
 }
 // Which edge is the longest: 0 for ab, 1 for bc, 2 for ca; of equal ones the first.
@@ -3712,7 +3712,7 @@ static uint32_t nsvcd__cover_piece(nsvcd__patches *p, double limit, uint32_t gue
   const nsvcd__triangle cab = {abc.c, abc.a, abc.b};
   const int longest = nsvcd__longest_of(e);
   const nsvcd__triangle t = longest == 0 ? abc : longest == 1 ? bca : cab;
-  if (nsvcd__d3_gap(t.a, t.b) <= limit * limit) {
+  if (nsvcd__d3_squared_distance(t.a, t.b) <= limit * limit) {
     nsvcd__patch_piece whole = *piece;
     whole.corners = t;
     return nsvcd__give_piece(p, guess, &whole);
@@ -4719,7 +4719,7 @@ static double nsvcd__convex_reach(const nsvcd__pieces *pieces, const nsvcd__conv
   double squared = 0;
   for (size_t i = 0; i < convex->count; i++) {
     const nsvcd__d3 at = nsvcd__point_at(pieces, convex->points[i]);
-    squared = fmax(squared, nsvcd__d3_gap(at, from));
+    squared = fmax(squared, nsvcd__d3_squared_distance(at, from));
   }
   return sqrt(squared);
 }
@@ -4733,7 +4733,7 @@ static int nsvcd__trim(nsvcd__pieces *pieces, uint32_t patch, nsvcd__convex *con
   double reach = nsvcd__convex_reach(pieces, convex, own);
   for (size_t k = first; k < first + NSVCD__NEIGHBOURS; k++) {
     // The plane is half the gap away, and the planes of all that follow are farther.
-    const double plane = sqrt((double)patches->quarter_gaps[k]);
+    const double plane = sqrt((double)patches->quarter_squares[k]);
     if (reach <= plane + pieces->overlap)
       break;
     if (pieces->cuts_left == 0 || pieces->waiting_count == NSVCD__WAITING)
@@ -4796,7 +4796,7 @@ static double nsvcd__longest_edge(const nsvcd__pieces *pieces, const nsvcd__conv
   nsvcd__d3 a = nsvcd__point_at(pieces, convex->points[convex->count - 1]);
   for (size_t i = 0; i < convex->count; i++) {
     const nsvcd__d3 b = nsvcd__point_at(pieces, convex->points[i]);
-    squared = fmax(squared, nsvcd__d3_gap(a, b));
+    squared = fmax(squared, nsvcd__d3_squared_distance(a, b));
     a = b;
   }
   return sqrt(squared);
@@ -4966,7 +4966,7 @@ static int nsvcd__ball_holds(const nsvcd__ball *ball, const nsvcd__border *borde
   const double most = ball->squared * (1 + 1e-9);
   int holds = 1;
   for (size_t i = 0; i < border->count; i++)
-    holds &= nsvcd__d3_gap(border->points[i], ball->centre) <= most;
+    holds &= nsvcd__d3_squared_distance(border->points[i], ball->centre) <= most;
   return holds;
 }
 
@@ -5005,10 +5005,10 @@ static nsvcd__d3 nsvcd__ball_centre(nsvcd__points points) {
     double most = -1;
     size_t farthest = 0;
     for (size_t i = 0; i < points.count; i++) {
-      const double gap = nsvcd__d3_gap(points.at[i], ball.centre);
-      if (gap > most)
+      const double square = nsvcd__d3_squared_distance(points.at[i], ball.centre);
+      if (square > most)
         farthest = i;
-      most = fmax(most, gap);
+      most = fmax(most, square);
     }
     if (most <= ball.squared * (1 + 1e-9))
       break;
@@ -7698,18 +7698,18 @@ NSVCDDEF int nsvcd_body_patch(const nsvcd_body *body, uint32_t patch, float cent
 
 #ifndef NSVCD_NO_ENCODER
 // What is to be encoded, and how, with the defaults filled in.
-typedef struct nsvcd__plan {
+typedef struct nsvcd__encode_settings {
   const nsvcd_mesh *mesh;
   const nsvcd_allocator *allocator;
   size_t patches;  // N
   int open, latents, triangles;
   nsvcd_progress *progress;
   void *user;
-} nsvcd__plan;
+} nsvcd__encode_settings;
 
 // What a body is built of.
 typedef struct nsvcd__parts {
-  const nsvcd__plan *plan;
+  const nsvcd__encode_settings *settings;
   size_t count;        // N
   nsvcd__f3 *centres;  // (N)
   // bytes; 0: without
@@ -7727,7 +7727,7 @@ typedef struct nsvcd__parts {
 } nsvcd__parts;
 
 static void nsvcd__parts_free(nsvcd__parts *parts) {
-  const nsvcd_allocator *allocator = parts->plan->allocator;
+  const nsvcd_allocator *allocator = parts->settings->allocator;
 #ifndef NSVCD_NO_NETWORK
   nsvcd__free(allocator, parts->radii);
   nsvcd__free(allocator, parts->areas);
@@ -7739,29 +7739,29 @@ static void nsvcd__parts_free(nsvcd__parts *parts) {
   nsvcd__free(allocator, parts->centres);
 }
 
-static int nsvcd__is_cancelled(const nsvcd__plan *plan, double done) {
-  return plan->progress && plan->progress((float)done, plan->user);
+static int nsvcd__is_cancelled(const nsvcd__encode_settings *settings, double done) {
+  return settings->progress && settings->progress((float)done, settings->user);
 }
 
 // Room for all patches; 0 without memory, and the caller frees.
 static int nsvcd__parts_alloc(nsvcd__parts *parts, size_t components) {
-  const nsvcd__plan *plan = parts->plan;
-  const nsvcd_allocator *allocator = plan->allocator;
-  parts->centres = nsvcd__alloc_f3s(allocator, plan->patches);
+  const nsvcd__encode_settings *settings = parts->settings;
+  const nsvcd_allocator *allocator = settings->allocator;
+  parts->centres = nsvcd__alloc_f3s(allocator, settings->patches);
   if (!parts->centres)
     return 0;
 #ifndef NSVCD_NO_NETWORK
-  if (plan->latents) {
-    parts->radii = nsvcd__alloc_floats(allocator, plan->patches);
-    parts->areas = nsvcd__alloc_f3s(allocator, plan->patches);
-    parts->latents = (int8_t *)nsvcd__alloc_array(allocator, plan->patches, NSVCD__LATENT);
+  if (settings->latents) {
+    parts->radii = nsvcd__alloc_floats(allocator, settings->patches);
+    parts->areas = nsvcd__alloc_f3s(allocator, settings->patches);
+    parts->latents = (int8_t *)nsvcd__alloc_array(allocator, settings->patches, NSVCD__LATENT);
     if (!parts->radii || !parts->areas || !parts->latents)
       return 0;
   }
 #endif
 #ifndef NSVCD_NO_PROOF
-  if (plan->triangles)
-    return nsvcd__surface_begin(plan->patches, components, allocator, &parts->surface);
+  if (settings->triangles)
+    return nsvcd__surface_begin(settings->patches, components, allocator, &parts->surface);
 #endif
   (void)components;
   return 1;
@@ -7809,13 +7809,13 @@ static nsvcd_result nsvcd__parts_add(nsvcd__parts *parts, nsvcd__regions *region
     nsvcd__f3 *centres = parts->centres + parts->count;
     memcpy(centres, patches.centres, patches.count * sizeof *centres);
 #ifndef NSVCD_NO_PROOF
-    if (parts->plan->triangles)
+    if (parts->settings->triangles)
       result = nsvcd__surface_add(&region, &patches, &parts->surface);
 #endif
 #ifndef NSVCD_NO_NETWORK
     // The mesh has the cuts rounded: each coordinate by half a unit in the last place, at most.
     const double margin = region.cut_count > 0 ? 1.1e-7 * region.greatest : 0;
-    if (parts->plan->latents)
+    if (parts->settings->latents)
       nsvcd__parts_add_latents(&patches, margin, parts);
 #endif
     parts->count += patches.count;
@@ -7827,25 +7827,25 @@ static nsvcd_result nsvcd__parts_add(nsvcd__parts *parts, nsvcd__regions *region
 
 // Everything but the blob, region by region.
 static nsvcd_result nsvcd__parts_describe(nsvcd__parts *parts, nsvcd__regions *regions) {
-  const nsvcd__plan *plan = parts->plan;
+  const nsvcd__encode_settings *settings = parts->settings;
   const size_t count = regions->count;
   if (!nsvcd__parts_alloc(parts, regions->component_count))
     return NSVCD_ERROR_MEMORY;
   for (size_t n = 0; n < count; n++) {
-    if (nsvcd__is_cancelled(plan, (double)(n + 1) / (double)(count + 2)))
+    if (nsvcd__is_cancelled(settings, (double)(n + 1) / (double)(count + 2)))
       return NSVCD_ERROR_CANCELLED;
-    const size_t before = plan->patches * n / count;
-    const size_t most = plan->patches * (n + 1) / count - before;
+    const size_t before = settings->patches * n / count;
+    const size_t most = settings->patches * (n + 1) / count - before;
     const nsvcd_result result = nsvcd__parts_add(parts, regions, n, most);
     if (result)
       return result;
   }
 #ifndef NSVCD_NO_NETWORK
-  if (plan->latents)
+  if (settings->latents)
     parts->latents_size = nsvcd_body_size(parts->count);
 #endif
 #ifndef NSVCD_NO_PROOF
-  if (!plan->triangles)
+  if (!settings->triangles)
     return NSVCD_OK;
   parts->counts = nsvcd__facets_count(&parts->surface);
   parts->facets_size = nsvcd__facets_size(parts->count, &parts->counts);
@@ -7856,13 +7856,14 @@ static nsvcd_result nsvcd__parts_describe(nsvcd__parts *parts, nsvcd__regions *r
 }
 
 // On success release with nsvcd__parts_free. MEMORY, CANCELLED, TOO_LARGE.
-static nsvcd_result nsvcd__parts_build(const nsvcd__plan *plan, nsvcd__parts *parts) {
+static nsvcd_result nsvcd__parts_build(const nsvcd__encode_settings *settings,
+                                       nsvcd__parts *parts) {
   nsvcd__regions regions;
   memset(parts, 0, sizeof *parts);
-  parts->plan = plan;
-  if (nsvcd__is_cancelled(plan, 0))
+  parts->settings = settings;
+  if (nsvcd__is_cancelled(settings, 0))
     return NSVCD_ERROR_CANCELLED;
-  if (!nsvcd__regions_build(plan->mesh, plan->patches, plan->allocator, &regions))
+  if (!nsvcd__regions_build(settings->mesh, settings->patches, settings->allocator, &regions))
     return NSVCD_ERROR_MEMORY;
   const nsvcd_result result = nsvcd__parts_describe(parts, &regions);
   nsvcd__regions_free(&regions);
@@ -7884,7 +7885,7 @@ static nsvcd_result nsvcd__parts_write_latents(const nsvcd__parts *parts, const 
   source.latents = parts->latents;
   source.order = order;
   source.weights_id = NSVCD_WEIGHTS_ID;
-  source.open = parts->plan->open;
+  source.open = parts->settings->open;
   return nsvcd__body_build(&source, memory, parts->latents_size, &built);
 }
 #endif
@@ -7896,10 +7897,10 @@ static nsvcd_result nsvcd__parts_write_facets(const nsvcd__parts *parts, const u
   nsvcd__facets_source source;
   source.surface = &parts->surface;
   source.counts = parts->counts;
-  source.triangles = parts->plan->mesh->triangle_count;
+  source.triangles = parts->settings->mesh->triangle_count;
   source.centres = parts->centres;
   source.order = order;
-  source.open = parts->plan->open;
+  source.open = parts->settings->open;
   void *to = (char *)memory + parts->latents_size;
   return nsvcd__facets_build(&source, to, parts->facets_size);
 }
@@ -7921,7 +7922,7 @@ static nsvcd_result nsvcd__parts_write(const nsvcd__parts *parts, const uint16_t
   if (result)
     return result;
   if (parts->latents_size && parts->facets_size) {
-    b->triangles = (uint32_t)parts->plan->mesh->triangle_count;
+    b->triangles = (uint32_t)parts->settings->mesh->triangle_count;
     b->inner = (uint32_t)parts->latents_size;
     b->size = (uint32_t)(parts->latents_size + parts->facets_size);
     b->checksum = nsvcd__body_checksum(b);
@@ -7933,7 +7934,7 @@ static nsvcd_result nsvcd__parts_write(const nsvcd__parts *parts, const uint16_t
 // Puts the patches in order and writes the blob. MEMORY if there is none for that.
 static nsvcd_result nsvcd__parts_order_and_write(const nsvcd__parts *parts, void *memory,
                                                  const nsvcd_body **body) {
-  const nsvcd_allocator *allocator = parts->plan->allocator;
+  const nsvcd_allocator *allocator = parts->settings->allocator;
   const size_t count = parts->count;
   uint16_t *order = (uint16_t *)nsvcd__alloc_array(allocator, 2 * count, sizeof(uint16_t));
   if (!order)
@@ -7969,24 +7970,25 @@ static size_t nsvcd__patches_for(const nsvcd_mesh *mesh, float patch_radius, dou
 }
 
 // Checks mesh and options (NULL: none), and fills in the defaults; all but the allocator.
-static nsvcd_result nsvcd__plan_of(const nsvcd_mesh *mesh, const nsvcd_encode_options *options,
-                                   nsvcd__plan *plan) {
+static nsvcd_result nsvcd__encode_settings_of(const nsvcd_mesh *mesh,
+                                              const nsvcd_encode_options *options,
+                                              nsvcd__encode_settings *settings) {
   nsvcd_encode_options o;
   memset(&o, 0, sizeof o);
   if (options)
     o = *options;
-  memset(plan, 0, sizeof *plan);
-  plan->mesh = mesh;
-  plan->open = o.open;
-  plan->progress = o.progress;
-  plan->user = o.user;
+  memset(settings, 0, sizeof *settings);
+  settings->mesh = mesh;
+  settings->open = o.open;
+  settings->progress = o.progress;
+  settings->user = o.user;
 #ifndef NSVCD_NO_PROOF
-  plan->triangles = !o.no_triangles;
+  settings->triangles = !o.no_triangles;
 #endif
 #ifndef NSVCD_NO_NETWORK
-  plan->latents = !o.no_latents;
+  settings->latents = !o.no_latents;
 #endif
-  if (!plan->triangles && !plan->latents)
+  if (!settings->triangles && !settings->latents)
     return NSVCD_ERROR_ARGUMENT;  // nothing would be left
   if (!nsvcd__is_finite(o.patch_radius) || o.patch_radius < 0)
     return NSVCD_ERROR_ARGUMENT;
@@ -7998,11 +8000,11 @@ static nsvcd_result nsvcd__plan_of(const nsvcd_mesh *mesh, const nsvcd_encode_op
   const double area = nsvcd__mesh_area(mesh);
   if (!(area > 0))
     return NSVCD_ERROR_EMPTY;
-  plan->patches = o.patches;
-  if (plan->patches == 0)
-    plan->patches = nsvcd__patches_for(mesh, o.patch_radius, area, plan->triangles);
-  if (plan->triangles && plan->patches > NSVCD_SMALL_PATCHES)
-    plan->latents = plan->latents && o.latents;
+  settings->patches = o.patches;
+  if (settings->patches == 0)
+    settings->patches = nsvcd__patches_for(mesh, o.patch_radius, area, settings->triangles);
+  if (settings->triangles && settings->patches > NSVCD_SMALL_PATCHES)
+    settings->latents = settings->latents && o.latents;
   return NSVCD_OK;
 }
 
@@ -8013,12 +8015,12 @@ NSVCDDEF nsvcd_result nsvcd_encode(const nsvcd_mesh *mesh, const nsvcd_encode_op
     return NSVCD_ERROR_ARGUMENT;
   if (memory && !nsvcd__is_aligned(memory))
     return NSVCD_ERROR_WORKSPACE;
-  nsvcd__plan plan;
+  nsvcd__encode_settings settings;
   nsvcd__parts parts;
-  nsvcd_result result = nsvcd__plan_of(mesh, options, &plan);
-  plan.allocator = allocator;
+  nsvcd_result result = nsvcd__encode_settings_of(mesh, options, &settings);
+  settings.allocator = allocator;
   if (!result)
-    result = nsvcd__parts_build(&plan, &parts);
+    result = nsvcd__parts_build(&settings, &parts);
   if (result)
     return result;
 
@@ -12333,6 +12335,7 @@ static int nsvcd__crossings(nsvcd__proof *p, const nsvcd__facets *f, const nsvcd
           nsvcd__read_number(&numbers, listing);
           if (!numbers.encloses)
             continue;
+          p->work++;
           nsvcd__facet_triangle(f, i, listing, corners);
           const int crossing = nsvcd__ray_crosses(ray, corners, margin, unclear);
           if (crossing && nsvcd__is_new(p, &count, numbers.number, unclear))
@@ -12746,7 +12749,7 @@ static nsvcd__placement nsvcd__nearest_placement(nsvcd__proof *p, const nsvcd__s
     double u;
     const uint32_t first = nsvcd__arc_and_share(p->motion, (double)search->begin[s], &u);
     const nsvcd__placement at = nsvcd__placement_at(nsvcd__arc_at(p, first), u);
-    const double square = nsvcd__d3_gap(nsvcd__place_point(&at, moving), fixed);
+    const double square = nsvcd__d3_squared_distance(nsvcd__place_point(&at, moving), fixed);
     if (square < least)
       nearest = at;
     least = fmin(least, square);
@@ -13091,7 +13094,7 @@ static NSVCD__APART void nsvcd__lift_motion(nsvcd__proof *p, nsvcd__search *sear
 // Near the surface it is not: a flat disc seen from its covering radius gives 0.25 where 0.146 is
 // true, from half of it 1.0 where 0.28 is true. So the place asked about is the patch centre of the
 // inner body (of NSVCD__PLACES) that is farthest from the outer patches in units of their radii,
-// and below NSVCD__CLEARANCE the answer is no: then it lies in a covering sphere, the broad phase
+// and below NSVCD__FAR_ENOUGH the answer is no: then it lies in a covering sphere, the broad phase
 // has candidates, and the network is asked. Measured at a million places about spheres of 32 to 512
 // patches, the worst error of w is 0.55 from 0.75 radii on, 0.52 from 1, 0.06 from 1.5; from 1 on,
 // fewer than 1 in 1,000 exceed 0.3.
@@ -13103,8 +13106,8 @@ static NSVCD__APART void nsvcd__lift_motion(nsvcd__proof *p, nsvcd__search *sear
 
 // places of the inner body that are looked at
 #define NSVCD__PLACES NSVCD__LANES
-// Distances, in radii. A place has clearance if no patch is nearer than this,
-#define NSVCD__CLEARANCE 1.0f
+// Distances, in radii. A place is far enough if no patch is nearer than this,
+#define NSVCD__FAR_ENOUGH 1.0f
 // it needs no more than this, and what is farther away is not looked at;
 #define NSVCD__AMPLE 2.0f
 // and the patches of a sphere that is farther than this count as one
@@ -13144,8 +13147,8 @@ static uint32_t nsvcd__may_be_close(const void *what, nsvcd__spheres all) {
 
 // Least |p_i - x| / r_i, squared, at a slice of places, over the patches of a group, or what it
 // was.
-static nsvcd__v nsvcd__clearance2(const nsvcd_body *body, size_t group, nsvcd__v3 place,
-                                  nsvcd__v least) {
+static nsvcd__v nsvcd__square_in_radii(const nsvcd_body *body, size_t group, nsvcd__v3 place,
+                                       nsvcd__v least) {
   const nsvcd__spheres patches = nsvcd__body_patches(body);
   const size_t next = NSVCD__GROUP * (group + 1);
   const size_t end = next < body->patches ? next : body->patches;
@@ -13162,7 +13165,8 @@ static nsvcd__v nsvcd__clearance2(const nsvcd_body *body, size_t group, nsvcd__v
 
 // The same over all patches of a body, but NSVCD__AMPLE, squared, is the most it says. places: (3,
 // PLACES), out: (PLACES).
-static void nsvcd__clearances(const nsvcd_body *body, float (*places)[NSVCD__PLACES], float *out) {
+static void nsvcd__squares_in_radii(const nsvcd_body *body, float (*places)[NSVCD__PLACES],
+                                    float *out) {
   const nsvcd__sphere near_to = nsvcd__cover_places(places);
   nsvcd__walk walk;
   size_t g;
@@ -13173,7 +13177,7 @@ static void nsvcd__clearances(const nsvcd_body *body, float (*places)[NSVCD__PLA
     NSVCD__EACH_SLICE(l) {
       const nsvcd__v3 place = nsvcd__v3_load(places, l);
       const nsvcd__v least = nsvcd__v_load(out + l);
-      nsvcd__v_store(out + l, nsvcd__clearance2(body, g, place, least));
+      nsvcd__v_store(out + l, nsvcd__square_in_radii(body, g, place, least));
     }
   }
 }
@@ -13298,18 +13302,18 @@ static int nsvcd__all_in_sphere(const nsvcd_body *body, float (*places)[NSVCD__P
 static int nsvcd__is_inside(const nsvcd_body *inner, const nsvcd_body *outer, float scale,
                             const nsvcd__transform *pose) {
   float places[3][NSVCD__PLACES];
-  float clearance[NSVCD__PLACES];
+  float squares[NSVCD__PLACES];
   if (outer->open)
     return 0;
   nsvcd__places_of(inner, scale, pose, places);
   // One that sticks out of the outer body's sphere says it all.
   if (!nsvcd__all_in_sphere(outer, places))
     return 0;
-  nsvcd__clearances(outer, places, clearance);
+  nsvcd__squares_in_radii(outer, places, squares);
   size_t best = 0;
   for (size_t k = 1; k < NSVCD__PLACES; k++)
-    best = clearance[k] > clearance[best] ? k : best;
-  if (clearance[best] < NSVCD__CLEARANCE * NSVCD__CLEARANCE)
+    best = squares[k] > squares[best] ? k : best;
+  if (squares[best] < NSVCD__FAR_ENOUGH * NSVCD__FAR_ENOUGH)
     return 0;
   const float winding = nsvcd__winding_number(outer, nsvcd__lane_of(places, best));
   return fabsf(winding) > 0.5f;  // -1 where the mesh is inside out
@@ -15692,9 +15696,7 @@ static nsvcd_result nsvcd__sweep_gradient(const nsvcd_question *question, void *
 #define nsvcd__clamp01 NSVCD__AT(clamp01)
 #define nsvcd__clamp_share NSVCD__AT(clamp_share)
 #define nsvcd__clear_until NSVCD__AT(clear_until)
-#define nsvcd__clearance2 NSVCD__AT(clearance2)
 #define nsvcd__clearance_of NSVCD__AT(clearance_of)
-#define nsvcd__clearances NSVCD__AT(clearances)
 #define nsvcd__clip_segment NSVCD__AT(clip_segment)
 #define nsvcd__collect NSVCD__AT(collect)
 #define nsvcd__collect_items NSVCD__AT(collect_items)
@@ -15962,6 +15964,8 @@ static nsvcd_result nsvcd__sweep_gradient(const nsvcd_question *question, void *
 #define nsvcd__spare_chords NSVCD__AT(spare_chords)
 #define nsvcd__spheres_at_box NSVCD__AT(spheres_at_box)
 #define nsvcd__spheres_on_ray NSVCD__AT(spheres_on_ray)
+#define nsvcd__square_in_radii NSVCD__AT(square_in_radii)
+#define nsvcd__squares_in_radii NSVCD__AT(squares_in_radii)
 #define nsvcd__starts_inside NSVCD__AT(starts_inside)
 #define nsvcd__starts_within NSVCD__AT(starts_within)
 #define nsvcd__status_of NSVCD__AT(status_of)

@@ -95,7 +95,7 @@ tile: way without reach|nsvcd__f3_sub(nsvcd__f3_min(start, end), around);\n    c
 tile: approached in the first segment|wanted \&\& nearby \& ~met; wanted \&= wanted - 1) {|wanted \&\& nearby \& ~met; wanted = 0) {
 level: near groups as dipoles|#define NSVCD__DIPOLE 3.0f|#define NSVCD__DIPOLE 0.8f
 level: sums that do not scale|i < nsvcd__area_numbers(b); i++) {|i < 3 * (size_t)b->padded; i++) {
-level: clearances about the middle only|nsvcd__v_fma(r, nsvcd__v_set(NSVCD__AMPLE), radius)|nsvcd__v_mul(r, nsvcd__v_set(NSVCD__AMPLE))
+level: nearest patches about the middle only|nsvcd__v_fma(r, nsvcd__v_set(NSVCD__AMPLE), radius)|nsvcd__v_mul(r, nsvcd__v_set(NSVCD__AMPLE))
 level: latents of one region|int8_t *latents = parts->latents + NSVCD__LATENT * parts->count;|int8_t *latents = parts->latents;
 level: members of one dipole in two|const size_t member = NSVCD__GROUP * (first + nsvcd__lowest_bit(close));|const size_t member = NSVCD__GROUP * (first + (nsvcd__lowest_bit(close) \& ~(size_t)1));
 margin of small normals|nsvcd__v_pick(square, nsvcd__v_set(1e-30f), nsvcd__v_set(1e30f), limit)|limit

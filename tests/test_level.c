@@ -466,7 +466,7 @@ static void level_winding_numbers_are_those_of_the_patches(void) {
   size_t clear = 0;
   shapes_rng rng = {9};
   for (int trial = 0; trial < 1000; trial++) {
-    float places[3][NSVCD__PLACES], clearances[NSVCD__PLACES];
+    float places[3][NSVCD__PLACES], squares[NSVCD__PLACES];
     const double spread = pow(10, shapes_uniform(&rng, -2, 0.5));
     double middle[3];
     for (int k = 0; k < 3; k++)
@@ -475,7 +475,7 @@ static void level_winding_numbers_are_those_of_the_patches(void) {
       for (int k = 0; k < 3; k++)
         places[k][n] = (float)(middle[k] + spread * shapes_uniform(&rng, -0.5, 0.5));
     }
-    nsvcd__clearances(body, places, clearances);
+    nsvcd__squares_in_radii(body, places, squares);
     for (size_t n = 0; n < NSVCD__PLACES; n++) {
       const float place[3] = {places[0][n], places[1][n], places[2][n]};
       double least = (double)(NSVCD__AMPLE * NSVCD__AMPLE);
@@ -491,7 +491,7 @@ static void level_winding_numbers_are_those_of_the_patches(void) {
           w += (double)areas[k * body->padded + i] * d[k] / (length * length * length);
       }
       w /= 4 * acos(-1);
-      CHECK_NEAR(clearances[n], least, 1e-4);
+      CHECK_NEAR(squares[n], least, 1e-4);
       if (n > 0 || least < 1)
         continue;
       const double found = (double)nsvcd__winding_number(body, nsvcd__f3_load(place));

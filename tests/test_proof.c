@@ -2157,7 +2157,8 @@ static void proof_keeps_its_limit_in_large_patches(void) {
          most);
   CHECK_LE(most, options.work + 2 * (ball.listed + crumbs.listed));
 
-  // On itself no ray is clear: one of them may be beyond the limit, not all eight.
+  // On itself no ray is clear: one of them may be beyond the limit, not all eight. It looks at all
+  // triangles by sixteens, and at those that it comes near, a hundred here, one by one.
   attack itself;
   const oracle_pose still = {{0, 0, 0}, {0, 0, 0, 1}};
   options.work = 1;
@@ -2165,7 +2166,7 @@ static void proof_keeps_its_limit_in_large_patches(void) {
   proof_motion_set(&itself.motion, &still, 1, &still);
   CHECK_EQ(proof_ask_with(&itself, &options), NSVCD_OK);
   CHECK_EQ(itself.answer.status, NSVCD_STATUS_UNDECIDED);
-  CHECK_LE(itself.answer.work, 1 + ball.listed / 16 + 1);
+  CHECK_LE(itself.answer.work, 1 + ball.listed / 16 + 1 + 100);
   proof_free(&ball);
   proof_free(&crumbs);
 }
@@ -2262,8 +2263,8 @@ static void proof_takes_no_more_work(void) {
   static const struct {
     const char *name;
     double most;
-  } known[COSTS] = {{"verdict", 59502},         {"first contact", 79895}, {"clearance", 15834},
-                    {"least distance", 144798}, {"skin", 68878},          {"inside", 56965}};
+  } known[COSTS] = {{"verdict", 59607},         {"first contact", 79987}, {"clearance", 15932},
+                    {"least distance", 144893}, {"skin", 68983},          {"inside", 58138}};
   size_t sums[COSTS] = {0};
   shapes_rng rng = {417};
   for (size_t scenes = 0; scenes < 400;) {

@@ -207,7 +207,7 @@ static void reader_index(reader *r) {
 // The surface of a mesh, as nsvcd_encode makes it.
 static nsvcd_result surface_of(const nsvcd_mesh *mesh, size_t points,
                                const nsvcd_allocator *allocator, nsvcd__surface *surface) {
-  nsvcd__plan plan;
+  nsvcd__encode_settings plan;
   nsvcd__parts parts;
   memset(&plan, 0, sizeof plan);
   plan.mesh = mesh;
@@ -619,14 +619,15 @@ static void surface_balls_are_minimal(void) {
     double radius = 0;
     double least = HUGE_VAL;
     for (size_t i = 0; i < count; i++)
-      radius = fmax(radius, nsvcd__d3_gap(points[i], centre));
+      radius = fmax(radius, nsvcd__d3_squared_distance(points[i], centre));
     for (size_t step = 1; step < 5000; step++) {
       size_t farthest = 0;
       for (size_t i = 0; i < count; i++) {
-        if (nsvcd__d3_gap(points[i], other) > nsvcd__d3_gap(points[farthest], other))
+        if (nsvcd__d3_squared_distance(points[i], other) >
+            nsvcd__d3_squared_distance(points[farthest], other))
           farthest = i;
       }
-      least = fmin(least, nsvcd__d3_gap(points[farthest], other));
+      least = fmin(least, nsvcd__d3_squared_distance(points[farthest], other));
       other = nsvcd__d3_mix(other, points[farthest], 1 / (double)(step + 1));
     }
     CHECK_LE(sqrt(radius), sqrt(least) * (1 + 1e-9) + 1e-12);

@@ -21,10 +21,10 @@ static int is_contained(const nsvcd_body *moving, const nsvcd_body *fixed, const
 
 static void containment(void) {
   const float eye[9] = {1, 0, 0, 0, 1, 0, 0, 0, 1};
-  // of the winding number, by clearance: 0.75-1, 1-1.5, 1.5-2, over 2 radii
+  // of the winding number, by distance: 0.75-1, 1-1.5, 1.5-2, over 2 radii
   double error[4] = {0, 0, 0, 0};
   size_t clear = 0;
-  size_t rough = 0;  // places from NSVCD__CLEARANCE on, and those whose error exceeds 0.3
+  size_t rough = 0;  // places from NSVCD__FAR_ENOUGH on, and those whose error exceeds 0.3
   for (size_t points = 32; points <= 512; points *= 2) {
     const nsvcd_body *outer = shell_body(points, 1, &blob_a_memory);
     const nsvcd_body *inner = shell_body(64, 0.1, &blob_b_memory);
@@ -45,15 +45,15 @@ static void containment(void) {
       float places[3][NSVCD__PLACES], lanes[NSVCD__PLACES];
       for (int k = 0; k < 3 * NSVCD__PLACES; k++)
         places[k / NSVCD__PLACES][k % NSVCD__PLACES] = at[k / NSVCD__PLACES];
-      nsvcd__clearances(outer, places, lanes);
-      double clearance = sqrt((double)lanes[7]);
-      int bin = clearance < 1 ? 0 : clearance < 1.5 ? 1 : clearance < 2 ? 2 : 3;
+      nsvcd__squares_in_radii(outer, places, lanes);
+      double in_radii = sqrt((double)lanes[7]);
+      int bin = in_radii < 1 ? 0 : in_radii < 1.5 ? 1 : in_radii < 2 ? 2 : 3;
       double want = distance < 1 ? 1 : 0;
       double off = fabs((double)nsvcd__winding_number(outer, nsvcd__f3_load(at)) - want);
-      if (clearance >= 0.75)
+      if (in_radii >= 0.75)
         error[bin] = fmax(error[bin], off);
-      clear += clearance >= (double)NSVCD__CLEARANCE;
-      rough += clearance >= (double)NSVCD__CLEARANCE && off > 0.3;
+      clear += in_radii >= (double)NSVCD__FAR_ENOUGH;
+      rough += in_radii >= (double)NSVCD__FAR_ENOUGH && off > 0.3;
       // In the clear: exactly when it is inside. On the surface: anything. Outside: never.
       if (distance < 1 - 0.1 - r)
         CHECK(is_contained(inner, outer, rotation, at));
@@ -79,7 +79,7 @@ static void containment(void) {
       "%zu\n",
       error[0], error[1], error[2], error[3], rough, clear);
   CHECK_GE(clear, 5000);
-  CHECK_LE(rough, clear / 1000);  // from NSVCD__CLEARANCE on; a verdict turns at 0.5
+  CHECK_LE(rough, clear / 1000);  // from NSVCD__FAR_ENOUGH on; a verdict turns at 0.5
   CHECK_LE(error[3], 0.02);
 }
 
