@@ -548,7 +548,7 @@ typedef struct nsvcd_sweep_options {
   nsvcd_method method;
   // units that a proof may take, about; 0: NSVCD_DEFAULT_WORK. A unit is a plane sought for two
   // patches, 16 triangles against the box of 16, one of them against these, two triangles at one
-  // time, or a ray against 16
+  // time, or a ray against 16 or one. An eighth is left once surfaces have come too near to tell
   size_t work;
   // a motion is cut into at most so many, a multiple of 16 up to 64; 0: 64. Fewer take less memory;
   // what turns by more than 20 degrees in one of them takes longer to prove
@@ -9809,7 +9809,9 @@ static void nsvcd__candidates_start(nsvcd__candidates *kept, nsvcd__candidate *i
 // of the other triangle at one time and on the other at another, and within its edges all the
 // while, has met it between (an edge and an edge likewise), and halving finds when. UNDECIDED: two
 // triangles come closer than their quanta and the tolerance without meeting, or the limit of work
-// was reached.
+// was reached. After such a doubt only a contact can still decide, and flat on flat there are as
+// many doubts as triangles: so a share of the limit is all that is left then, more than a yes or no
+// takes on any problem of the sets.
 //
 // FIRST CONTACT. Contacts end the motion: whenever one is found, only what is more than `first`
 // before it matters from then on, and is proven free, or gives an earlier contact, or is in doubt.
@@ -9822,7 +9824,7 @@ static void nsvcd__candidates_start(nsvcd__candidates *kept, nsvcd__candidate *i
 // end all of the motion that matters is proven free at the clearance that matters.
 //
 // Work is counted in units: a plane sought for two hulls, 16 triangles against the box of 16, one
-// of them against these, a couple at one time, a ray against 16 triangles. A query stops
+// of them against these, a couple at one time, a ray against 16 triangles or one. A query stops
 // within one patch's listings, or one ray, of its limit.
 
 // THE SCHEDULE, in the order in which a query comes to it.
@@ -9845,6 +9847,7 @@ static void nsvcd__candidates_start(nsvcd__candidates *kept, nsvcd__candidate *i
 #define NSVCD__HALVINGS 40       // of a span for one couple
 #define NSVCD__PLACED 8          // poses, remembered
 #define NSVCD__SAME_PLACE 1e-13  // of all lengths: a distance in double that is none
+#define NSVCD__IN_DOUBT 8        // the share of the limit, 1 / this, that goes on after a doubt
 // What else a question asks.
 #define NSVCD__IN_ORDER 4   // segments searched together, where the first contact is sought
 #define NSVCD__TOUCHES 32   // contacts at the start, looked at together, where there is a skin
@@ -11115,6 +11118,9 @@ static NSVCD__APART void nsvcd__take_doubt(nsvcd__proof *p, const nsvcd__couple 
   const double tick = (double)p->arc.first + u0 * (double)p->arc.ticks;
   const double middle = 0.5 * (u0 + u1);
   nsvcd__d3 posed[3];
+  const size_t left = p->limit / NSVCD__IN_DOUBT;
+  if (!(p->unsure < NSVCD__NEVER) && p->work + left < p->limit)
+    p->limit = p->work + left;
   if (!(tick < p->unsure))
     return;
   nsvcd__place_triangle(nsvcd__placed_at(p, middle), couple->moving, posed);

@@ -37,6 +37,8 @@ heights over another plane|if (known->plane == p->plane \&\& known->key == key)|
 pair without quanta|couple.slack = moving_quantum + (double)p->fixed.quanta[j] + couple.rounding;|couple.slack = 0 * moving_quantum + couple.rounding;
 pair without bulge|(u1 - u0) * (u1 - u0) * (bulge + arc->drift);|(u1 - u0) * (u1 - u0) * (0 * bulge + arc->drift);
 pair without drift|(u1 - u0) * (u1 - u0) * (bulge + arc->drift);|(u1 - u0) * (u1 - u0) * bulge;
+doubt goes on|p->limit = p->work + left;|p->limit = p->limit;
+doubt raises the limit|p->work + left < p->limit|p->work > 0
 pair without clearance|> p->clearance + couple->slack + deviation;|> couple->slack + deviation;
 pair at the start only|lowest = fmin(lowest, nsvcd__d3_dot(normal, at_end));|(void)at_end;
 block without quanta|nsvcd__quanta_of(p, i, j) + span->spread + nsvcd__clearance_of(p) + span->bulge * reach;|span->spread + nsvcd__clearance_of(p) + span->bulge * reach;

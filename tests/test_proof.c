@@ -2224,6 +2224,39 @@ static void proof_refuses(void) {
   shapes_free(&shape);
 }
 
+// A crate that slides on a floor so closely that stored triangles cannot be told apart: of the work
+// allowed an eighth is left from the first doubt on, whatever is asked.
+static void proof_in_doubt_ends_soon(void) {
+  enum { GAPS = 40 };
+  shapes_rng rng = {418};
+  attack a;
+  proof_body crate = proof_crate(6);
+  proof_body floor = proof_floor(0, 8);
+  const double quantum = (double)nsvcd_body_describe(floor.body).quantum;
+  size_t undecided = 0;
+  size_t most = 0;
+  a.moving = &crate;
+  a.fixed = &floor;
+  for (int n = 0; n < GAPS; n++) {
+    const double gap = quantum * (0.2 + 2.0 * n / GAPS);
+    const nsvcd_answer answer = proof_push(&a, &rng, -0.3, 0.3, gap, gap, 0, 0, n % 2 ? 0.001f : 0);
+    undecided += answer.status == NSVCD_STATUS_UNDECIDED;
+    most = answer.work > most ? answer.work : most;
+    // where less is left than that, it is not more afterwards
+    nsvcd_sweep_options options = proof_options();
+    for (options.work = 500; options.work < 8000; options.work += 500) {
+      CHECK_EQ(proof_ask_with(&a, &options), NSVCD_OK);
+      CHECK_LE(a.answer.work, options.work + 50);
+    }
+  }
+  printf("  %d slides: %zu undecided, at most %zu units\n", GAPS, undecided, most);
+  CHECK_GE(undecided, GAPS / 4);
+  CHECK_LE(most, NSVCD_DEFAULT_WORK / 5);
+  CHECK_GE(most, NSVCD_DEFAULT_WORK / 8);
+  proof_free(&crate);
+  proof_free(&floor);
+}
+
 // What kinds of questions cost, in units of work: nothing is as quick to notice that a filter lets
 // all pass, or an order is the wrong way round, whose answers are as right as before.
 typedef enum cost_kind {
@@ -2258,13 +2291,13 @@ static void proof_shrink_into(shapes_rng *rng, attack *a) {
 }
 
 // Work is counted, not timed: it is the same on any machine but for rounding. Where a change makes
-// it less, the new sums belong here.
+// it less, the new sums belong here. Small tiles are searched in another order.
 static void proof_takes_no_more_work(void) {
   static const struct {
     const char *name;
     double most;
-  } known[COSTS] = {{"verdict", 59607},         {"first contact", 79987}, {"clearance", 15932},
-                    {"least distance", 144893}, {"skin", 68983},          {"inside", 58138}};
+  } known[COSTS] = {{"verdict", 57542},         {"first contact", 77631}, {"clearance", 15932},
+                    {"least distance", 142377}, {"skin", 66918},          {"inside", 58138}};
   size_t sums[COSTS] = {0};
   shapes_rng rng = {417};
   for (size_t scenes = 0; scenes < 400;) {
@@ -2287,7 +2320,7 @@ static void proof_takes_no_more_work(void) {
   for (int kind = 0; kind < COSTS; kind++) {
     printf("  %s: %zu units of work, %.4f of what is known\n", known[kind].name, sums[kind],
            (double)sums[kind] / known[kind].most);
-    CHECK_LE((double)sums[kind], 1.01 * known[kind].most);
+    CHECK_LE((double)sums[kind], (NSVCD__TILE < 32 ? 1.05 : 1.01) * known[kind].most);
   }
 }
 
@@ -2713,6 +2746,7 @@ void test_proof(void) {
   RUN(proof_sides_do_not_matter);
   RUN(proof_keeps_its_limit);
   RUN(proof_keeps_its_limit_in_large_patches);
+  RUN(proof_in_doubt_ends_soon);
   RUN(proof_takes_no_more_work);
   RUN(proof_refuses);
   RUN(proof_bodies_on_themselves);
