@@ -2307,9 +2307,9 @@ static void proof_takes_no_more_work(void) {
     const double gap = shapes_pick(&rng, 3) ? pow(10, shapes_uniform(&rng, -4, -1)) : -0.02;
     if (!proof_scene(&rng, &a, gap, 0.3))
       continue;
+    const double size = a.moving->size + a.fixed->size;
     scenes++;
     for (int kind = 0; kind < COSTS; kind++) {
-      const double size = a.moving->size + a.fixed->size;
       const nsvcd_sweep_options options = proof_cost_options((cost_kind)kind, size);
       if (kind == COST_INSIDE)
         proof_shrink_into(&rng, &a);

@@ -207,14 +207,14 @@ static void reader_index(reader *r) {
 // The surface of a mesh, as nsvcd_encode makes it.
 static nsvcd_result surface_of(const nsvcd_mesh *mesh, size_t points,
                                const nsvcd_allocator *allocator, nsvcd__surface *surface) {
-  nsvcd__encode_settings plan;
+  nsvcd__encode_settings settings;
   nsvcd__parts parts;
-  memset(&plan, 0, sizeof plan);
-  plan.mesh = mesh;
-  plan.allocator = allocator;
-  plan.patches = points;
-  plan.triangles = 1;
-  const nsvcd_result result = nsvcd__parts_build(&plan, &parts);
+  memset(&settings, 0, sizeof settings);
+  settings.mesh = mesh;
+  settings.allocator = allocator;
+  settings.patches = points;
+  settings.triangles = 1;
+  const nsvcd_result result = nsvcd__parts_build(&settings, &parts);
   if (result)
     return result;
   *surface = parts.surface;
