@@ -9950,6 +9950,18 @@ typedef struct nsvcd__height {
   float height;
 } nsvcd__height;
 
+// What a proof knows of a motion.
+typedef struct nsvcd__known {
+  int has_contact;
+  nsvcd__contact found;  // if there is a contact, or WITHIN; UNDECIDED: the doubt, if there is one
+  int within;            // a component seems to be within the other body, but close to its surface
+  nsvcd__d3 enclosed;    // a point of that component; the fixed body's frame
+  double unsure;         // ticks: when the first doubt begins, two triangles too near to tell
+  nsvcd__contact doubt;  // what that is about
+  int lost;              // something else was left undecided: all from `settled` on
+  double settled;        // ticks
+} nsvcd__known;
+
 typedef struct nsvcd__proof {
   nsvcd__motion *motion;
   nsvcd__facets moving, fixed;
@@ -9973,15 +9985,7 @@ typedef struct nsvcd__proof {
   size_t touch_count, normal_count;
   nsvcd__d3 normals[NSVCD__LIFTS];  // unit, of what the moving body touches, towards it
 
-  // What is known.
-  int has_contact;
-  nsvcd__contact found;  // if there is a contact, or WITHIN; UNDECIDED: the doubt, if there is one
-  int within;            // a component seems to be within the other body, but close to its surface
-  nsvcd__d3 enclosed;    // a point of that component; the fixed body's frame
-  double unsure;         // ticks: when the first doubt begins, two triangles too near to tell
-  nsvcd__contact doubt;  // what that is about
-  int lost;              // something else was left undecided: all from `settled` on
-  double settled;        // ticks
+  nsvcd__known known;
 
   // Segments as spans, made when they are asked for; and where one has been cut off.
   uint64_t spans_known;  // segments
@@ -10923,6 +10927,17 @@ static nsvcd__d3 nsvcd__face_normal(const nsvcd__d3 *t) {
   return nsvcd__d3_cross(nsvcd__d3_sub(t[1], t[0]), nsvcd__d3_sub(t[2], t[0]));
 }
 
+// The same as a unit vector; 0 where the triangle has no area. What rounding, or fused arithmetic,
+// makes of such a triangle's normal is some 1e-16 of its longest edge squared.
+static nsvcd__d3 nsvcd__face_direction(const nsvcd__d3 *t) {
+  const nsvcd__d3 n = nsvcd__face_normal(t);
+  double longest = 0;
+  for (size_t k = 0; k < 3; k++)
+    longest = fmax(longest, nsvcd__d3_squared_distance(t[k], t[(k + 1) % 3]));
+  const double length = nsvcd__d3_length(n);
+  return nsvcd__d3_scale(n, length > 1e-9 * longest ? 1 / length : 0);
+}
+
 typedef struct nsvcd__nearest {
   double square;  // of the distance
   nsvcd__d3 on_a, on_b;
@@ -11076,7 +11091,7 @@ static nsvcd__couple nsvcd__couple_of(const nsvcd__proof *p, size_t i, size_t j,
 // What is said of two triangles a share u of the arc later than its start.
 static nsvcd__contact nsvcd__contact_at(const nsvcd__proof *p, const nsvcd__couple *couple,
                                         double u, const nsvcd__nearest *nearest) {
-  const nsvcd__d3 face = nsvcd__face_normal(couple->fixed);
+  const nsvcd__d3 face = nsvcd__face_direction(couple->fixed);
   const nsvcd__d3 apart = nsvcd__d3_sub(nearest->on_a, nearest->on_b);
   const double distance = sqrt(nearest->square);
   const int touches = distance <= couple->rounding;
@@ -11084,7 +11099,7 @@ static nsvcd__contact nsvcd__contact_at(const nsvcd__proof *p, const nsvcd__coup
   out.tick = (double)p->arc.first + u * (double)p->arc.ticks;
   out.distance = touches ? 0 : distance;
   out.point = nearest->on_b;
-  out.normal = nsvcd__d3_unit(touches ? face : apart, nsvcd__d3_of(0, 0, 0));
+  out.normal = touches ? face : nsvcd__d3_unit(apart, nsvcd__d3_of(0, 0, 0));
   out.moving_triangle =
       nsvcd__facet_number(&p->moving, couple->moving_patch, couple->moving_listing);
   out.fixed_triangle = nsvcd__facet_number(&p->fixed, couple->fixed_patch, couple->fixed_listing);
@@ -11097,16 +11112,16 @@ static nsvcd__contact nsvcd__contact_at(const nsvcd__proof *p, const nsvcd__coup
 // is an answer, TAKEN if there may be a better one.
 static nsvcd__verdict nsvcd__take_contact(nsvcd__proof *p, const nsvcd__couple *couple, double u,
                                           const nsvcd__nearest *nearest) {
-  p->has_contact = 1;
-  p->found = nsvcd__contact_at(p, couple, u, nearest);
+  p->known.has_contact = 1;
+  p->known.found = nsvcd__contact_at(p, couple, u, nearest);
   if (p->measure > 0) {
-    const int touches = !(p->found.distance > 0);
-    const double least = p->found.distance > p->asked ? p->asked : 0;
-    p->clearance = touches ? 0 : fmax(least, p->found.distance - p->measure);
+    const int touches = !(p->known.found.distance > 0);
+    const double least = p->known.found.distance > p->asked ? p->asked : 0;
+    p->clearance = touches ? 0 : fmax(least, p->known.found.distance - p->measure);
     return touches ? NSVCD__MEETS : NSVCD__TAKEN;
   }
   if (p->first > 0) {
-    p->end = p->found.tick - p->first;
+    p->end = p->known.found.tick - p->first;
     return p->end > 0 ? NSVCD__TAKEN : NSVCD__MEETS;
   }
   return NSVCD__MEETS;
@@ -11119,14 +11134,14 @@ static NSVCD__APART void nsvcd__take_doubt(nsvcd__proof *p, const nsvcd__couple 
   const double middle = 0.5 * (u0 + u1);
   nsvcd__d3 posed[3];
   const size_t left = p->limit / NSVCD__IN_DOUBT;
-  if (!(p->unsure < NSVCD__NEVER) && p->work + left < p->limit)
+  if (!(p->known.unsure < NSVCD__NEVER) && p->work + left < p->limit)
     p->limit = p->work + left;
-  if (!(tick < p->unsure))
+  if (!(tick < p->known.unsure))
     return;
   nsvcd__place_triangle(nsvcd__placed_at(p, middle), couple->moving, posed);
   const nsvcd__nearest nearest = nsvcd__triangles_nearest(posed, couple->fixed);
-  p->doubt = nsvcd__contact_at(p, couple, middle, &nearest);
-  p->unsure = tick;
+  p->known.doubt = nsvcd__contact_at(p, couple, middle, &nearest);
+  p->known.unsure = tick;
 }
 
 // What of the arc matters: the share of it at which the rest does not.
@@ -11688,24 +11703,24 @@ static double nsvcd__lift_along(nsvcd__d3 n, const nsvcd__d3 *moving, const nsvc
 // fixed one; and, if they are apart, that from point to point. All point to where the moving body
 // is.
 static void nsvcd__touch_normals(const nsvcd__touch *t, nsvcd__d3 *out) {
-  const nsvcd__d3 none = nsvcd__d3_of(0, 0, 0);
-  const nsvcd__d3 *a = t->moving;
-  const nsvcd__d3 *b = t->fixed;
-  out[0] = nsvcd__d3_unit(nsvcd__d3_scale(nsvcd__face_normal(a), -1), none);
-  out[1] = nsvcd__d3_unit(nsvcd__face_normal(b), none);
+  out[0] = nsvcd__d3_scale(nsvcd__face_direction(t->moving), -1);
+  out[1] = nsvcd__face_direction(t->fixed);
   out[2] = t->apart;
 }
 
-// Does a lift along n undo a touch? If it has to push anything, then through neither face.
+// Does a lift along n, by what is left of the skin in that direction, undo a touch? If it has to
+// push anything, then not through both faces. Through one of them is no harm: a side that rises
+// from the rim on which a cone stands looks up, and the floor under it looks up too.
 static int nsvcd__undoes(const nsvcd__proof *p, nsvcd__d3 n, const nsvcd__touch *t) {
   nsvcd__d3 normals[3];
   const double lift = nsvcd__lift_along(n, t->moving, t->fixed);
-  if (!(nsvcd__d3_dot(n, n) > 0.5) || lift + p->clearance > p->skin)
+  const double lifted = nsvcd__d3_dot(nsvcd__d3_widen(p->motion->lift), n);
+  if (!(nsvcd__d3_dot(n, n) > 0.5) || lifted + lift + p->asked > p->skin)
     return 0;
   if (lift < 0)
     return 1;
   nsvcd__touch_normals(t, normals);
-  return nsvcd__d3_dot(n, normals[0]) > -0.3 && nsvcd__d3_dot(n, normals[1]) > -0.3;
+  return nsvcd__d3_dot(n, normals[0]) > -0.3 || nsvcd__d3_dot(n, normals[1]) > -0.3;
 }
 
 // Keeps two triangles that are within the clearance at the start, unless a direction that is known
@@ -12047,7 +12062,7 @@ static int nsvcd__triangles_are_parted(nsvcd__proof *p, const nsvcd__search *sea
 
 // Does an item come before another: is it deeper; with `first`, once there is a contact, earlier?
 static int nsvcd__comes_first(const nsvcd__proof *p, const nsvcd__item *a, const nsvcd__item *b) {
-  const int by_time = p->first > 0 && p->has_contact && a->segment != b->segment;
+  const int by_time = p->first > 0 && p->known.has_contact && a->segment != b->segment;
   return by_time ? a->segment < b->segment : a->depth > b->depth;
 }
 static void nsvcd__sort_items(const nsvcd__proof *p, nsvcd__item *items, size_t count) {
@@ -12447,7 +12462,7 @@ static int nsvcd__is_enclosed(nsvcd__proof *p, const nsvcd__facets *f, double un
       continue;
     return crossings != 0;
   }
-  p->lost = 1;
+  p->known.lost = 1;
   return 0;
 }
 
@@ -12533,7 +12548,7 @@ typedef struct nsvcd__enclosure {
 } nsvcd__enclosure;
 
 // Are some of the inner body's components, those with seeds from `first` to `end`, within the outer
-// one? Then p->enclosed has the point, and p->within is set; 1 if that is certain.
+// one? Then p->known.enclosed has the point, and p->known.within is set; 1 if that is certain.
 static int nsvcd__encloses_seeds(nsvcd__proof *p, const nsvcd__enclosure *e, size_t first,
                                  size_t end) {
   uint32_t nearby = 0;
@@ -12544,15 +12559,15 @@ static int nsvcd__encloses_seeds(nsvcd__proof *p, const nsvcd__enclosure *e, siz
     if (!(nearby >> l & 1))
       continue;
     if (nsvcd__is_spent(p)) {
-      p->lost = 1;
+      p->known.lost = 1;
       return 0;
     }
     const nsvcd__d3 seed = nsvcd__d3_load(e->inner->seeds + 3 * n);
     const nsvcd__d3 seen = nsvcd__place_point(&e->start, seed);
     if (!nsvcd__is_enclosed(p, e->outer, e->unit, seen))
       continue;
-    p->enclosed = e->inner_moves ? seen : seed;
-    p->within = 1;
+    p->known.enclosed = e->inner_moves ? seen : seed;
+    p->known.within = 1;
     if (!nsvcd__surface_is_near(p, e->outer, seen, p->tolerance / e->unit))
       return 1;
   }
@@ -12578,15 +12593,15 @@ static int nsvcd__encloses_any(nsvcd__proof *p, const nsvcd__enclosure *e) {
   size_t g;
   nsvcd__walk walk;
   nsvcd__walk_begin(&walk, inner, nsvcd__is_around, &here);
-  while (!p->lost && nsvcd__walk_next(&walk, &g)) {
+  while (!p->known.lost && nsvcd__walk_next(&walk, &g)) {
     if (nsvcd__encloses_seeds(p, e, e->inner->first_seed[g], e->inner->first_seed[g + 1]))
       return 1;
   }
   return 0;
 }
 
-// Is a component of one body within the other at the start of the motion? Then p->enclosed is its
-// point. Where that is so close to the surface that quanta matter, 0 is returned and p->within is
+// Is a component of one body within the other at the start of the motion? Then p->known.enclosed is its
+// point. Where that is so close to the surface that quanta matter, 0 is returned and p->known.within is
 // set: if planes then part all patches at t = 0, the point, the stored surface and the true one,
 // patch by patch on one side of a plane, agree, and it is within.
 static NSVCD__APART int nsvcd__starts_within(nsvcd__proof *p) {
@@ -12613,7 +12628,7 @@ static NSVCD__APART int nsvcd__starts_within(nsvcd__proof *p) {
 // Segments that are searched now, and still matter.
 static uint64_t nsvcd__segments_that_matter(const nsvcd__proof *p, const nsvcd__search *search) {
   size_t s = search->segments;
-  if (!(p->first > 0) || !p->has_contact)
+  if (!(p->first > 0) || !p->known.has_contact)
     return search->wanted;
   while (s > 0 && !nsvcd__matters(p, search, s - 1))
     s--;
@@ -12850,7 +12865,7 @@ static nsvcd__verdict nsvcd__prove_tiles(nsvcd__proof *p, nsvcd__search *search)
 static nsvcd__verdict nsvcd__prove_tile_in_order(nsvcd__proof *p, nsvcd__search *search) {
   const uint64_t few = ((uint64_t)1 << NSVCD__IN_ORDER) - 1;
   nsvcd__verdict verdict = NSVCD__FREE;
-  p->settled = 0;
+  p->known.settled = 0;
   for (size_t s = 0; s < search->segments && verdict == NSVCD__FREE; s += NSVCD__IN_ORDER) {
     if (!nsvcd__matters(p, search, s))
       break;
@@ -12861,8 +12876,8 @@ static nsvcd__verdict nsvcd__prove_tile_in_order(nsvcd__proof *p, nsvcd__search 
     verdict = nsvcd__prove_segments(p, search);
     const size_t next =
         s + NSVCD__IN_ORDER < search->segments ? s + NSVCD__IN_ORDER : search->segments;
-    if (verdict == NSVCD__FREE && !p->has_contact)
-      p->settled = (double)search->begin[next];
+    if (verdict == NSVCD__FREE && !p->known.has_contact)
+      p->known.settled = (double)search->begin[next];
   }
   return verdict;
 }
@@ -12876,29 +12891,29 @@ static nsvcd__verdict nsvcd__prove_in_order(nsvcd__proof *p, nsvcd__search *sear
     verdict = nsvcd__prove_tile_in_order(p, search);
   } while (verdict == NSVCD__FREE && nsvcd__search_next_tile(search));
   if (nsvcd__is_large(moving) || nsvcd__is_large(fixed))
-    p->settled = 0;
+    p->known.settled = 0;
   return verdict;
 }
 
 // What is said of a component that is within the other body, whatever contacts were found since.
 static nsvcd__verdict nsvcd__is_within(nsvcd__proof *p) {
-  memset(&p->found, 0, sizeof p->found);
-  p->found.point = p->enclosed;
-  p->found.moving_triangle = NSVCD_NO_TRIANGLE;
-  p->found.fixed_triangle = NSVCD_NO_TRIANGLE;
+  memset(&p->known.found, 0, sizeof p->known.found);
+  p->known.found.point = p->known.enclosed;
+  p->known.found.moving_triangle = NSVCD_NO_TRIANGLE;
+  p->known.found.fixed_triangle = NSVCD_NO_TRIANGLE;
   return NSVCD__WITHIN;
 }
 
 // Ticks: nothing meets before this, or NEVER.
 static double nsvcd__clear_until(const nsvcd__proof *p) {
-  return fmin(fmin(p->end, p->unsure), p->lost ? p->settled : NSVCD__NEVER);
+  return fmin(fmin(p->end, p->known.unsure), p->known.lost ? p->known.settled : NSVCD__NEVER);
 }
 
 // What is said of triangles that came too near to tell, unless, with `measure`, others came nearer.
 static nsvcd__verdict nsvcd__is_undecided(nsvcd__proof *p) {
-  const int is_nearer = !p->has_contact || p->doubt.distance < p->found.distance;
-  if (p->unsure < NSVCD__NEVER && is_nearer)
-    p->found = p->doubt;
+  const int is_nearer = !p->known.has_contact || p->known.doubt.distance < p->known.found.distance;
+  if (p->known.unsure < NSVCD__NEVER && is_nearer)
+    p->known.found = p->known.doubt;
   return NSVCD__UNDECIDED;
 }
 
@@ -12918,29 +12933,29 @@ static nsvcd__verdict nsvcd__prove(nsvcd__proof *p, nsvcd__search *search) {
   nsvcd__search_begin(p->moving.body, p->fixed.body, search);
   const nsvcd__verdict verdict =
       p->first > 0 ? nsvcd__prove_in_order(p, search) : nsvcd__prove_tiles(p, search);
-  if (p->lost)
-    p->settled = 0;  // whether one is within the other, at the start
-  p->lost |= verdict == NSVCD__UNDECIDED;
+  if (p->known.lost)
+    p->known.settled = 0;  // whether one is within the other, at the start
+  p->known.lost |= verdict == NSVCD__UNDECIDED;
   if (verdict == NSVCD__MEETS)
     return verdict;
   const double clear = nsvcd__clear_until(p);
-  if (p->within && clear > 0)
+  if (p->known.within && clear > 0)
     return nsvcd__is_within(p);
-  if (p->first > 0 && p->has_contact)
+  if (p->first > 0 && p->known.has_contact)
     return NSVCD__MEETS;
   if (clear < NSVCD__NEVER)
     return nsvcd__is_undecided(p);
-  return p->has_contact ? NSVCD__MEETS : NSVCD__FREE;
+  return p->known.has_contact ? NSVCD__MEETS : NSVCD__FREE;
 }
 
 // Makes a proof forget all that it knew of a motion.
 static void nsvcd__proof_restart(nsvcd__proof *p) {
-  p->end = p->clipped_end = p->unsure = NSVCD__NEVER;
+  p->end = p->clipped_end = p->known.unsure = NSVCD__NEVER;
   p->clipped = 0;
-  p->has_contact = 0;
-  p->lost = 0;
-  p->settled = 0;
-  p->within = 0;
+  p->known.has_contact = 0;
+  p->known.lost = 0;
+  p->known.settled = 0;
+  p->known.within = 0;
   p->count = p->fresh_count = 0;
   p->spans_known = 0;
   p->held = nsvcd__f3_of(0, 0, 0);
@@ -12984,52 +12999,59 @@ static void nsvcd__gather_contacts(nsvcd__proof *p, nsvcd__search *search) {
   }
 }
 
-// How many touches a lift along n undoes.
+// How many touches a lift along n undoes; and, to choose among equals, how many of these have a face
+// that says so.
 static size_t nsvcd__undone(const nsvcd__proof *p, nsvcd__d3 n) {
   size_t count = 0;
-  for (size_t k = 0; k < p->touch_count; k++)
-    count += nsvcd__undoes(p, n, &p->of.touches[k]) != 0;
-  return count;
+  size_t faces = 0;
+  for (size_t k = 0; k < p->touch_count; k++) {
+    nsvcd__d3 normals[3];
+    if (!nsvcd__undoes(p, n, &p->of.touches[k]))
+      continue;
+    nsvcd__touch_normals(&p->of.touches[k], normals);
+    count++;
+    faces += nsvcd__d3_dot(n, normals[0]) > 0.9 || nsvcd__d3_dot(n, normals[1]) > 0.9;
+  }
+  return (NSVCD__TOUCHES + 1) * count + faces;
+}
+
+// Takes a direction that undoes more than the best so far.
+static void nsvcd__try_lift(const nsvcd__proof *p, nsvcd__d3 n, size_t *most, nsvcd__d3 *best) {
+  const int known = *most > 0 && nsvcd__d3_dot(n, *best) > 0.99999;
+  const size_t count = known ? 0 : nsvcd__undone(p, n);
+  if (count > *most)
+    *best = n;
+  *most = count > *most ? count : *most;
 }
 
 // Of the normals of what touches, and the directions across an edge of each, the one that undoes
-// the most touches: *best, as it was if none undoes any. Returns how many.
-static size_t nsvcd__best_lift(const nsvcd__proof *p, nsvcd__d3 *best) {
-  const nsvcd__d3 none = nsvcd__d3_of(0, 0, 0);
+// the most touches: *best, as it was if none undoes any: then 0 is returned.
+static int nsvcd__best_lift(const nsvcd__proof *p, nsvcd__d3 *best) {
   size_t most = 0;
-  for (size_t k = 0; k < p->touch_count && most < p->touch_count; k++) {
+  for (size_t k = 0; k < p->touch_count; k++) {
     nsvcd__d3 normals[3];
     nsvcd__touch_normals(&p->of.touches[k], normals);
-    for (size_t i = 0; i < 3; i++) {
-      const int known = most > 0 && nsvcd__d3_dot(normals[i], *best) > 0.99999;
-      const size_t count = known ? 0 : nsvcd__undone(p, normals[i]);
-      if (count > most)
-        *best = normals[i];
-      most = count > most ? count : most;
-    }
+    for (size_t i = 0; i < 3; i++)
+      nsvcd__try_lift(p, normals[i], &most, best);
   }
   for (size_t k = 0; k < 9 && most == 0; k++) {  // an edge on an edge
     const nsvcd__touch *t = &p->of.touches[0];
     const nsvcd__d3 u = nsvcd__d3_sub(t->moving[(k + 1) % 3], t->moving[k % 3]);
     const nsvcd__d3 v = nsvcd__d3_sub(t->fixed[(k / 3 + 1) % 3], t->fixed[k / 3]);
-    const nsvcd__d3 n = nsvcd__d3_unit(nsvcd__d3_cross(u, v), none);
+    const nsvcd__d3 n = nsvcd__d3_unit(nsvcd__d3_cross(u, v), nsvcd__d3_of(0, 0, 0));
     nsvcd__d3 normals[3];
     nsvcd__touch_normals(t, normals);
     const double side = nsvcd__d3_dot(n, nsvcd__d3_add(normals[0], normals[1])) < 0 ? -1 : 1;
-    const nsvcd__d3 outward = nsvcd__d3_scale(n, side);
-    const size_t count = nsvcd__d3_dot(n, n) > 0.5 ? nsvcd__undone(p, outward) : 0;
-    if (count > most)
-      *best = outward;
-    most = count > most ? count : most;
+    nsvcd__try_lift(p, nsvcd__d3_scale(n, side), &most, best);
   }
-  return most;
+  return most > 0;
 }
 
 // Finds directions that undo all that was gathered. 0: there are none for something, or too many.
 static int nsvcd__choose_lifts(nsvcd__proof *p) {
   while (p->touch_count > 0) {
     nsvcd__d3 best = {0, 0, 0};
-    if (p->normal_count == NSVCD__LIFTS || nsvcd__best_lift(p, &best) == 0)
+    if (p->normal_count == NSVCD__LIFTS || !nsvcd__best_lift(p, &best))
       return 0;
     p->normals[p->normal_count++] = best;
     size_t left = 0;
@@ -13062,30 +13084,41 @@ static nsvcd__d3 nsvcd__lift_off(const nsvcd__proof *p) {
   return nsvcd__d3_of(0, 0, 0);
 }
 
-// Lifts the motion off what it touches at its start.
+// Lifts the motion off what it touches at its start: by nothing at first, and whenever something
+// touches at the start so lifted, by more, until nothing does. Triangles smaller than the skin can
+// be parted along a wall that others of them stay in touch with, and there may be too many touches
+// to look at together: so what has been found is tried. If there is no way off all that was found,
+// then what was found first may have been the wrong way, and is forgotten, once.
 static NSVCD__APART void nsvcd__lift_motion(nsvcd__proof *p, nsvcd__search *search) {
   nsvcd__motion *whole = p->motion;
   nsvcd__motion start = *whole;
   start.moving.count = start.fixed.count = 1;
   start.fixed_moves = 0;
-  const double clearance = p->clearance;
   p->motion = &start;
   p->normal_count = 0;
   // what is about to touch is lifted off too
-  p->clearance += 0.05 * p->skin;
+  p->clearance = p->asked + 0.05 * p->skin;
   p->gathers = 1;
-  int liftable = 1;
-  // as many times as there are too many contacts to look at together
-  for (int more = 1; more && liftable;) {
+  for (int turns = 0, more = 1; more;) {
     nsvcd__proof_restart(p);
     nsvcd__gather_contacts(p, search);
-    more = p->touch_count > 0;
-    liftable = nsvcd__choose_lifts(p);
+    if (p->touch_count == 0)
+      break;
+    const size_t known = p->normal_count;
+    more = nsvcd__choose_lifts(p) && p->normal_count > known;
+    nsvcd__d3 lift = nsvcd__lift_off(p);
+    if (more && !(nsvcd__d3_dot(lift, lift) > 0) && turns++ == 0) {
+      memmove(p->normals, p->normals + 1, --p->normal_count * sizeof *p->normals);
+      lift = nsvcd__lift_off(p);
+    }
+    more &= nsvcd__d3_dot(lift, lift) > 0;
+    start.lift = more ? nsvcd__f3_round(lift) : nsvcd__f3_of(0, 0, 0);
+    p->clearance = p->asked;
   }
   p->gathers = 0;
-  p->clearance = clearance;
+  p->clearance = p->asked;
   p->motion = whole;
-  whole->lift = nsvcd__f3_round(liftable ? nsvcd__lift_off(p) : nsvcd__d3_of(0, 0, 0));
+  whole->lift = start.lift;
   nsvcd__proof_restart(p);
 }
 #endif  // NSVCD_NO_PROOF
@@ -14534,14 +14567,14 @@ static nsvcd__to_world nsvcd__to_world_at(const nsvcd__motion *motion, double t)
 
 // Has a proof found triangles that an answer is to name? If not a contact, then a doubt.
 static int nsvcd__names_triangles(const nsvcd__proof *p, nsvcd__verdict verdict) {
-  const int is_doubt = verdict == NSVCD__UNDECIDED && p->unsure < NSVCD__NEVER;
-  return p->has_contact || is_doubt;
+  const int is_doubt = verdict == NSVCD__UNDECIDED && p->known.unsure < NSVCD__NEVER;
+  return p->known.has_contact || is_doubt;
 }
 
 // Answers with the contact that a proof has found: when, where, and of what. swapped: it is the
 // fixed body that counts as lifted, the other way.
 static void nsvcd__answer_with_contact(const nsvcd__proof *p, int swapped, nsvcd_answer *answer) {
-  const nsvcd__contact *found = &p->found;
+  const nsvcd__contact *found = &p->known.found;
   const int rests = p->motion->moving.count == 1 && !p->motion->fixed_moves;
   const double time = rests ? 0 : found->tick / (double)p->motion->ticks;
   const nsvcd__to_world world = nsvcd__to_world_at(p->motion, time);
@@ -14574,8 +14607,9 @@ static void nsvcd__answer_with_bounds(const nsvcd__proof *p, nsvcd__verdict verd
   if (verdict == NSVCD__WITHIN) {
     answer->clearance_high = 0;
   } else if (nsvcd__names_triangles(p, verdict)) {
-    const float quanta = nsvcd__quanta_of(p, p->found.moving_patch, p->found.fixed_patch);
-    const double distance = p->found.distance + (double)quanta;
+    const float quanta =
+        nsvcd__quanta_of(p, p->known.found.moving_patch, p->known.found.fixed_patch);
+    const double distance = p->known.found.distance + (double)quanta;
     answer->clearance_high = (float)(distance * unit * (1 + 1e-6));
   }
 }
@@ -14586,7 +14620,7 @@ static NSVCD__APART nsvcd__verdict nsvcd__prove_start(nsvcd__proof *p, nsvcd__se
                                                       nsvcd__verdict verdict) {
   nsvcd__motion *whole = p->motion;
   nsvcd__motion start = *whole;
-  const nsvcd__contact found = p->found;
+  const nsvcd__contact found = p->known.found;
   const double first = p->first;
   start.moving.count = start.fixed.count = 1;
   start.fixed_moves = 0;
@@ -14595,17 +14629,17 @@ static NSVCD__APART nsvcd__verdict nsvcd__prove_start(nsvcd__proof *p, nsvcd__se
   nsvcd__proof_restart(p);
   const nsvcd__verdict at_start = nsvcd__prove(p, search);
   if (at_start == NSVCD__MEETS || at_start == NSVCD__WITHIN) {
-    p->found.tick = 0;
+    p->known.found.tick = 0;
     verdict = at_start;
   } else {
-    p->found = found;
+    p->known.found = found;
   }
   p->motion = whole;
   p->first = first;
-  p->has_contact = 1;
+  p->known.has_contact = 1;
   p->end = 0;
-  p->unsure = NSVCD__NEVER;
-  p->lost = 0;
+  p->known.unsure = NSVCD__NEVER;
+  p->known.lost = 0;
   return verdict;
 }
 
@@ -14638,7 +14672,7 @@ static nsvcd__f3 nsvcd__lift_of(const nsvcd__proof *p) {
 
 // What a proof that has measured the least distance says of the clearance that was asked for.
 static nsvcd__verdict nsvcd__verdict_of_distance(const nsvcd__proof *p, double clearance) {
-  const int is_near = p->has_contact && p->found.distance <= clearance;
+  const int is_near = p->known.has_contact && p->known.found.distance <= clearance;
   if (is_near)
     return NSVCD__MEETS;
   const int is_clear = p->clearance >= clearance;
@@ -14670,7 +14704,7 @@ static void nsvcd__answer_by_proof(nsvcd__task *task, nsvcd__query *query, nsvcd
   if (p->skin > 0)
     nsvcd__lift_motion(p, search);
   nsvcd__verdict verdict = nsvcd__prove(p, search);
-  if (p->first > 0 && p->has_contact && nsvcd__clear_until(p) <= 0 && p->found.tick > 0)
+  if (p->first > 0 && p->known.has_contact && nsvcd__clear_until(p) <= 0 && p->known.found.tick > 0)
     verdict = nsvcd__prove_start(p, search, verdict);
 
   nsvcd__answer_free(answer);
@@ -15757,6 +15791,7 @@ static nsvcd_result nsvcd__sweep_gradient(const nsvcd_question *question, void *
 #define nsvcd__enclosure NSVCD__AT(enclosure)
 #define nsvcd__exists NSVCD__AT(exists)
 #define nsvcd__f3_towards NSVCD__AT(f3_towards)
+#define nsvcd__face_direction NSVCD__AT(face_direction)
 #define nsvcd__face_normal NSVCD__AT(face_normal)
 #define nsvcd__facet_vertices NSVCD__AT(facet_vertices)
 #define nsvcd__farthest_axis NSVCD__AT(farthest_axis)
@@ -15827,6 +15862,7 @@ static nsvcd_result nsvcd__sweep_gradient(const nsvcd_question *question, void *
 #define nsvcd__knots_keep NSVCD__AT(knots_keep)
 #define nsvcd__knots_load NSVCD__AT(knots_load)
 #define nsvcd__knots_read NSVCD__AT(knots_read)
+#define nsvcd__known NSVCD__AT(known)
 #define nsvcd__lane_of NSVCD__AT(lane_of)
 #define nsvcd__lane_set NSVCD__AT(lane_set)
 #define nsvcd__lanes_near NSVCD__AT(lanes_near)
@@ -16013,6 +16049,7 @@ static nsvcd_result nsvcd__sweep_gradient(const nsvcd_question *question, void *
 #define nsvcd__triangles_meet NSVCD__AT(triangles_meet)
 #define nsvcd__triangles_nearest NSVCD__AT(triangles_nearest)
 #define nsvcd__triangles_pass NSVCD__AT(triangles_pass)
+#define nsvcd__try_lift NSVCD__AT(try_lift)
 #define nsvcd__turn NSVCD__AT(turn)
 #define nsvcd__turn_answer NSVCD__AT(turn_answer)
 #define nsvcd__turn_between NSVCD__AT(turn_between)
