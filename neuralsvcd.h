@@ -8075,6 +8075,7 @@ typedef struct nsvcd__track {
 typedef struct nsvcd__motion {
   nsvcd__track moving, fixed;
   uint32_t ticks;            // in all
+  double duration;           // of t: 1, or 0 of the start alone
   int fixed_moves;           // else it has one pose
   float scale;               // of the moving body, over that of the fixed one,
   float per_scale;           // and the other way round
@@ -8189,6 +8190,7 @@ static void nsvcd__motion_init(const nsvcd_mover *moving, const nsvcd_mover *fix
   motion->scale = nsvcd__scale_of(moving) / motion->unit;
   motion->per_scale = 1 / motion->scale;
   motion->lift = nsvcd__f3_of(0, 0, 0);
+  motion->duration = 1;
   nsvcd__motion_set_ticks(motion, 1);
 
   const nsvcd_pose *first = motion->fixed.poses;
@@ -8205,14 +8207,12 @@ static void nsvcd__motion_init(const nsvcd_mover *moving, const nsvcd_mover *fix
   motion->high = nsvcd__f3_sub(motion->high, fixed_low);
 }
 
-// Does the moving body's origin always stay more than `distance`, in the fixed body's units, from
-// the fixed one's?
-static int nsvcd__motion_is_far(const nsvcd__motion *motion, float distance) {
-  const float metres = motion->unit * distance;
+// In the fixed body's units: the moving body's origin always stays so far from the fixed one's.
+static float nsvcd__motion_gap(const nsvcd__motion *motion) {
   const nsvcd__f3 above = nsvcd__f3_scale(motion->high, -1);
   const nsvcd__f3 gap = nsvcd__f3_max(motion->low, above);
   const nsvcd__f3 apart = nsvcd__f3_max(gap, nsvcd__f3_of(0, 0, 0));
-  return nsvcd__f3_dot(apart, apart) > 1.00001f * metres * metres;
+  return 0.99999f * nsvcd__f3_length(apart) / motion->unit;
 }
 
 // Is the shorter arc from a to b the one to -b?
@@ -9839,6 +9839,7 @@ static void nsvcd__candidates_start(nsvcd__candidates *kept, nsvcd__candidate *i
 #define NSVCD__REST_HEIGHTS 64  // and of resting ones
 // What no plane parts is settled by its triangles, arc by arc.
 #define NSVCD__ITEMS 256  // room for such items; when it is full they are settled first
+#define NSVCD__LONG 256   // units, before the ends of the motion are looked at by themselves
 #define NSVCD__WINDOW 8   // blocks of a resting patch, loaded at once
 #define NSVCD__PATIENCE_TO_PART \
   12                             // parts that couples ask for, before the span is halved for all,
@@ -9849,6 +9850,8 @@ static void nsvcd__candidates_start(nsvcd__candidates *kept, nsvcd__candidate *i
 #define NSVCD__SAME_PLACE 1e-13  // of all lengths: a distance in double that is none
 #define NSVCD__IN_DOUBT 8        // the share of the limit, 1 / this, that goes on after a doubt
 // What else a question asks.
+#define NSVCD__GLANCE 200   // units, to find triangles that meet where one is within the other
+#define NSVCD__FINER 8      // times: from pass to pass, where the least distance is measured
 #define NSVCD__IN_ORDER 4   // segments searched together, where the first contact is sought
 #define NSVCD__TOUCHES 32   // contacts at the start, looked at together, where there is a skin
 #define NSVCD__LIFTS 6      // directions in which they are undone
@@ -9954,11 +9957,9 @@ typedef struct nsvcd__height {
 typedef struct nsvcd__known {
   int has_contact;
   nsvcd__contact found;  // if there is a contact, or WITHIN; UNDECIDED: the doubt, if there is one
-  int within;            // a component seems to be within the other body, but close to its surface
-  nsvcd__d3 enclosed;    // a point of that component; the fixed body's frame
   double unsure;         // ticks: when the first doubt begins, two triangles too near to tell
   nsvcd__contact doubt;  // what that is about
-  int lost;              // something else was left undecided: all from `settled` on
+  int lost;              // the work allowed was not enough: all from `settled` on is undecided
   double settled;        // ticks
 } nsvcd__known;
 
@@ -9974,9 +9975,14 @@ typedef struct nsvcd__proof {
   float lengths;     // extents of both bodies
   double tolerance;  // beyond the quanta
   double clearance, measure, first;
-  double asked;        // the clearance, as long as only farther contacts are known
-  size_t work, limit;  // units
+  double share;        // of the motion: `first`, as it is asked for
+  double asked;        // the clearance of the question
+  double low, high;    // while measuring: the least distance is known to be between these
+  size_t work, limit;  // units; and how many there may be now
+  size_t most;         // and in all
+  size_t in_doubt;     // that go on after a doubt
   double end;          // ticks: what begins then or later does not matter
+  int doubts_end;      // so is what begins with a doubt or later
 
   // With a skin, contacts at the start are not taken at first, but gathered: those that a lift
   // along no normal known undoes.
@@ -9986,6 +9992,11 @@ typedef struct nsvcd__proof {
   nsvcd__d3 normals[NSVCD__LIFTS];  // unit, of what the moving body touches, towards it
 
   nsvcd__known known;
+
+  // And of the start: containment.
+  int within;          // a component seems to be within the other body, but close to its surface
+  nsvcd__d3 enclosed;  // a point of that component; the fixed body's frame
+  int unclear;         // that could not be told
 
   // Segments as spans, made when they are asked for; and where one has been cut off.
   uint64_t spans_known;  // segments
@@ -10229,13 +10240,13 @@ static nsvcd__transform nsvcd__transform_of(const nsvcd__placement *at) {
 // ---- spans
 
 // The time at which so many ticks have gone by.
-static double nsvcd__time_of(const nsvcd__proof *p, double ticks) {
-  return ticks / (double)p->motion->ticks;
+static double nsvcd__time_of(const nsvcd__motion *motion, double ticks) {
+  return motion->duration * ticks / (double)motion->ticks;
 }
 
 // The time a share u of the arc last asked for later than its start.
 static double nsvcd__time_in_arc(const nsvcd__proof *p, double u) {
-  return nsvcd__time_of(p, (double)p->arc.first + u * (double)p->arc.ticks);
+  return nsvcd__time_of(p->motion, (double)p->arc.first + u * (double)p->arc.ticks);
 }
 
 static nsvcd__span nsvcd__span_of_segment(const nsvcd__motion *motion, const nsvcd__search *search,
@@ -10257,8 +10268,8 @@ static nsvcd__span nsvcd__span_of_segment(const nsvcd__motion *motion, const nsv
   span.bulge_along_axis = block->bulge_along_axis[l];
   span.drift_along_axis = block->drift_along_axis[l];
   span.drift_off_way = block->drift_off_way[l];
-  span.t_start = (double)search->begin[s] / (double)motion->ticks;
-  span.t_end = (double)search->begin[s + 1] / (double)motion->ticks;
+  span.t_start = nsvcd__time_of(motion, (double)search->begin[s]);
+  span.t_end = nsvcd__time_of(motion, (double)search->begin[s + 1]);
   return span;
 }
 
@@ -10267,7 +10278,7 @@ static const nsvcd__span *nsvcd__segment_span(nsvcd__proof *p, const nsvcd__sear
                                               size_t s) {
   if (!(p->spans_known >> s & 1)) {
     p->spans[s] = nsvcd__span_of_segment(p->motion, search, s);
-    p->spans[s].t_end = fmin(p->spans[s].t_end, nsvcd__time_of(p, p->end));
+    p->spans[s].t_end = fmin(p->spans[s].t_end, nsvcd__time_of(p->motion, p->end));
   }
   p->spans_known |= (uint64_t)1 << s;
   return &p->spans[s];
@@ -10359,8 +10370,25 @@ NSVCD__INLINE nsvcd__v nsvcd__v_deviation(const nsvcd__v_span *span, nsvcd__v3 n
   return nsvcd__v_fma(turn, nsvcd__v_set(reach), nsvcd__v_min(by_axis, by_way));
 }
 
-// Is all work done that is allowed?
-static int nsvcd__is_spent(const nsvcd__proof *p) {
+// A limit that leaves so many units, if there are as many.
+static size_t nsvcd__limit_after(const nsvcd__proof *p, size_t units) {
+  const size_t left = p->work < p->most ? p->most - p->work : 0;
+  return left > units ? p->work + units : p->most;
+}
+
+// What the search for the first contact may take. The rest is for the question whether there is any.
+static size_t nsvcd__limit_of_first(const nsvcd__proof *p) {
+  return p->most - p->most / NSVCD__IN_DOUBT;
+}
+
+// Is all work done that is allowed? Where the first contact is sought, what a doubt has left for
+// contacts after it may be: then the doubt is the end, and what comes before it can be proven.
+static int nsvcd__is_spent(nsvcd__proof *p) {
+  if (p->work > p->limit && p->first > 0 && !p->doubts_end && p->known.unsure < p->end) {
+    p->doubts_end = 1;
+    p->end = p->known.unsure;
+    p->limit = nsvcd__limit_of_first(p);
+  }
   return p->work > p->limit;
 }
 
@@ -11115,10 +11143,8 @@ static nsvcd__verdict nsvcd__take_contact(nsvcd__proof *p, const nsvcd__couple *
   p->known.has_contact = 1;
   p->known.found = nsvcd__contact_at(p, couple, u, nearest);
   if (p->measure > 0) {
-    const int touches = !(p->known.found.distance > 0);
-    const double least = p->known.found.distance > p->asked ? p->asked : 0;
-    p->clearance = touches ? 0 : fmax(least, p->known.found.distance - p->measure);
-    return touches ? NSVCD__MEETS : NSVCD__TAKEN;
+    p->clearance = fmax(p->low, p->known.found.distance - p->measure);
+    return p->clearance > p->low ? NSVCD__TAKEN : NSVCD__MEETS;
   }
   if (p->first > 0) {
     p->end = p->known.found.tick - p->first;
@@ -11133,7 +11159,7 @@ static NSVCD__APART void nsvcd__take_doubt(nsvcd__proof *p, const nsvcd__couple 
   const double tick = (double)p->arc.first + u0 * (double)p->arc.ticks;
   const double middle = 0.5 * (u0 + u1);
   nsvcd__d3 posed[3];
-  const size_t left = p->limit / NSVCD__IN_DOUBT;
+  const size_t left = p->in_doubt;
   if (!(p->known.unsure < NSVCD__NEVER) && p->work + left < p->limit)
     p->limit = p->work + left;
   if (!(tick < p->known.unsure))
@@ -11142,6 +11168,8 @@ static NSVCD__APART void nsvcd__take_doubt(nsvcd__proof *p, const nsvcd__couple 
   const nsvcd__nearest nearest = nsvcd__triangles_nearest(posed, couple->fixed);
   p->known.doubt = nsvcd__contact_at(p, couple, middle, &nearest);
   p->known.unsure = tick;
+  if (p->doubts_end)
+    p->end = fmin(p->end, tick);
 }
 
 // What of the arc matters: the share of it at which the rest does not.
@@ -11316,15 +11344,21 @@ static nsvcd__verdict nsvcd__settle_short_part(nsvcd__proof *p, const nsvcd__cou
   const nsvcd__verdict passage = nsvcd__find_passage(p, couple, u, end, speed);
   if (passage == NSVCD__MEETS || passage == NSVCD__TAKEN)
     return passage;
-  // say less, but for certain
-  if (p->measure > 0 && p->clearance > 0) {
-    const double close = couple->slack + p->tolerance;
-    const double least = p->clearance > p->asked ? p->asked : 0;
-    p->clearance = fmax(least, p->clearance - 2 * close);
-    return NSVCD__FREE;
+  if (!(p->measure > 0)) {
+    nsvcd__take_doubt(p, couple, u, end);
+    return NSVCD__UNDECIDED;
   }
-  nsvcd__take_doubt(p, couple, u, end);
-  return NSVCD__UNDECIDED;
+  // say less, but for certain: these come no nearer than that
+  const double middle = 0.5 * (u + end);
+  nsvcd__d3 posed[3];
+  nsvcd__place_triangle(nsvcd__placed_at(p, middle), couple->moving, posed);
+  const nsvcd__nearest nearest = nsvcd__triangles_nearest(posed, couple->fixed);
+  const double distance = sqrt(nearest.square);
+  if (!p->known.has_contact || distance < p->known.found.distance)
+    (void)nsvcd__take_contact(p, couple, middle, &nearest);
+  const double parted = distance - 2 * (couple->slack + p->tolerance);
+  p->clearance = fmax(p->low, fmin(p->clearance, parted));
+  return p->clearance > p->low ? NSVCD__FREE : NSVCD__MEETS;
 }
 
 // Settles a couple from u0 to u1 of the arc: halves the time until, in each part, a plane parts the
@@ -11846,6 +11880,33 @@ static nsvcd__verdict nsvcd__seek_item(nsvcd__proof *p, const nsvcd__search *sea
   return nsvcd__find_witness(p, item->moving, item->fixed, first, u);
 }
 
+// The same at the start, and at the end of the motion, if the item's spheres meet there: bodies may
+// meet nowhere else.
+static nsvcd__verdict nsvcd__seek_item_at_ends(nsvcd__proof *p, const nsvcd__search *search,
+                                               const nsvcd__item *item) {
+  const nsvcd__motion *motion = p->motion;
+  const nsvcd__f3 centre = nsvcd__facet_centre(&p->moving, item->moving);
+  const nsvcd__f3 place = nsvcd__facet_centre(&p->fixed, item->fixed);
+  const float own = motion->scale * nsvcd__body_r(p->moving.body)[item->moving];
+  const float reach = own + nsvcd__body_r(p->fixed.body)[item->fixed] + nsvcd__clearance_of(p);
+  for (int at_end = 0; at_end < 2; at_end++) {
+    const size_t outermost = at_end ? search->segments - 1 : 0;
+    const double tick = at_end ? (double)motion->ticks : 0;
+    double u;
+    if (item->segment != outermost || !(tick < p->end))
+      continue;
+    const nsvcd__span *span = nsvcd__segment_span(p, search, item->segment);
+    const nsvcd__f3 posed = nsvcd__f3_transform(at_end ? &span->end : &span->start, centre);
+    if (nsvcd__f3_length(nsvcd__f3_sub(posed, place)) > reach)
+      continue;
+    const uint32_t first = nsvcd__arc_and_share(motion, tick, &u);
+    const nsvcd__verdict verdict = nsvcd__find_witness(p, item->moving, item->fixed, first, u);
+    if (verdict != NSVCD__FREE)
+      return verdict;
+  }
+  return NSVCD__FREE;
+}
+
 // ---- what hulls leave
 
 // Lane l of the moving block, posed at both ends of a span from u0 to u1 of the arc, and block n of
@@ -12120,12 +12181,20 @@ static NSVCD__APART void nsvcd__clip_segment(nsvcd__proof *p, nsvcd__search *sea
   p->plane += p->plane > 0;
 }
 
-// Settles the items that no plane parts, in the order of nsvcd__comes_first.
+// Settles the items that no plane parts, in the order of nsvcd__comes_first. Where that takes long,
+// contacts are sought at the ends of the motion first.
 static NSVCD__APART nsvcd__verdict nsvcd__settle_items(nsvcd__proof *p, nsvcd__search *search) {
+  const size_t begun = p->work;
+  int sought = 0;
   nsvcd__sort_items(p, p->of.items, p->count);
   for (size_t n = 0; n < p->count; n++) {
     if (nsvcd__is_spent(p))
       return NSVCD__UNDECIDED;
+    for (size_t k = n; !sought && p->work > begun + NSVCD__LONG && k < p->count; k++) {
+      sought = k + 1 == p->count;
+      if (nsvcd__seek_item_at_ends(p, search, &p->of.items[k]) == NSVCD__MEETS)
+        return NSVCD__MEETS;
+    }
     const nsvcd__item *item = &p->of.items[n];
     nsvcd__clip_segment(p, search);
     if (!nsvcd__matters(p, search, item->segment))
@@ -12462,7 +12531,7 @@ static int nsvcd__is_enclosed(nsvcd__proof *p, const nsvcd__facets *f, double un
       continue;
     return crossings != 0;
   }
-  p->known.lost = 1;
+  p->unclear = 1;
   return 0;
 }
 
@@ -12548,7 +12617,7 @@ typedef struct nsvcd__enclosure {
 } nsvcd__enclosure;
 
 // Are some of the inner body's components, those with seeds from `first` to `end`, within the outer
-// one? Then p->known.enclosed has the point, and p->known.within is set; 1 if that is certain.
+// one? Then p->enclosed has the point, and p->within is set; 1 if that is certain.
 static int nsvcd__encloses_seeds(nsvcd__proof *p, const nsvcd__enclosure *e, size_t first,
                                  size_t end) {
   uint32_t nearby = 0;
@@ -12559,15 +12628,15 @@ static int nsvcd__encloses_seeds(nsvcd__proof *p, const nsvcd__enclosure *e, siz
     if (!(nearby >> l & 1))
       continue;
     if (nsvcd__is_spent(p)) {
-      p->known.lost = 1;
+      p->unclear = 1;
       return 0;
     }
     const nsvcd__d3 seed = nsvcd__d3_load(e->inner->seeds + 3 * n);
     const nsvcd__d3 seen = nsvcd__place_point(&e->start, seed);
     if (!nsvcd__is_enclosed(p, e->outer, e->unit, seen))
       continue;
-    p->known.enclosed = e->inner_moves ? seen : seed;
-    p->known.within = 1;
+    p->enclosed = e->inner_moves ? seen : seed;
+    p->within = 1;
     if (!nsvcd__surface_is_near(p, e->outer, seen, p->tolerance / e->unit))
       return 1;
   }
@@ -12593,15 +12662,15 @@ static int nsvcd__encloses_any(nsvcd__proof *p, const nsvcd__enclosure *e) {
   size_t g;
   nsvcd__walk walk;
   nsvcd__walk_begin(&walk, inner, nsvcd__is_around, &here);
-  while (!p->known.lost && nsvcd__walk_next(&walk, &g)) {
+  while (!p->unclear && nsvcd__walk_next(&walk, &g)) {
     if (nsvcd__encloses_seeds(p, e, e->inner->first_seed[g], e->inner->first_seed[g + 1]))
       return 1;
   }
   return 0;
 }
 
-// Is a component of one body within the other at the start of the motion? Then p->known.enclosed is its
-// point. Where that is so close to the surface that quanta matter, 0 is returned and p->known.within is
+// Is a component of one body within the other at the start of the motion? Then p->enclosed is its
+// point. Where that is so close to the surface that quanta matter, 0 is returned and p->within is
 // set: if planes then part all patches at t = 0, the point, the stored surface and the true one,
 // patch by patch on one side of a plane, agree, and it is within.
 static NSVCD__APART int nsvcd__starts_within(nsvcd__proof *p) {
@@ -12898,7 +12967,7 @@ static nsvcd__verdict nsvcd__prove_in_order(nsvcd__proof *p, nsvcd__search *sear
 // What is said of a component that is within the other body, whatever contacts were found since.
 static nsvcd__verdict nsvcd__is_within(nsvcd__proof *p) {
   memset(&p->known.found, 0, sizeof p->known.found);
-  p->known.found.point = p->known.enclosed;
+  p->known.found.point = p->enclosed;
   p->known.found.moving_triangle = NSVCD_NO_TRIANGLE;
   p->known.found.fixed_triangle = NSVCD_NO_TRIANGLE;
   return NSVCD__WITHIN;
@@ -12906,56 +12975,17 @@ static nsvcd__verdict nsvcd__is_within(nsvcd__proof *p) {
 
 // Ticks: nothing meets before this, or NEVER.
 static double nsvcd__clear_until(const nsvcd__proof *p) {
+  if (p->unclear)
+    return 0;
   return fmin(fmin(p->end, p->known.unsure), p->known.lost ? p->known.settled : NSVCD__NEVER);
-}
-
-// What is said of triangles that came too near to tell, unless, with `measure`, others came nearer.
-static nsvcd__verdict nsvcd__is_undecided(nsvcd__proof *p) {
-  const int is_nearer = !p->known.has_contact || p->known.doubt.distance < p->known.found.distance;
-  if (p->known.unsure < NSVCD__NEVER && is_nearer)
-    p->known.found = p->known.doubt;
-  return NSVCD__UNDECIDED;
-}
-
-static nsvcd__verdict nsvcd__prove(nsvcd__proof *p, nsvcd__search *search) {
-  const float lifted = nsvcd__f3_length(p->motion->lift);
-  const float apart = p->lengths + nsvcd__clearance_of(p) + 1.0001f * lifted;
-  if (!(p->measure > 0) && nsvcd__motion_is_far(p->motion, apart)) {
-    return NSVCD__FREE;
-  }
-  nsvcd__choose_segments(p->motion, search);
-  p->first *= (double)p->motion->ticks;
-  if (nsvcd__starts_within(p))
-    return nsvcd__is_within(p);
-  if (p->measure > 0)
-    p->clearance = nsvcd__guess_clearance(p, search);
-  nsvcd__cut_segments(p->motion, p->lengths, nsvcd__clearance_of(p), search);
-  nsvcd__search_begin(p->moving.body, p->fixed.body, search);
-  const nsvcd__verdict verdict =
-      p->first > 0 ? nsvcd__prove_in_order(p, search) : nsvcd__prove_tiles(p, search);
-  if (p->known.lost)
-    p->known.settled = 0;  // whether one is within the other, at the start
-  p->known.lost |= verdict == NSVCD__UNDECIDED;
-  if (verdict == NSVCD__MEETS)
-    return verdict;
-  const double clear = nsvcd__clear_until(p);
-  if (p->known.within && clear > 0)
-    return nsvcd__is_within(p);
-  if (p->first > 0 && p->known.has_contact)
-    return NSVCD__MEETS;
-  if (clear < NSVCD__NEVER)
-    return nsvcd__is_undecided(p);
-  return p->known.has_contact ? NSVCD__MEETS : NSVCD__FREE;
 }
 
 // Makes a proof forget all that it knew of a motion.
 static void nsvcd__proof_restart(nsvcd__proof *p) {
+  memset(&p->known, 0, sizeof p->known);
   p->end = p->clipped_end = p->known.unsure = NSVCD__NEVER;
+  p->doubts_end = 0;
   p->clipped = 0;
-  p->known.has_contact = 0;
-  p->known.lost = 0;
-  p->known.settled = 0;
-  p->known.within = 0;
   p->count = p->fresh_count = 0;
   p->spans_known = 0;
   p->held = nsvcd__f3_of(0, 0, 0);
@@ -12969,6 +12999,147 @@ static void nsvcd__proof_restart(nsvcd__proof *p) {
   p->next_placed = 0;
   for (size_t n = 0; n < NSVCD__PLACED; n++)
     p->placed[n].ticks = 0;
+}
+
+// Searches the motion from its beginning, and settles what is found. UNDECIDED: the work allowed
+// was not enough.
+static nsvcd__verdict nsvcd__prove_motion(nsvcd__proof *p, nsvcd__search *search) {
+  nsvcd__proof_restart(p);
+  nsvcd__choose_segments(p->motion, search);
+  nsvcd__cut_segments(p->motion, p->lengths, nsvcd__clearance_of(p), search);
+  nsvcd__search_begin(p->moving.body, p->fixed.body, search);
+  p->first = p->share * (double)p->motion->ticks;
+  const nsvcd__verdict verdict =
+      p->first > 0 ? nsvcd__prove_in_order(p, search) : nsvcd__prove_tiles(p, search);
+  p->known.lost = verdict == NSVCD__UNDECIDED;
+  return verdict;
+}
+
+// The pose at the start of a motion, as a motion of its own.
+static nsvcd__motion nsvcd__start_of(const nsvcd__motion *motion) {
+  nsvcd__motion start = *motion;
+  start.moving.count = start.fixed.count = 1;
+  start.fixed_moves = 0;
+  start.duration = 0;
+  return start;
+}
+
+// A look at the start alone, which takes so many units at most: do triangles meet there? Then that
+// is the contact that is known, and nothing comes before it. If not, all that was known is lost.
+static int nsvcd__meets_at_start(nsvcd__proof *p, nsvcd__search *search, size_t units) {
+  nsvcd__motion *whole = p->motion;
+  nsvcd__motion start = nsvcd__start_of(whole);
+  const double share = p->share;
+  p->motion = &start;
+  p->share = 0;
+  p->limit = nsvcd__limit_after(p, units);
+  const int meets = nsvcd__prove_motion(p, search) == NSVCD__MEETS;
+  p->known.found.tick = 0;
+  p->end = 0;
+  p->motion = whole;
+  p->share = share;
+  return meets;
+}
+
+// When do they meet first? What is proven of that stays, also where there is no more work left, and
+// then it is asked whether they meet at all.
+static nsvcd__verdict nsvcd__prove_first(nsvcd__proof *p, nsvcd__search *search) {
+  const double share = p->share;
+  p->limit = nsvcd__limit_of_first(p);
+  const nsvcd__verdict verdict = nsvcd__prove_motion(p, search);
+  nsvcd__known known = p->known;
+  double end = p->end;
+  if (known.has_contact && nsvcd__clear_until(p) <= 0 && known.found.tick > 0) {
+    // so early that they may meet at the start already
+    if (nsvcd__meets_at_start(p, search, p->most))
+      return NSVCD__MEETS;
+  } else if (!known.has_contact && (known.lost || p->doubts_end)) {
+    p->share = 0;
+    p->limit = p->most;
+    const nsvcd__verdict any = nsvcd__prove_motion(p, search);
+    p->share = share;
+    if (any == NSVCD__FREE && !(p->known.unsure < NSVCD__NEVER))
+      return any;
+    known.has_contact = p->known.has_contact;
+    known.found = p->known.found;
+  }
+  p->known = known;
+  p->end = end;
+  return verdict;
+}
+
+// The verdict on what is known in the end.
+static nsvcd__verdict nsvcd__conclude(nsvcd__proof *p, nsvcd__verdict verdict) {
+  const double clear = nsvcd__clear_until(p);
+  if (verdict == NSVCD__MEETS)
+    return verdict;
+  if (p->within && clear > 0)
+    return nsvcd__is_within(p);
+  if (p->known.has_contact)
+    return NSVCD__MEETS;
+  if (p->known.unsure < NSVCD__NEVER)
+    p->known.found = p->known.doubt;
+  return clear < NSVCD__NEVER ? NSVCD__UNDECIDED : NSVCD__FREE;
+}
+
+static nsvcd__verdict nsvcd__prove(nsvcd__proof *p, nsvcd__search *search) {
+  const float lifted = nsvcd__f3_length(p->motion->lift);
+  const float apart = p->lengths + nsvcd__clearance_of(p) + 1.0001f * lifted;
+  p->limit = p->most;
+  p->in_doubt = p->most / (p->share > 0 ? 2 * NSVCD__IN_DOUBT : NSVCD__IN_DOUBT);
+  if (nsvcd__motion_gap(p->motion) > apart)
+    return NSVCD__FREE;
+  nsvcd__choose_segments(p->motion, search);
+  if (nsvcd__starts_within(p)) {  // but triangles that meet say more
+    const int meets = nsvcd__meets_at_start(p, search, NSVCD__GLANCE);
+    return meets ? NSVCD__MEETS : nsvcd__is_within(p);
+  }
+  const nsvcd__verdict verdict =
+      p->share > 0 ? nsvcd__prove_first(p, search) : nsvcd__prove_motion(p, search);
+  return nsvcd__conclude(p, verdict);
+}
+
+// ---- the least distance
+
+// One pass: a search whose question shrinks, for a bracket as narrow as p->measure. What was known
+// stays known, and what is found is added. Returns whether there was work enough.
+static int nsvcd__measure_once(nsvcd__proof *p, nsvcd__search *search) {
+  nsvcd__known known = p->known;
+  const int is_named = known.has_contact || known.unsure < NSVCD__NEVER;
+  p->clearance = is_named ? fmax(p->low, p->high - p->measure) : p->high;
+  const nsvcd__verdict pass = nsvcd__prove_motion(p, search);
+  if (p->known.has_contact) {
+    known.has_contact = 1;
+    known.found = p->known.found;
+    p->high = known.found.distance;
+  }
+  p->known = known;
+  if (pass != NSVCD__UNDECIDED)
+    p->low = p->clearance;
+  return pass != NSVCD__UNDECIDED;
+}
+
+// Brackets the least distance over the motion, when it is known whether they come within the
+// clearance that is asked for. Where half of the work is not enough for that, the rest goes to
+// brackets that get narrower and narrower: the last one that there was work enough for stays.
+static void nsvcd__measure(nsvcd__proof *p, nsvcd__search *search, nsvcd__verdict verdict,
+                           double finest) {
+  const int is_named = p->known.has_contact || p->known.unsure < NSVCD__NEVER;
+  const float lifted = nsvcd__f3_length(p->motion->lift);
+  const float gap = nsvcd__motion_gap(p->motion) - p->lengths - 1.0001f * lifted;
+  p->low = fmax(verdict == NSVCD__FREE ? p->asked : 0, (double)gap);
+  nsvcd__choose_segments(p->motion, search);
+  p->high = is_named ? p->known.found.distance : nsvcd__guess_clearance(p, search);
+  if (is_named && !(p->high - p->low > finest))
+    return;
+  p->measure = finest;
+  p->limit = nsvcd__limit_after(p, p->most / 2);
+  int wide = !nsvcd__measure_once(p, search);
+  p->limit = p->most;
+  for (p->measure = p->high - p->low; wide && p->measure > finest;) {
+    p->measure = fmax(finest, p->measure / NSVCD__FINER);
+    wide = nsvcd__measure_once(p, search);
+  }
 }
 
 // ---- leaving a contact
@@ -13091,9 +13262,7 @@ static nsvcd__d3 nsvcd__lift_off(const nsvcd__proof *p) {
 // then what was found first may have been the wrong way, and is forgotten, once.
 static NSVCD__APART void nsvcd__lift_motion(nsvcd__proof *p, nsvcd__search *search) {
   nsvcd__motion *whole = p->motion;
-  nsvcd__motion start = *whole;
-  start.moving.count = start.fixed.count = 1;
-  start.fixed_moves = 0;
+  nsvcd__motion start = nsvcd__start_of(whole);
   p->motion = &start;
   p->normal_count = 0;
   // what is about to touch is lifted off too
@@ -14514,7 +14683,7 @@ static void nsvcd__answer_by_network(nsvcd__task *task, nsvcd__query *query, nsv
   (void)nsvcd__settings_of(task->options, task->moving->patches, task->fixed->patches,
                            &task->settings);
   nsvcd__answer_free(answer);
-  if (nsvcd__motion_is_far(&task->motion, task->lengths))
+  if (nsvcd__motion_gap(&task->motion) > task->lengths)
     return;
   nsvcd__cut_motion(&task->motion, task->lengths, &query->broad_phase);
 
@@ -14592,18 +14761,19 @@ static void nsvcd__answer_with_contact(const nsvcd__proof *p, int swapped, nsvcd
   memcpy(answer->normal, &normal, sizeof answer->normal);
 }
 
-// What is proven of clearances and times. measured: the least distance is known.
-static void nsvcd__answer_with_bounds(const nsvcd__proof *p, nsvcd__verdict verdict, int measured,
+// What is proven of clearances and times.
+static void nsvcd__answer_with_bounds(const nsvcd__proof *p, nsvcd__verdict verdict,
                                       nsvcd_answer *answer) {
   const double unit = (double)p->motion->unit;
   const double until = nsvcd__clear_until(p) / (double)p->motion->ticks;
   const int is_free = verdict == NSVCD__FREE;
   double proven = is_free;
-  if (!is_free && p->first > 0 && verdict != NSVCD__WITHIN)
+  if (!is_free && p->share > 0 && verdict != NSVCD__WITHIN)
     proven = fmin(fmax(until, 0), 1);
-  const double low = measured || is_free ? p->clearance : 0;
+  const double low = is_free ? fmax(p->asked, p->low) : p->low;
   answer->free_until = (float)(proven < 1 ? proven * (1 - 1e-7) : 1);
   answer->clearance_low = (float)(low * unit * (1 - 1e-6));
+  answer->clearance_high = (float)(p->high * unit * (1 + 1e-6));
   if (verdict == NSVCD__WITHIN) {
     answer->clearance_high = 0;
   } else if (nsvcd__names_triangles(p, verdict)) {
@@ -14612,35 +14782,6 @@ static void nsvcd__answer_with_bounds(const nsvcd__proof *p, nsvcd__verdict verd
     const double distance = p->known.found.distance + (double)quanta;
     answer->clearance_high = (float)(distance * unit * (1 + 1e-6));
   }
-}
-
-// A contact or a doubt so early that there may be a contact at the start already: then it is that.
-// If not, the verdict stays.
-static NSVCD__APART nsvcd__verdict nsvcd__prove_start(nsvcd__proof *p, nsvcd__search *search,
-                                                      nsvcd__verdict verdict) {
-  nsvcd__motion *whole = p->motion;
-  nsvcd__motion start = *whole;
-  const nsvcd__contact found = p->known.found;
-  const double first = p->first;
-  start.moving.count = start.fixed.count = 1;
-  start.fixed_moves = 0;
-  p->motion = &start;
-  p->first = 0;
-  nsvcd__proof_restart(p);
-  const nsvcd__verdict at_start = nsvcd__prove(p, search);
-  if (at_start == NSVCD__MEETS || at_start == NSVCD__WITHIN) {
-    p->known.found.tick = 0;
-    verdict = at_start;
-  } else {
-    p->known.found = found;
-  }
-  p->motion = whole;
-  p->first = first;
-  p->known.has_contact = 1;
-  p->end = 0;
-  p->known.unsure = NSVCD__NEVER;
-  p->known.lost = 0;
-  return verdict;
 }
 
 // Makes the proof ready for a question whose motion has been prepared.
@@ -14654,12 +14795,17 @@ static void nsvcd__proof_begin(nsvcd__task *task, nsvcd__query *query) {
   p->tolerance = (double)task->tolerance;
   p->clearance = (double)task->clearance;
   p->asked = p->clearance;
-  p->measure = (double)task->measure;
-  p->first = (double)task->first;
-  p->limit = task->work;
+  p->measure = 0;
+  p->low = 0;
+  p->high = HUGE_VAL;
+  p->share = (double)task->first;
+  p->first = 0;
+  p->most = p->limit = task->work;
   p->skin = (double)task->skin;
   p->gathers = 0;
   p->work = 0;
+  p->within = 0;
+  p->unclear = 0;
   nsvcd__proof_restart(p);
 }
 
@@ -14670,13 +14816,15 @@ static nsvcd__f3 nsvcd__lift_of(const nsvcd__proof *p) {
   return nsvcd__f3_round(nsvcd__d3_scale(lift, p->skin > 0 ? start.unit : 0));
 }
 
-// What a proof that has measured the least distance says of the clearance that was asked for.
-static nsvcd__verdict nsvcd__verdict_of_distance(const nsvcd__proof *p, double clearance) {
-  const int is_near = p->known.has_contact && p->known.found.distance <= clearance;
-  if (is_near)
+// Measures the least distance, and decides by that what was left undecided.
+static nsvcd__verdict nsvcd__verdict_of_distance(nsvcd__proof *p, nsvcd__search *search,
+                                                 double measure, nsvcd__verdict verdict) {
+  nsvcd__measure(p, search, verdict, measure);
+  if (verdict != NSVCD__UNDECIDED)
+    return verdict;
+  if (p->known.has_contact && p->known.found.distance <= p->asked)
     return NSVCD__MEETS;
-  const int is_clear = p->clearance >= clearance;
-  return is_clear ? NSVCD__FREE : NSVCD__UNDECIDED;
+  return p->low > 0 && p->low >= p->asked ? NSVCD__FREE : NSVCD__UNDECIDED;
 }
 
 static nsvcd_status nsvcd__status_of(nsvcd__verdict verdict) {
@@ -14704,17 +14852,14 @@ static void nsvcd__answer_by_proof(nsvcd__task *task, nsvcd__query *query, nsvcd
   if (p->skin > 0)
     nsvcd__lift_motion(p, search);
   nsvcd__verdict verdict = nsvcd__prove(p, search);
-  if (p->first > 0 && p->known.has_contact && nsvcd__clear_until(p) <= 0 && p->known.found.tick > 0)
-    verdict = nsvcd__prove_start(p, search, verdict);
+  if (task->measure > 0 && verdict != NSVCD__WITHIN)
+    verdict = nsvcd__verdict_of_distance(p, search, (double)task->measure, verdict);
 
   nsvcd__answer_free(answer);
   answer->work = p->work;
   if (nsvcd__names_triangles(p, verdict) || verdict == NSVCD__WITHIN)
     nsvcd__answer_with_contact(p, task->swapped, answer);
-  const int measured = p->measure > 0 && (verdict == NSVCD__FREE || verdict == NSVCD__MEETS);
-  if (measured)
-    verdict = nsvcd__verdict_of_distance(p, (double)task->clearance);
-  nsvcd__answer_with_bounds(p, verdict, measured, answer);
+  nsvcd__answer_with_bounds(p, verdict, answer);
   nsvcd__f3_store(nsvcd__lift_of(p), answer->lift);
   answer->status = nsvcd__status_of(verdict);
   answer->collides = verdict != NSVCD__FREE;
@@ -15745,6 +15890,7 @@ static nsvcd_result nsvcd__sweep_gradient(const nsvcd_question *question, void *
 #define nsvcd__comes_near NSVCD__AT(comes_near)
 #define nsvcd__comes_within NSVCD__AT(comes_within)
 #define nsvcd__common_divisor NSVCD__AT(common_divisor)
+#define nsvcd__conclude NSVCD__AT(conclude)
 #define nsvcd__constants_hold NSVCD__AT(constants_hold)
 #define nsvcd__contact NSVCD__AT(contact)
 #define nsvcd__contact_at NSVCD__AT(contact_at)
@@ -15850,7 +15996,6 @@ static nsvcd_result nsvcd__sweep_gradient(const nsvcd_question *question, void *
 #define nsvcd__is_shallower NSVCD__AT(is_shallower)
 #define nsvcd__is_spent NSVCD__AT(is_spent)
 #define nsvcd__is_swapped NSVCD__AT(is_swapped)
-#define nsvcd__is_undecided NSVCD__AT(is_undecided)
 #define nsvcd__is_within NSVCD__AT(is_within)
 #define nsvcd__item NSVCD__AT(item)
 #define nsvcd__item_is_parted NSVCD__AT(item_is_parted)
@@ -15884,22 +16029,27 @@ static nsvcd_result nsvcd__sweep_gradient(const nsvcd_question *question, void *
 #define nsvcd__lift_motion NSVCD__AT(lift_motion)
 #define nsvcd__lift_of NSVCD__AT(lift_of)
 #define nsvcd__lift_off NSVCD__AT(lift_off)
+#define nsvcd__limit_after NSVCD__AT(limit_after)
+#define nsvcd__limit_of_first NSVCD__AT(limit_of_first)
 #define nsvcd__margin_along NSVCD__AT(margin_along)
 #define nsvcd__mat3_lane NSVCD__AT(mat3_lane)
 #define nsvcd__matters NSVCD__AT(matters)
 #define nsvcd__may_be_close NSVCD__AT(may_be_close)
 #define nsvcd__mean_direction NSVCD__AT(mean_direction)
+#define nsvcd__measure NSVCD__AT(measure)
+#define nsvcd__measure_once NSVCD__AT(measure_once)
 #define nsvcd__measure_turn NSVCD__AT(measure_turn)
 #define nsvcd__meet NSVCD__AT(meet)
 #define nsvcd__meet_in NSVCD__AT(meet_in)
 #define nsvcd__meet_members NSVCD__AT(meet_members)
 #define nsvcd__meetings NSVCD__AT(meetings)
 #define nsvcd__meetings_of NSVCD__AT(meetings_of)
+#define nsvcd__meets_at_start NSVCD__AT(meets_at_start)
 #define nsvcd__members_against_patch NSVCD__AT(members_against_patch)
 #define nsvcd__method_of NSVCD__AT(method_of)
 #define nsvcd__motion NSVCD__AT(motion)
+#define nsvcd__motion_gap NSVCD__AT(motion_gap)
 #define nsvcd__motion_init NSVCD__AT(motion_init)
-#define nsvcd__motion_is_far NSVCD__AT(motion_is_far)
 #define nsvcd__motion_pose NSVCD__AT(motion_pose)
 #define nsvcd__motion_set_ticks NSVCD__AT(motion_set_ticks)
 #define nsvcd__mover_check NSVCD__AT(mover_check)
@@ -15945,9 +16095,10 @@ static nsvcd_result nsvcd__sweep_gradient(const nsvcd_question *question, void *
 #define nsvcd__proof_constants_hold NSVCD__AT(proof_constants_hold)
 #define nsvcd__proof_restart NSVCD__AT(proof_restart)
 #define nsvcd__prove NSVCD__AT(prove)
+#define nsvcd__prove_first NSVCD__AT(prove_first)
 #define nsvcd__prove_in_order NSVCD__AT(prove_in_order)
+#define nsvcd__prove_motion NSVCD__AT(prove_motion)
 #define nsvcd__prove_segments NSVCD__AT(prove_segments)
-#define nsvcd__prove_start NSVCD__AT(prove_start)
 #define nsvcd__prove_tile_in_order NSVCD__AT(prove_tile_in_order)
 #define nsvcd__prove_tiles NSVCD__AT(prove_tiles)
 #define nsvcd__quanta_of NSVCD__AT(quanta_of)
@@ -15981,6 +16132,7 @@ static nsvcd_result nsvcd__sweep_gradient(const nsvcd_question *question, void *
 #define nsvcd__search_tile NSVCD__AT(search_tile)
 #define nsvcd__seeds_near NSVCD__AT(seeds_near)
 #define nsvcd__seek_item NSVCD__AT(seek_item)
+#define nsvcd__seek_item_at_ends NSVCD__AT(seek_item_at_ends)
 #define nsvcd__segment_count NSVCD__AT(segment_count)
 #define nsvcd__segment_span NSVCD__AT(segment_span)
 #define nsvcd__segments NSVCD__AT(segments)
@@ -16008,6 +16160,7 @@ static nsvcd_result nsvcd__sweep_gradient(const nsvcd_question *question, void *
 #define nsvcd__spheres_on_ray NSVCD__AT(spheres_on_ray)
 #define nsvcd__square_in_radii NSVCD__AT(square_in_radii)
 #define nsvcd__squares_in_radii NSVCD__AT(squares_in_radii)
+#define nsvcd__start_of NSVCD__AT(start_of)
 #define nsvcd__starts_inside NSVCD__AT(starts_inside)
 #define nsvcd__starts_within NSVCD__AT(starts_within)
 #define nsvcd__status_of NSVCD__AT(status_of)
