@@ -9976,6 +9976,7 @@ typedef struct nsvcd__proof {
   double tolerance;  // beyond the quanta
   double clearance, measure, first;
   double share;        // of the motion: `first`, as it is asked for
+  int tells;           // more is asked for than yes or no
   double asked;        // the clearance of the question
   double low, high;    // while measuring: the least distance is known to be between these
   size_t work, limit;  // units; and how many there may be now
@@ -13001,11 +13002,9 @@ static void nsvcd__proof_restart(nsvcd__proof *p) {
     p->placed[n].ticks = 0;
 }
 
-// Searches the motion from its beginning, and settles what is found. UNDECIDED: the work allowed
-// was not enough.
+// Searches a motion whose segments have been chosen, and settles what is found. UNDECIDED: the work
+// allowed was not enough.
 static nsvcd__verdict nsvcd__prove_motion(nsvcd__proof *p, nsvcd__search *search) {
-  nsvcd__proof_restart(p);
-  nsvcd__choose_segments(p->motion, search);
   nsvcd__cut_segments(p->motion, p->lengths, nsvcd__clearance_of(p), search);
   nsvcd__search_begin(p->moving.body, p->fixed.body, search);
   p->first = p->share * (double)p->motion->ticks;
@@ -13013,6 +13012,13 @@ static nsvcd__verdict nsvcd__prove_motion(nsvcd__proof *p, nsvcd__search *search
       p->first > 0 ? nsvcd__prove_in_order(p, search) : nsvcd__prove_tiles(p, search);
   p->known.lost = verdict == NSVCD__UNDECIDED;
   return verdict;
+}
+
+// The same, of any motion, whatever was known of one.
+static nsvcd__verdict nsvcd__prove_anew(nsvcd__proof *p, nsvcd__search *search) {
+  nsvcd__proof_restart(p);
+  nsvcd__choose_segments(p->motion, search);
+  return nsvcd__prove_motion(p, search);
 }
 
 // The pose at the start of a motion, as a motion of its own.
@@ -13033,7 +13039,7 @@ static int nsvcd__meets_at_start(nsvcd__proof *p, nsvcd__search *search, size_t 
   p->motion = &start;
   p->share = 0;
   p->limit = nsvcd__limit_after(p, units);
-  const int meets = nsvcd__prove_motion(p, search) == NSVCD__MEETS;
+  const int meets = nsvcd__prove_anew(p, search) == NSVCD__MEETS;
   p->known.found.tick = 0;
   p->end = 0;
   p->motion = whole;
@@ -13056,7 +13062,7 @@ static nsvcd__verdict nsvcd__prove_first(nsvcd__proof *p, nsvcd__search *search)
   } else if (!known.has_contact && (known.lost || p->doubts_end)) {
     p->share = 0;
     p->limit = p->most;
-    const nsvcd__verdict any = nsvcd__prove_motion(p, search);
+    const nsvcd__verdict any = nsvcd__prove_anew(p, search);
     p->share = share;
     if (any == NSVCD__FREE && !(p->known.unsure < NSVCD__NEVER))
       return any;
@@ -13090,8 +13096,9 @@ static nsvcd__verdict nsvcd__prove(nsvcd__proof *p, nsvcd__search *search) {
   if (nsvcd__motion_gap(p->motion) > apart)
     return NSVCD__FREE;
   nsvcd__choose_segments(p->motion, search);
-  if (nsvcd__starts_within(p)) {  // but triangles that meet say more
-    const int meets = nsvcd__meets_at_start(p, search, NSVCD__GLANCE);
+  if (nsvcd__starts_within(p)) {
+    // a hit, whatever else; who asks for more than that is told of triangles, if some meet as well
+    const int meets = p->tells && nsvcd__meets_at_start(p, search, NSVCD__GLANCE);
     return meets ? NSVCD__MEETS : nsvcd__is_within(p);
   }
   const nsvcd__verdict verdict =
@@ -13107,7 +13114,7 @@ static int nsvcd__measure_once(nsvcd__proof *p, nsvcd__search *search) {
   nsvcd__known known = p->known;
   const int is_named = known.has_contact || known.unsure < NSVCD__NEVER;
   p->clearance = is_named ? fmax(p->low, p->high - p->measure) : p->high;
-  const nsvcd__verdict pass = nsvcd__prove_motion(p, search);
+  const nsvcd__verdict pass = nsvcd__prove_anew(p, search);
   if (p->known.has_contact) {
     known.has_contact = 1;
     known.found = p->known.found;
@@ -14804,6 +14811,7 @@ static void nsvcd__proof_begin(nsvcd__task *task, nsvcd__query *query) {
   p->skin = (double)task->skin;
   p->gathers = 0;
   p->work = 0;
+  p->tells = task->first > 0 || task->measure > 0 || task->skin > 0;
   p->within = 0;
   p->unclear = 0;
   nsvcd__proof_restart(p);
@@ -16095,6 +16103,7 @@ static nsvcd_result nsvcd__sweep_gradient(const nsvcd_question *question, void *
 #define nsvcd__proof_constants_hold NSVCD__AT(proof_constants_hold)
 #define nsvcd__proof_restart NSVCD__AT(proof_restart)
 #define nsvcd__prove NSVCD__AT(prove)
+#define nsvcd__prove_anew NSVCD__AT(prove_anew)
 #define nsvcd__prove_first NSVCD__AT(prove_first)
 #define nsvcd__prove_in_order NSVCD__AT(prove_in_order)
 #define nsvcd__prove_motion NSVCD__AT(prove_motion)
