@@ -896,11 +896,11 @@ typedef struct nsvcd_plan_answer {
   float logit;
   // of that logit, in [0,1]
   float time;
-  // metres that the spline strays from the motion of the last check, which it meets at the poses
-  // between segments: the farthest of any point of a's bounding sphere, as b sees it, of any pair;
-  // of pairs whose a is given, with a custom cost of collision too. Measured, not proven: where a
-  // smooth curve strays most, half way between two such poses, at 16 places or more of each piece of
-  // the spline. 0 where none was sought
+  // metres that the spline strays from the motion of the last check, through whose poses it goes:
+  // the farthest of any point of a's bounding sphere, as b sees it. Of all pairs whose a is given,
+  // with a custom cost of collision too. Measured, not proven: half way between two poses, where a
+  // smooth curve strays most, at 16 places or more of each piece of the spline. 0 where no
+  // trajectory was sought
   float stray;
   // of the trajectory, the latter without collision and limits; 0 where none was sought
   float cost, smoothness;
@@ -942,9 +942,12 @@ NSVCDDEF size_t nsvcd_plan_workspace_size(const nsvcd_plan_problem *problem,
 // motion of each pair as seen from b between the poses of the check's segments, position linear and
 // rotation slerp. The spline goes through these poses, and in between strays from that motion by
 // answer.stray, which nothing proves: to have the spline itself clear, by measure, ask for a
-// sweep.clearance above that. With `discrete` nothing is proven between the poses. Where the proof finds a hit, the refinement goes on from there with twice the
-// margin and a little more, three times at most. It ends within seeds * (iterations of MPPI + 4
-// times those of L-BFGS) iterations, each of `draws` trajectories, and for L-BFGS of 5 more.
+// sweep.clearance above that. With `discrete`, or a cost of
+// collision of one's own, nothing is proven between the poses.
+//
+// Where the proof finds a hit, the refinement goes on from there with twice the margin and a little
+// more, three times at most. It ends within seeds * (iterations of MPPI + 4 times those of L-BFGS)
+// iterations, each of `draws` trajectories, and for L-BFGS of 5 more.
 NSVCDDEF nsvcd_result nsvcd_plan(const nsvcd_plan_problem *problem,
                                  const nsvcd_plan_options *options, void *workspace,
                                  size_t workspace_size, float *control, nsvcd_plan_answer *answer);
@@ -17785,33 +17788,58 @@ static nsvcd__cost nsvcd__refine_and_check(nsvcd__planner *p, nsvcd__searching *
   return cost;
 }
 
-// How far a point of a's bounding sphere is, at most, as b sees it, from where the last check has
-// it, a share of the way through the segment that begins with the poses `from` (2, B). poses: (B),
-// where the spline has all bodies then.
-static float nsvcd__pair_strays(const nsvcd__planner *p, const nsvcd_body_pair *pair,
-                                const nsvcd_pose *from, double share, const nsvcd_pose *poses) {
-  const nsvcd_body *body = p->problem->bodies[pair->a];
-  const nsvcd_pose *to = from + p->problem->body_count;
-  const nsvcd_pose start = nsvcd__relative_pose(&from[pair->a], &from[pair->b]);
-  const nsvcd_pose end = nsvcd__relative_pose(&to[pair->a], &to[pair->b]);
-  const nsvcd_pose there = nsvcd__relative_pose(&poses[pair->a], &poses[pair->b]);
-  const nsvcd__world_pose is = nsvcd__world_pose_of(&there);
-  const nsvcd__world_pose checked = nsvcd__world_pose_between(&start, &end, share);
-  const nsvcd__mat3 is_turned = nsvcd__mat3_of(is.rotation);
-  const nsvcd__mat3 turned = nsvcd__mat3_of(checked.rotation);
-  const nsvcd__f3 centre = nsvcd__f3_load(body->centre);
-  const nsvcd__f3 is_arm = nsvcd__mat3_apply(&is_turned, centre);
-  const nsvcd__f3 arm = nsvcd__mat3_apply(&turned, centre);
-  const nsvcd__f3 way = nsvcd__d3_narrow(nsvcd__d3_sub(is.position, checked.position));
-  const nsvcd__f3 of_centre = nsvcd__f3_add(way, nsvcd__f3_sub(is_arm, arm));
-  const nsvcd__f3 turn = nsvcd__quat_turn(checked.rotation, is.rotation);
-  return nsvcd__f3_length(of_centre) + 2 * nsvcd__f3_length(turn) * body->radius;
+// A look at where the spline is, some share of the way through a segment of the last check.
+typedef struct nsvcd__look {
+  double share;
+  const nsvcd_pose *from;  // (B): the segment's ends
+  const nsvcd_pose *to;
+  const nsvcd_pose *is;  // (B): on the spline
+} nsvcd__look;
+
+// Where a pose has a point.
+static nsvcd__f3 nsvcd__carry(const nsvcd__world_pose *pose, nsvcd__f3 point) {
+  nsvcd__transform at;
+  at.rotation = nsvcd__mat3_of(pose->rotation);
+  at.position = nsvcd__d3_narrow(pose->position);
+  return nsvcd__f3_transform(&at, point);
 }
 
-// How far the spline strays from the motion of the last check, whose poses p->poses are. Half way
-// between two of these a smooth curve strays most: there it is looked at. Where they are few it is
-// looked at in more places, for an S crosses its chord half way; where they are many, beside every
-// so many of them. It is no bound, as nothing is known of `place` but what it says there.
+// How far a point of a's bounding sphere is, at most, from where the check has it, as b sees it.
+static float nsvcd__pair_strays(const nsvcd_body *body, size_t a, size_t b,
+                                const nsvcd__look *look) {
+  const nsvcd_pose *from = look->from;
+  const nsvcd_pose *to = look->to;
+  const nsvcd_pose start = nsvcd__relative_pose(&from[a], &from[b]);
+  const nsvcd_pose end = nsvcd__relative_pose(&to[a], &to[b]);
+  const nsvcd_pose there = nsvcd__relative_pose(&look->is[a], &look->is[b]);
+  const nsvcd__world_pose is = nsvcd__world_pose_of(&there);
+  const nsvcd__world_pose checked = nsvcd__world_pose_between(&start, &end, look->share);
+
+  const nsvcd__f3 centre = nsvcd__f3_load(body->centre);
+  const nsvcd__f3 x = nsvcd__carry(&is, centre);
+  const nsvcd__f3 y = nsvcd__carry(&checked, centre);
+  const float way = nsvcd__f3_length(nsvcd__f3_sub(x, y));
+  const nsvcd__f3 turn = nsvcd__quat_turn(checked.rotation, is.rotation);
+  return way + 2 * nsvcd__f3_length(turn) * body->radius;
+}
+
+// The same of all pairs whose a is given.
+static float nsvcd__pairs_stray(const nsvcd_plan_problem *problem, const nsvcd__look *look) {
+  float most = 0;
+  for (size_t k = 0; k < problem->pair_count; k++) {
+    const size_t a = problem->pairs[k].a;
+    const size_t b = problem->pairs[k].b;
+    const nsvcd_body *body = problem->bodies[a];
+    const float strays = body ? nsvcd__pair_strays(body, a, b, look) : 0;
+    most = strays > most ? strays : most;
+  }
+  return most;
+}
+
+// How far the spline strays from the motion of the last check, whose poses p->poses are. A smooth
+// curve strays most half way between two of these: there it is looked at, beside every so many of
+// them. Where they are few, it is looked at in more places, for an S crosses its chord half way. It
+// is no bound: nothing is known of `place` but what it says.
 static float nsvcd__stray(nsvcd__planner *p, const float *control) {
   const nsvcd_plan_problem *problem = p->problem;
   const size_t via = p->check.via;
@@ -17820,23 +17848,25 @@ static float nsvcd__stray(nsvcd__planner *p, const float *control) {
   const size_t stride = wanted < segments ? segments / wanted : 1;
   const size_t looks = 2 * (wanted / segments) + 1;
   float joints[NSVCD_MAX_JOINTS];
-  float stray = 0;
-  for (size_t n = 0; problem->bodies && n / looks * stride < segments; n++) {
+  float most = 0;
+  if (!problem->bodies)
+    return 0;
+  for (size_t n = 0; n / looks * stride < segments; n++) {
     const size_t s = n / looks * stride;
-    const double share = (double)(n % looks + 1) / (double)(looks + 1);
-    const double t = ((double)s + share) / (double)segments;
+    nsvcd__look look;
+    look.share = (double)(n % looks + 1) / (double)(looks + 1);
+    look.from = p->poses + s * problem->body_count;
+    look.to = look.from + problem->body_count;
+    look.is = p->moved;
+    const double t = ((double)s + look.share) / (double)segments;
     nsvcd_spline(control, via, problem->joints, (float)t, 0, joints);
     nsvcd__place(p, joints, 1, p->moved);
-    for (size_t k = 0; k < problem->pair_count && !p->error; k++) {
-      const nsvcd_body_pair *pair = &problem->pairs[k];
-      if (!problem->bodies[pair->a])
-        continue;
-      const nsvcd_pose *from = p->poses + s * problem->body_count;
-      const float strays = nsvcd__pair_strays(p, pair, from, share, p->moved);
-      stray = strays > stray ? strays : stray;
-    }
+    if (p->error)
+      break;
+    const float strays = nsvcd__pairs_stray(problem, &look);
+    most = strays > most ? strays : most;
   }
-  return stray;
+  return most;
 }
 
 // Searches from one more start; keeps what it finds in p->result if that is the best so far.
