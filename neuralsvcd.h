@@ -942,8 +942,8 @@ NSVCDDEF size_t nsvcd_plan_workspace_size(const nsvcd_plan_problem *problem,
 // motion of each pair as seen from b between the poses of the check's segments, position linear and
 // rotation slerp. The spline goes through these poses, and in between strays from that motion by
 // answer.stray, which nothing proves: to have the spline itself clear, by measure, ask for a
-// sweep.clearance above that. With `discrete`, or a cost of
-// collision of one's own, nothing is proven between the poses.
+// sweep.clearance above that. With `discrete`, or a cost of collision of one's own, nothing is
+// proven between the poses.
 //
 // Where the proof finds a hit, the refinement goes on from there with twice the margin and a little
 // more, three times at most. It ends within seeds * (iterations of MPPI + 4 times those of L-BFGS)

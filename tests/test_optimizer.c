@@ -1317,6 +1317,8 @@ static void plan_works_at_the_ends_of_its_options(void) {
   o->explore.draws = 30;
   out = plan_run(&s);
   CHECK_EQ(out.result, NSVCD_OK);
+  o->refine.segments = 4096;  // of which the check could not have 16 times as many
+  CHECK(nsvcd_plan_workspace_size(&s.problem, o) > 0);
 }
 
 static void plan_refuses_problems(void) {
