@@ -769,7 +769,8 @@ typedef struct nsvcd_body_pair {
 
 typedef enum nsvcd_plan_status {
   // the trajectory is within the limits and free of collision: certified where bodies have
-  // triangles, else as far as the network knows
+  // triangles, else as far as the network knows; but for what it strays from the last check's
+  // motion, answer.stray
   NSVCD_PLAN_CONVERGED = 0,
   // the iterations ended before one was found; this is the best
   NSVCD_PLAN_LIMIT,
@@ -874,8 +875,9 @@ typedef struct nsvcd_plan_options {
   float margin;
   // 1: poses instead of sweeps
   int discrete;
-  // segments of the last check, up to 4 NSVCD_MAX_PLAN_SEGMENTS; 4 times the finest stage's. Limits
-  // are looked at between these and at via points
+  // segments of the last check, up to 4 NSVCD_MAX_PLAN_SEGMENTS; 16 times the finest stage's, or
+  // that limit. Limits are looked at between these and at via points. Twice as many take
+  // answer.stray to a quarter
   size_t check;
   // of all queries; recall = 0.999f keeps more distance. The search asks the network. `method` is
   // that of start, goal and the last check, and so are `clearance`, `skin` and the like
@@ -894,6 +896,12 @@ typedef struct nsvcd_plan_answer {
   float logit;
   // of that logit, in [0,1]
   float time;
+  // metres that the spline strays from the motion of the last check, through whose poses it goes:
+  // the farthest of any point of a's bounding sphere, as b sees it. Of all pairs whose a is given,
+  // with a custom cost of collision too. Measured, not proven: half way between two poses, where a
+  // smooth curve strays most, at 16 places or more of each piece of the spline. 0 where no
+  // trajectory was sought
+  float stray;
   // of the trajectory, the latter without collision and limits; 0 where none was sought
   float cost, smoothness;
   // M of `control`
@@ -932,9 +940,14 @@ NSVCDDEF size_t nsvcd_plan_workspace_size(const nsvcd_plan_problem *problem,
 //
 // Start, goal and the trajectory at the end are proven free where bodies have triangles: for the
 // motion of each pair as seen from b between the poses of the check's segments, position linear and
-// rotation slerp. Where the proof finds a hit, the refinement goes on from there with twice the
-// margin and a little more, three times at most. It ends within seeds * (iterations of MPPI + 4
-// times those of L-BFGS) iterations, each of `draws` trajectories, and for L-BFGS of 5 more.
+// rotation slerp. The spline goes through these poses, and in between strays from that motion by
+// answer.stray, which nothing proves: to have the spline itself clear, by measure, ask for a
+// sweep.clearance above that. With `discrete`, or a cost of collision of one's own, nothing is
+// proven between the poses.
+//
+// Where the proof finds a hit, the refinement goes on from there with twice the margin and a little
+// more, three times at most. It ends within seeds * (iterations of MPPI + 4 times those of L-BFGS)
+// iterations, each of `draws` trajectories, and for L-BFGS of 5 more.
 NSVCDDEF nsvcd_result nsvcd_plan(const nsvcd_plan_problem *problem,
                                  const nsvcd_plan_options *options, void *workspace,
                                  size_t workspace_size, float *control, nsvcd_plan_answer *answer);
@@ -16634,6 +16647,10 @@ static void nsvcd__solve_upper(const double *l, size_t n, double *x) {  // x = L
 #define NSVCD__STEPS 5
 // plan: refinements more, with a wider margin, where the proof finds a hit
 #define NSVCD__PUSHES 3
+// plan: segments of the last check to one of the finest stage
+#define NSVCD__CHECKS 16
+// plan: looks, at least, at how far a piece of the spline strays
+#define NSVCD__STRAY_LOOKS 16
 
 // A body at a moment.
 typedef struct nsvcd__stance {
@@ -16796,9 +16813,11 @@ static int nsvcd__planner_settings(const nsvcd_plan_problem *problem,
   p->check = p->refine;
   const int explores_finer = p->explore.moments > p->refine.moments;
   const size_t finest = explores_finer ? p->explore.moments : p->refine.moments;
-  o->check = o->check ? o->check : 4 * (finest - 1);
+  const size_t most = 4 * NSVCD_MAX_PLAN_SEGMENTS;
+  const size_t dense = NSVCD__CHECKS * (finest - 1);
+  o->check = o->check ? o->check : dense < most ? dense : most;
   p->check.moments = o->check + 1;
-  return o->check <= 4 * NSVCD_MAX_PLAN_SEGMENTS && o->seeds <= 1000;
+  return o->check <= most && o->seeds <= 1000;
 }
 
 // The next rows of so many floats, or doubles, of a workspace: nsvcd__take.
@@ -17293,23 +17312,24 @@ static void nsvcd__by_differences(const nsvcd__planner *p, const float *joints,
   }
 }
 
-// The poses of all bodies, p->poses (moments, B), their quaternions made of unit length, from the
-// joints (moments, F).
-static void nsvcd__place(nsvcd__planner *p, const float *joints, size_t moments) {
+// The poses of all bodies (moments, B), their quaternions made of unit length, from the joints
+// (moments, F).
+static void nsvcd__place(nsvcd__planner *p, const float *joints, size_t moments,
+                         nsvcd_pose *poses) {
   const nsvcd_plan_problem *problem = p->problem;
   const size_t bodies = problem->body_count;
   const size_t count = moments * bodies;
   for (size_t s = 0; s < moments; s++) {
     const float *row = joints + s * problem->joints;
-    problem->place(problem->user, row, p->poses + s * bodies);
+    problem->place(problem->user, row, poses + s * bodies);
   }
-  if (count > 0 && !nsvcd__poses_are_valid(p->poses, count)) {
+  if (count > 0 && !nsvcd__poses_are_valid(poses, count)) {
     p->error = NSVCD_ERROR_POSE;
     return;
   }
   for (size_t k = 0; k < count; k++) {
-    const nsvcd__quat unit = nsvcd__quat_unit(nsvcd__quat_load(p->poses[k].rotation));
-    nsvcd__quat_store(unit, p->poses[k].rotation);
+    const nsvcd__quat unit = nsvcd__quat_unit(nsvcd__quat_load(poses[k].rotation));
+    nsvcd__quat_store(unit, poses[k].rotation);
   }
 }
 
@@ -17446,7 +17466,7 @@ static nsvcd__cost nsvcd__cost_of(nsvcd__planner *p, const nsvcd__stage *stage,
   nsvcd__add_limits(p, stage, control, gradient, &cost);
   if (cost.total > limit || p->error)
     return cost;
-  nsvcd__place(p, p->path, stage->moments);
+  nsvcd__place(p, p->path, stage->moments, p->poses);
   if (p->error)
     return cost;
   float *wrenches = gradient ? p->wrenches : NULL;
@@ -17882,7 +17902,7 @@ static int nsvcd__is_good(nsvcd__planner *p, const float *joints, nsvcd_plan_ans
   }
   if (answer->joint != NSVCD_NONE)
     return 0;
-  nsvcd__place(p, joints, 1);
+  nsvcd__place(p, joints, 1, p->poses);
   if (p->error)
     return 0;
   answer->collides = nsvcd__collision_of(p, 1, INFINITY, NULL, &worst).collides;
@@ -17967,6 +17987,87 @@ static nsvcd__cost nsvcd__refine_and_check(nsvcd__planner *p, nsvcd__searching *
   return cost;
 }
 
+// A look at where the spline is, some share of the way through a segment of the last check.
+typedef struct nsvcd__look {
+  double share;
+  const nsvcd_pose *from;  // (B): the segment's ends
+  const nsvcd_pose *to;
+  const nsvcd_pose *is;  // (B): on the spline
+} nsvcd__look;
+
+// Where a pose has a point.
+static nsvcd__f3 nsvcd__carry(const nsvcd__world_pose *pose, nsvcd__f3 point) {
+  nsvcd__transform at;
+  at.rotation = nsvcd__mat3_of(pose->rotation);
+  at.position = nsvcd__d3_narrow(pose->position);
+  return nsvcd__f3_transform(&at, point);
+}
+
+// How far a point of a's bounding sphere is, at most, from where the check has it, as b sees it.
+static float nsvcd__pair_strays(const nsvcd_body *body, size_t a, size_t b,
+                                const nsvcd__look *look) {
+  const nsvcd_pose *from = look->from;
+  const nsvcd_pose *to = look->to;
+  const nsvcd_pose start = nsvcd__relative_pose(&from[a], &from[b]);
+  const nsvcd_pose end = nsvcd__relative_pose(&to[a], &to[b]);
+  const nsvcd_pose there = nsvcd__relative_pose(&look->is[a], &look->is[b]);
+  const nsvcd__world_pose is = nsvcd__world_pose_of(&there);
+  const nsvcd__world_pose checked = nsvcd__world_pose_between(&start, &end, look->share);
+
+  const nsvcd__f3 centre = nsvcd__f3_load(body->centre);
+  const nsvcd__f3 x = nsvcd__carry(&is, centre);
+  const nsvcd__f3 y = nsvcd__carry(&checked, centre);
+  const float way = nsvcd__f3_length(nsvcd__f3_sub(x, y));
+  const nsvcd__f3 turn = nsvcd__quat_turn(checked.rotation, is.rotation);
+  return way + 2 * nsvcd__f3_length(turn) * body->radius;
+}
+
+// The same of all pairs whose a is given.
+static float nsvcd__pairs_stray(const nsvcd_plan_problem *problem, const nsvcd__look *look) {
+  float most = 0;
+  for (size_t k = 0; k < problem->pair_count; k++) {
+    const size_t a = problem->pairs[k].a;
+    const size_t b = problem->pairs[k].b;
+    const nsvcd_body *body = problem->bodies[a];
+    const float strays = body ? nsvcd__pair_strays(body, a, b, look) : 0;
+    most = strays > most ? strays : most;
+  }
+  return most;
+}
+
+// How far the spline strays from the motion of the last check, whose poses p->poses are. A smooth
+// curve strays most half way between two of these: there it is looked at, beside every so many of
+// them. Where they are few, it is looked at in more places, for an S crosses its chord half way. It
+// is no bound: nothing is known of `place` but what it says.
+static float nsvcd__stray(nsvcd__planner *p, const float *control) {
+  const nsvcd_plan_problem *problem = p->problem;
+  const size_t via = p->check.via;
+  const size_t segments = p->check.moments - 1;
+  const size_t wanted = NSVCD__STRAY_LOOKS * (via + 1);
+  const size_t stride = wanted < segments ? segments / wanted : 1;
+  const size_t looks = 2 * (wanted / segments) + 1;
+  float joints[NSVCD_MAX_JOINTS];
+  float most = 0;
+  if (!problem->bodies)
+    return 0;
+  for (size_t n = 0; n / looks * stride < segments; n++) {
+    const size_t s = n / looks * stride;
+    nsvcd__look look;
+    look.share = (double)(n % looks + 1) / (double)(looks + 1);
+    look.from = p->poses + s * problem->body_count;
+    look.to = look.from + problem->body_count;
+    look.is = p->moved;
+    const double t = ((double)s + look.share) / (double)segments;
+    nsvcd_spline(control, via, problem->joints, (float)t, 0, joints);
+    nsvcd__place(p, joints, 1, p->moved);
+    if (p->error)
+      break;
+    const float strays = nsvcd__pairs_stray(problem, &look);
+    most = strays > most ? strays : most;
+  }
+  return most;
+}
+
 // Searches from one more start; keeps what it finds in p->result if that is the best so far.
 // Returns 1 if there is reason to go on.
 static int nsvcd__try_seed(nsvcd__planner *p, nsvcd_plan_answer *found) {
@@ -17982,6 +18083,7 @@ static int nsvcd__try_seed(nsvcd__planner *p, nsvcd_plan_answer *found) {
     memcpy(p->result, p->best, bytes);
     found->cost = cost.total;
     found->smoothness = cost.smoothness;
+    found->stray = nsvcd__stray(p, p->result);
     found->collides = cost.collides;
     found->joint = cost.joint;
     found->logit = worst.logit;

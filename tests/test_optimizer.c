@@ -657,6 +657,7 @@ static plan_outcome plan_run(plan_scene *s) {
            a->seeds * (explore * tries + rounds * (refine * (bundle + 5) + 2) + 1));
   CHECK(isfinite(a->cost) && isfinite(a->smoothness) && isfinite(a->logit) && a->time >= 0 &&
         a->time <= 1);
+  CHECK(isfinite(a->stray) && a->stray >= 0);
   CHECK(a->pair == NSVCD_NONE || a->pair < s->problem.pair_count);
   CHECK(a->joint == NSVCD_NONE || a->joint < f);
   if (a->status == NSVCD_PLAN_CONVERGED)
@@ -745,8 +746,9 @@ static void plan_goes_round_a_wall(void) {
 
 static int plan_same(const plan_outcome *a, const plan_outcome *b, size_t joints) {  // to the bit
   return a->result == b->result && a->answer.status == b->answer.status &&
-         a->answer.cost == b->answer.cost && a->answer.logit == b->answer.logit &&
-         a->answer.sweeps == b->answer.sweeps && a->answer.iterations == b->answer.iterations &&
+         a->answer.cost == b->answer.cost && a->answer.stray == b->answer.stray &&
+         a->answer.logit == b->answer.logit && a->answer.sweeps == b->answer.sweeps &&
+         a->answer.iterations == b->answer.iterations &&
          a->answer.trajectories == b->answer.trajectories &&
          memcmp(a->control, b->control, (a->via + 2) * joints * sizeof(float)) == 0;
 }
@@ -778,7 +780,7 @@ static void plan_defaults_are_what_is_written(void) {
                                              .collision = 20,
                                              .duration = 20,
                                              .margin = 2,
-                                             .check = 96};
+                                             .check = 384};
   static plan_scene s;
   plan_wall_scene(&s);
   s.bodies[1] = plan_body(PLAN_SHELL);
@@ -1075,6 +1077,108 @@ static void plan_takes_a_custom_cost(void) {
   }
 }
 
+// The joints at a time, and where a body is then as another sees it; in double.
+static oracle_pose plan_seen(const plan_scene *s, const plan_outcome *out, nsvcd_body_pair pair,
+                             double t) {
+  double w[PLAN_VIA];
+  double joints[PLAN_JOINTS] = {0};
+  oracle_pose poses[PLAN_BODIES];
+  nsvcd__spline_weights(out->via, t, 0, w);
+  for (size_t k = 0; k < (out->via + 2) * s->problem.joints; k++)
+    joints[k % s->problem.joints] += w[k / s->problem.joints] * (double)out->control[k];
+  plan_place_exactly(s, joints, poses);
+  oracle_pose to_b = {{0, 0, 0}, {0, 0, 0, 0}};
+  const double origin[3] = {0, 0, 0};
+  double away[3];
+  for (int k = 0; k < 4; k++)
+    to_b.rotation[k] = (k < 3 ? -1 : 1) * poses[pair.b].rotation[k];
+  oracle_sub(origin, poses[pair.b].position, away);
+  oracle_transform(&to_b, away, to_b.position);
+  return oracle_compose(&to_b, &poses[pair.a]);
+}
+
+// How far a vertex of a pair's a is, at most, as b sees it, from where the check of so many segments
+// has it: at some 3,000 times. shapes: of the bodies.
+static double plan_exact_stray(const plan_scene *s, const plan_outcome *out, size_t check,
+                               const int *shapes) {
+  const size_t parts = 3000 / check + 2;
+  double most = 0;
+  for (size_t k = 0; k < s->problem.pair_count; k++) {
+    const nsvcd_body_pair pair = s->pairs[k];
+    const shapes_mesh *mesh = &plan_shapes[shapes[pair.a]];
+    for (size_t n = 0; n < check * parts; n++) {
+      const double begin = (double)(n / parts) / (double)check;
+      const double share = (double)(n % parts) / (double)parts;
+      const oracle_pose from = plan_seen(s, out, pair, begin);
+      const oracle_pose to = plan_seen(s, out, pair, begin + 1.0 / (double)check);
+      const oracle_pose checked = oracle_pose_between(&from, &to, share);
+      const oracle_pose is = plan_seen(s, out, pair, begin + share / (double)check);
+      for (size_t v = 0; v < mesh->vertices; v++) {
+        double x[3], y[3], d[3];
+        oracle_transform(&checked, mesh->positions + 3 * v, x);
+        oracle_transform(&is, mesh->positions + 3 * v, y);
+        oracle_sub(x, y, d);
+        most = fmax(most, oracle_length(d));
+      }
+    }
+  }
+  return most;
+}
+
+// What an answer says that the spline strays from the last check is what the vertices stray, but
+// for places not looked at (less) and for the sphere about a long body (more). By default it is
+// below 0.2 mm. Three arms swing, one of them off its origin; in a pair both move, or one does.
+static void plan_strays_as_far_as_it_says(void) {
+  static plan_scene s;
+  static const int shapes[4] = {PLAN_LINK, PLAN_LINK, PLAN_OFF_CENTRE, PLAN_BOX};
+  static const size_t checks[6] = {0, 1, 2, 7, 24, 96};
+  static const nsvcd_body_pair pairs[3] = {{1, 2}, {2, 0}, {1, 3}};
+  double most[6] = {0};
+  double ratio[2] = {HUGE_VAL, 0};
+  shapes_rng rng = {31};
+  plan_begin(&s, PLAN_ARMS, 4);
+  for (size_t b = 0; b < 4; b++)
+    s.bodies[b] = plan_body(shapes[b]);
+  s.problem.collision = plan_bump_collision;
+  s.rest[3] = query_pose(0, 0, -2);
+  plan_pair(&s, 0, 0);
+  s.options.explore.iterations = 3;
+  s.options.explore.draws = s.options.seeds = 4;
+  for (size_t n = 0; n < 180; n++) {
+    const size_t c = n % 6;
+    s.pairs[0] = pairs[n / 6 % 3];
+    for (size_t j = 0; c == 0 && j < 5; j++) {
+      s.start[j] = (float)shapes_uniform(&rng, -1.6, 0);
+      s.goal[j] = (float)shapes_uniform(&rng, 0, 1.6);
+    }
+    s.options.check = checks[c];
+    const plan_outcome out = plan_run(&s);
+    CHECK_EQ(out.result, NSVCD_OK);
+    CHECK(out.answer.seeds > 0);
+    const double exact = plan_exact_stray(&s, &out, checks[c] ? checks[c] : 384, shapes);
+    const double stray = (double)out.answer.stray;
+    most[c] = fmax(most[c], exact);
+    ratio[0] = fmin(ratio[0], stray / exact);
+    ratio[1] = fmax(ratio[1], stray / exact);
+  }
+  printf(
+      "  %.3f mm by default; in 1, 2, 7, 24 and 96 segments %.0f, %.0f, %.1f, %.2f, %.3f; said "
+      "%.3f to %.3f times as much\n",
+      1e3 * most[0], 1e3 * most[1], 1e3 * most[2], 1e3 * most[3], 1e3 * most[4], 1e3 * most[5],
+      ratio[0], ratio[1]);
+  CHECK_LE(most[0], 2e-4);
+  CHECK_GE(most[5], 2e-4);  // else the default need not be so fine
+  for (int c = 1; c < 5; c++)
+    CHECK_GE(most[c], 2 * most[c + 1]);
+  CHECK_GE(ratio[0], 0.98);
+  CHECK_LE(ratio[1], 1.6);
+  s.problem.bodies = NULL;  // of which nothing is known
+  CHECK_EQ(plan_run(&s).answer.stray, 0);
+  s.problem.bodies = s.bodies;
+  s.start[0] = 3;  // out of its limits
+  CHECK_EQ(plan_run(&s).answer.stray, 0);
+}
+
 // ------------------------------------------------------------------------------------------ errors
 
 // A cost that draws the body far out of the limits of its first joint, but never collides.
@@ -1213,6 +1317,8 @@ static void plan_works_at_the_ends_of_its_options(void) {
   o->explore.draws = 30;
   out = plan_run(&s);
   CHECK_EQ(out.result, NSVCD_OK);
+  o->refine.segments = 4096;  // of which the check could not have 16 times as many
+  CHECK(nsvcd_plan_workspace_size(&s.problem, o) > 0);
 }
 
 static void plan_refuses_problems(void) {
@@ -1626,6 +1732,7 @@ void test_optimizer(void) {
   RUN(plan_stages_can_be_left_out);
   RUN(plan_discrete_looks_at_poses);
   RUN(plan_takes_a_custom_cost);
+  RUN(plan_strays_as_far_as_it_says);
   RUN(plan_via_points_keep_the_limits);
   RUN(plan_refuses_options_out_of_range);
   RUN(plan_works_at_the_ends_of_its_options);

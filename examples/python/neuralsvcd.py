@@ -154,7 +154,7 @@ _PlanOptions = _struct(
     discrete=c_int, check=c_size_t, sweep=_SweepOptions)
 _PlanAnswer = _struct(
     "nsvcd_plan_answer", status=c_int, collides=c_int, joint=c_size_t, pair=c_size_t, logit=c_float, time=c_float,
-    cost=c_float, smoothness=c_float, via_points=c_size_t, seeds=c_size_t, iterations=c_size_t, trajectories=c_size_t,
+    stray=c_float, cost=c_float, smoothness=c_float, via_points=c_size_t, seeds=c_size_t, iterations=c_size_t, trajectories=c_size_t,
     sweeps=c_size_t)
 _STRUCTS = (_Mesh, _EncodeOptions, _BodyFacts, _Pose, _SweepOptions, _Mover, _Question, _Answer, _BodyPair,
             _PlanProgress, _PlanProblem, _PlanStage, _PlanOptions, _PlanAnswer)
@@ -838,7 +838,7 @@ class PlanOptions(_Options):
     duration          seconds, which only weights the terms above: 20
     margin            logits above minus this cost: 2
     discrete          poses instead of sweeps
-    check             segments of the last check
+    check             segments of the last check: 16 times the finest stage's
     sweep             of all queries
     """
     seed: int = 0
@@ -872,10 +872,12 @@ class Plan(NamedTuple):
     """nsvcd_plan_answer, and the trajectory.
 
     control       (M + 2, F) start, via points, goal: see spline
-    status        CONVERGED: within the limits, and proven free where bodies have triangles
+    status        CONVERGED: within the limits, and proven free where bodies have triangles, but for `stray`
     collides      by the last check, or of the start or the goal where the status says so
     joint, pair   that leaves its limits; of the greatest logit; or None
     logit, time   the greatest of the last check, and when
+    stray         metres that the spline strays from what the last check is about, the motion that is straight and
+                  slerped between its poses; measured, not proven. To have the spline clear too, ask for more clearance
     cost, smoothness  of the trajectory; the latter without collision and limits
     seeds, iterations, trajectories, sweeps  how many it took
     """
@@ -886,6 +888,7 @@ class Plan(NamedTuple):
     pair: Optional[int]
     logit: float
     time: float
+    stray: float
     cost: float
     smoothness: float
     seeds: int
