@@ -197,6 +197,7 @@ check-32:  # 32 bits, under sanitizers; x87
 # qemu-system-arm).
 check-firmware: | build  # Cortex-M4F and M7, under QEMU
 	$(MAKE) -C examples/firmware LEVELS=O2 run
+	$(MAKE) -C examples/firmware LEVELS=Os BUILDS="proof network" run
 firmware: | build  ## Cortex-M under QEMU: answers as on the host; flash, RAM, stack and instructions as a table
 	$(MAKE) -C examples/firmware run table
 # A page with the library as WebAssembly: clang, lld, wasi-libc, libclang-rt-14-dev-wasm32; and its test in a browser:

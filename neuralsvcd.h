@@ -1042,16 +1042,20 @@ NSVCDDEF const char *nsvcd_plan_status_string(nsvcd_plan_status status) {
 // Vectors, quaternions and matrices are values: f3, quat and mat3 of floats, d3, dquat and dmat3 of
 // doubles. A matrix is its rows.
 
+// Functions that take more of the stack, and of flash, called than merged into their callers.
+#if defined(__GNUC__) || defined(__clang__)
+#define NSVCD__MERGED static inline __attribute__((always_inline))
+#elif defined(_MSC_VER)
+#define NSVCD__MERGED static __forceinline
+#else
+#define NSVCD__MERGED static inline
+#endif
 // Functions whose loops over constant arguments must be unrolled: left to its own measure, gcc may
 // not inline them, and the decoder takes four times as long (tests/bench/PERFORMANCE.md).
-#if defined(__OPTIMIZE_SIZE__)
+#ifdef __OPTIMIZE_SIZE__
 #define NSVCD__INLINE static inline
-#elif defined(__GNUC__) || defined(__clang__)
-#define NSVCD__INLINE static inline __attribute__((always_inline))
-#elif defined(_MSC_VER)
-#define NSVCD__INLINE static __forceinline
 #else
-#define NSVCD__INLINE static inline
+#define NSVCD__INLINE NSVCD__MERGED
 #endif
 // Functions that must not be inlined: what they take of the stack would add up.
 #if defined(__GNUC__) || defined(__clang__)
@@ -1411,7 +1415,7 @@ static inline float nsvcd__quat_dot(nsvcd__quat a, nsvcd__quat b) {
 static inline nsvcd__quat nsvcd__quat_scale(nsvcd__quat q, float s) {
   return nsvcd__quat_of(q.x * s, q.y * s, q.z * s, q.w * s);
 }
-static inline nsvcd__quat nsvcd__quat_unit(nsvcd__quat q) {
+NSVCD__MERGED nsvcd__quat nsvcd__quat_unit(nsvcd__quat q) {
   return nsvcd__quat_scale(q, 1 / sqrtf(nsvcd__quat_dot(q, q)));
 }
 
@@ -13511,19 +13515,20 @@ static nsvcd__v_pose nsvcd__v_poses_at(const nsvcd__motion *motion, const float 
   return nsvcd__v_seen(motion, &at);
 }
 
-// The pairs of `count` candidates, 1 to SLICE. What is in the lanes beyond does not matter.
-static NSVCD__APART void nsvcd__pairs_of(const nsvcd_body *moving, const nsvcd_body *fixed,
-                                         const nsvcd__motion *motion,
-                                         nsvcd__candidate *const *candidates, size_t count,
-                                         nsvcd__pairs *pairs) {
+// The moving body's poses where the intervals of some pairs begin, where they end, and halfway.
+typedef struct nsvcd__passes {
+  nsvcd__v_pose enter, leave, middle;
+} nsvcd__passes;
+
+// The pairs of `count` candidates, with their poses.
+static NSVCD__APART void nsvcd__pairs_in_passing(const nsvcd_body *moving, const nsvcd_body *fixed,
+                                                 float scale, const nsvcd__passes *passes,
+                                                 nsvcd__candidate *const *candidates, size_t count,
+                                                 nsvcd__pairs *pairs) {
   float centres1[3 * NSVCD__SLICE] = {0};
   float centres2[3 * NSVCD__SLICE] = {0};
   float r1[NSVCD__SLICE] = {0};
   float r2[NSVCD__SLICE] = {0};
-  float enter[NSVCD__SLICE];
-  float leave[NSVCD__SLICE];
-  float middle[NSVCD__SLICE];
-  const float scale = motion->scale;
   const nsvcd__spheres patches1 = nsvcd__body_patches(moving);
   const nsvcd__spheres patches2 = nsvcd__body_patches(fixed);
   for (size_t l = 0; l < count; l++) {
@@ -13536,34 +13541,48 @@ static NSVCD__APART void nsvcd__pairs_of(const nsvcd_body *moving, const nsvcd_b
     nsvcd__f3_put(patch2.centre, centres2 + l, NSVCD__SLICE);
     r1[l] = scale * patch1.radius;
     r2[l] = patch2.radius;
-    enter[l] = candidate->t_enter;
-    leave[l] = candidate->t_exit;
-    middle[l] = 0.5f * (enter[l] + leave[l]);
     pairs->z1[l] = nsvcd__body_latents(moving) + NSVCD__LATENT * i;
     pairs->z2[l] = nsvcd__body_latents(fixed) + NSVCD__LATENT * j;
   }
 
   const nsvcd__v half = nsvcd__v_set(0.5f);
   const nsvcd__v3 centre = nsvcd__v3_load_rows(centres1, NSVCD__SLICE);
-  nsvcd__v_pose at = nsvcd__v_poses_at(motion, enter, count);
-  const nsvcd__v3 from = at.position;
-  const nsvcd__v3 arm1 = nsvcd__vmat3_apply(nsvcd__vmat3_of(at.rotation), centre);
-  const nsvcd__vquat back = nsvcd__vquat_inverse(at.rotation);
-
-  at = nsvcd__v_poses_at(motion, leave, count);
-  const nsvcd__v3 arm2 = nsvcd__vmat3_apply(nsvcd__vmat3_of(at.rotation), centre);
-  const nsvcd__v3 moved = nsvcd__v3_sub(at.position, from);
+  const nsvcd__v_pose *enter = &passes->enter;
+  const nsvcd__v_pose *leave = &passes->leave;
+  const nsvcd__v3 arm1 = nsvcd__vmat3_apply(nsvcd__vmat3_of(enter->rotation), centre);
+  const nsvcd__v3 arm2 = nsvcd__vmat3_apply(nsvcd__vmat3_of(leave->rotation), centre);
+  const nsvcd__v3 moved = nsvcd__v3_sub(leave->position, enter->position);
   const nsvcd__v3 step = nsvcd__v3_add(nsvcd__v3_sub(arm2, arm1), moved);
-  pairs->w = nsvcd__v_half_rotation(nsvcd__vquat_mul(at.rotation, back));
-
-  at = nsvcd__v_poses_at(motion, middle, count);
-  pairs->rotation = nsvcd__vmat3_of(at.rotation);
-  pairs->p1 = nsvcd__v3_add(nsvcd__vmat3_apply(pairs->rotation, centre), at.position);
+  const nsvcd__vquat back = nsvcd__vquat_inverse(enter->rotation);
+  pairs->w = nsvcd__v_half_rotation(nsvcd__vquat_mul(leave->rotation, back));
+  pairs->rotation = nsvcd__vmat3_of(passes->middle.rotation);
+  const nsvcd__v3 turned = nsvcd__vmat3_apply(pairs->rotation, centre);
+  pairs->p1 = nsvcd__v3_add(turned, passes->middle.position);
   pairs->p2 = nsvcd__v3_load_rows(centres2, NSVCD__SLICE);
   const nsvcd__v3 arm = nsvcd__v3_scale(nsvcd__v3_sub(pairs->p2, pairs->p1), half);
   pairs->v = nsvcd__v3_fma(half, step, nsvcd__v3_cross(pairs->w, arm));
   pairs->r1 = nsvcd__v_load(r1);
   pairs->r2 = nsvcd__v_load(r2);
+}
+
+// The pairs of `count` candidates, 1 to SLICE. What is in the lanes beyond does not matter.
+static NSVCD__APART void nsvcd__pairs_of(const nsvcd_body *moving, const nsvcd_body *fixed,
+                                         const nsvcd__motion *motion,
+                                         nsvcd__candidate *const *candidates, size_t count,
+                                         nsvcd__pairs *pairs) {
+  float enter[NSVCD__SLICE];
+  float leave[NSVCD__SLICE];
+  float middle[NSVCD__SLICE];
+  for (size_t l = 0; l < count; l++) {
+    enter[l] = candidates[l]->t_enter;
+    leave[l] = candidates[l]->t_exit;
+    middle[l] = 0.5f * (enter[l] + leave[l]);
+  }
+  nsvcd__passes passes;
+  passes.enter = nsvcd__v_poses_at(motion, enter, count);
+  passes.leave = nsvcd__v_poses_at(motion, leave, count);
+  passes.middle = nsvcd__v_poses_at(motion, middle, count);
+  nsvcd__pairs_in_passing(moving, fixed, motion->scale, &passes, candidates, count, pairs);
 }
 
 // ---- frames and facts
@@ -13721,27 +13740,32 @@ static NSVCD__APART void nsvcd__scenes_of(const nsvcd__pairs *pairs, size_t coun
 
 // The inputs of the decoder (appendix F) for the first `count` pairs of a slice, x (count,
 // DECODER_IN): vectors of the larger patch and of the other, their scalars, and the facts.
-static NSVCD__APART void nsvcd__invariants(const nsvcd__pairs *pairs, size_t count, float *x) {
-  nsvcd__scenes scene;
+static NSVCD__APART void nsvcd__inputs_in(const nsvcd__scenes *scene, const nsvcd__pairs *pairs,
+                                          size_t count, float *x) {
   float wigner[NSVCD__WIGNER][NSVCD__SLICE];
   const nsvcd__v step = nsvcd__v_set(NSVCD__LATENT_STEP);
-  nsvcd__scenes_of(pairs, count, &scene);
-  nsvcd__wigner(&scene.turn1, nsvcd__v_mul(scene.k1, step), wigner);
+  nsvcd__wigner(&scene->turn1, nsvcd__v_mul(scene->k1, step), wigner);
   for (size_t l = 0; l < count; l++) {
-    const size_t place = scene.keep >> l & 1 ? 0 : 1;
+    const size_t place = scene->keep >> l & 1 ? 0 : 1;
     nsvcd__rotate_latent(pairs->z1[l], wigner, l, place, x + NSVCD__DECODER_IN * l);
   }
-  nsvcd__wigner(&scene.turn2, nsvcd__v_mul(scene.k2, step), wigner);
+  nsvcd__wigner(&scene->turn2, nsvcd__v_mul(scene->k2, step), wigner);
   for (size_t l = 0; l < count; l++) {
-    const size_t place = scene.keep >> l & 1 ? 1 : 0;
+    const size_t place = scene->keep >> l & 1 ? 1 : 0;
     float *row = x + NSVCD__DECODER_IN * l;
     float *facts = row + 2 * NSVCD__LATENT;
     nsvcd__rotate_latent(pairs->z2[l], wigner, l, place, row);
     for (size_t k = 0; k < NSVCD__FACTS; k++)
-      facts[k] = scene.facts[k][l];
+      facts[k] = scene->facts[k][l];
     for (size_t k = NSVCD__INPUTS; k < NSVCD__DECODER_IN; k++)
       row[k] = 0;
   }
+}
+
+static NSVCD__APART void nsvcd__invariants(const nsvcd__pairs *pairs, size_t count, float *x) {
+  nsvcd__scenes scene;
+  nsvcd__scenes_of(pairs, count, &scene);
+  nsvcd__inputs_in(&scene, pairs, count, x);
 }
 
 // The inputs of the decoder for `count` candidates, x (count, DECODER_IN), a slice of them at a
@@ -15790,6 +15814,7 @@ static nsvcd_result nsvcd__sweep_gradient(const nsvcd_question *question, void *
 #define nsvcd__hint NSVCD__AT(hint)
 #define nsvcd__hull_of NSVCD__AT(hull_of)
 #define nsvcd__hulls_are_apart NSVCD__AT(hulls_are_apart)
+#define nsvcd__inputs_in NSVCD__AT(inputs_in)
 #define nsvcd__inputs_of NSVCD__AT(inputs_of)
 #define nsvcd__instants NSVCD__AT(instants)
 #define nsvcd__instants_of NSVCD__AT(instants_of)
@@ -15884,9 +15909,11 @@ static nsvcd_result nsvcd__sweep_gradient(const nsvcd_question *question, void *
 #define nsvcd__on_one_side NSVCD__AT(on_one_side)
 #define nsvcd__options_check NSVCD__AT(options_check)
 #define nsvcd__pairs NSVCD__AT(pairs)
+#define nsvcd__pairs_in_passing NSVCD__AT(pairs_in_passing)
 #define nsvcd__pairs_of NSVCD__AT(pairs_of)
 #define nsvcd__part_groups NSVCD__AT(part_groups)
 #define nsvcd__passage NSVCD__AT(passage)
+#define nsvcd__passes NSVCD__AT(passes)
 #define nsvcd__patch_is_near NSVCD__AT(patch_is_near)
 #define nsvcd__patch_reach NSVCD__AT(patch_reach)
 #define nsvcd__patches_on_ray NSVCD__AT(patches_on_ray)
