@@ -261,11 +261,21 @@ typedef enum nsvcd_result {
   // the memory given is too small, or not aligned to NSVCD_ALIGNMENT bytes
   NSVCD_ERROR_WORKSPACE,
   // by the caller's progress function
-  NSVCD_ERROR_CANCELLED
+  NSVCD_ERROR_CANCELLED,
+  // the compiler, or its flags, made a program that reckons wrongly
+  NSVCD_ERROR_BUILD
 } nsvcd_result;
 
 // What a result says, for a person: a sentence without a full stop, never NULL.
 NSVCDDEF const char *nsvcd_result_string(nsvcd_result result);
+
+// Does this build reckon rightly, on this processor? Certificates of one that does not are false.
+// To be called once, at the start, where the compiler is not gcc, clang or MSVC, or where its flags
+// are unusual. It looks at how structs and floats are passed, at vectors, rotations, the test that
+// certificates rest on, and two triangles. What it does not look at may be wrong still.
+//   allocates  nothing, and takes a microsecond (tests/test_processor.c)
+//   errors     BUILD
+NSVCDDEF nsvcd_result nsvcd_self_test(void);
 
 // -------------------------------------------------------------------------------------- allocation
 
@@ -952,6 +962,9 @@ NSVCDDEF nsvcd_result nsvcd_plan(const nsvcd_plan_problem *problem,
 #define NEURALSVCD_IMPLEMENTED
 
 #ifndef NSVCD__ISA
+#ifdef __TINYC__  // 0.9.27: where a struct and a float that calls return are passed together
+#error "neuralsvcd.h: tcc passes arguments wrongly, and certificates would be false"
+#endif
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -998,6 +1011,8 @@ NSVCDDEF const char *nsvcd_result_string(nsvcd_result result) {
       return "the memory given is too small or misaligned";
     case NSVCD_ERROR_CANCELLED:
       return "cancelled";
+    case NSVCD_ERROR_BUILD:
+      return "this build reckons wrongly: see the compiler, and its flags";
   }
   return "unknown result";
 }
@@ -14998,6 +15013,73 @@ static nsvcd_result nsvcd__sweep_batch(const nsvcd_question *questions, size_t c
   return NSVCD_OK;
 }
 
+// ---- the self test: a question by hand, whose answer is known
+
+// The place of a body's point (1, 0, 0) at 16 ticks. The body turns by 90 degrees about z on its
+// way from (4, 0, 0) to (-4, 0, 0), and is seen by one at (1, 2, 3), turned by 90 degrees about x.
+static void nsvcd__self_chords(float turn, nsvcd__chords *out) {
+  const nsvcd_pose path[2] = {{{4, 0, 0}, {0, 0, 0, 1}}, {{-4, 0, 0}, {0, 0, turn, turn}}};
+  const nsvcd_pose rest = {{1, 2, 3}, {turn, 0, 0, turn}};
+  const nsvcd_mover moving = {NULL, path, 2, 0};
+  const nsvcd_mover fixed = {NULL, &rest, 1, 0};
+  nsvcd__motion motion;
+  nsvcd__knots knots;
+  uint32_t ticks[NSVCD__LANES];
+  for (uint32_t l = 0; l < NSVCD__LANES; l++)
+    ticks[l] = l;
+  nsvcd__motion_init(&moving, &fixed, &motion);
+  nsvcd__motion_set_ticks(&motion, NSVCD__LANES);
+  nsvcd__knots_read(&motion, ticks, NSVCD__LANES, &knots);
+  NSVCD__EACH_SLICE(l) {
+    const nsvcd__v_poses at = nsvcd__knots_load(&motion, &knots, l);
+    const nsvcd__v_pose seen = nsvcd__v_seen(&motion, &at);
+    const nsvcd__v3 arm = nsvcd__v3_set(nsvcd__f3_of(1, 0, 0));
+    const nsvcd__v3 way = nsvcd__v3_set(nsvcd__f3_of(-0.5f, 0, 0));
+    const nsvcd__vmat3 rotation = nsvcd__vmat3_of(seen.rotation);
+    const nsvcd__v3 place = nsvcd__vmat3_apply_add(rotation, arm, seen.position);
+    nsvcd__chords_store(out, l, place, way, nsvcd__v_set(0.1f));
+  }
+}
+
+#ifndef NSVCD_NO_PROOF
+// Two triangles that meet; and with `lift`, by which one is lifted, as far apart as that.
+static int nsvcd__self_triangles(double lift) {
+  const nsvcd__d3 a[3] = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}};
+  nsvcd__d3 b[3] = {{0.25, 0.25, -1}, {0.25, 0.25, 1}, {2, 2, 1}};
+  const nsvcd__nearest meeting = nsvcd__triangles_nearest(a, b);
+  for (size_t k = 0; k < 3; k++)
+    b[k].z += 1 + lift;
+  const nsvcd__nearest apart = nsvcd__triangles_nearest(a, b);
+  return !(meeting.square > 0) && fabs(apart.square - lift * lift) < 1e-9;
+}
+#endif
+
+// As nsvcd_self_test.
+static nsvcd_result nsvcd__self_test(void) {
+  const volatile float half = 0.70710678f;  // or the compiler would reckon instead
+  nsvcd__chords chords;
+  nsvcd__sphere resting;
+  int right = 1;
+  nsvcd__self_chords(half, &chords);
+  for (size_t l = 0; l < NSVCD__LANES; l++) {
+    const double angle = 1.5707963267948966 * (double)l / NSVCD__LANES;
+    const double x = 3 - 0.5 * (double)l + cos(angle);
+    right &= fabs((double)chords.start[0][l] - x) < 1e-4;
+    right &= fabs((double)chords.start[1][l] + 3) < 1e-4;
+    right &= fabs((double)chords.start[2][l] - (2 - sin(angle))) < 1e-4;
+  }
+  // only two of these chords come within 0.2 of the ninth place
+  resting.centre = nsvcd__f3_of(half - 1, -3, 2 - half);
+  resting.radius = 0.1f;
+  right &= nsvcd__meet(&chords, resting) == 0x180;
+  resting.centre.y += 1;
+  right &= nsvcd__meet(&chords, resting) == 0;
+#ifndef NSVCD_NO_PROOF
+  right &= nsvcd__self_triangles(4 * (double)half);
+#endif
+  return right ? NSVCD_OK : NSVCD_ERROR_BUILD;
+}
+
 #ifndef NSVCD_NO_GRADIENT
 // ---------------------------------------------------------------------------------------- gradient
 // In: the pair that decided an answer. Out: the derivative of its logit by the poses. Reverse mode,
@@ -15977,6 +16059,9 @@ static nsvcd_result nsvcd__sweep_gradient(const nsvcd_question *question, void *
 #define nsvcd__segments NSVCD__AT(segments)
 #define nsvcd__segments_apart NSVCD__AT(segments_apart)
 #define nsvcd__segments_that_matter NSVCD__AT(segments_that_matter)
+#define nsvcd__self_chords NSVCD__AT(self_chords)
+#define nsvcd__self_test NSVCD__AT(self_test)
+#define nsvcd__self_triangles NSVCD__AT(self_triangles)
 #define nsvcd__settings NSVCD__AT(settings)
 #define nsvcd__settings_of NSVCD__AT(settings_of)
 #define nsvcd__settle_arc NSVCD__AT(settle_arc)
@@ -16273,6 +16358,10 @@ static nsvcd__isa nsvcd__isa_at_hand(void) {
 #endif  // NSVCD__DISPATCH
 
 // ---- what is asked, handed to the best of them
+
+NSVCDDEF nsvcd_result nsvcd_self_test(void) {
+  return NSVCD__BEST(self_test)();
+}
 
 NSVCDDEF size_t nsvcd_sweep_workspace_size(const nsvcd_question *question) {
   return NSVCD__BEST(sweep_size)(question);

@@ -96,6 +96,35 @@ printf '#define NEURALSVCD_IMPLEMENTATION\n#define NSVCD_NO_NETWORK\n#include "n
 "${CC:-cc}" -std=c99 $strict -O0 -c "$dir/alone/proof.c" -o "$dir/alone/proof.o" || fail "NSVCD_NO_NETWORK without weights.h"
 echo "header: NSVCD_NO_NETWORK without weights.h"
 
+# A compiler known to be wrong is refused; and the self test sees why, as it sees a slip in the header.
+cat >"$dir/self.c" <<END
+#define NEURALSVCD_IMPLEMENTATION
+#define NSVCD_NO_NETWORK
+#include "self.h"
+#include <stdio.h>
+int main(void) {
+  return puts(nsvcd_result_string(nsvcd_self_test())) < 0;
+}
+END
+self() {  # what the self test says: sed's change of the header, compiler and flags
+  sed -e 's/^#include "neuralsvcd.h"$/#include "self.h"/' -e "$1" neuralsvcd.h >"$dir/self.h"
+  shift
+  "$@" "$dir/self.c" -o "$dir/self" -lm || fail "the self test does not compile: $*"
+  "$dir/self"
+}
+for flags in -O0 -O3 "-O2 -DNSVCD_NO_SIMD" "-O3 -ffast-math -w"; do
+  test "$(self '' "${CC:-cc}" -std=c99 $flags)" = ok || fail "the self test refuses ${CC:-cc} $flags"
+done
+slip='/ nsvcd__vquat_mul(/,/^}/s/nsvcd__v_sub(/nsvcd__v_add(/'
+case $(self "$slip" "${CC:-cc}" -std=c99 -O0) in "this build reckons wrongly"*) ;; *) fail "the self test sees no slip" ;; esac
+if command -v tcc >/dev/null; then
+  ! tcc -c "$dir/twice.c" -o "$dir/tcc.o" 2>"$dir/tcc.txt" && grep -q 'error.*tcc passes arguments wrongly' "$dir/tcc.txt" || fail "tcc is not refused"
+  case $(self '/^#error "neuralsvcd.h: tcc/d' tcc -w) in "this build reckons wrongly"*) ;; *) fail "the self test passes tcc" ;; esac
+  echo "header: tcc is refused"
+else
+  echo "header: no tcc: not tested"
+fi
+
 # A build that lacks something scales a body whole or not at all.
 cat >"$dir/scale.c" <<END
 #define NEURALSVCD_IMPLEMENTATION
