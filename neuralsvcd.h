@@ -15016,10 +15016,10 @@ static nsvcd_result nsvcd__sweep_batch(const nsvcd_question *questions, size_t c
 // ---- the self test: a question by hand, whose answer is known
 
 // The place of a body's point (1, 0, 0) at 16 ticks. The body turns by 90 degrees about z on its
-// way from (4, 0, 0) to (-4, 0, 0), and is seen by one at (1, 2, 3), turned by 90 degrees about x.
+// way from (4, 0, 0) to (-4, 0, 0), and is seen by one at (1, 2, 3) whose x, y, z are y, z, x.
 static void nsvcd__self_chords(float turn, nsvcd__chords *out) {
   const nsvcd_pose path[2] = {{{4, 0, 0}, {0, 0, 0, 1}}, {{-4, 0, 0}, {0, 0, turn, turn}}};
-  const nsvcd_pose rest = {{1, 2, 3}, {turn, 0, 0, turn}};
+  const nsvcd_pose rest = {{1, 2, 3}, {0.5f, 0.5f, 0.5f, 0.5f}};
   const nsvcd_mover moving = {NULL, path, 2, 0};
   const nsvcd_mover fixed = {NULL, &rest, 1, 0};
   nsvcd__motion motion;
@@ -15034,7 +15034,7 @@ static void nsvcd__self_chords(float turn, nsvcd__chords *out) {
     const nsvcd__v_poses at = nsvcd__knots_load(&motion, &knots, l);
     const nsvcd__v_pose seen = nsvcd__v_seen(&motion, &at);
     const nsvcd__v3 arm = nsvcd__v3_set(nsvcd__f3_of(1, 0, 0));
-    const nsvcd__v3 way = nsvcd__v3_set(nsvcd__f3_of(-0.5f, 0, 0));
+    const nsvcd__v3 way = nsvcd__v3_set(nsvcd__f3_of(0, 0, -0.5f));
     const nsvcd__vmat3 rotation = nsvcd__vmat3_of(seen.rotation);
     const nsvcd__v3 place = nsvcd__vmat3_apply_add(rotation, arm, seen.position);
     nsvcd__chords_store(out, l, place, way, nsvcd__v_set(0.1f));
@@ -15064,12 +15064,12 @@ static nsvcd_result nsvcd__self_test(void) {
   for (size_t l = 0; l < NSVCD__LANES; l++) {
     const double angle = 1.5707963267948966 * (double)l / NSVCD__LANES;
     const double x = 3 - 0.5 * (double)l + cos(angle);
-    right &= fabs((double)chords.start[0][l] - x) < 1e-4;
+    right &= fabs((double)chords.start[0][l] - (sin(angle) - 2)) < 1e-4;
     right &= fabs((double)chords.start[1][l] + 3) < 1e-4;
-    right &= fabs((double)chords.start[2][l] - (2 - sin(angle))) < 1e-4;
+    right &= fabs((double)chords.start[2][l] - x) < 1e-4;
   }
   // only two of these chords come within 0.2 of the ninth place
-  resting.centre = nsvcd__f3_of(half - 1, -3, 2 - half);
+  resting.centre = nsvcd__f3_of(half - 2, -3, half - 1);
   resting.radius = 0.1f;
   right &= nsvcd__meet(&chords, resting) == 0x180;
   resting.centre.y += 1;
