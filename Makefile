@@ -110,7 +110,7 @@ install: shared static  ## PREFIX=/usr/local: the headers, libraries, pkg-config
 	  sed 's|@PREFIX@|$(PREFIX)|; s|@VERSION@|$(VERSION)|' examples/packages/$$name.pc.in \
 	    >$(DESTDIR)$(PREFIX)/lib/pkgconfig/$$name.pc; done
 	cp examples/packages/neuralsvcdConfig.cmake $(DESTDIR)$(PREFIX)/lib/cmake/neuralsvcd/
-	printf 'set(PACKAGE_VERSION $(VERSION))\nif(PACKAGE_FIND_VERSION VERSION_LESS_EQUAL PACKAGE_VERSION)\n  set(PACKAGE_VERSION_COMPATIBLE TRUE)\nendif()\n' \
+	sed 's|@VERSION@|$(VERSION)|' examples/packages/neuralsvcdConfigVersion.cmake.in \
 	  >$(DESTDIR)$(PREFIX)/lib/cmake/neuralsvcd/neuralsvcdConfigVersion.cmake
 uninstall:  ## takes it away again
 	rm -rf $(DESTDIR)$(PREFIX)/include/neuralsvcd $(DESTDIR)$(PREFIX)/lib/cmake/neuralsvcd \
