@@ -24,8 +24,9 @@
 //   int main(void) {
 //     nsvcd_mesh mesh;
 //     const nsvcd_body *mug;  // once per mesh
-//     if (nsvcd_obj_load("mug.obj", NULL, &mesh, NULL)) return 1;
-//     if (nsvcd_encode(&mesh, NULL, NULL, NULL, 0, &mug)) return 1;
+//     nsvcd_result result = nsvcd_obj_load("mug.obj", NULL, &mesh, NULL);
+//     if (!result) result = nsvcd_encode(&mesh, NULL, NULL, NULL, 0, &mug);
+//     if (result) return fprintf(stderr, "mug.obj: %s\n", nsvcd_result_string(result)), 1;
 //
 //     const nsvcd_pose path[2] = {{{0, 0, 0.5f}, {0, 0, 0, 1}}, {{0, 0, -0.5f}, {0, 0, 0, 1}}};
 //     nsvcd_question question = {0};  // zero is the default of everything but the bodies

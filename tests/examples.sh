@@ -76,6 +76,8 @@ cp "$dir/readme.c" "$dir/readme.cc"
 readme() {  # COMPILER AND FLAGS
   "$@" -O2 -Wall -Wextra -Werror -I. -o "$dir/readme" -lm && "$dir/readme" >"$dir/out" || fail "the program in README: $*"
   head -1 "$dir/out" | grep -q '^hit, witness, ' || fail "the program in README says: $(cat "$dir/out")"
+  (cd "$dir" && ./readme) 2>"$dir/err" && fail "the program in README ends with 0 without its meshes"
+  grep -q '^examples/assets/mug.obj: the file is missing' "$dir/err" || fail "the program in README, without its meshes: $(cat "$dir/err")"
 }
 readme "${CC:-cc}" -std=c99 "$dir/readme.c"
 if command -v "${CXX:-c++}" >/dev/null; then readme "${CXX:-c++}" -std=c++11 "$dir/readme.cc"; fi

@@ -84,6 +84,8 @@ sed -n '/^\/\/ Ask a question/,/^\/\/ Or plan/{/^\/\/   /s/^\/\/   //p;/^\/\/$/s
 grep -q 'int main' "$dir/example.c" || fail "the header has no first example"
 "${CC:-cc}" -std=c99 -Wall -Wextra -Werror -I"$here" -O0 "$dir/example.c" -o "$dir/example" -lm || fail "the header's first example, in C"
 "${CXX:-c++}" -std=c++11 -Wall -I"$here" -O0 -x c++ "$dir/example.c" -o "$dir/example_cc" -lm || fail "the header's first example, in C++"
+said=$(cd "$dir" && ./example 2>&1) && fail "the header's first example ends with 0 without its mesh"
+case $said in "mug.obj: the file is missing"*) ;; *) fail "the header's first example, without its mesh: $said" ;; esac
 cp examples/assets/mug.obj "$dir/"
 said=$(cd "$dir" && ./example)
 case $said in "hits at t = "*) ;; *) fail "the header's first example says: $said" ;; esac
