@@ -110,7 +110,7 @@ install: shared static  ## PREFIX=/usr/local: the headers, libraries, pkg-config
 	  sed 's|@PREFIX@|$(PREFIX)|; s|@VERSION@|$(VERSION)|' examples/packages/$$name.pc.in \
 	    >$(DESTDIR)$(PREFIX)/lib/pkgconfig/$$name.pc; done
 	cp examples/packages/neuralsvcdConfig.cmake $(DESTDIR)$(PREFIX)/lib/cmake/neuralsvcd/
-	printf 'set(PACKAGE_VERSION $(VERSION))\nif(PACKAGE_FIND_VERSION VERSION_LESS_EQUAL PACKAGE_VERSION)\n  set(PACKAGE_VERSION_COMPATIBLE TRUE)\nendif()\n' \
+	sed 's|@VERSION@|$(VERSION)|' examples/packages/neuralsvcdConfigVersion.cmake.in \
 	  >$(DESTDIR)$(PREFIX)/lib/cmake/neuralsvcd/neuralsvcdConfigVersion.cmake
 uninstall:  ## takes it away again
 	rm -rf $(DESTDIR)$(PREFIX)/include/neuralsvcd $(DESTDIR)$(PREFIX)/lib/cmake/neuralsvcd \
@@ -197,6 +197,7 @@ check-32:  # 32 bits, under sanitizers; x87
 # qemu-system-arm).
 check-firmware: | build  # Cortex-M4F and M7, under QEMU
 	$(MAKE) -C examples/firmware LEVELS=O2 run
+	$(MAKE) -C examples/firmware LEVELS=Os BUILDS="proof network" run
 firmware: | build  ## Cortex-M under QEMU: answers as on the host; flash, RAM, stack and instructions as a table
 	$(MAKE) -C examples/firmware run table
 # A page with the library as WebAssembly: clang, lld, wasi-libc, libclang-rt-14-dev-wasm32; and its test in a browser:

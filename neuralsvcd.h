@@ -24,8 +24,9 @@
 //   int main(void) {
 //     nsvcd_mesh mesh;
 //     const nsvcd_body *mug;  // once per mesh
-//     if (nsvcd_obj_load("mug.obj", NULL, &mesh, NULL)) return 1;
-//     if (nsvcd_encode(&mesh, NULL, NULL, NULL, 0, &mug)) return 1;
+//     nsvcd_result result = nsvcd_obj_load("mug.obj", NULL, &mesh, NULL);
+//     if (!result) result = nsvcd_encode(&mesh, NULL, NULL, NULL, 0, &mug);
+//     if (result) return fprintf(stderr, "mug.obj: %s\n", nsvcd_result_string(result)), 1;
 //
 //     const nsvcd_pose path[2] = {{{0, 0, 0.5f}, {0, 0, 0, 1}}, {{0, 0, -0.5f}, {0, 0, 0, 1}}};
 //     nsvcd_question question = {0};  // zero is the default of everything but the bodies
@@ -190,6 +191,12 @@
 #ifndef NEURALSVCD_H
 #define NEURALSVCD_H
 
+// as the first line says; before 1.0 a minor version may change what a program sees
+#define NSVCD_VERSION "0.2.0"
+#define NSVCD_VERSION_MAJOR 0
+#define NSVCD_VERSION_MINOR 2
+#define NSVCD_VERSION_PATCH 0
+
 #if defined(NSVCD_NO_ENCODER) && !defined(NSVCD_NO_OBJ)
 #define NSVCD_NO_OBJ
 #endif
@@ -261,11 +268,21 @@ typedef enum nsvcd_result {
   // the memory given is too small, or not aligned to NSVCD_ALIGNMENT bytes
   NSVCD_ERROR_WORKSPACE,
   // by the caller's progress function
-  NSVCD_ERROR_CANCELLED
+  NSVCD_ERROR_CANCELLED,
+  // the compiler, or its flags, made a program that reckons wrongly
+  NSVCD_ERROR_BUILD
 } nsvcd_result;
 
 // What a result says, for a person: a sentence without a full stop, never NULL.
 NSVCDDEF const char *nsvcd_result_string(nsvcd_result result);
+
+// Does this build reckon rightly, on this processor? Certificates of one that does not are false.
+// To be called once, at the start, where the compiler is not gcc, clang or MSVC, or where its flags
+// are unusual. It looks at how structs and floats are passed, at vectors, rotations, the test that
+// certificates rest on, and two triangles. What it does not look at may be wrong still.
+//   allocates  nothing, and takes a microsecond (tests/test_processor.c)
+//   errors     BUILD
+NSVCDDEF nsvcd_result nsvcd_self_test(void);
 
 // -------------------------------------------------------------------------------------- allocation
 
@@ -965,6 +982,9 @@ NSVCDDEF nsvcd_result nsvcd_plan(const nsvcd_plan_problem *problem,
 #define NEURALSVCD_IMPLEMENTED
 
 #ifndef NSVCD__ISA
+#ifdef __TINYC__  // 0.9.27: where a struct and a float that calls return are passed together
+#error "neuralsvcd.h: tcc passes arguments wrongly, and certificates would be false"
+#endif
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -1011,6 +1031,8 @@ NSVCDDEF const char *nsvcd_result_string(nsvcd_result result) {
       return "the memory given is too small or misaligned";
     case NSVCD_ERROR_CANCELLED:
       return "cancelled";
+    case NSVCD_ERROR_BUILD:
+      return "this build reckons wrongly: see the compiler, and its flags";
   }
   return "unknown result";
 }
@@ -1055,16 +1077,20 @@ NSVCDDEF const char *nsvcd_plan_status_string(nsvcd_plan_status status) {
 // Vectors, quaternions and matrices are values: f3, quat and mat3 of floats, d3, dquat and dmat3 of
 // doubles. A matrix is its rows.
 
+// Functions that take more of the stack, and of flash, called than merged into their callers.
+#if defined(__GNUC__) || defined(__clang__)
+#define NSVCD__MERGED static inline __attribute__((always_inline))
+#elif defined(_MSC_VER)
+#define NSVCD__MERGED static __forceinline
+#else
+#define NSVCD__MERGED static inline
+#endif
 // Functions whose loops over constant arguments must be unrolled: left to its own measure, gcc may
 // not inline them, and the decoder takes four times as long (tests/bench/PERFORMANCE.md).
-#if defined(__OPTIMIZE_SIZE__)
+#ifdef __OPTIMIZE_SIZE__
 #define NSVCD__INLINE static inline
-#elif defined(__GNUC__) || defined(__clang__)
-#define NSVCD__INLINE static inline __attribute__((always_inline))
-#elif defined(_MSC_VER)
-#define NSVCD__INLINE static __forceinline
 #else
-#define NSVCD__INLINE static inline
+#define NSVCD__INLINE NSVCD__MERGED
 #endif
 // Functions that must not be inlined: what they take of the stack would add up.
 #if defined(__GNUC__) || defined(__clang__)
@@ -1424,7 +1450,7 @@ static inline float nsvcd__quat_dot(nsvcd__quat a, nsvcd__quat b) {
 static inline nsvcd__quat nsvcd__quat_scale(nsvcd__quat q, float s) {
   return nsvcd__quat_of(q.x * s, q.y * s, q.z * s, q.w * s);
 }
-static inline nsvcd__quat nsvcd__quat_unit(nsvcd__quat q) {
+NSVCD__MERGED nsvcd__quat nsvcd__quat_unit(nsvcd__quat q) {
   return nsvcd__quat_scale(q, 1 / sqrtf(nsvcd__quat_dot(q, q)));
 }
 
@@ -13733,19 +13759,20 @@ static nsvcd__v_pose nsvcd__v_poses_at(const nsvcd__motion *motion, const float 
   return nsvcd__v_seen(motion, &at);
 }
 
-// The pairs of `count` candidates, 1 to SLICE. What is in the lanes beyond does not matter.
-static NSVCD__APART void nsvcd__pairs_of(const nsvcd_body *moving, const nsvcd_body *fixed,
-                                         const nsvcd__motion *motion,
-                                         nsvcd__candidate *const *candidates, size_t count,
-                                         nsvcd__pairs *pairs) {
+// The moving body's poses where the intervals of some pairs begin, where they end, and halfway.
+typedef struct nsvcd__passes {
+  nsvcd__v_pose enter, leave, middle;
+} nsvcd__passes;
+
+// The pairs of `count` candidates, with their poses.
+static NSVCD__APART void nsvcd__pairs_in_passing(const nsvcd_body *moving, const nsvcd_body *fixed,
+                                                 float scale, const nsvcd__passes *passes,
+                                                 nsvcd__candidate *const *candidates, size_t count,
+                                                 nsvcd__pairs *pairs) {
   float centres1[3 * NSVCD__SLICE] = {0};
   float centres2[3 * NSVCD__SLICE] = {0};
   float r1[NSVCD__SLICE] = {0};
   float r2[NSVCD__SLICE] = {0};
-  float enter[NSVCD__SLICE];
-  float leave[NSVCD__SLICE];
-  float middle[NSVCD__SLICE];
-  const float scale = motion->scale;
   const nsvcd__spheres patches1 = nsvcd__body_patches(moving);
   const nsvcd__spheres patches2 = nsvcd__body_patches(fixed);
   for (size_t l = 0; l < count; l++) {
@@ -13758,34 +13785,48 @@ static NSVCD__APART void nsvcd__pairs_of(const nsvcd_body *moving, const nsvcd_b
     nsvcd__f3_put(patch2.centre, centres2 + l, NSVCD__SLICE);
     r1[l] = scale * patch1.radius;
     r2[l] = patch2.radius;
-    enter[l] = candidate->t_enter;
-    leave[l] = candidate->t_exit;
-    middle[l] = 0.5f * (enter[l] + leave[l]);
     pairs->z1[l] = nsvcd__body_latents(moving) + NSVCD__LATENT * i;
     pairs->z2[l] = nsvcd__body_latents(fixed) + NSVCD__LATENT * j;
   }
 
   const nsvcd__v half = nsvcd__v_set(0.5f);
   const nsvcd__v3 centre = nsvcd__v3_load_rows(centres1, NSVCD__SLICE);
-  nsvcd__v_pose at = nsvcd__v_poses_at(motion, enter, count);
-  const nsvcd__v3 from = at.position;
-  const nsvcd__v3 arm1 = nsvcd__vmat3_apply(nsvcd__vmat3_of(at.rotation), centre);
-  const nsvcd__vquat back = nsvcd__vquat_inverse(at.rotation);
-
-  at = nsvcd__v_poses_at(motion, leave, count);
-  const nsvcd__v3 arm2 = nsvcd__vmat3_apply(nsvcd__vmat3_of(at.rotation), centre);
-  const nsvcd__v3 moved = nsvcd__v3_sub(at.position, from);
+  const nsvcd__v_pose *enter = &passes->enter;
+  const nsvcd__v_pose *leave = &passes->leave;
+  const nsvcd__v3 arm1 = nsvcd__vmat3_apply(nsvcd__vmat3_of(enter->rotation), centre);
+  const nsvcd__v3 arm2 = nsvcd__vmat3_apply(nsvcd__vmat3_of(leave->rotation), centre);
+  const nsvcd__v3 moved = nsvcd__v3_sub(leave->position, enter->position);
   const nsvcd__v3 step = nsvcd__v3_add(nsvcd__v3_sub(arm2, arm1), moved);
-  pairs->w = nsvcd__v_half_rotation(nsvcd__vquat_mul(at.rotation, back));
-
-  at = nsvcd__v_poses_at(motion, middle, count);
-  pairs->rotation = nsvcd__vmat3_of(at.rotation);
-  pairs->p1 = nsvcd__v3_add(nsvcd__vmat3_apply(pairs->rotation, centre), at.position);
+  const nsvcd__vquat back = nsvcd__vquat_inverse(enter->rotation);
+  pairs->w = nsvcd__v_half_rotation(nsvcd__vquat_mul(leave->rotation, back));
+  pairs->rotation = nsvcd__vmat3_of(passes->middle.rotation);
+  const nsvcd__v3 turned = nsvcd__vmat3_apply(pairs->rotation, centre);
+  pairs->p1 = nsvcd__v3_add(turned, passes->middle.position);
   pairs->p2 = nsvcd__v3_load_rows(centres2, NSVCD__SLICE);
   const nsvcd__v3 arm = nsvcd__v3_scale(nsvcd__v3_sub(pairs->p2, pairs->p1), half);
   pairs->v = nsvcd__v3_fma(half, step, nsvcd__v3_cross(pairs->w, arm));
   pairs->r1 = nsvcd__v_load(r1);
   pairs->r2 = nsvcd__v_load(r2);
+}
+
+// The pairs of `count` candidates, 1 to SLICE. What is in the lanes beyond does not matter.
+static NSVCD__APART void nsvcd__pairs_of(const nsvcd_body *moving, const nsvcd_body *fixed,
+                                         const nsvcd__motion *motion,
+                                         nsvcd__candidate *const *candidates, size_t count,
+                                         nsvcd__pairs *pairs) {
+  float enter[NSVCD__SLICE];
+  float leave[NSVCD__SLICE];
+  float middle[NSVCD__SLICE];
+  for (size_t l = 0; l < count; l++) {
+    enter[l] = candidates[l]->t_enter;
+    leave[l] = candidates[l]->t_exit;
+    middle[l] = 0.5f * (enter[l] + leave[l]);
+  }
+  nsvcd__passes passes;
+  passes.enter = nsvcd__v_poses_at(motion, enter, count);
+  passes.leave = nsvcd__v_poses_at(motion, leave, count);
+  passes.middle = nsvcd__v_poses_at(motion, middle, count);
+  nsvcd__pairs_in_passing(moving, fixed, motion->scale, &passes, candidates, count, pairs);
 }
 
 // ---- frames and facts
@@ -13943,27 +13984,32 @@ static NSVCD__APART void nsvcd__scenes_of(const nsvcd__pairs *pairs, size_t coun
 
 // The inputs of the decoder (appendix F) for the first `count` pairs of a slice, x (count,
 // DECODER_IN): vectors of the larger patch and of the other, their scalars, and the facts.
-static NSVCD__APART void nsvcd__invariants(const nsvcd__pairs *pairs, size_t count, float *x) {
-  nsvcd__scenes scene;
+static NSVCD__APART void nsvcd__inputs_in(const nsvcd__scenes *scene, const nsvcd__pairs *pairs,
+                                          size_t count, float *x) {
   float wigner[NSVCD__WIGNER][NSVCD__SLICE];
   const nsvcd__v step = nsvcd__v_set(NSVCD__LATENT_STEP);
-  nsvcd__scenes_of(pairs, count, &scene);
-  nsvcd__wigner(&scene.turn1, nsvcd__v_mul(scene.k1, step), wigner);
+  nsvcd__wigner(&scene->turn1, nsvcd__v_mul(scene->k1, step), wigner);
   for (size_t l = 0; l < count; l++) {
-    const size_t place = scene.keep >> l & 1 ? 0 : 1;
+    const size_t place = scene->keep >> l & 1 ? 0 : 1;
     nsvcd__rotate_latent(pairs->z1[l], wigner, l, place, x + NSVCD__DECODER_IN * l);
   }
-  nsvcd__wigner(&scene.turn2, nsvcd__v_mul(scene.k2, step), wigner);
+  nsvcd__wigner(&scene->turn2, nsvcd__v_mul(scene->k2, step), wigner);
   for (size_t l = 0; l < count; l++) {
-    const size_t place = scene.keep >> l & 1 ? 1 : 0;
+    const size_t place = scene->keep >> l & 1 ? 1 : 0;
     float *row = x + NSVCD__DECODER_IN * l;
     float *facts = row + 2 * NSVCD__LATENT;
     nsvcd__rotate_latent(pairs->z2[l], wigner, l, place, row);
     for (size_t k = 0; k < NSVCD__FACTS; k++)
-      facts[k] = scene.facts[k][l];
+      facts[k] = scene->facts[k][l];
     for (size_t k = NSVCD__INPUTS; k < NSVCD__DECODER_IN; k++)
       row[k] = 0;
   }
+}
+
+static NSVCD__APART void nsvcd__invariants(const nsvcd__pairs *pairs, size_t count, float *x) {
+  nsvcd__scenes scene;
+  nsvcd__scenes_of(pairs, count, &scene);
+  nsvcd__inputs_in(&scene, pairs, count, x);
 }
 
 // The inputs of the decoder for `count` candidates, x (count, DECODER_IN), a slice of them at a
@@ -15174,6 +15220,73 @@ static nsvcd_result nsvcd__sweep_batch(const nsvcd_question *questions, size_t c
   return NSVCD_OK;
 }
 
+// ---- the self test: a question by hand, whose answer is known
+
+// The place of a body's point (1, 0, 0) at 16 ticks. The body turns by 90 degrees about z on its
+// way from (4, 0, 0) to (-4, 0, 0), and is seen by one at (1, 2, 3) whose x, y, z are y, z, x.
+static void nsvcd__self_chords(float turn, nsvcd__chords *out) {
+  const nsvcd_pose path[2] = {{{4, 0, 0}, {0, 0, 0, 1}}, {{-4, 0, 0}, {0, 0, turn, turn}}};
+  const nsvcd_pose rest = {{1, 2, 3}, {0.5f, 0.5f, 0.5f, 0.5f}};
+  const nsvcd_mover moving = {NULL, path, 2, 0};
+  const nsvcd_mover fixed = {NULL, &rest, 1, 0};
+  nsvcd__motion motion;
+  nsvcd__knots knots;
+  uint32_t ticks[NSVCD__LANES];
+  for (uint32_t l = 0; l < NSVCD__LANES; l++)
+    ticks[l] = l;
+  nsvcd__motion_init(&moving, &fixed, &motion);
+  nsvcd__motion_set_ticks(&motion, NSVCD__LANES);
+  nsvcd__knots_read(&motion, ticks, NSVCD__LANES, &knots);
+  NSVCD__EACH_SLICE(l) {
+    const nsvcd__v_poses at = nsvcd__knots_load(&motion, &knots, l);
+    const nsvcd__v_pose seen = nsvcd__v_seen(&motion, &at);
+    const nsvcd__v3 arm = nsvcd__v3_set(nsvcd__f3_of(1, 0, 0));
+    const nsvcd__v3 way = nsvcd__v3_set(nsvcd__f3_of(0, 0, -0.5f));
+    const nsvcd__vmat3 rotation = nsvcd__vmat3_of(seen.rotation);
+    const nsvcd__v3 place = nsvcd__vmat3_apply_add(rotation, arm, seen.position);
+    nsvcd__chords_store(out, l, place, way, nsvcd__v_set(0.1f));
+  }
+}
+
+#ifndef NSVCD_NO_PROOF
+// Two triangles that meet; and with `lift`, by which one is lifted, as far apart as that.
+static int nsvcd__self_triangles(double lift) {
+  const nsvcd__d3 a[3] = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}};
+  nsvcd__d3 b[3] = {{0.25, 0.25, -1}, {0.25, 0.25, 1}, {2, 2, 1}};
+  const nsvcd__nearest meeting = nsvcd__triangles_nearest(a, b);
+  for (size_t k = 0; k < 3; k++)
+    b[k].z += 1 + lift;
+  const nsvcd__nearest apart = nsvcd__triangles_nearest(a, b);
+  return !(meeting.square > 0) && fabs(apart.square - lift * lift) < 1e-9;
+}
+#endif
+
+// As nsvcd_self_test.
+static nsvcd_result nsvcd__self_test(void) {
+  const volatile float half = 0.70710678f;  // or the compiler would reckon instead
+  nsvcd__chords chords;
+  nsvcd__sphere resting;
+  int right = 1;
+  nsvcd__self_chords(half, &chords);
+  for (size_t l = 0; l < NSVCD__LANES; l++) {
+    const double angle = 1.5707963267948966 * (double)l / NSVCD__LANES;
+    const double x = 3 - 0.5 * (double)l + cos(angle);
+    right &= fabs((double)chords.start[0][l] - (sin(angle) - 2)) < 1e-4;
+    right &= fabs((double)chords.start[1][l] + 3) < 1e-4;
+    right &= fabs((double)chords.start[2][l] - x) < 1e-4;
+  }
+  // only two of these chords come within 0.2 of the ninth place
+  resting.centre = nsvcd__f3_of(half - 2, -3, half - 1);
+  resting.radius = 0.1f;
+  right &= nsvcd__meet(&chords, resting) == 0x180;
+  resting.centre.y += 1;
+  right &= nsvcd__meet(&chords, resting) == 0;
+#ifndef NSVCD_NO_PROOF
+  right &= nsvcd__self_triangles(4 * (double)half);
+#endif
+  return right ? NSVCD_OK : NSVCD_ERROR_BUILD;
+}
+
 #ifndef NSVCD_NO_GRADIENT
 // ---------------------------------------------------------------------------------------- gradient
 // In: the pair that decided an answer. Out: the derivative of its logit by the poses. Reverse mode,
@@ -15992,6 +16105,7 @@ static nsvcd_result nsvcd__sweep_gradient(const nsvcd_question *question, void *
 #define nsvcd__hint NSVCD__AT(hint)
 #define nsvcd__hull_of NSVCD__AT(hull_of)
 #define nsvcd__hulls_are_apart NSVCD__AT(hulls_are_apart)
+#define nsvcd__inputs_in NSVCD__AT(inputs_in)
 #define nsvcd__inputs_of NSVCD__AT(inputs_of)
 #define nsvcd__instants NSVCD__AT(instants)
 #define nsvcd__instants_of NSVCD__AT(instants_of)
@@ -16091,9 +16205,11 @@ static nsvcd_result nsvcd__sweep_gradient(const nsvcd_question *question, void *
 #define nsvcd__on_one_side NSVCD__AT(on_one_side)
 #define nsvcd__options_check NSVCD__AT(options_check)
 #define nsvcd__pairs NSVCD__AT(pairs)
+#define nsvcd__pairs_in_passing NSVCD__AT(pairs_in_passing)
 #define nsvcd__pairs_of NSVCD__AT(pairs_of)
 #define nsvcd__part_groups NSVCD__AT(part_groups)
 #define nsvcd__passage NSVCD__AT(passage)
+#define nsvcd__passes NSVCD__AT(passes)
 #define nsvcd__patch_is_near NSVCD__AT(patch_is_near)
 #define nsvcd__patch_reach NSVCD__AT(patch_reach)
 #define nsvcd__patches_on_ray NSVCD__AT(patches_on_ray)
@@ -16160,6 +16276,9 @@ static nsvcd_result nsvcd__sweep_gradient(const nsvcd_question *question, void *
 #define nsvcd__segments NSVCD__AT(segments)
 #define nsvcd__segments_apart NSVCD__AT(segments_apart)
 #define nsvcd__segments_that_matter NSVCD__AT(segments_that_matter)
+#define nsvcd__self_chords NSVCD__AT(self_chords)
+#define nsvcd__self_test NSVCD__AT(self_test)
+#define nsvcd__self_triangles NSVCD__AT(self_triangles)
 #define nsvcd__settings NSVCD__AT(settings)
 #define nsvcd__settings_of NSVCD__AT(settings_of)
 #define nsvcd__settle_arc NSVCD__AT(settle_arc)
@@ -16458,6 +16577,10 @@ static nsvcd__isa nsvcd__isa_at_hand(void) {
 #endif  // NSVCD__DISPATCH
 
 // ---- what is asked, handed to the best of them
+
+NSVCDDEF nsvcd_result nsvcd_self_test(void) {
+  return NSVCD__BEST(self_test)();
+}
 
 NSVCDDEF size_t nsvcd_sweep_workspace_size(const nsvcd_question *question) {
   return NSVCD__BEST(sweep_size)(question);

@@ -641,8 +641,9 @@ int main(int argc, char **argv) {
   const int good = play(&w, &r);
   if (good)
     print_report(&w, &r);
-  if (r.problems)
-    fclose(r.problems);
+  const int is_lost = r.problems && ferror(r.problems);
+  if (r.problems && (fclose(r.problems) != 0 || is_lost))
+    return complain("the problems cannot be written"), REFUSED;
   if (good && !draw(&w))
     return complain("build/game.svg cannot be written"), REFUSED;
   if (good)

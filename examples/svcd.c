@@ -248,6 +248,22 @@ static void write_header(FILE *file, const char *in, const char *name, const nsv
   fprintf(file, "\n};\n");
 }
 
+// May a body be written there? Not over what is there and is none: it may be the input, by whatever
+// name. Returns 0 after a complaint.
+static int may_write_body(const char *path) {
+  char begin[5000] = "";
+  FILE *file = fopen(path, "rb");
+  const size_t size = file ? fread(begin, 1, sizeof begin - 1, file) : 0;
+  if (file)
+    fclose(file);
+  const int is_blob = memcmp(begin, "NSVB", 4) == 0 || memcmp(begin, "BVSN", 4) == 0;
+  const int is_array =
+      memcmp(begin, "// ", 3) == 0 && strstr(begin, "encoded for neuralsvcd.h by") != NULL;
+  if (size == 0 || (ends_with(path, ".h") ? is_array : is_blob))
+    return 1;
+  return complain("%s: is there already, and is no body", path);
+}
+
 static int write_body(const char *in, const char *out, const nsvcd_body *body) {
   int header = ends_with(out, ".h");
   int good;
@@ -309,6 +325,8 @@ static int encode(settings *options) {
   thing t;
   if (status != DONE || !take_scales(options->scale, 1, scales))
     return USAGE;
+  if (!may_write_body(out))
+    return REFUSED;
   const int good = load_obj(options->paths[0], scales[0], &t) &&
                    encode_thing(&t, &options->encode) && write_body(t.path, out, t.body);
   if (good) {
@@ -634,8 +652,12 @@ static int sweep(settings *options) {
   float scales[2];
   if (options->path_count != 2)
     return usage_error("sweep", "two files are wanted, A and B ('svcd sweep --help')");
+  if (options->picture && !ends_with(options->picture, ".svg"))
+    return complain("--picture: %s does not end in .svg", options->picture), USAGE;
   if (!take_scales(options->scale, 2, scales))
     return USAGE;
+  if (options->picture && !draw_may_write(options->picture))
+    return REFUSED;
   sweep_job *job = (sweep_job *)allocate(sizeof *job);
   memset(job, 0, sizeof *job);
   job->workspace = allocate(nsvcd_sweep_workspace_size(NULL));
@@ -791,7 +813,7 @@ static int run(const command *c, int argc, char **argv) {
   return DONE;
 }
 
-int main(int argc, char **argv) {
+static int serve(int argc, char **argv) {
   const char *name = argc > 1 ? argv[1] : "";
   const int help =
       strcmp(name, "--help") == 0 || strcmp(name, "-h") == 0 || strcmp(name, "help") == 0;
@@ -809,4 +831,12 @@ int main(int argc, char **argv) {
     return DONE;
   }
   return c ? run(c, argc - 2, argv + 2) : no_command(name);
+}
+
+int main(int argc, char **argv) {
+  const int status = serve(argc, argv);
+  if (fflush(stdout) == 0 && !ferror(stdout))
+    return status;
+  complain("standard output cannot be written");
+  return status == DONE ? REFUSED : status;
 }

@@ -77,6 +77,8 @@ cp "$dir/readme.c" "$dir/readme.cc"
 readme() {  # COMPILER AND FLAGS
   "$@" -O2 -Wall -Wextra -Werror -I. -o "$dir/readme" -lm && "$dir/readme" >"$dir/out" || fail "the program in README: $*"
   head -1 "$dir/out" | grep -q '^hit, witness, ' || fail "the program in README says: $(cat "$dir/out")"
+  (cd "$dir" && ./readme) 2>"$dir/err" && fail "the program in README ends with 0 without its meshes"
+  grep -q '^examples/assets/mug.obj: the file is missing' "$dir/err" || fail "the program in README, without its meshes: $(cat "$dir/err")"
 }
 readme "${CC:-cc}" -std=c99 "$dir/readme.c"
 if command -v "${CXX:-c++}" >/dev/null; then readme "${CXX:-c++}" -std=c++11 "$dir/readme.cc"; fi
@@ -242,6 +244,42 @@ grep -q '>nearest<' "$dir/x.svg" || fail "no 'nearest' in the picture"
 picture "$dir/open.obj" "$dir/mug.body" --scale 0.05,1
 picture "$dir/flat.obj" "$dir/flat.obj"
 expect 1 'cannot be written' build/svcd sweep "$dir/cube.obj" "$dir/cube.obj" --picture "$dir/no folder/x.svg"
+# What is there is written over only by its like, so no input is, by whatever name; pictures are .svg.
+for name in sweep.obj sweep.png svg; do
+  expect 2 '--picture: .*does not end in .svg' build/svcd sweep "$dir/cube.obj" "$dir/cube.obj" --picture "$dir/$name"
+  test ! -e "$dir/$name" || fail "a picture in $name"
+done
+kept() {  # FILE COMMAND...: refused, and the file as it was
+  file=$1
+  shift
+  cp "$file" "$dir/before"
+  expect 1 'is there already, and is no' "$@"
+  cmp -s "$file" "$dir/before" || { fail "an input was written over: $*"; cp "$dir/before" "$file"; }
+}
+cp "$dir/cube.obj" "$dir/mesh.svg"
+cp "$dir/cube.obj" "$dir/mesh.h"
+ln -s cube.obj "$dir/soft.svg"
+ln "$dir/cube.obj" "$dir/hard.svg"
+ln "$dir/cube.obj" "$dir/hard.body"
+kept "$dir/mesh.svg" build/svcd sweep "$dir/mesh.svg" "$dir/cube.obj" --picture "$dir/./mesh.svg"
+kept "$dir/mesh.h" build/svcd encode "$dir/mesh.h" "$dir/mesh.h"
+for name in soft.svg hard.svg; do
+  kept "$dir/cube.obj" build/svcd sweep "$dir/cube.obj" "$dir/cube.obj" --picture "$dir/$name"
+done
+kept "$dir/cube.obj" build/svcd encode "$dir/cube.obj" "$dir/hard.body"
+kept "$dir/cube.obj" build/dish_insertion 1 "$dir/soft.svg"
+expect 0 '' build/svcd encode "$dir/cube.obj" "$dir/again.h" --points 3
+expect 0 '' build/svcd encode "$dir/cube.obj" "$dir/again.h" --points 3
+# A disk that is full: of a limit of files, and of standard output.
+(trap '' XFSZ; ulimit -f 1; expect 1 'cannot be written' build/svcd sweep "$dir/cube.obj" "$dir/cube.obj" --picture "$dir/full.svg"; exit "$failures") ||
+  failures=$((failures + 1))
+(trap '' XFSZ; ulimit -f 1; expect 1 'full.body: cannot be written' build/svcd encode examples/assets/mug.obj "$dir/full.body"; exit "$failures") ||
+  failures=$((failures + 1))
+if test -c /dev/full; then
+  build/svcd info "$dir/cube.obj" >/dev/full 2>"$dir/err"
+  test $? = 1 && grep -q 'standard output cannot be written' "$dir/err" || fail "a full standard output: $(cat "$dir/err")"
+fi
+
 # What is wrong is named.
 expect 1 'none.obj: the file is missing' build/svcd sweep "$dir/cube.obj" "$dir/none.obj"
 expect 1 "bad.obj:4: an index .*: 'f 1 2 4'" build/svcd sweep "$dir/bad.obj" "$dir/cube.obj"

@@ -84,6 +84,8 @@ sed -n '/^\/\/ Ask a question/,/^\/\/ Or plan/{/^\/\/   /s/^\/\/   //p;/^\/\/$/s
 grep -q 'int main' "$dir/example.c" || fail "the header has no first example"
 "${CC:-cc}" -std=c99 -Wall -Wextra -Werror -I"$here" -O0 "$dir/example.c" -o "$dir/example" -lm || fail "the header's first example, in C"
 "${CXX:-c++}" -std=c++11 -Wall -I"$here" -O0 -x c++ "$dir/example.c" -o "$dir/example_cc" -lm || fail "the header's first example, in C++"
+said=$(cd "$dir" && ./example 2>&1) && fail "the header's first example ends with 0 without its mesh"
+case $said in "mug.obj: the file is missing"*) ;; *) fail "the header's first example, without its mesh: $said" ;; esac
 cp examples/assets/mug.obj "$dir/"
 said=$(cd "$dir" && ./example)
 case $said in "hits at t = "*) ;; *) fail "the header's first example says: $said" ;; esac
@@ -95,6 +97,35 @@ cp "$here/neuralsvcd.h" "$dir/alone/"
 printf '#define NEURALSVCD_IMPLEMENTATION\n#define NSVCD_NO_NETWORK\n#include "neuralsvcd.h"\n' >"$dir/alone/proof.c"
 "${CC:-cc}" -std=c99 $strict -O0 -c "$dir/alone/proof.c" -o "$dir/alone/proof.o" || fail "NSVCD_NO_NETWORK without weights.h"
 echo "header: NSVCD_NO_NETWORK without weights.h"
+
+# A compiler known to be wrong is refused; and the self test sees why, as it sees a slip in the header.
+cat >"$dir/self.c" <<END
+#define NEURALSVCD_IMPLEMENTATION
+#define NSVCD_NO_NETWORK
+#include "self.h"
+#include <stdio.h>
+int main(void) {
+  return puts(nsvcd_result_string(nsvcd_self_test())) < 0;
+}
+END
+self() {  # what the self test says: sed's change of the header, compiler and flags
+  sed -e 's/^#include "neuralsvcd.h"$/#include "self.h"/' -e "$1" neuralsvcd.h >"$dir/self.h"
+  shift
+  "$@" "$dir/self.c" -o "$dir/self" -lm || fail "the self test does not compile: $*"
+  "$dir/self"
+}
+for flags in -O0 -O3 "-O2 -DNSVCD_NO_SIMD" "-O3 -ffast-math -w"; do
+  test "$(self '' "${CC:-cc}" -std=c99 $flags)" = ok || fail "the self test refuses ${CC:-cc} $flags"
+done
+slip='/ nsvcd__vquat_mul(/,/^}/s/nsvcd__v_sub(/nsvcd__v_add(/'
+case $(self "$slip" "${CC:-cc}" -std=c99 -O0) in "this build reckons wrongly"*) ;; *) fail "the self test sees no slip" ;; esac
+if command -v tcc >/dev/null; then
+  ! tcc -c "$dir/twice.c" -o "$dir/tcc.o" 2>"$dir/tcc.txt" && grep -q 'error.*tcc passes arguments wrongly' "$dir/tcc.txt" || fail "tcc is not refused"
+  case $(self '/^#error "neuralsvcd.h: tcc/d' tcc -w) in "this build reckons wrongly"*) ;; *) fail "the self test passes tcc" ;; esac
+  echo "header: tcc is refused"
+else
+  echo "header: no tcc: not tested"
+fi
 
 # A build that lacks something scales a body whole or not at all.
 cat >"$dir/scale.c" <<END

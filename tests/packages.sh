@@ -20,13 +20,25 @@ runs() {  # title, program
   echo "packages: $1"
 }
 
+# One version: in the header's first line, in its macros, in CHANGELOG; and one version of the blob.
+version=$(sed -n '1s/.* v\([0-9.]*\) .*/\1/p' neuralsvcd.h)
+minor=${version%.*}
+printf '#include "neuralsvcd.h"\nNSVCD_VERSION NSVCD_VERSION_MAJOR NSVCD_VERSION_MINOR NSVCD_VERSION_PATCH\n' >"$dir/version.c"
+macros=$("$CC" -E -P -I"$here" "$dir/version.c" | tail -1)
+test "$macros" = "\"$version\" $(echo "$version" | tr . ' ')" || fail "the macros say $macros, the first line $version"
+changes=$(sed -n '/^## /{s/^## \([0-9.]*\).*/\1/p;q;}' CHANGELOG.md)
+test "$changes" = "$version" || fail "CHANGELOG begins with $changes, not $version"
+blob=$(sed -n 's/^#define NSVCD__BODY_VERSION \([0-9]*\).*/\1/p' neuralsvcd.h)
+named=$(sed -n "/^## $version/,/^## 0.1/s/.*blob's version is \([0-9]*\).*/\1/p" CHANGELOG.md)
+test -n "$blob" && test "$named" = "$blob" || fail "the blob's version is $blob; CHANGELOG: $named"
+
 prefix=$dir/usr
 ${MAKE:-make} -s install PREFIX="$prefix" LIBRARY_CFLAGS=-O0 CC="$CC" || fail "make install"
 export LD_LIBRARY_PATH="$prefix/lib"
 
 if command -v pkg-config >/dev/null; then
   export PKG_CONFIG_PATH="$prefix/lib/pkgconfig"
-  test "$(pkg-config --modversion neuralsvcd)" = "$(sed -n '1s/.* v\([0-9.]*\) .*/\1/p' neuralsvcd.h)" || fail "pkg-config's version"
+  test "$(pkg-config --modversion neuralsvcd)" = "$version" || fail "pkg-config's version"
   "$CC" -std=c99 -O1 -DNEURALSVCD_IMPLEMENTATION $(pkg-config --cflags neuralsvcd) "$main" -o "$dir/header" $(pkg-config --libs neuralsvcd)
   runs "pkg-config neuralsvcd" "$dir/header"
   "$CC" -std=c99 -O1 $(pkg-config --cflags neuralsvcd-library) "$main" -o "$dir/library" $(pkg-config --libs neuralsvcd-library)
@@ -52,12 +64,33 @@ if command -v cmake >/dev/null; then
     runs "$title, library" "$dir/cmake/with_library"
     rm -rf "$dir/cmake"
   }
+  # Before 1.0 a minor version is a promise of its own.
+  asks() {  # prefix, version wanted, 0: found, 1: refused
+    mkdir -p "$dir/ask"
+    printf 'cmake_minimum_required(VERSION 3.14)\nproject(ask LANGUAGES C)\nfind_package(neuralsvcd %s REQUIRED)\n' "$2" >"$dir/ask/CMakeLists.txt"
+    got=0
+    cmake -S "$dir/ask" -B "$dir/ask/build" -DCMAKE_C_COMPILER="$CC" -DCMAKE_PREFIX_PATH="$1" >"$dir/ask.txt" 2>&1 || got=1
+    test "$got" = "$3" || fail "find_package(neuralsvcd $2) in $1: $(test "$3" = 0 && echo refused || echo accepted)"
+    rm -rf "$dir/ask"
+  }
+  versions() {  # prefix
+    asks "$1" '' 0
+    asks "$1" "$version EXACT" 0
+    asks "$1" "$minor" 0
+    asks "$1" 0.1 1
+    asks "$1" 0.3 1
+    asks "$1" "$minor.99" 1
+    asks "$1" 1.0 1
+  }
+  versions "$prefix"
   cmake_runs "find_package after make install, static" -DCMAKE_PREFIX_PATH="$prefix"
   cmake_runs "find_package after make install, shared" -DCMAKE_PREFIX_PATH="$prefix" -DBUILD_SHARED_LIBS=ON
   cmake_runs "add_subdirectory, shared" -DSOURCE="$here" -DBUILD_SHARED_LIBS=ON
   cmake -S "$here" -B "$dir/own" -DCMAKE_C_COMPILER="$CC" -DCMAKE_INSTALL_PREFIX="$dir/cmake_usr" -DCMAKE_C_FLAGS=-O0 >"$dir/own.txt" 2>&1 &&
     cmake --build "$dir/own" >>"$dir/own.txt" 2>&1 && cmake --install "$dir/own" >>"$dir/own.txt" 2>&1 || { cat "$dir/own.txt" >&2; fail "cmake --install"; }
   cmake_runs "find_package after cmake --install" -DCMAKE_PREFIX_PATH="$dir/cmake_usr"
+  versions "$dir/cmake_usr"
+  echo "packages: find_package takes $minor, $version EXACT, and no other"
 else
   echo "packages: no cmake: not tested"
 fi

@@ -6,6 +6,8 @@
 #define NEURALSVCD_IMPLEMENTATION
 #include "../neuralsvcd.h"
 
+#include <time.h>
+
 #include "query_scene.h"
 
 void test_processor(void);
@@ -157,7 +159,22 @@ static void processor_sizes_are_the_same(void) {
     CHECK_EQ(processor_sets[n].size(NULL), processor_sets[0].size(NULL));
 }
 
+// Each reckons rightly; and the public function asks the best.
+static void processor_self_tests(void) {
+  nsvcd_result (*const tests[3])(void) = {nsvcd__self_test, nsvcd__self_test_avx2,
+                                          nsvcd__self_test_avx512};
+  for (size_t n = 0; n < processor_count(); n++)
+    CHECK_EQ(tests[n](), NSVCD_OK);
+  int failed = 0;
+  const clock_t start = clock();
+  for (int n = 0; n < 100000; n++)
+    failed += nsvcd_self_test() != NSVCD_OK;
+  printf("  the self test takes %.2f us\n", 10 * (double)(clock() - start) / CLOCKS_PER_SEC);
+  CHECK_EQ(failed, 0);
+}
+
 void test_processor(void) {
+  RUN(processor_self_tests);
   RUN(processor_proofs_agree);
   RUN(processor_networks_agree);
   RUN(processor_the_best_answers);

@@ -95,6 +95,7 @@ int main(int argc, char **argv) {
     good = bake(file, argv[i], &options, &most);
   }
   fprintf(file, "\n#define BODIES_PATCHES %lu\n", (unsigned long)most);
+  good &= !ferror(file);
   if (fclose(file) != 0)
     good = 0;
   if (!good)

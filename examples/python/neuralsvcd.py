@@ -61,6 +61,7 @@ class Code(enum.IntEnum):
     BODY = 13
     WORKSPACE = 14
     CANCELLED = 15
+    BUILD = 16
 
 
 class Status(enum.IntEnum):

@@ -224,9 +224,24 @@ DRAW_DEF void draw_to(FILE *svg, const draw_view *view, int first, const double 
 
 // ------------------------------------------------------------------------------------------- pages
 
+// May a picture be written there? Not over what is there and is none: it may be an input, by
+// whatever name. Returns 0 after a message.
+DRAW_DEF int draw_may_write(const char *path) {
+  char begin[4] = "";
+  FILE *file = fopen(path, "rb");
+  const size_t size = file ? fread(begin, 1, sizeof begin, file) : 0;
+  if (file)
+    fclose(file);
+  if (size == 0 || memcmp(begin, "<svg", 4) == 0 || memcmp(begin, "<?xm", 4) == 0)
+    return 1;
+  return fprintf(stderr, "%s: is there already, and is no SVG\n", path), 0;
+}
+
 // Returns NULL after a message if the file cannot be written.
 DRAW_DEF FILE *draw_open(const char *path, int width, int height, const char *title,
                          const char *subtitle) {
+  if (!draw_may_write(path))
+    return NULL;
   FILE *svg = fopen(path, "w");
   if (!svg) {
     fprintf(stderr, "%s: cannot be written\n", path);
