@@ -20,6 +20,7 @@
 #define MOST_MOMENTS 2500
 #define MOST_WORLDS 8
 #define MOST_FILES 100
+#define EXAMPLES 3
 
 // -------------------------------------------------------------------------------------------------
 // findings
@@ -32,8 +33,11 @@ typedef enum kind {
   HIGH_TOO_LOW,
   WITNESS_APART,
   INSIDE_FALSE,
+  INSIDE_POINT,
+  SKIN_DEEP,
   CONTRADICTION,
   BAD_ANSWER,
+  BAD_PLACE,
   UNSOUND,
   LOST_BY_FIRST = UNSOUND,
   LOST_BY_MEASURE,
@@ -41,10 +45,14 @@ typedef enum kind {
   LOST_BY_SKIN,
   LOST_BY_SEGMENTS,
   LOST_BY_CLEARANCE,
+  LOST_BY_TOLERANCE,
+  LOST_IN_HASTE,
+  MEASURE_IN_HASTE,
   LOST_FOR_GOOD,
   OTHER_VERDICT,
   FINER_LATER,
   FINER_EARLIER,
+  COARSER_LOW,
   WIDE,
   LADDER_LOST,
   LADDER_UNTIL,
@@ -56,8 +64,11 @@ typedef enum kind {
   SKIN_SHORT,
   SKIN_LONG,
   SKIN_DIFFERS,
+  PART_FARTHER,
   LATE,
+  LATE_IN_DOUBT,
   GAVE_UP,
+  CLEAR_UNDECIDED,
   START_UNDECIDED,
   INSIDE_MEETS,
   OVER_WORK,
@@ -68,7 +79,7 @@ static struct {
   const char *what;
   size_t count, scenes;
   uint64_t last;  // scene
-  char example[1400];
+  char examples[EXAMPLES][1400];
 } findings[KINDS] = {
     {.what = "certified free, but nearer than the clearance"},
     {.what = "certified free, but one is inside"},
@@ -77,18 +88,25 @@ static struct {
     {.what = "farther than clearance_high at contact_time"},
     {.what = "a witness whose triangles are apart"},
     {.what = "INSIDE, but nothing is"},
+    {.what = "INSIDE, at a point that is not"},
+    {.what = "deeper than the skin at the start, but no collision"},
     {.what = "two answers contradict each other"},
     {.what = "an answer that breaks its description"},
+    {.what = "a point or a normal that is not of the triangles named"},
     {.what = "`first` loses a verdict"},
     {.what = "`measure` loses a verdict"},
     {.what = "`measure` with `clearance` loses a verdict"},
     {.what = "`skin` loses a verdict"},
     {.what = "16 segments lose a verdict"},
     {.what = "a verdict that another clearance implies is lost"},
+    {.what = "`tolerance` loses a verdict"},
+    {.what = "`first` loses a verdict for which it has 8 times the work"},
+    {.what = "`measure` loses a verdict for which it has 8 times the work"},
     {.what = "a lost verdict that 16 times the work does not bring back"},
     {.what = "verdicts differ, INSIDE and WITNESS"},
     {.what = "finer `first`: free_until earlier"},
     {.what = "finer `first`: contact_time later"},
+    {.what = "finer `measure`: clearance_low lower"},
     {.what = "bracket wider than measure and 2 quanta"},
     {.what = "more work loses a verdict"},
     {.what = "more work: free_until earlier"},
@@ -100,8 +118,11 @@ static struct {
     {.what = "lifted, but touches still"},
     {.what = "lifted by more than 4 skins"},
     {.what = "the lift depends on first, measure, segments or tolerance"},
+    {.what = "triangles named are nearer than clearance_high by 4 quanta and more"},
     {.what = "witness later than first, and nothing near at free_until"},
+    {.what = "the same, but an eighth of the work was spent"},
     {.what = "undecided with work left and nothing near"},
+    {.what = "undecided, and nothing comes within 1 mm of the clearance"},
     {.what = "cross at the start, but undecided"},
     {.what = "INSIDE where surfaces meet at the start"},
     {.what = "work beyond the limit by 10,000 and more"},
@@ -125,6 +146,10 @@ typedef struct solid {
   double low[3], high[3], reach, quantum;
   int closed;
 } solid;
+static const char *const names[SOLIDS] = {
+    "box",   "fine box", "cone",  "frustum", "pyramid", "wedge",     "cylinder", "cup",
+    "peg",   "screw",    "prism", "gear",    "slab",    "fine slab", "block",    "walls",
+    "plate", "needle",   "link",  "ring",    "shell",   "ball",      "crumb"};
 static solid solids[FILES + MOST_FILES];
 static char **file_names;
 static int file_count;
@@ -220,8 +245,8 @@ static const solid *solid_of(int n) {
   if (s->shape.failed || nsvcd_encode(&mesh, NULL, NULL, NULL, 0, &s->body))
     exit((complain("body %d is refused", n), REFUSED));
   s->quantum = (double)nsvcd_body_describe(s->body).quantum;
-  s->closed = oracle_is_closed(s->shape.positions, s->shape.vertices, s->shape.indices,
-                               s->shape.triangles);
+  s->closed =
+      oracle_is_closed(s->shape.positions, s->shape.vertices, s->shape.indices, s->shape.triangles);
   free(mesh.positions);
   return s;
 }
@@ -251,9 +276,10 @@ typedef struct scene {
   part parts[2];
   double scale, clearance, skin, first, measure, tolerance;
   size_t work;
+  int deep;        // pressed in deeper than the skin, at the start
   int rests;       // on flat faces, or within the skin of them
   double pressed;  // by so much into them
-  double quanta, size, speed;
+  double quanta, size, speed, turn;
   int lifted_with;  // the part with which a lift turns
 } scene;
 
@@ -295,7 +321,7 @@ static void move_standing(scene *s, shapes_rng *rng, travel *a) {
   if (what == 4) {
     a->place[2] += far;
     a->way[2] = -far;
-    s->rests = 0;
+    s->rests = s->deep = 0;
   }
   if (what == 5)
     a->angle = angle / 4;
@@ -309,6 +335,7 @@ static void draw_pressed(scene *s, shapes_rng *rng) {
                : how == 3 ? log_uniform(rng, 5e-5, 5e-4)
                           : -s->skin * shapes_uniform(rng, 0, 0.9);
   s->rests = s->pressed < 0.9 * s->skin;
+  s->deep = s->pressed > 1.1 * s->skin + 2e-5;
 }
 static void scene_stands(scene *s, shapes_rng *rng, travel *a, travel *b) {
   static const int floors[4] = {SLAB, SLAB, FINE_SLAB, BLOCK};
@@ -369,8 +396,7 @@ static void scene_passes(scene *s, shapes_rng *rng, travel *a, travel *b) {
     memcpy(poses[k].rotation, (k ? b : a)->q, sizeof poses[k].rotation);
     memcpy(poses[k].position, (k ? b : a)->place, sizeof poses[k].position);
   }
-  const double apart =
-      oracle_distance(&meshes[0], &poses[0], &meshes[1], &poses[1], on_a, on_b);
+  const double apart = oracle_distance(&meshes[0], &poses[0], &meshes[1], &poses[1], on_a, on_b);
   shapes_direction(rng, a->way);
   for (int k = 0; k < 3 && apart > 0; k++)
     on_a[k] = (on_a[k] - on_b[k]) / apart;
@@ -392,8 +418,10 @@ static void scene_far(scene *s, shapes_rng *rng, travel *a, travel *b) {
 }
 static void scene_crosses(scene *s, shapes_rng *rng, travel *a, travel *b) {
   a->solid = pick_body(rng);
-  b->solid = pick_body(rng);
-  shapes_quaternion(rng, a->q);
+  b->solid = shapes_pick(rng, 3) ? pick_body(rng) : a->solid;
+  if (shapes_pick(rng, 2))
+    shapes_quaternion(rng, a->q);
+  a->wander = shapes_pick(rng, 3) ? 0 : 0.002 * s->scale;
   shapes_direction(rng, a->way);
   const double reach = s->scale * fmin(solid_of(a->solid)->reach, solid_of(b->solid)->reach);
   const int how = shapes_pick(rng, 3);  // at the start, at the end, both
@@ -482,18 +510,17 @@ static const struct {
   const char *name;
   void (*draw)(scene *s, shapes_rng *rng, travel *a, travel *b);
   int share;
-} makers[] = {{"stands", scene_stands, 5},   {"corner", scene_corner, 2},
-              {"stacked", scene_stacked, 2}, {"glides", scene_glides, 2},
-              {"passes", scene_passes, 3},   {"far", scene_far, 2},
-              {"crosses", scene_crosses, 3}, {"hollow", scene_hollow, 1},
-              {"within", scene_within, 1},   {"needle", scene_needle, 1},
-              {"chain", scene_chain, 1},     {"gears", scene_gears, 1},
-              {"screws", scene_screws, 1},   {"wanders", scene_wanders, 3}};
+} makers[] = {
+    {"stands", scene_stands, 5},   {"corner", scene_corner, 2},  {"stacked", scene_stacked, 2},
+    {"glides", scene_glides, 2},   {"passes", scene_passes, 3},  {"far", scene_far, 2},
+    {"crosses", scene_crosses, 3}, {"hollow", scene_hollow, 1},  {"within", scene_within, 1},
+    {"needle", scene_needle, 1},   {"chain", scene_chain, 1},    {"gears", scene_gears, 1},
+    {"screws", scene_screws, 1},   {"wanders", scene_wanders, 3}};
 #define MAKERS (sizeof makers / sizeof makers[0])
 
 // The poses of a part: its travel, seen from a frame that itself goes along a way.
-static void set_part(scene *s, shapes_rng *rng, part *p, const travel *go,
-                     const oracle_pose *frame, const double *along) {
+static void set_part(scene *s, shapes_rng *rng, part *p, const travel *go, const oracle_pose *frame,
+                     const double *along) {
   p->of = solid_of(go->solid);
   p->scale = (float)s->scale;
   p->count = go->count;
@@ -508,8 +535,7 @@ static void set_part(scene *s, shapes_rng *rng, part *p, const travel *go,
     oracle_axis_angle(go->axis, go->angle * t, turn);
     oracle_quat_mul(turn, go->q, own.rotation);
     for (int k = 0; k < 3; k++)
-      own.position[k] =
-          go->place[k] + t * go->way[k] + go->wander * shapes_uniform(rng, -1, 1);
+      own.position[k] = go->place[k] + t * go->way[k] + go->wander * shapes_uniform(rng, -1, 1);
     own = oracle_compose(frame, &own);
     for (int k = 0; k < 3; k++)
       own.position[k] += t * along[k];
@@ -521,6 +547,7 @@ static void set_part(scene *s, shapes_rng *rng, part *p, const travel *go,
     oracle_sub(p->poses[n].position, p->poses[n - 1].position, moved);
     const double angle = oracle_quat_arc(p->poses[n - 1].rotation, p->poses[n].rotation, axis);
     const double way = oracle_length(moved) + s->scale * p->of->reach * angle;
+    s->turn += angle;
     s->speed = fmax(s->speed, way * (double)(p->count - 1));
   }
 }
@@ -540,7 +567,7 @@ static nsvcd_question question_of(const scene *s, const nsvcd_sweep_options *opt
 }
 
 static void draw_scene(scene *s, uint64_t seed) {
-  static const size_t counts[8] = {2, 2, 3, 17, 33, 65, 200, 2};
+  static const size_t counts[8] = {2, 2, 3, 17, 33, 65, 200, 200};
   static const double scales[6] = {1, 1, 1, 1, 0.3, 2};
   shapes_rng rng = {seed * 7919};
   travel go[2];
@@ -639,8 +666,8 @@ static void refine(const scene *s, world *w, size_t samples) {
   const double step = 1.0 / (double)(samples - 1);
   for (size_t i = 0; i < samples; i++) {
     const double here = w->moments[i].d;
-    const int lowest = (i == 0 || here <= w->moments[i - 1].d) &&
-                       (i + 1 == samples || here < w->moments[i + 1].d);
+    const int lowest =
+        (i == 0 || here <= w->moments[i - 1].d) && (i + 1 == samples || here < w->moments[i + 1].d);
     if (!lowest || here > w->least + s->speed * step || !(here > 0) || w->count > 1500)
       continue;
     double low = fmax(w->moments[i].t - step, 0);
@@ -718,27 +745,34 @@ static void describe(const ask *k, char *out, size_t size) {
            (double)w->lift[1], (double)w->lift[2]);
 }
 
+static const char *name_of(const solid *of) {
+  const size_t n = (size_t)(of - solids);
+  return n < SOLIDS ? names[n] : n < HOLLOWS ? "solid" : n < FILES ? "hollow" : "mesh";
+}
+
 // other: NULL, or the answer that this one is held against.
 static void find(const scene *s, kind what, const ask *k, const ask *other, double by) {
   char text[1400], one[500], two[500] = "";
   describe(k, one, sizeof one);
   if (other)
     describe(other, two, sizeof two);
-  snprintf(text, sizeof text, "%llu %s: %s%s%s (%g; quanta %g, least %g, at start %g, pressed %g)",
-           (unsigned long long)s->seed, s->name, one, other ? "\n      and " : "", two, by,
-           s->quanta, k->world ? k->world->least : -1, k->world ? k->world->at_start : -1,
-           s->pressed);
-  if (!findings[what].count)
-    strcpy(findings[what].example, text);
+  snprintf(text, sizeof text,
+           "%llu %s, %s on %s: %s%s%s (%g; quanta %g, least %g, at start %g, pressed %g)",
+           (unsigned long long)s->seed, s->name, name_of(s->parts[0].of), name_of(s->parts[1].of),
+           one, other ? "\n      and " : "", two, by, s->quanta, k->world ? k->world->least : -1,
+           k->world ? k->world->at_start : -1, s->pressed);
   findings[what].count++;
-  findings[what].scenes += findings[what].last != s->seed;
+  if (findings[what].last != s->seed) {
+    if (findings[what].scenes < EXAMPLES)
+      strcpy(findings[what].examples[findings[what].scenes], text);
+    findings[what].scenes++;
+  }
   findings[what].last = s->seed;
   if (telling)
     printf("  ! %s: %s\n", findings[what].what, text);
 }
 
-static const ask *put(const scene *s, const nsvcd_sweep_options *options, int swapped,
-                      int ladder) {
+static const ask *put(const scene *s, const nsvcd_sweep_options *options, int swapped, int ladder) {
   ask *k = &asks[ask_count];
   nsvcd_answer *w = &k->answer;
   if (ask_count == MOST_ASKS)
@@ -792,13 +826,20 @@ static void put_all(const scene *s) {
     o.work = s->work;
     put(s, &o, other == 3, 0);
   }
-  for (int n = 0; n < 20; n++) {
-    nsvcd_sweep_options o = asks[n % 5 + (n / 5 % 2) * 5 + (n / 10) * 15].options;
+  const size_t base = 5 * (s->seed % 2) + 15 * (s->seed / 2 % 2);
+  size_t enough = 0;  // that decides it where no order is asked for
+  for (size_t n = 0; n < 5; n++) {
+    nsvcd_sweep_options o = asks[base + n].options;
     size_t ends = 0;
-    if ((s->seed + (uint64_t)n) % 2)  // some of them
-      continue;
-    for (o.work = 1; o.work <= s->work && ends < 3; o.work *= 2)
-      ends += put(s, &o, 0, n + 1)->answer.status != NSVCD_STATUS_UNDECIDED;
+    for (o.work = 1; o.work <= s->work && ends < 3; o.work *= 2) {
+      const ask *k = put(s, &o, 0, (int)n + 1);
+      const int is_open = k->answer.status == NSVCD_STATUS_UNDECIDED;
+      ends += !is_open;
+      if (n == 0 && ends == 1)
+        enough = o.work;
+      if (is_open && n > 0 && enough > 0 && o.work >= 8 * enough && o.work > 500)
+        find(s, n < 3 ? LOST_IN_HASTE : MEASURE_IN_HASTE, k, &asks[base], (double)enough);
+    }
   }
 }
 
@@ -821,6 +862,14 @@ static oracle_triangle triangle_of(const scene *s, const world *w, int k, uint32
     oracle_transform(&pose, v, out.v[i]);
   }
   oracle_triangle_normal(&out);
+  return out;
+}
+
+static oracle_triangle point_of(const float *point) {
+  oracle_triangle out;
+  memset(&out, 0, sizeof out);
+  for (int k = 0; k < 9; k++)
+    out.v[k / 3][k % 3] = (double)point[k % 3];
   return out;
 }
 
@@ -872,6 +921,25 @@ static const char *broken(const scene *s, const ask *k) {
   return NULL;
 }
 
+// The point is on one of them, or where they are nearest, and the normal points from b to a.
+static void judge_place(const scene *s, const ask *k, const oracle_triangle *a,
+                        const oracle_triangle *b, double moved) {
+  const nsvcd_answer *w = &k->answer;
+  const oracle_triangle point = point_of(w->point);
+  double x[3], y[3], unused[3];
+  const double apart = sqrt(oracle_triangles(a, b, DBL_MAX, x, y));
+  double direction = 0;
+  for (int i = 0; i < 3 && apart > 50 * s->quanta; i++)
+    direction += (double)w->normal[i] * (x[i] - y[i]) / apart;
+  if (apart > 50 * s->quanta + 50 * moved && direction < 0.99)
+    find(s, BAD_PLACE, k, NULL, direction);
+  const double off = fmax(oracle_triangles(a, &point, DBL_MAX, x, unused),
+                          oracle_triangles(b, &point, DBL_MAX, x, unused));
+  const double allowed = apart + 2 * s->quanta + moved + 1e-6 * oracle_length(point.v[0]);
+  if (sqrt(off) > allowed && !(k->swapped && k->options.skin > 0))
+    find(s, BAD_PLACE, k, NULL, sqrt(off) - allowed);
+}
+
 static void judge_triangles(const scene *s, const ask *k) {
   const nsvcd_answer *w = &k->answer;
   double x[3], y[3];
@@ -884,6 +952,10 @@ static void judge_triangles(const scene *s, const ask *k) {
   const double apart = sqrt(oracle_triangles(&a, &b, DBL_MAX, x, y));
   if (apart > (double)w->clearance_high + moved)
     find(s, HIGH_TOO_LOW, k, NULL, apart);
+  if (apart < (double)w->clearance_high - 4 * s->quanta - moved)
+    find(s, PART_FARTHER, k, NULL, apart);  // it is about a part of a large triangle
+  else
+    judge_place(s, k, &a, &b, moved);
   if (w->status != NSVCD_STATUS_WITNESS)
     return;
   if (apart > (double)k->options.clearance + s->quanta + moved)
@@ -921,6 +993,18 @@ static void judge_inside(const scene *s, const ask *k) {
   if (k->answer.status != NSVCD_STATUS_INSIDE)
     return;
   const double start = k->world->at_start;
+  double most = 0;
+  for (int n = 0; n < 2; n++) {
+    const oracle_pose pose = pose_in(s, k->world, n, 0);
+    double m[9], d[3], at[3];
+    for (int i = 0; i < 3; i++)
+      d[i] = (double)k->answer.point[i] - pose.position[i];
+    oracle_matrix(pose.rotation, m);
+    oracle_rotate_back(m, d, at);
+    most = fmax(most, fabs(oracle_winding(&s->parts[n].mesh, at)));
+  }
+  if (most < 0.4 && !(k->swapped && k->options.skin > 0))
+    find(s, INSIDE_POINT, k, NULL, most);
   if (start > 1e-9 * s->size && !k->world->inside)
     find(s, INSIDE_FALSE, k, NULL, start);
   if (!(start > s->quanta))
@@ -937,21 +1021,25 @@ static void judge_effort(const scene *s, const ask *k) {
     find(s, OVER_WORK, k, NULL, (double)w->work);
   if (w->status == NSVCD_STATUS_UNDECIDED && w->work < o->work && k->world->least > allowed)
     find(s, GAVE_UP, k, NULL, k->world->least);
-  if (w->status == NSVCD_STATUS_UNDECIDED && !(k->world->at_start > 0) && !k->ladder &&
-      !s->rests && !(o->skin > 0))
+  if (w->status == NSVCD_STATUS_UNDECIDED && !k->ladder && !(o->measure > 0) && s->turn < 5 &&
+      k->world->least > allowed + 1e-3)
+    find(s, CLEAR_UNDECIDED, k, NULL, k->world->least);
+  if (w->status == NSVCD_STATUS_UNDECIDED && !(k->world->at_start > 0) && !k->ladder && !s->rests &&
+      !(o->skin > 0))
     find(s, START_UNDECIDED, k, NULL, 0);
   if (w->status == NSVCD_STATUS_WITNESS && o->first > 0) {
     const double late = (double)(w->contact_time - w->free_until);
     const double there = distance_at(s, k->world, (double)w->free_until);
     if (late > (double)o->first * 1.0001 + 1e-6 && there > allowed && w->work < o->work)
-      find(s, LATE, k, NULL, there);
+      find(s, w->work < o->work / 8 ? LATE : LATE_IN_DOUBT, k, NULL, there);
   }
   const double wide = (double)(w->clearance_high - w->clearance_low) - (double)o->measure;
   if (o->measure > 0 && o->clearance <= 0 &&
       (w->status == NSVCD_STATUS_CERTIFIED_FREE || w->status == NSVCD_STATUS_WITNESS) &&
       w->clearance_high < HUGE_VALF) {
-    widest = fmax(widest, wide / s->quanta);
-    if (wide > 2 * s->quanta * (1 + 1e-4) + 4e-6 * (s->size + k->world->least))
+    if (!(o->tolerance > 0))
+      widest = fmax(widest, (wide - 4e-6 * (s->size + k->world->least)) / s->quanta);
+    if (wide > 2 * s->quanta + 2 * (double)o->tolerance + 4e-6 * (s->size + k->world->least))
       find(s, WIDE, k, NULL, wide / s->quanta);
   }
 }
@@ -966,6 +1054,8 @@ static void judge_skin(const scene *s, const ask *k) {
     return;
   if (oracle_length(lift) > 4.001 * skin)
     find(s, SKIN_LONG, k, NULL, oracle_length(lift) / skin);
+  if (s->deep && w->status == NSVCD_STATUS_CERTIFIED_FREE)
+    find(s, SKIN_DEEP, k, NULL, start);
   if (!s->rests || s->pressed + clearance > 0.9 * skin)
     return;
   if (!(oracle_length(lift) > 0)) {
@@ -1004,8 +1094,8 @@ static void judge_contradictions(const scene *s, const ask *i, const ask *j) {
   if (i->world != j->world)
     return;
   const int x_free = x->status == NSVCD_STATUS_CERTIFIED_FREE;
-  const int meets = y->status == NSVCD_STATUS_WITNESS &&
-                    j->options.clearance <= i->options.clearance;
+  const int meets =
+      y->status == NSVCD_STATUS_WITNESS && j->options.clearance <= i->options.clearance;
   if (x_free && (meets || y->status == NSVCD_STATUS_INSIDE))
     find(s, CONTRADICTION, i, j, 0);
   if (!x_free && meets && x->free_until > y->contact_time)
@@ -1026,7 +1116,7 @@ static void judge_losses(const scene *s, const ask *i, const ask *j, int by) {
   const nsvcd_sweep_options *y = &j->options;
   const nsvcd_status was = i->answer.status;
   const int is_free = was == NSVCD_STATUS_CERTIFIED_FREE;
-  const double margin = (double)y->clearance + 4 * s->quanta + 4e-6 * s->size;
+  const double margin = (double)(y->clearance + y->tolerance) + 4 * s->quanta + 4e-6 * s->size;
   kind lost = KINDS;
   if (by == BY_FIRST && !(x->first > 0))
     lost = LOST_BY_FIRST;
@@ -1034,11 +1124,13 @@ static void judge_losses(const scene *s, const ask *i, const ask *j, int by) {
     lost = y->clearance > 0 ? LOST_BY_BOTH : LOST_BY_MEASURE;
   if (by == BY_SKIN && !(x->skin > 0) && i->world == j->world)
     lost = LOST_BY_SKIN;
-  if (by == BY_SEGMENTS && !x->segments)
+  if (by == BY_SEGMENTS && !x->segments && s->turn < 5)
     lost = LOST_BY_SEGMENTS;
   if (by == BY_CLEARANCE && !(x->first > 0) && !(x->measure > 0) && i->world == j->world &&
       (is_free ? y->clearance < x->clearance : y->clearance > x->clearance))
     lost = LOST_BY_CLEARANCE;
+  if (by == BY_TOLERANCE && !(x->tolerance > 0))
+    lost = LOST_BY_TOLERANCE;
   if (lost == KINDS || (is_free && i->world->least < margin))
     return;
   find(s, lost, j, i, (double)i->answer.work / (double)x->work);
@@ -1052,17 +1144,22 @@ static void judge_pair(const scene *s, const ask *i, const ask *j) {
   if (x->status != NSVCD_STATUS_UNDECIDED && open)
     judge_losses(s, i, j, by);
   const int same_question = i->world == j->world && !(by & BY_CLEARANCE);
-  if (i < j && same_question && x->status != y->status &&
-      x->status != NSVCD_STATUS_UNDECIDED && !open && x->status != NSVCD_STATUS_CERTIFIED_FREE &&
-      y->status != NSVCD_STATUS_CERTIFIED_FREE)
+  if (i < j && same_question && x->status != y->status && x->status != NSVCD_STATUS_UNDECIDED &&
+      !open && x->status != NSVCD_STATUS_CERTIFIED_FREE && y->status != NSVCD_STATUS_CERTIFIED_FREE)
     find(s, OTHER_VERDICT, i, j, 0);
   if (by == BY_FIRST && j->options.first < i->options.first && j->options.first > 0) {
-    if (y->free_until < x->free_until - 1e-6f)
+    const float to = j->options.first + 1e-6f;
+    if (y->free_until < x->free_until - to && !(i->options.tolerance > 0))
       find(s, FINER_LATER, j, i, (double)(x->free_until - y->free_until));
     if (y->status == NSVCD_STATUS_WITNESS && x->status == NSVCD_STATUS_WITNESS &&
-        y->contact_time > x->contact_time + 1e-6f)
+        y->contact_time > x->contact_time + to && !(i->options.tolerance > 0))
       find(s, FINER_EARLIER, j, i, (double)(y->contact_time - x->contact_time));
   }
+  if (by == BY_MEASURE && j->options.measure < i->options.measure && j->options.measure > 0 &&
+      (double)(x->clearance_low - y->clearance_low) >
+          (double)(j->options.measure + 2 * j->options.tolerance) + 2 * s->quanta +
+              4e-6 * (s->size + i->world->least))
+    find(s, COARSER_LOW, j, i, (double)(x->clearance_low - y->clearance_low));
   if (by == BY_SWAPPING && i < j) {
     int same = x->status == y->status && x->collides == y->collides && x->work == y->work &&
                x->triangle_a == y->triangle_a && x->triangle_b == y->triangle_b &&
@@ -1088,14 +1185,14 @@ static void judge_step(const scene *s, const ask *i, const ask *j) {
     find(s, LADDER_LOST, j, i, 0);
   if (i->world != j->world)
     return;
-  if (y->free_until < x->free_until - 1e-6f)
+  if (y->free_until < x->free_until - i->options.first - 1e-6f)
     find(s, LADDER_UNTIL, j, i, (double)(x->free_until - y->free_until));
   if (i->options.first > 0 && x->status == NSVCD_STATUS_WITNESS &&
       y->status == NSVCD_STATUS_WITNESS && y->contact_time > x->contact_time + 1e-6f)
     find(s, LADDER_LATER, j, i, (double)(y->contact_time - x->contact_time));
   if (measures && y->clearance_low < x->clearance_low * 0.999f - 1e-9f)
     find(s, LADDER_LOW, j, i, (double)(x->clearance_low - y->clearance_low));
-  if (measures && y->clearance_high > x->clearance_high * 1.001f + 1e-9f)
+  if (measures && y->clearance_high > x->clearance_high * 1.001f + (float)s->quanta)
     find(s, LADDER_HIGH, j, i, (double)(y->clearance_high - x->clearance_high));
 }
 
@@ -1187,8 +1284,9 @@ static int report(void) {
   int unsound = 0;
   for (int k = 0; k < KINDS; k++) {
     if (findings[k].count)
-      printf("%s: %zu in %zu scenes; for one\n    %s\n", findings[k].what, findings[k].count,
-             findings[k].scenes, findings[k].example);
+      printf("%s: %zu in %zu scenes\n", findings[k].what, findings[k].count, findings[k].scenes);
+    for (size_t n = 0; n < EXAMPLES && n < findings[k].scenes; n++)
+      printf("    %s\n", findings[k].examples[n]);
     if (k < UNSOUND)
       unsound |= findings[k].count > 0;
   }
@@ -1196,10 +1294,11 @@ static int report(void) {
   for (int k = 0; k < KINDS; k++)
     printf("%8zu %8zu  %s%s\n", findings[k].count, findings[k].scenes,
            k < UNSOUND ? "UNSOUND: " : "", findings[k].what);
-  printf("%zu questions: free %zu, witness %zu, inside %zu, undecided %zu; brackets up to measure "
-         "and %.1f quanta\n",
-         questions, verdicts[NSVCD_STATUS_CERTIFIED_FREE], verdicts[NSVCD_STATUS_WITNESS],
-         verdicts[NSVCD_STATUS_INSIDE], verdicts[NSVCD_STATUS_UNDECIDED], widest);
+  printf(
+      "%zu questions: free %zu, witness %zu, inside %zu, undecided %zu; brackets up to measure "
+      "and %.1f quanta\n",
+      questions, verdicts[NSVCD_STATUS_CERTIFIED_FREE], verdicts[NSVCD_STATUS_WITNESS],
+      verdicts[NSVCD_STATUS_INSIDE], verdicts[NSVCD_STATUS_UNDECIDED], widest);
   return unsound;
 }
 
