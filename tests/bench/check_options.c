@@ -382,16 +382,22 @@ static void scene_crosses(scene *s, shapes_rng *rng, travel *a, travel *b) {
   b->solid = shapes_pick(rng, 3) ? pick_body(rng) : a->solid;
   if (shapes_pick(rng, 2))
     shapes_quaternion(rng, a->q);
-  a->wander = shapes_pick(rng, 3) ? 0 : 0.002 * s->scale;
+  a->wander = s->scale * 0.001 * shapes_pick(rng, 2) * pow(8, shapes_pick(rng, 3));
+  a->angle = shapes_pick(rng, 3) ? 0 : shapes_uniform(rng, 0, 3);
+  if (shapes_pick(rng, 3) == 0) {  // both turn
+    b->angle = shapes_uniform(rng, 0, 2);
+    b->count = a->count;
+  }
   shapes_direction(rng, a->way);
   if (shapes_pick(rng, 3) == 0) {  // faces in one plane
     memset(a->way, 0, sizeof a->way);
     a->way[shapes_pick(rng, 3)] = 1;
   }
   const double reach = s->scale * fmin(solid_of(a->solid)->reach, solid_of(b->solid)->reach);
+  const double off = a->solid == b->solid && shapes_pick(rng, 3) == 0 ? 0 : 0.3;
   const int how = shapes_pick(rng, 3);  // at the start, at the end, both
   for (int k = 0; k < 3; k++) {
-    a->place[k] = 0.3 * reach * a->way[(k + 1) % 3] - (how == 1 ? 0.7 * a->way[k] : 0);
+    a->place[k] = off * reach * a->way[(k + 1) % 3] - (how == 1 ? 0.7 * a->way[k] : 0);
     a->way[k] *= how == 2 ? 0.02 : 0.7;
   }
 }
@@ -900,7 +906,8 @@ static void judge_place(const scene *s, const ask *k, const oracle_triangle *a,
     find(s, BAD_PLACE, k, NULL, direction);
   const double off = fmax(oracle_triangles(a, &point, DBL_MAX, x, unused),
                           oracle_triangles(b, &point, DBL_MAX, x, unused));
-  const double allowed = apart + 2 * s->quanta + moved + 1e-6 * oracle_length(point.v[0]);
+  const double most = fmax(apart + s->quanta, (double)w->clearance_high);
+  const double allowed = most + s->quanta + moved + 1e-6 * oracle_length(point.v[0]);
   if (sqrt(off) > allowed && !(k->swapped && k->options.skin > 0))
     find(s, BAD_PLACE, k, NULL, sqrt(off) - allowed);
 }
