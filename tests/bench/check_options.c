@@ -94,8 +94,8 @@ static double widest;
 
 // clang-format off
 enum { BOX, FINE_BOX, CONE, FRUSTUM, PYRAMID, WEDGE, CYLINDER, CUP, PEG, SCREW, PRISM, GEAR,
-       STANDING, SLAB = STANDING, FINE_SLAB, BLOCK, WALLS, PLATE, NEEDLE, LINK, RING, SHELL, BALL,
-       CRUMB, SOLIDS, HOLLOWS = SOLIDS + 10, FILES = HOLLOWS + SHAPES_HOLLOWS };
+       BOXES, STANDING = BOXES + 16, SLAB = STANDING, FINE_SLAB, BLOCK, WALLS, PLATE, NEEDLE, LINK,
+       RING, SHELL, BALL, CRUMB, SOLIDS, HOLLOWS = SOLIDS + 10, FILES = HOLLOWS + SHAPES_HOLLOWS };
 // clang-format on
 
 typedef struct solid {
@@ -104,10 +104,12 @@ typedef struct solid {
   double low[3], high[3], reach, quantum;
   int closed;
 } solid;
+// clang-format off
 static const char *const names[SOLIDS] = {
-    "box",   "fine box", "cone",  "frustum", "pyramid", "wedge",     "cylinder", "cup",
-    "peg",   "screw",    "prism", "gear",    "slab",    "fine slab", "block",    "walls",
-    "plate", "needle",   "link",  "ring",    "shell",   "ball",      "crumb"};
+  "box", "fine box", "cone", "frustum", "pyramid", "wedge", "cylinder", "cup", "peg", "screw",
+  "prism", "gear", [SLAB] = "slab", "fine slab", "block", "walls", "plate", "needle", "link",
+  "ring", "shell", "ball", "crumb"};
+// clang-format on
 static solid solids[FILES + MOST_FILES];
 static char **file_names;
 static int file_count;
@@ -156,7 +158,11 @@ static void make_shape(int n, shapes_mesh *m) {
     default: break;
   }
   // clang-format on
-  if (n < HOLLOWS)
+  if (n < STANDING) {
+    const double x = shapes_uniform(&rng, 0.02, 0.3);
+    const double y = shapes_uniform(&rng, 0.02, 0.3);
+    shapes_box(m, x, y, shapes_uniform(&rng, 0.02, 0.3), 1 + n % 3);
+  } else if (n < HOLLOWS)
     shapes_random_solid(m, &rng, shapes_uniform(&rng, 0.05, 0.4));
   else
     shapes_random_hollow(m, &rng, n - HOLLOWS, 0.3);
@@ -254,7 +260,7 @@ static int pick_body(shapes_rng *rng) {
 static int pick_standing(shapes_rng *rng) {
   if (file_count && shapes_pick(rng, 4) == 0)
     return FILES + shapes_pick(rng, file_count);
-  return shapes_pick(rng, STANDING);
+  return shapes_pick(rng, 4) ? shapes_pick(rng, BOXES) : BOXES + shapes_pick(rng, 16);
 }
 static double top_of(const scene *s, int n) {
   return s->scale * solid_of(n)->high[2];
@@ -299,18 +305,20 @@ static void draw_pressed(scene *s, shapes_rng *rng) {
   s->deep = s->pressed > 1.1 * s->skin + 2e-5;
 }
 static void scene_stands(scene *s, shapes_rng *rng, travel *a, travel *b) {
-  static const int floors[4] = {SLAB, SLAB, FINE_SLAB, BLOCK};
+  static const int floors[5] = {SLAB, SLAB, FINE_SLAB, BLOCK, BOXES};
   a->solid = pick_standing(rng);
-  b->solid = floors[shapes_pick(rng, 4)];
+  b->solid = floors[shapes_pick(rng, 5)];
+  if (b->solid == BOXES)
+    b->solid += shapes_pick(rng, 16);
   draw_pressed(s, rng);
-  const double room = b->solid == BLOCK ? 0.1 : 0.4;
+  const double room = b->solid < STANDING ? 0.01 : b->solid == BLOCK ? 0.1 : 0.4;
   for (int k = 0; k < 2; k++)
     a->place[k] = s->scale * room * (shapes_pick(rng, 3) ? shapes_uniform(rng, -1, 1) : 0);
   a->place[2] = top_of(s, b->solid) - foot_of(s, a->solid) - s->pressed;
   move_standing(s, rng, a);
 }
 static void scene_corner(scene *s, shapes_rng *rng, travel *a, travel *b) {
-  a->solid = shapes_pick(rng, 2);  // boxes
+  a->solid = shapes_pick(rng, 3) ? BOXES + shapes_pick(rng, 16) : shapes_pick(rng, 2);  // boxes
   b->solid = WALLS;
   draw_pressed(s, rng);
   for (int k = 0; k < 3; k++)
@@ -321,7 +329,10 @@ static void scene_corner(scene *s, shapes_rng *rng, travel *a, travel *b) {
 }
 static void scene_stacked(scene *s, shapes_rng *rng, travel *a, travel *b) {
   static const int twins[4] = {BOX, FINE_BOX, BLOCK, CYLINDER};
-  a->solid = b->solid = twins[shapes_pick(rng, 4)];
+  a->solid = twins[shapes_pick(rng, 4)];
+  if (shapes_pick(rng, 2))
+    a->solid = BOXES + shapes_pick(rng, 16);
+  b->solid = a->solid;
   draw_pressed(s, rng);
   if (shapes_pick(rng, 2))
     a->place[0] = 0.03 * s->scale;
@@ -718,7 +729,11 @@ static void describe(const ask *k, char *out, size_t size) {
 
 static const char *name_of(const solid *of) {
   const size_t n = (size_t)(of - solids);
-  return n < SOLIDS ? names[n] : n < HOLLOWS ? "solid" : n < FILES ? "hollow" : "mesh";
+  return n >= BOXES && n < STANDING ? "some box"
+         : n < SOLIDS               ? names[n]
+         : n < HOLLOWS              ? "solid"
+         : n < FILES                ? "hollow"
+                                    : "mesh";
 }
 
 // other: NULL, or the answer that this one is held against.
