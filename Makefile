@@ -32,7 +32,7 @@ endif
 .PHONY: all demo preview assets help format clean firmware web weights problems accuracy
 .PHONY: shared static release install uninstall check-packages
 .PHONY: test check-text check-header check-examples check-gradient check-tiles check-fast-math check-levels
-.PHONY: check-32 check-mingw check-firmware check-motions check-problems check-extremes check-python python check-web mutants
+.PHONY: check-32 check-mingw check-firmware check-motions check-options check-problems check-extremes check-python python check-web mutants
 .PHONY: check-fuzz fuzz check-sanitizers check-threads check-cross check-all run-tests coverage mutate
 .PHONY: bench bench-asks bench-flags bench-level bench-scale bench-plan race profile instructions sizes
 .DELETE_ON_ERROR:
@@ -311,10 +311,22 @@ check-motions: build/check_motions build/game build/problems build/svcd
 	build/check_motions build/motions/game.txt 0.002 $(FIRST)
 	@for file in $(MOTIONS); do echo $$file; build/check_motions $$file 0 $(FIRST) || exit 1; done
 
+# SCENES=2000 for more, SEED=7 for others.
+SCENES = 100
+# -std=c99 keeps gcc from fusing products and sums, and gnu99, which most users have, does not: so it is asked both ways.
+build/check_options_fused: CFLAGS += -ffp-contract=fast
+build/check_options_fused: tests/bench/check_options.c $(HELPERS) $(PEERS) $(SCENERY) $(LIBRARY) | build
+	$(CC) $(ALL_CFLAGS) -Wno-unused-function -o $@ $< -lm
+check-options: build/check_options build/check_options_fused  # every option against every other, and against distances
+	@mkdir -p build/options && tar xzf examples/scenery/meshes/random_urdfs.tar.gz -C build/options
+	@for made in $^; do echo $$made; \
+	  $$made $(SCENES) $(SEED) build/options/random_urdfs/[0-4]*.obj >$$made.txt; status=$$?; \
+	  sed -n '/^ answers/,$$p' $$made.txt; [ $$status = 0 ] || exit 1; done
+
 check-extremes: build/problems build/svcd  # tiny, huge, far, thin, spinning ...
 	tests/bench/extremes.sh
 
-CHECKS = text header packages gradient examples tiles fast-math levels 32 mingw firmware motions problems extremes python web
+CHECKS = text header packages gradient examples tiles fast-math levels 32 mingw firmware motions options problems extremes python web
 test: build/tests $(CHECKS:%=check-%)  ## everything; the last line is `N passed, N failed`
 	build/tests
 run-tests: build/tests
