@@ -9890,7 +9890,7 @@ static void nsvcd__candidates_start(nsvcd__candidates *kept, nsvcd__candidate *i
 #define NSVCD__IN_DOUBT 8        // the share of the limit, 1 / this, that goes on after a doubt
 // What else a question asks.
 #define NSVCD__GLANCE 200   // units, to find triangles that meet where one is within the other
-#define NSVCD__FINER 8      // times: from pass to pass, where the least distance is measured
+#define NSVCD__FINER 2      // times: from pass to pass, where the least distance is measured
 #define NSVCD__IN_ORDER 4   // segments searched together, where the first contact is sought
 #define NSVCD__TOUCHES 32   // contacts at the start, looked at together, where there is a skin
 #define NSVCD__LIFTS 6      // directions in which they are undone
@@ -10424,9 +10424,9 @@ static size_t nsvcd__limit_of_first(const nsvcd__proof *p) {
 // Is all work done that is allowed? Where the first contact is sought, what a doubt has left for
 // contacts after it may be: then the doubt is the end, and what comes before it can be proven.
 static int nsvcd__is_spent(nsvcd__proof *p) {
-  if (p->work > p->limit && p->first > 0 && !p->doubts_end && p->known.unsure < p->end) {
+  if (p->work > p->limit && p->first > 0 && !p->doubts_end && p->known.unsure < NSVCD__NEVER) {
     p->doubts_end = 1;
-    p->end = p->known.unsure;
+    p->end = fmin(p->end, p->known.unsure);
     p->limit = nsvcd__limit_of_first(p);
   }
   return p->work > p->limit;
@@ -11183,7 +11183,8 @@ static nsvcd__verdict nsvcd__take_contact(nsvcd__proof *p, const nsvcd__couple *
   p->known.has_contact = 1;
   p->known.found = nsvcd__contact_at(p, couple, u, nearest);
   if (p->measure > 0) {
-    p->clearance = fmax(p->low, p->known.found.distance - p->measure);
+    p->high = p->known.found.distance;
+    p->clearance = fmax(p->low, p->high - p->measure);
     return p->clearance > p->low ? NSVCD__TAKEN : NSVCD__MEETS;
   }
   if (p->first > 0) {
@@ -11394,7 +11395,7 @@ static nsvcd__verdict nsvcd__settle_short_part(nsvcd__proof *p, const nsvcd__cou
   nsvcd__place_triangle(nsvcd__placed_at(p, middle), couple->moving, posed);
   const nsvcd__nearest nearest = nsvcd__triangles_nearest(posed, couple->fixed);
   const double distance = sqrt(nearest.square);
-  if (!p->known.has_contact || distance < p->known.found.distance)
+  if (distance < p->high)
     (void)nsvcd__take_contact(p, couple, middle, &nearest);
   const double parted = distance - 2 * (couple->slack + p->tolerance);
   p->clearance = fmax(p->low, fmin(p->clearance, parted));
@@ -13157,7 +13158,6 @@ static int nsvcd__measure_once(nsvcd__proof *p, nsvcd__search *search) {
   if (p->known.has_contact) {
     known.has_contact = 1;
     known.found = p->known.found;
-    p->high = known.found.distance;
   }
   p->known = known;
   if (pass != NSVCD__UNDECIDED)
