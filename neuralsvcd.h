@@ -8114,7 +8114,7 @@ typedef struct nsvcd__track {
 typedef struct nsvcd__motion {
   nsvcd__track moving, fixed;
   uint32_t ticks;            // in all
-  double duration;           // of t: 1, or 0 of the start alone
+  double begin, duration;    // t: 0 and 1; of one end alone 0 or 1, and 0
   int fixed_moves;           // else it has one pose
   float scale;               // of the moving body, over that of the fixed one,
   float per_scale;           // and the other way round
@@ -8219,17 +8219,12 @@ static void nsvcd__track_box(const nsvcd__track *track, nsvcd__f3 *low, nsvcd__f
   }
 }
 
-// Prepares the motion of valid movers. Keeps the pointers to their poses.
-static void nsvcd__motion_init(const nsvcd_mover *moving, const nsvcd_mover *fixed,
-                               nsvcd__motion *motion) {
-  motion->moving = nsvcd__track_of(moving);
-  motion->fixed = nsvcd__track_of(fixed);
+// Prepares what follows from a motion's tracks.
+static void nsvcd__motion_set_tracks(nsvcd__motion *motion, nsvcd__track moving,
+                                     nsvcd__track fixed) {
+  motion->moving = moving;
+  motion->fixed = fixed;
   motion->fixed_moves = motion->fixed.count > 1;
-  motion->unit = nsvcd__scale_of(fixed);
-  motion->scale = nsvcd__scale_of(moving) / motion->unit;
-  motion->per_scale = 1 / motion->scale;
-  motion->lift = nsvcd__f3_of(0, 0, 0);
-  motion->duration = 1;
   nsvcd__motion_set_ticks(motion, 1);
 
   const nsvcd_pose *first = motion->fixed.poses;
@@ -8244,6 +8239,18 @@ static void nsvcd__motion_init(const nsvcd_mover *moving, const nsvcd_mover *fix
   nsvcd__track_box(&motion->fixed, &fixed_low, &fixed_high);
   motion->low = nsvcd__f3_sub(motion->low, fixed_high);
   motion->high = nsvcd__f3_sub(motion->high, fixed_low);
+}
+
+// Prepares the motion of valid movers. Keeps the pointers to their poses.
+static void nsvcd__motion_init(const nsvcd_mover *moving, const nsvcd_mover *fixed,
+                               nsvcd__motion *motion) {
+  motion->unit = nsvcd__scale_of(fixed);
+  motion->scale = nsvcd__scale_of(moving) / motion->unit;
+  motion->per_scale = 1 / motion->scale;
+  motion->lift = nsvcd__f3_of(0, 0, 0);
+  motion->begin = 0;
+  motion->duration = 1;
+  nsvcd__motion_set_tracks(motion, nsvcd__track_of(moving), nsvcd__track_of(fixed));
 }
 
 // In the fixed body's units: the moving body's origin always stays so far from the fixed one's.
@@ -9878,7 +9885,6 @@ static void nsvcd__candidates_start(nsvcd__candidates *kept, nsvcd__candidate *i
 #define NSVCD__REST_HEIGHTS 64  // and of resting ones
 // What no plane parts is settled by its triangles, arc by arc.
 #define NSVCD__ITEMS 256  // room for such items; when it is full they are settled first
-#define NSVCD__LONG 256   // units, before the ends of the motion are looked at by themselves
 #define NSVCD__WINDOW 8   // blocks of a resting patch, loaded at once
 #define NSVCD__PATIENCE_TO_PART \
   12                             // parts that couples ask for, before the span is halved for all,
@@ -9889,7 +9895,9 @@ static void nsvcd__candidates_start(nsvcd__candidates *kept, nsvcd__candidate *i
 #define NSVCD__SAME_PLACE 1e-13  // of all lengths: a distance in double that is none
 #define NSVCD__IN_DOUBT 8        // the share of the limit, 1 / this, that goes on after a doubt
 // What else a question asks.
-#define NSVCD__GLANCE 200   // units, to find triangles that meet where one is within the other
+#define NSVCD__LONG 6000    // units, before the ends of the motion are looked at by themselves,
+#define NSVCD__LOOK 1000    // and for each of these looks
+#define NSVCD__GLANCE 200   // and to find triangles that meet where one is within the other
 #define NSVCD__FINER 2      // times: from pass to pass, where the least distance is measured
 #define NSVCD__IN_ORDER 4   // segments searched together, where the first contact is sought
 #define NSVCD__TOUCHES 32   // contacts at the start, looked at together, where there is a skin
@@ -10023,6 +10031,7 @@ typedef struct nsvcd__proof {
   size_t in_doubt;     // that go on after a doubt
   double end;          // ticks: what begins then or later does not matter
   int doubts_end;      // so is what begins with a doubt or later
+  int is_brief;        // a try: there is a longer one after it
 
   // With a skin, contacts at the start are not taken at first, but gathered: those that a lift
   // along no normal known undoes.
@@ -10281,7 +10290,7 @@ static nsvcd__transform nsvcd__transform_of(const nsvcd__placement *at) {
 
 // The time at which so many ticks have gone by.
 static double nsvcd__time_of(const nsvcd__motion *motion, double ticks) {
-  return motion->duration * ticks / (double)motion->ticks;
+  return motion->begin + motion->duration * ticks / (double)motion->ticks;
 }
 
 // The time a share u of the arc last asked for later than its start.
@@ -10424,7 +10433,8 @@ static size_t nsvcd__limit_of_first(const nsvcd__proof *p) {
 // Is all work done that is allowed? Where the first contact is sought, what a doubt has left for
 // contacts after it may be: then the doubt is the end, and what comes before it can be proven.
 static int nsvcd__is_spent(nsvcd__proof *p) {
-  if (p->work > p->limit && p->first > 0 && !p->doubts_end && p->known.unsure < NSVCD__NEVER) {
+  if (p->work > p->limit && p->first > 0 && !p->is_brief && !p->doubts_end &&
+      p->known.unsure < NSVCD__NEVER) {
     p->doubts_end = 1;
     p->end = fmin(p->end, p->known.unsure);
     p->limit = nsvcd__limit_of_first(p);
@@ -11921,33 +11931,6 @@ static nsvcd__verdict nsvcd__seek_item(nsvcd__proof *p, const nsvcd__search *sea
   return nsvcd__find_witness(p, item->moving, item->fixed, first, u);
 }
 
-// The same at the start, and at the end of the motion, if the item's spheres meet there: bodies may
-// meet nowhere else.
-static nsvcd__verdict nsvcd__seek_item_at_ends(nsvcd__proof *p, const nsvcd__search *search,
-                                               const nsvcd__item *item) {
-  const nsvcd__motion *motion = p->motion;
-  const nsvcd__f3 centre = nsvcd__facet_centre(&p->moving, item->moving);
-  const nsvcd__f3 place = nsvcd__facet_centre(&p->fixed, item->fixed);
-  const float own = motion->scale * nsvcd__body_r(p->moving.body)[item->moving];
-  const float reach = own + nsvcd__body_r(p->fixed.body)[item->fixed] + nsvcd__clearance_of(p);
-  for (int at_end = 0; at_end < 2; at_end++) {
-    const size_t outermost = at_end ? search->segments - 1 : 0;
-    const double tick = at_end ? (double)motion->ticks : 0;
-    double u;
-    if (item->segment != outermost || !(tick < p->end))
-      continue;
-    const nsvcd__span *span = nsvcd__segment_span(p, search, item->segment);
-    const nsvcd__f3 posed = nsvcd__f3_transform(at_end ? &span->end : &span->start, centre);
-    if (nsvcd__f3_length(nsvcd__f3_sub(posed, place)) > reach)
-      continue;
-    const uint32_t first = nsvcd__arc_and_share(motion, tick, &u);
-    const nsvcd__verdict verdict = nsvcd__find_witness(p, item->moving, item->fixed, first, u);
-    if (verdict != NSVCD__FREE)
-      return verdict;
-  }
-  return NSVCD__FREE;
-}
-
 // ---- what hulls leave
 
 // Lane l of the moving block, posed at both ends of a span from u0 to u1 of the arc, and block n of
@@ -12222,20 +12205,12 @@ static NSVCD__APART void nsvcd__clip_segment(nsvcd__proof *p, nsvcd__search *sea
   p->plane += p->plane > 0;
 }
 
-// Settles the items that no plane parts, in the order of nsvcd__comes_first. Where that takes long,
-// contacts are sought at the ends of the motion first.
+// Settles the items that no plane parts, in the order of nsvcd__comes_first.
 static NSVCD__APART nsvcd__verdict nsvcd__settle_items(nsvcd__proof *p, nsvcd__search *search) {
-  const size_t begun = p->work;
-  int sought = 0;
   nsvcd__sort_items(p, p->of.items, p->count);
   for (size_t n = 0; n < p->count; n++) {
     if (nsvcd__is_spent(p))
       return NSVCD__UNDECIDED;
-    for (size_t k = n; !sought && p->work > begun + NSVCD__LONG && k < p->count; k++) {
-      sought = k + 1 == p->count;
-      if (nsvcd__seek_item_at_ends(p, search, &p->of.items[k]) == NSVCD__MEETS)
-        return NSVCD__MEETS;
-    }
     const nsvcd__item *item = &p->of.items[n];
     nsvcd__clip_segment(p, search);
     if (!nsvcd__matters(p, search, item->segment))
@@ -13061,45 +13036,70 @@ static nsvcd__verdict nsvcd__prove_anew(nsvcd__proof *p, nsvcd__search *search) 
   return nsvcd__prove_motion(p, search);
 }
 
-// The pose at the start of a motion, as a motion of its own.
-static nsvcd__motion nsvcd__start_of(const nsvcd__motion *motion) {
-  nsvcd__motion start = *motion;
-  start.moving.count = start.fixed.count = 1;
-  start.fixed_moves = 0;
-  start.duration = 0;
-  return start;
+// The pose at the start of a motion, or at its end, as a motion of its own.
+static nsvcd__motion nsvcd__end_of(const nsvcd__motion *motion, int at_end) {
+  nsvcd__motion still = *motion;
+  nsvcd__track moving = motion->moving;
+  nsvcd__track fixed = motion->fixed;
+  moving.poses += at_end ? moving.count - 1 : 0;
+  fixed.poses += at_end ? fixed.count - 1 : 0;
+  moving.count = fixed.count = 1;
+  still.begin = at_end ? 1 : 0;
+  still.duration = 0;
+  nsvcd__motion_set_tracks(&still, moving, fixed);
+  return still;
 }
 
-// A look at the start alone, which takes so many units at most: do triangles meet there? Then that
-// is the contact that is known, and nothing comes before it. If not, all that was known is lost.
-static int nsvcd__meets_at_start(nsvcd__proof *p, nsvcd__search *search, size_t units) {
+// A look at the start alone, or at the end, which takes so many units at most: do triangles meet
+// there? Then that is the contact that is known. If not, all that was known is lost.
+static int nsvcd__meets_at(nsvcd__proof *p, nsvcd__search *search, int at_end, size_t units) {
   nsvcd__motion *whole = p->motion;
-  nsvcd__motion start = nsvcd__start_of(whole);
+  nsvcd__motion still = nsvcd__end_of(whole, at_end);
   const double share = p->share;
-  p->motion = &start;
+  p->motion = &still;
   p->share = 0;
   p->limit = nsvcd__limit_after(p, units);
   const int meets = nsvcd__prove_anew(p, search) == NSVCD__MEETS;
-  p->known.found.tick = 0;
+  p->known.found.tick = at_end ? (double)whole->ticks : 0;
   p->end = 0;
   p->motion = whole;
   p->share = share;
   return meets;
 }
 
+// A search whose segments have been chosen. Few questions take long, and of these some are about
+// bodies that meet at the start, or the end, and hardly anywhere else: so these are looked at
+// before all is searched once more. The end says nothing about a first contact.
+static nsvcd__verdict nsvcd__prove_and_look(nsvcd__proof *p, nsvcd__search *search, size_t limit) {
+  p->limit = nsvcd__limit_after(p, NSVCD__LONG);
+  p->is_brief = p->limit < limit;
+  p->limit = p->is_brief ? p->limit : limit;
+  const nsvcd__verdict verdict = nsvcd__prove_motion(p, search);
+  if (verdict != NSVCD__UNDECIDED || !p->is_brief)
+    return verdict;
+  p->is_brief = 0;
+  if (p->known.unsure < NSVCD__NEVER)  // a part of what a doubt leaves has been used
+    p->in_doubt -= p->in_doubt / 2;
+  if (nsvcd__meets_at(p, search, 0, NSVCD__LOOK))
+    return NSVCD__MEETS;
+  if (!(p->share > 0) && nsvcd__meets_at(p, search, 1, NSVCD__LOOK))
+    return NSVCD__MEETS;
+  p->limit = limit;
+  return nsvcd__prove_anew(p, search);
+}
+
 // When do they meet first? What is proven of that stays, also where there is no more work left, and
 // then it is asked whether they meet at all.
 static nsvcd__verdict nsvcd__prove_first(nsvcd__proof *p, nsvcd__search *search) {
   const double share = p->share;
-  p->limit = nsvcd__limit_of_first(p);
-  const nsvcd__verdict verdict = nsvcd__prove_motion(p, search);
+  const nsvcd__verdict verdict = nsvcd__prove_and_look(p, search, nsvcd__limit_of_first(p));
   nsvcd__known known = p->known;
   double end = p->end;
   if (known.has_contact && nsvcd__clear_until(p) <= 0 && known.found.tick > 0) {
     // so early that they may meet at the start already
-    if (nsvcd__meets_at_start(p, search, p->most))
+    if (nsvcd__meets_at(p, search, 0, p->most))
       return NSVCD__MEETS;
-  } else if (!known.has_contact && (known.lost || p->doubts_end)) {
+  } else if (!known.has_contact && (known.lost || known.unsure < NSVCD__NEVER)) {
     p->share = 0;
     p->limit = p->most;
     const nsvcd__verdict any = nsvcd__prove_anew(p, search);
@@ -13138,11 +13138,11 @@ static nsvcd__verdict nsvcd__prove(nsvcd__proof *p, nsvcd__search *search) {
   nsvcd__choose_segments(p->motion, search);
   if (nsvcd__starts_within(p)) {
     // a hit, whatever else; who asks for more than that is told of triangles, if some meet as well
-    const int meets = p->tells && nsvcd__meets_at_start(p, search, NSVCD__GLANCE);
+    const int meets = p->tells && nsvcd__meets_at(p, search, 0, NSVCD__GLANCE);
     return meets ? NSVCD__MEETS : nsvcd__is_within(p);
   }
   const nsvcd__verdict verdict =
-      p->share > 0 ? nsvcd__prove_first(p, search) : nsvcd__prove_motion(p, search);
+      p->share > 0 ? nsvcd__prove_first(p, search) : nsvcd__prove_and_look(p, search, p->most);
   return nsvcd__conclude(p, verdict);
 }
 
@@ -13216,42 +13216,45 @@ static void nsvcd__gather_contacts(nsvcd__proof *p, nsvcd__search *search) {
   }
 }
 
-// How many touches a lift along n undoes; and, to choose among equals, how many of these have a face
-// that says so.
-static size_t nsvcd__undone(const nsvcd__proof *p, nsvcd__d3 n) {
-  size_t count = 0;
-  size_t faces = 0;
+// How good a lift along n is: the more touches it undoes the better; of equals, the more of these
+// have a face that says so, and then, the shorter it needs to be. 0 if it undoes none.
+static double nsvcd__undone(const nsvcd__proof *p, nsvcd__d3 n) {
+  double count = 0;
+  double faces = 0;
+  double longest = 0;
   for (size_t k = 0; k < p->touch_count; k++) {
+    const nsvcd__touch *t = &p->of.touches[k];
     nsvcd__d3 normals[3];
-    if (!nsvcd__undoes(p, n, &p->of.touches[k]))
+    if (!nsvcd__undoes(p, n, t))
       continue;
-    nsvcd__touch_normals(&p->of.touches[k], normals);
+    nsvcd__touch_normals(t, normals);
     count++;
     faces += nsvcd__d3_dot(n, normals[0]) > 0.9 || nsvcd__d3_dot(n, normals[1]) > 0.9;
+    longest = fmax(longest, nsvcd__lift_along(n, t->moving, t->fixed));
   }
-  return (NSVCD__TOUCHES + 1) * count + faces;
+  return count * (NSVCD__TOUCHES + 2) + faces - longest / (p->skin + longest);
 }
 
-// Takes a direction that undoes more than the best so far.
-static void nsvcd__try_lift(const nsvcd__proof *p, nsvcd__d3 n, size_t *most, nsvcd__d3 *best) {
+// Takes a direction that is better than the best so far.
+static void nsvcd__try_lift(const nsvcd__proof *p, nsvcd__d3 n, double *most, nsvcd__d3 *best) {
   const int known = *most > 0 && nsvcd__d3_dot(n, *best) > 0.99999;
-  const size_t count = known ? 0 : nsvcd__undone(p, n);
-  if (count > *most)
+  const double good = known ? 0 : nsvcd__undone(p, n);
+  if (good > *most)
     *best = n;
-  *most = count > *most ? count : *most;
+  *most = fmax(*most, good);
 }
 
 // Of the normals of what touches, and the directions across an edge of each, the one that undoes
 // the most touches: *best, as it was if none undoes any: then 0 is returned.
 static int nsvcd__best_lift(const nsvcd__proof *p, nsvcd__d3 *best) {
-  size_t most = 0;
+  double most = 0;
   for (size_t k = 0; k < p->touch_count; k++) {
     nsvcd__d3 normals[3];
     nsvcd__touch_normals(&p->of.touches[k], normals);
     for (size_t i = 0; i < 3; i++)
       nsvcd__try_lift(p, normals[i], &most, best);
   }
-  for (size_t k = 0; k < 9 && most == 0; k++) {  // an edge on an edge
+  for (size_t k = 0; k < 9 && !(most > 0); k++) {  // an edge on an edge
     const nsvcd__touch *t = &p->of.touches[0];
     const nsvcd__d3 u = nsvcd__d3_sub(t->moving[(k + 1) % 3], t->moving[k % 3]);
     const nsvcd__d3 v = nsvcd__d3_sub(t->fixed[(k / 3 + 1) % 3], t->fixed[k / 3]);
@@ -13308,7 +13311,7 @@ static nsvcd__d3 nsvcd__lift_off(const nsvcd__proof *p) {
 // then what was found first may have been the wrong way, and is forgotten, once.
 static NSVCD__APART void nsvcd__lift_motion(nsvcd__proof *p, nsvcd__search *search) {
   nsvcd__motion *whole = p->motion;
-  nsvcd__motion start = nsvcd__start_of(whole);
+  nsvcd__motion start = nsvcd__end_of(whole, 0);
   p->motion = &start;
   p->normal_count = 0;
   // what is about to touch is lifted off too
@@ -14869,6 +14872,7 @@ static void nsvcd__proof_begin(nsvcd__task *task, nsvcd__query *query) {
   p->most = p->limit = task->work;
   p->skin = (double)task->skin;
   p->gathers = 0;
+  p->is_brief = 0;
   p->work = 0;
   p->tells = task->first > 0 || task->measure > 0 || task->skin > 0;
   p->within = 0;
@@ -16069,6 +16073,7 @@ static nsvcd_result nsvcd__sweep_gradient(const nsvcd_question *question, void *
 #define nsvcd__encloses_any NSVCD__AT(encloses_any)
 #define nsvcd__encloses_seeds NSVCD__AT(encloses_seeds)
 #define nsvcd__enclosure NSVCD__AT(enclosure)
+#define nsvcd__end_of NSVCD__AT(end_of)
 #define nsvcd__exists NSVCD__AT(exists)
 #define nsvcd__f3_towards NSVCD__AT(f3_towards)
 #define nsvcd__face_direction NSVCD__AT(face_direction)
@@ -16179,7 +16184,7 @@ static nsvcd_result nsvcd__sweep_gradient(const nsvcd_question *question, void *
 #define nsvcd__meet_members NSVCD__AT(meet_members)
 #define nsvcd__meetings NSVCD__AT(meetings)
 #define nsvcd__meetings_of NSVCD__AT(meetings_of)
-#define nsvcd__meets_at_start NSVCD__AT(meets_at_start)
+#define nsvcd__meets_at NSVCD__AT(meets_at)
 #define nsvcd__members_against_patch NSVCD__AT(members_against_patch)
 #define nsvcd__method_of NSVCD__AT(method_of)
 #define nsvcd__motion NSVCD__AT(motion)
@@ -16187,6 +16192,7 @@ static nsvcd_result nsvcd__sweep_gradient(const nsvcd_question *question, void *
 #define nsvcd__motion_init NSVCD__AT(motion_init)
 #define nsvcd__motion_pose NSVCD__AT(motion_pose)
 #define nsvcd__motion_set_ticks NSVCD__AT(motion_set_ticks)
+#define nsvcd__motion_set_tracks NSVCD__AT(motion_set_tracks)
 #define nsvcd__mover_check NSVCD__AT(mover_check)
 #define nsvcd__moving_block_load NSVCD__AT(moving_block_load)
 #define nsvcd__names_triangles NSVCD__AT(names_triangles)
@@ -16232,6 +16238,7 @@ static nsvcd_result nsvcd__sweep_gradient(const nsvcd_question *question, void *
 #define nsvcd__proof_constants_hold NSVCD__AT(proof_constants_hold)
 #define nsvcd__proof_restart NSVCD__AT(proof_restart)
 #define nsvcd__prove NSVCD__AT(prove)
+#define nsvcd__prove_and_look NSVCD__AT(prove_and_look)
 #define nsvcd__prove_anew NSVCD__AT(prove_anew)
 #define nsvcd__prove_first NSVCD__AT(prove_first)
 #define nsvcd__prove_in_order NSVCD__AT(prove_in_order)
@@ -16270,7 +16277,6 @@ static nsvcd_result nsvcd__sweep_gradient(const nsvcd_question *question, void *
 #define nsvcd__search_tile NSVCD__AT(search_tile)
 #define nsvcd__seeds_near NSVCD__AT(seeds_near)
 #define nsvcd__seek_item NSVCD__AT(seek_item)
-#define nsvcd__seek_item_at_ends NSVCD__AT(seek_item_at_ends)
 #define nsvcd__segment_count NSVCD__AT(segment_count)
 #define nsvcd__segment_span NSVCD__AT(segment_span)
 #define nsvcd__segments NSVCD__AT(segments)
@@ -16301,7 +16307,6 @@ static nsvcd_result nsvcd__sweep_gradient(const nsvcd_question *question, void *
 #define nsvcd__spheres_on_ray NSVCD__AT(spheres_on_ray)
 #define nsvcd__square_in_radii NSVCD__AT(square_in_radii)
 #define nsvcd__squares_in_radii NSVCD__AT(squares_in_radii)
-#define nsvcd__start_of NSVCD__AT(start_of)
 #define nsvcd__starts_inside NSVCD__AT(starts_inside)
 #define nsvcd__starts_within NSVCD__AT(starts_within)
 #define nsvcd__status_of NSVCD__AT(status_of)

@@ -43,7 +43,7 @@ static const option options[] = {
     {"--rotate", SWEEP, OPTION_TEXT, AT(rotate), 0, 0, NULL},
     {"--picture", SWEEP, OPTION_TEXT, AT(picture), 0, 0, NULL},
     {"--measure", SWEEP, OPTION_NUMBER, AT(sweep.measure), 1e-9, METRES, "NSVCD_MAX_COORDINATE"},
-    {"--skin", SWEEP, OPTION_NUMBER, AT(sweep.skin), 0, METRES, "NSVCD_MAX_COORDINATE"},
+    {"--skin", CHECK | SWEEP, OPTION_NUMBER, AT(sweep.skin), 0, METRES, "NSVCD_MAX_COORDINATE"},
     {"--clearance", CHECK | SWEEP, OPTION_NUMBER, AT(sweep.clearance), 0, METRES,
      "NSVCD_MAX_COORDINATE"},
     {"--first", CHECK | SWEEP, OPTION_NUMBER, AT(sweep.first), 0, 1, NULL},

@@ -21,6 +21,7 @@ void test_encoding(void);
 void test_motion(void);
 void test_broad_phase(void);
 void test_proof(void);
+void test_asks(void);
 void test_winding_number(void);
 void test_decoder(void);
 void test_query(void);
@@ -60,6 +61,7 @@ static const test_file files[] = {
     OF(motion),
     OF(broad_phase),
     OF(proof),
+    OF(asks),
     OF(winding_number),
     OF(decoder),
     OF(query),

@@ -1327,6 +1327,13 @@ static void proof_check_lateness(const attack *a, double first, double tolerance
   CHECK_LE(apart, tolerance + 4 * proof_quanta(a) + 1e-6 * size);
 }
 
+// Does the answer to a question that asks for more agree with that to one which asks for yes or no?
+// What is inside is a hit; asked for more it may be known to meet as well.
+static int proof_agree(nsvcd_status plain, nsvcd_status more) {
+  const int is_inside = plain == NSVCD_STATUS_INSIDE && more == NSVCD_STATUS_WITNESS;
+  return plain == more || plain == NSVCD_STATUS_UNDECIDED || is_inside;
+}
+
 static void proof_check_first(attack *a, float tolerance, timing_sum *sum) {
   const double size = a->moving->size + a->fixed->size;
   nsvcd_sweep_options options = proof_options();
@@ -1337,7 +1344,7 @@ static void proof_check_first(attack *a, float tolerance, timing_sum *sum) {
   const nsvcd_answer *first = &a->answer;
   proof_count(sum, first->status);
   if (plain.status != NSVCD_STATUS_UNDECIDED && first->status != NSVCD_STATUS_UNDECIDED) {
-    CHECK_EQ(plain.status, first->status);
+    CHECK(proof_agree(plain.status, first->status));
   }
   CHECK(first->free_until >= 0 && first->free_until <= 1);
   if (first->status == NSVCD_STATUS_INSIDE)
@@ -1488,8 +1495,8 @@ static void proof_check_both(attack *a, float clearance, float tolerance, timing
   CHECK_EQ(proof_ask_with(a, &options), NSVCD_OK);
   const nsvcd_answer *w = &a->answer;
   proof_count(sum, w->status);
-  sum->wrong +=
-      alone != w->status && alone != NSVCD_STATUS_UNDECIDED && w->status != NSVCD_STATUS_UNDECIDED;
+  sum->wrong += !proof_agree(alone, w->status) && w->status != NSVCD_STATUS_UNDECIDED;
+  CHECK(w->status != NSVCD_STATUS_UNDECIDED || alone == NSVCD_STATUS_UNDECIDED);
   if (w->status == NSVCD_STATUS_CERTIFIED_FREE)
     CHECK_GE((double)w->clearance_low, (double)clearance * (1 - 1e-5));
 }
@@ -2304,8 +2311,8 @@ static void proof_takes_no_more_work(void) {
   static const struct {
     const char *name;
     double most;
-  } known[COSTS] = {{"verdict", 58505},         {"first contact", 80305}, {"clearance", 17032},
-                    {"least distance", 137465}, {"skin", 67949},          {"inside", 68287}};
+  } known[COSTS] = {{"verdict", 57542},         {"first contact", 80066}, {"clearance", 15932},
+                    {"least distance", 136840}, {"skin", 67006},          {"inside", 58138}};
   size_t sums[COSTS] = {0};
   shapes_rng rng = {417};
   for (size_t scenes = 0; scenes < 400;) {

@@ -1105,7 +1105,8 @@ static void judge_losses(const scene *s, const ask *i, const ask *j, int by) {
   const int is_free = was == NSVCD_STATUS_CERTIFIED_FREE;
   const double margin = (double)(y->clearance + y->tolerance) + 4 * s->quanta + 4e-6 * s->size;
   kind lost = KINDS;
-  if (by == BY_FIRST && !(x->first > 0))
+  // an eighth of the work is kept for that
+  if (by == BY_FIRST && !(x->first > 0) && 10 * i->answer.work < y->work)
     lost = LOST_BY_FIRST;
   if (by == BY_MEASURE && !(x->measure > 0))
     lost = y->clearance > 0 ? LOST_BY_BOTH : LOST_BY_MEASURE;
@@ -1120,6 +1121,9 @@ static void judge_losses(const scene *s, const ask *i, const ask *j, int by) {
     lost = LOST_BY_TOLERANCE;
   if (lost == KINDS || (is_free && i->world->least < margin))
     return;
+  // what does not meet, or comes no nearer than the clearance, but nearly so, may be undecided
+  if (was == NSVCD_STATUS_WITNESS && i->world->least > (double)y->clearance)
+    return;
   find(s, lost, j, i, (double)i->answer.work / (double)x->work);
 }
 
@@ -1132,7 +1136,8 @@ static void judge_pair(const scene *s, const ask *i, const ask *j) {
     judge_losses(s, i, j, by);
   if (by == BY_FIRST && j->options.first < i->options.first && j->options.first > 0) {
     const float to = j->options.first + 1e-6f;
-    if (y->free_until < x->free_until - to && !(i->options.tolerance > 0))
+    if (y->free_until < x->free_until - to && !(i->options.tolerance > 0) &&
+        y->work < j->options.work / 2)
       find(s, FINER_LATER, j, i, (double)(x->free_until - y->free_until));
     if (y->status == NSVCD_STATUS_WITNESS && x->status == NSVCD_STATUS_WITNESS &&
         y->contact_time > x->contact_time + to && !(i->options.tolerance > 0))
@@ -1164,7 +1169,9 @@ static void judge_step(const scene *s, const ask *i, const ask *j) {
   const nsvcd_answer *x = &i->answer;
   const nsvcd_answer *y = &j->answer;
   const int measures = i->options.measure > 0;
-  if (x->status != NSVCD_STATUS_UNDECIDED && y->status == NSVCD_STATUS_UNDECIDED)
+  // a contact found by chance, with hardly any work
+  const int by_chance = i->options.first > 0 && i->options.work < 500;
+  if (x->status != NSVCD_STATUS_UNDECIDED && y->status == NSVCD_STATUS_UNDECIDED && !by_chance)
     find(s, LADDER_LOST, j, i, 0);
   if (i->world != j->world)
     return;

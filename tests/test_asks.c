@@ -1,0 +1,333 @@
+// What questions ask beyond yes or no, in scenes of a few triangles whose answers are known: things
+// that stand on a table, pass each other at a known distance, cross where they start. The Makefile
+// compiles this file with products fused into sums where the processor can: rounded otherwise, what
+// has no area may seem to have some. bench/check_options.c asks such questions at random.
+#undef NSVCD_NO_DISPATCH
+#define NSVCD_NO_NETWORK
+#define NSVCD_STATIC
+#define NEURALSVCD_IMPLEMENTATION
+#include "../neuralsvcd.h"
+
+#include "../examples/scenery/shapes.h"
+#include "check.h"
+
+void test_asks(void);
+
+static const nsvcd_body *asks_body(shapes_mesh *shape, size_t patches) {
+  nsvcd_mesh mesh = {NULL, shape->indices, shape->vertices, shape->triangles};
+  const nsvcd_encode_options options = {.patches = patches};
+  const nsvcd_body *body = NULL;
+  mesh.positions = (float *)malloc(3 * shape->vertices * sizeof(float));
+  if (!mesh.positions)
+    exit(1);
+  for (size_t i = 0; i < 3 * shape->vertices; i++)
+    mesh.positions[i] = (float)shape->positions[i];
+  CHECK_EQ(nsvcd_encode(&mesh, &options, NULL, NULL, 0, &body), NSVCD_OK);
+  free(mesh.positions);
+  shapes_free(shape);
+  return body;
+}
+
+static nsvcd_answer asks(const nsvcd_question *question) {
+  static NSVCD_MEMORY(workspace, NSVCD_PROOF_WORKSPACE_BYTES(512, 512, 64));
+  nsvcd_answer answer;
+  memset(&answer, 0, sizeof answer);
+  CHECK_EQ(nsvcd_sweep(question, workspace, sizeof workspace, &answer), NSVCD_OK);
+  return answer;
+}
+
+static nsvcd_question asks_of(const nsvcd_body *a, const nsvcd_pose *poses, size_t count,
+                              const nsvcd_body *b) {
+  nsvcd_question question;
+  memset(&question, 0, sizeof question);
+  question.a.body = a;
+  question.a.poses = poses;
+  question.a.count = count;
+  question.b.body = b;
+  return question;
+}
+
+// A pose at x, y, z, turned about z.
+static nsvcd_pose asks_pose(double x, double y, double z, double turn) {
+  const nsvcd_pose out = {{(float)x, (float)y, (float)z},
+                          {0, 0, (float)sin(turn / 2), (float)cos(turn / 2)}};
+  return out;
+}
+
+// -------------------------------------------------------------------------------------------------
+// skin
+
+// What stands on its base, the lowest point at z = 0: cones and pyramids whose sides rise from a
+// sharp rim, a cone of triangles smaller than the skin, a cup, boxes.
+#define STANDING 16
+static const nsvcd_body *asks_standing(int n, shapes_rng *rng) {
+  shapes_mesh shape;
+  double low[3], high[3];
+  memset(&shape, 0, sizeof shape);
+  if (n < 5)
+    shapes_cone(&shape, 0.05, 0, 0.01 + 0.035 * n, n % 2 ? 4 : 24);
+  if (n == 5)
+    shapes_cone(&shape, 0.05, 0.03, 0.05, 24);
+  if (n == 6)
+    shapes_cone(&shape, 0.016, 0, 0.004, 64);
+  if (n == 7)
+    shapes_cup(&shape, 0.04, 0.09, 0.003, 1.2, 24);
+  for (int k = 0; n > 7 && k < 3; k++)
+    low[k] = shapes_uniform(rng, 0.02, 0.2);
+  if (n > 7)
+    shapes_box(&shape, low[0], low[1], low[2], n % 3 ? 1 : 4);
+  shapes_bounds(&shape, low, high);
+  for (size_t i = 0; i < shape.vertices; i++)
+    shape.positions[3 * i + 2] -= low[2];
+  return asks_body(&shape, 0);
+}
+
+// A slab whose top is z = 0, alone or with two walls at x = 0.3 and y = 0.3.
+static const nsvcd_body *asks_table(int walls, int cuts) {
+  shapes_mesh shape;
+  memset(&shape, 0, sizeof shape);
+  shapes_box(&shape, 1, 1, 0.05, cuts);
+  for (size_t i = 0; i < shape.vertices; i++)
+    shape.positions[3 * i + 2] -= 0.025;
+  if (walls) {
+    shapes_box_at(&shape, 0.325, 0, 0.25, 0.05, 1, 0.5);
+    shapes_box_at(&shape, 0, 0.325, 0.25, 1, 0.05, 0.5);
+  }
+  return asks_body(&shape, 0);
+}
+
+static double asks_length(const float *v) {
+  return sqrt((double)(v[0] * v[0] + v[1] * v[1] + v[2] * v[2]));
+}
+
+// What stands on a table, flush or pressed in by less than the skin, still or sliding, is lifted by
+// the skin, straight up; by more, it is hit. So is the table under it.
+static void asks_skin_lifts_what_stands(void) {
+  static const double depths[7] = {0, 1e-5, 1e-4, 3e-4, 5e-4, 9e-4, -3e-5};
+  const double skin = 1e-3;
+  shapes_rng rng = {25};
+  const nsvcd_body *tables[2] = {asks_table(0, 1), asks_table(0, 16)};
+  for (int n = 0; n < 3 * STANDING; n++) {
+    const nsvcd_body *body = asks_standing(n % STANDING, &rng);
+    for (int trial = 0; trial < 4 * 8; trial++) {
+      const int k = trial % 8;
+      const double depth = k < 7 ? depths[k] : 1.7 * skin;
+      const double turn = shapes_uniform(&rng, 0, 6.28);
+      const double x = shapes_uniform(&rng, -0.2, 0.2);
+      const double way = trial & 8 ? 0.1 : 0;
+      const nsvcd_pose path[2] = {asks_pose(x, 0.01, -depth, turn),
+                                  asks_pose(x + way, 0.01, -depth, turn)};
+      nsvcd_question question = asks_of(body, path, trial & 8 ? 2 : 1, tables[trial / 16]);
+      question.options.skin = (float)skin;
+      const nsvcd_answer answer = asks(&question);
+      CHECK_EQ(answer.status == NSVCD_STATUS_CERTIFIED_FREE, k < 7);
+      CHECK_NEAR(answer.lift[2], k < 7 ? skin : 0, 1e-6);
+      CHECK_NEAR(asks_length(answer.lift), k < 7 ? skin : 0, 1e-6);
+      const nsvcd_mover mover = question.a;
+      question.a = question.b;
+      question.b = mover;
+      const nsvcd_answer swapped = asks(&question);
+      CHECK_EQ(swapped.status, answer.status);
+      CHECK_EQ(swapped.lift[2], -answer.lift[2]);
+    }
+    nsvcd_body_free(body, NULL);
+  }
+  nsvcd_body_free(tables[0], NULL);
+  nsvcd_body_free(tables[1], NULL);
+}
+
+// A box in the corner of a floor and two walls, of triangles larger and smaller than the skin: it
+// is lifted off all three. Between two walls nothing lifts it.
+static void asks_skin_in_a_corner(void) {
+  const nsvcd_body *corner = asks_table(1, 1);
+  for (int fine = 0; fine < 2; fine++) {
+    const double skin = fine ? 0.01 : 1e-3;
+    shapes_mesh shape;
+    memset(&shape, 0, sizeof shape);
+    shapes_box(&shape, 0.1, 0.1, 0.1, fine ? 16 : 1);
+    const nsvcd_body *box = asks_body(&shape, 0);
+    for (int k = 0; k < 4; k++) {
+      const double in = 0.2 * k * skin;
+      const nsvcd_pose pose = asks_pose(0.25 + in, 0.25 + in, 0.05 - in, 0);
+      nsvcd_question question = asks_of(box, &pose, 1, corner);
+      question.options.skin = (float)skin;
+      const nsvcd_answer answer = asks(&question);
+      CHECK_EQ(answer.status, NSVCD_STATUS_CERTIFIED_FREE);
+      CHECK_NEAR(answer.lift[0], -skin, 0.02 * skin);
+      CHECK_NEAR(answer.lift[1], -skin, 0.02 * skin);
+      CHECK_NEAR(answer.lift[2], skin, 0.02 * skin);
+    }
+    nsvcd_body_free(box, NULL);
+    memset(&shape, 0, sizeof shape);
+    shapes_box_at(&shape, 0.05 + 1e-4 - skin / 2, 0, 0, 0.1, 0.2, 0.2);
+    shapes_box_at(&shape, -0.15, 0, 0, 0.1, 0.2, 0.2);
+    const nsvcd_body *slot = asks_body(&shape, 0);
+    memset(&shape, 0, sizeof shape);
+    shapes_box_at(&shape, -0.05, 0, 0, 0.1, 0.1, 0.1);
+    const nsvcd_body *held = asks_body(&shape, 0);
+    nsvcd_question question = asks_of(held, NULL, 0, slot);
+    question.options.skin = (float)skin;
+    const nsvcd_answer answer = asks(&question);
+    CHECK_EQ(answer.collides, 1);
+    CHECK_EQ(asks_length(answer.lift), 0);
+    nsvcd_body_free(held, NULL);
+    nsvcd_body_free(slot, NULL);
+  }
+  nsvcd_body_free(corner, NULL);
+}
+
+// -------------------------------------------------------------------------------------------------
+// measure
+
+// Two balls pass each other: what their clearance alone decides stays decided when the distance is
+// measured as well, however finely, with any work; and no bound that costs nothing is lost.
+static void asks_measure_loses_nothing(void) {
+  static const double distances[5] = {10, 0.3, 0.22, 0.2010, 0.20001};
+  shapes_mesh shape;
+  memset(&shape, 0, sizeof shape);
+  shapes_ellipsoid(&shape, 0.1, 0.1, 0.1, 24);
+  const nsvcd_body *ball = asks_body(&shape, 0);
+  nsvcd_pose path[65];
+  for (int k = 0; k < 5; k++) {
+    const double gap = distances[k] - 0.2;  // of the balls; of their triangles up to 2 mm more
+    for (size_t n = 0; n < 65; n++)
+      path[n] = asks_pose(distances[k], -0.2 + 0.4 * (double)n / 64, 0, 0.01 * (double)n);
+    for (int c = 0; c < 3; c++) {
+      static const float clearances[3] = {0, 1e-3f, 1e-2f};
+      nsvcd_question question = asks_of(ball, path, k % 2 ? 65 : 2, ball);
+      path[1] = k % 2 ? path[1] : asks_pose(distances[k], 0.2, 0, 0.3);
+      question.options.clearance = clearances[c];
+      const nsvcd_answer plain = asks(&question);
+      CHECK(plain.status != NSVCD_STATUS_UNDECIDED);
+      for (int m = 0; m < 4; m++) {
+        float low = 0;
+        question.options.measure = (float)pow(10, -2 - m);
+        for (question.options.work = 16 * (plain.work + 1); question.options.work < 2000000;
+             question.options.work *= 16) {
+          const nsvcd_answer answer = asks(&question);
+          CHECK_EQ(answer.status, plain.status);
+          CHECK_LE(answer.clearance_low, gap + 0.002);
+          CHECK_GE(answer.clearance_high, gap);
+          CHECK_GE(answer.clearance_low, gap - 0.2);  // the balls about their boxes' corners
+          const double quanta = 2 * (double)nsvcd_body_describe(ball).quantum;
+          const double wide = fmax((double)question.options.measure, 2 * quanta) + quanta;
+          const double allowed = wide + 3e-6 * distances[k];
+          const double high = (double)answer.clearance_high;
+          if (answer.work < question.options.work)
+            CHECK_LE(high - (double)answer.clearance_low, allowed);
+          CHECK_GE(answer.clearance_low, fmin(0.99 * (double)low, high - allowed));
+          low = answer.clearance_low;
+        }
+      }
+    }
+  }
+  nsvcd_body_free(ball, NULL);
+}
+
+// -------------------------------------------------------------------------------------------------
+// first contact
+
+// A box stands on a table, nearer than triangles are stored, for a third of the motion, then is
+// carried through a post: the contact that a plain question finds is known to `first` as well, and
+// what is free before the doubt stays free.
+static void asks_first_keeps_what_is_proven(void) {
+  shapes_mesh shape;
+  memset(&shape, 0, sizeof shape);
+  shapes_box(&shape, 1, 1, 0.05, 12);
+  for (size_t i = 0; i < shape.vertices; i++)
+    shape.positions[3 * i + 2] -= 0.025;
+  shapes_box_at(&shape, 0.4, 0, 0.3, 0.05, 0.05, 0.6);
+  const nsvcd_body *table = asks_body(&shape, 0);
+  const nsvcd_body_facts facts = nsvcd_body_describe(table);
+  memset(&shape, 0, sizeof shape);
+  shapes_box_at(&shape, 0, 0, 0.05, 0.1, 0.1, 0.1);
+  const nsvcd_body *box = asks_body(&shape, 0);
+  for (int start = 0; start < 2; start++) {
+    nsvcd_pose path[33];
+    float until = 0;
+    const double hair = 0.5 * (double)facts.quantum;
+    for (int n = 0; n < 33; n++) {
+      const double down = start ? fmax(0, 0.2 - 0.02 * n) : 0;  // set down, or there already
+      path[n] = asks_pose(-0.4 + 0.8 * fmax(0, (n - 12) / 20.0), 0, hair + down, 0);
+    }
+    nsvcd_question question = asks_of(box, path, 33, table);
+    const nsvcd_answer plain = asks(&question);
+    CHECK_EQ(plain.status, NSVCD_STATUS_WITNESS);
+    for (int m = 1; m < 5; m++) {
+      question.options.first = (float)pow(10, -m);
+      const nsvcd_answer answer = asks(&question);
+      CHECK_EQ(answer.status, NSVCD_STATUS_WITNESS);
+      CHECK_LE(answer.free_until, answer.contact_time);
+      CHECK_GE(answer.free_until, until - question.options.first);
+      CHECK(!start || answer.free_until > 0.2f - question.options.first);
+      until = answer.free_until;
+    }
+  }
+  nsvcd_body_free(table, NULL);
+  nsvcd_body_free(box, NULL);
+}
+
+// A piston goes through a thin plate where it starts, then turns into its cylinder, a hundredth of a
+// millimetre from it all around; or the other way. The ends are looked at before all the rest.
+static void asks_contacts_at_the_ends(void) {
+  shapes_mesh shape;
+  memset(&shape, 0, sizeof shape);
+  shapes_cylinder(&shape, 0.1, 0.2, 300);
+  const nsvcd_body *piston = asks_body(&shape, 0);
+  memset(&shape, 0, sizeof shape);
+  shapes_ring(&shape, 0.12, 0.10002, 0.2, 300);
+  shapes_box_at(&shape, 0.05, 0, -0.4, 0.3, 0.03, 2e-5);
+  const nsvcd_body *cylinder = asks_body(&shape, 0);
+  for (int reversed = 0; reversed < 2; reversed++) {
+    for (size_t count = 2; count < 201; count = 10 * count) {
+      nsvcd_pose path[200];
+      for (size_t n = 0; n < count; n++) {
+        const double t = (double)(reversed ? count - 1 - n : n) / (double)(count - 1);
+        path[n] = asks_pose(0, 0, 0.3 * t - 0.300005, 3 * t);
+      }
+      nsvcd_question question = asks_of(piston, path, count, cylinder);
+      const nsvcd_answer answer = asks(&question);
+      CHECK_EQ(answer.status, NSVCD_STATUS_WITNESS);
+      CHECK_LE(answer.work, 9000);
+    }
+  }
+  nsvcd_body_free(piston, NULL);
+  nsvcd_body_free(cylinder, NULL);
+}
+
+// A box pressed into a table: who asks when they meet, how near they come, or with a skin that is
+// less, is told which triangles do.
+static void asks_names_what_meets_inside(void) {
+  const nsvcd_body *table = asks_table(0, 1);
+  shapes_mesh shape;
+  memset(&shape, 0, sizeof shape);
+  shapes_box_at(&shape, 0, 0, 0.05, 0.1, 0.1, 0.1);
+  const nsvcd_body *box = asks_body(&shape, 0);
+  const nsvcd_pose path[2] = {asks_pose(0, 0, -0.01, 0), asks_pose(0.2, 0, 0.1, 0)};
+  for (int k = 0; k < 4; k++) {
+    nsvcd_question question = asks_of(box, path, 2, table);
+    question.options.first = k == 1 ? 0.01f : 0;
+    question.options.measure = k == 2 ? 0.01f : 0;
+    question.options.skin = k == 3 ? 0.001f : 0;
+    const nsvcd_answer answer = asks(&question);
+    CHECK_EQ(answer.collides, 1);
+    CHECK_EQ(answer.contact_time, 0);
+    CHECK_EQ(answer.free_until, 0);
+    CHECK_EQ(answer.status, k ? NSVCD_STATUS_WITNESS : NSVCD_STATUS_INSIDE);
+    CHECK_EQ(answer.triangle_a != NSVCD_NO_TRIANGLE, k > 0);
+    CHECK(k == 0 || fabs((double)answer.point[2]) < 1e-4);
+  }
+  nsvcd_body_free(table, NULL);
+  nsvcd_body_free(box, NULL);
+}
+
+void test_asks(void) {
+  RUN(asks_skin_lifts_what_stands);
+  RUN(asks_skin_in_a_corner);
+  RUN(asks_measure_loses_nothing);
+  RUN(asks_first_keeps_what_is_proven);
+  RUN(asks_contacts_at_the_ends);
+  RUN(asks_names_what_meets_inside);
+}
+
+CHECK_ALONE(test_asks)
