@@ -82,9 +82,10 @@
 //   stands in section *proof*. It is about the surfaces of the two meshes and the motion as
 //   described at nsvcd_sweep, and it is tested by replaying certificates in double precision
 //   (tests/test_proof.c). UNDECIDED says that surfaces come as close as the triangles are stored
-//   (nsvcd_body_facts.quantum), or that the work allowed was not enough; then `collides` is the
-//   network's opinion, or yes. A component of a mesh is closed if every edge has its reverse; what
-//   is open encloses nothing.
+//   (nsvcd_body_facts.quantum of both bodies; with rounding, less than twice that), that of eight
+//   rays none could tell whether one is inside the other, or that the work allowed was not enough;
+//   then `collides` is the network's opinion, or yes. A component of a mesh is closed if every edge
+//   has its reverse; what is open encloses nothing.
 //   By the network, CERTIFIED_FREE is a proof too: spheres that cover the surfaces never meet.
 //   INSIDE is an estimate, a winding number of patches: reliable for closed meshes of one piece.
 //   Everything else is an opinion, whose measured error rates are in tests/bench/RESULTS.md. It
@@ -515,7 +516,8 @@ typedef enum nsvcd_status {
   // proven: the surfaces never meet; and, by the proof, nothing is inside of anything
   NSVCD_STATUS_CERTIFIED_FREE,
   // one body, or a part of it, lies inside the other at the start: by the proof a fact, by the
-  // network's method an estimate
+  // network's method an estimate. Surfaces may meet as well. Where first, measure or skin ask for
+  // more than yes or no, that is looked for, and a WITNESS is said if it is found soon
   NSVCD_STATUS_INSIDE,
   // the network has answered, but more pairs of patches overlapped than options.pairs let through
   NSVCD_STATUS_LIMIT,
@@ -579,16 +581,20 @@ typedef struct nsvcd_sweep_options {
   float clearance;
   // share of the motion, up to 1: contact_time is that of the first contact, to this. 0: of any
   // contact. It may be later where surfaces are within the quanta or the tolerance of each other
-  // for longer than this before they meet, or more work is needed: see free_until
+  // for longer than this before they meet, or more work is needed: see free_until. An eighth of the
+  // work is kept for whether they meet at all
   float first;
-  // metres: clearance_low and clearance_high are the least distance over the motion, to this, but
-  // for what the stored triangles are off by (nsvcd_body_facts.quantum). 0: unasked. Not with
-  // `first`. With `clearance` the status says whether that is kept, however wide this is
+  // metres: the least distance over the motion is between clearance_low and clearance_high. These
+  // are no farther apart than this, or than twice the bodies' quanta and the tolerance where that
+  // is more, and these quanta (nsvcd_body_facts.quantum) once more; farther where work ran out:
+  // then they are the best that was proven. 0: unasked. Not with `first`. The status is what it
+  // would be without
   float measure;
   // metres: a contact at the start that is no deeper than this does not count, nor does what is
-  // nearer than the clearance by no more than this. So a body may rest on another, slide along it
-  // or leave it. The question is asked as if a were lifted off b, by this much along the normals of
-  // all that it touches: see answer.lift
+  // nearer than the clearance by no more than this; what is both is to be so in sum. So a body may
+  // rest on another, slide along it or leave it. The question is asked as if a were lifted off b,
+  // by this much along the normals of all that it touches, and touches nothing then: see
+  // answer.lift
   float skin;
 } nsvcd_sweep_options;
 
@@ -627,12 +633,13 @@ typedef struct nsvcd_answer {
   // no triangles are named: when the most suspicious pair comes closest
   float contact_time;
   // in [0,1]. By proof: no contact is before this. CERTIFIED_FREE: 1. With options.first: when
-  // doubt begins, or, where none does before it, contact_time - first of a WITNESS. Otherwise 0
+  // doubt begins, or, where none does before it, contact_time - first of a WITNESS; earlier where
+  // work ran out. Otherwise 0
   float free_until;
   // metres. By proof: they stay farther apart than clearance_low until free_until, with
-  // options.measure all the time, and come as near as clearance_high, at contact_time. What stored
-  // triangles are off by is allowed for, and so clearance_high is not 0 where they meet; it is
-  // HUGE_VALF where it is not known
+  // options.measure all the time, and come as near as clearance_high, at contact_time if triangles
+  // are named. What stored triangles are off by is allowed for, and so clearance_high is not 0
+  // where they meet; it is HUGE_VALF where it is not known
   float clearance_low;
   float clearance_high;
   // the pair that decided; 0, 0 where there is none
@@ -643,7 +650,8 @@ typedef struct nsvcd_answer {
   // time, until the search ends
   size_t candidates;
   // metres, world. Of the triangles named below, where they meet at that time, or on one of them
-  // where they are nearest. INSIDE: a point of what is inside
+  // where they are nearest; of a large one, which is stored in parts, the part that was looked at
+  // last. INSIDE: a point of what is inside
   float point[3];
   // world. Unit normal of one of these, from b to a (an open surface met from behind: as it is
   // wound), or, where they are apart, the direction from b's to a's. 0 where none are named, and
@@ -655,8 +663,9 @@ typedef struct nsvcd_answer {
   uint32_t triangle_a;
   uint32_t triangle_b;
   // metres, world, at the start: by what a was lifted off b for options.skin; it turns with b, or,
-  // where both move and a is the larger, with a. The answer is about the motion so displaced. 0:
-  // nothing was touched, or a is pressed in deeper than the skin, or held from all sides
+  // where a rests, or both move and a is the larger, with a. The answer is about the motion so
+  // displaced, which touches nothing at the start. 0: nothing was touched; or no lift does that,
+  // since a is pressed in deeper than the skin, or held from all sides: then the contact counts
   float lift[3];
   // units that the proof took
   size_t work;
@@ -681,8 +690,9 @@ NSVCDDEF size_t nsvcd_sweep_workspace_size(const nsvcd_question *question);
 //
 // What a proof says is about the surfaces of the two meshes, scaled and posed exactly as described.
 // CERTIFIED_FREE and INSIDE hold for the meshes themselves. The triangles of a WITNESS meet to
-// within the two bodies' quantum (nsvcd_body_facts, times the scale). UNDECIDED are surfaces that
-// come as close as that without meeting, or more work than was allowed.
+// within the two bodies' quanta (nsvcd_body_facts, times the scale). UNDECIDED are surfaces that
+// come as close as that without meeting, or more work than was allowed. More work never leaves
+// undecided what less decides, but for luck: options.first with a few hundred units.
 //
 // What it costs: Ga and Gb are the bodies' groups of 16 patches. A motion has S segments: 16 or so
 // up to 320 degrees of turn, 64 at most. The search takes at most 18 S Ga Gb + 3 S tests of 16
@@ -9861,13 +9871,15 @@ static void nsvcd__candidates_start(nsvcd__candidates *kept, nsvcd__candidate *i
 //
 // FIRST CONTACT. Contacts end the motion: whenever one is found, only what is more than `first`
 // before it matters from then on, and is proven free, or gives an earlier contact, or is in doubt.
-// Segments are searched some at a time, in their order, so that what is found first is early.
+// Segments are searched some at a time, in their order, so that what is found first is early. Once
+// the share that a doubt leaves is spent, the doubt is the end, and what is before it is proven.
+// Where no contact is known then, it is asked whether there is any.
 //
-// THE LEAST DISTANCE. Contacts lower the clearance: it begins as a distance that two vertices
-// have, and whenever triangles are found nearer than that, it becomes their distance less
-// `measure`, but not less than the clearance that is asked for while they keep that. What has been
-// parted stays parted, by more than that. So both are one search whose question shrinks, and in the
-// end all of the motion that matters is proven free at the clearance that matters.
+// THE LEAST DISTANCE. Asked last, when it is known whether they come within the clearance. Contacts
+// lower the clearance: it begins as a distance that two vertices have, and whenever triangles are
+// found nearer than that, it becomes their distance less `measure`. What has been parted stays
+// parted, by more than that. So both are one search whose question shrinks, and in the end all of
+// the motion that matters is proven free at the clearance that matters.
 //
 // Work is counted in units: a plane sought for two hulls, 16 triangles against the box of 16, one
 // of them against these, a couple at one time, a ray against 16 triangles or one. A query stops
@@ -9895,9 +9907,11 @@ static void nsvcd__candidates_start(nsvcd__candidates *kept, nsvcd__candidate *i
 #define NSVCD__SAME_PLACE 1e-13  // of all lengths: a distance in double that is none
 #define NSVCD__IN_DOUBT 8        // the share of the limit, 1 / this, that goes on after a doubt
 // What else a question asks.
-#define NSVCD__LONG 6000    // units, before the ends of the motion are looked at by themselves,
-#define NSVCD__LOOK 1000    // and for each of these looks
-#define NSVCD__GLANCE 200   // and to find triangles that meet where one is within the other
+// units: before the ends of the motion are looked at by themselves; for each of these looks; to
+// find triangles that meet where one is within the other
+#define NSVCD__LONG 6000
+#define NSVCD__LOOK 1000
+#define NSVCD__GLANCE 200
 #define NSVCD__FINER 2      // times: from pass to pass, where the least distance is measured
 #define NSVCD__IN_ORDER 4   // segments searched together, where the first contact is sought
 #define NSVCD__TOUCHES 32   // contacts at the start, looked at together, where there is a skin
@@ -10002,12 +10016,15 @@ typedef struct nsvcd__height {
 
 // What a proof knows of a motion.
 typedef struct nsvcd__known {
+  // found: if there is a contact, or WITHIN; UNDECIDED: the doubt, if there is one
   int has_contact;
-  nsvcd__contact found;  // if there is a contact, or WITHIN; UNDECIDED: the doubt, if there is one
-  double unsure;         // ticks: when the first doubt begins, two triangles too near to tell
-  nsvcd__contact doubt;  // what that is about
-  int lost;              // the work allowed was not enough: all from `settled` on is undecided
-  double settled;        // ticks
+  nsvcd__contact found;
+  // ticks: when the first doubt begins, two triangles too near to tell; and these
+  double unsure;
+  nsvcd__contact doubt;
+  // the work allowed was not enough: all from `settled` on, ticks, is undecided
+  int lost;
+  double settled;
 } nsvcd__known;
 
 typedef struct nsvcd__proof {
@@ -10022,16 +10039,19 @@ typedef struct nsvcd__proof {
   float lengths;     // extents of both bodies
   double tolerance;  // beyond the quanta
   double clearance, measure, first;
-  double share;        // of the motion: `first`, as it is asked for
-  int tells;           // more is asked for than yes or no
-  double asked;        // the clearance of the question
-  double low, high;    // while measuring: the least distance is known to be between these
-  size_t work, limit;  // units; and how many there may be now
-  size_t most;         // and in all
-  size_t in_doubt;     // that go on after a doubt
-  double end;          // ticks: what begins then or later does not matter
-  int doubts_end;      // so is what begins with a doubt or later
-  int is_brief;        // a try: there is a longer one after it
+  // as the question has them: the clearance, and `first`, a share of the motion; and whether more
+  // is asked for than yes or no
+  double asked, share;
+  int tells;
+  // while measuring: the least distance is known to be between these
+  double low, high;
+  // units: taken, how many may be now, how many in all, and how many that go on after a doubt
+  size_t work, limit, most, in_doubt;
+  // ticks: what begins then or later does not matter; nor does what begins with a doubt
+  double end;
+  int doubts_end;
+  // a try: there is a longer one after it
+  int is_brief;
 
   // With a skin, contacts at the start are not taken at first, but gathered: those that a lift
   // along no normal known undoes.
@@ -10043,9 +10063,12 @@ typedef struct nsvcd__proof {
   nsvcd__known known;
 
   // And of the start: containment.
-  int within;          // a component seems to be within the other body, but close to its surface
-  nsvcd__d3 enclosed;  // a point of that component; the fixed body's frame
-  int unclear;         // that could not be told
+  // a component seems to be within the other body, but close to its surface; a point of it, in the
+  // fixed body's frame
+  int within;
+  nsvcd__d3 enclosed;
+  // that could not be told
+  int unclear;
 
   // Segments as spans, made when they are asked for; and where one has been cut off.
   uint64_t spans_known;  // segments
@@ -10425,7 +10448,8 @@ static size_t nsvcd__limit_after(const nsvcd__proof *p, size_t units) {
   return left > units ? p->work + units : p->most;
 }
 
-// What the search for the first contact may take. The rest is for the question whether there is any.
+// What the search for the first contact may take. The rest is for the question whether there is
+// any.
 static size_t nsvcd__limit_of_first(const nsvcd__proof *p) {
   return p->most - p->most / NSVCD__IN_DOUBT;
 }
@@ -13071,9 +13095,8 @@ static int nsvcd__meets_at(nsvcd__proof *p, nsvcd__search *search, int at_end, s
 // bodies that meet at the start, or the end, and hardly anywhere else: so these are looked at
 // before all is searched once more. The end says nothing about a first contact.
 static nsvcd__verdict nsvcd__prove_and_look(nsvcd__proof *p, nsvcd__search *search, size_t limit) {
-  p->limit = nsvcd__limit_after(p, NSVCD__LONG);
-  p->is_brief = p->limit < limit;
-  p->limit = p->is_brief ? p->limit : limit;
+  p->is_brief = p->work + 4 * NSVCD__LONG < limit;
+  p->limit = p->is_brief ? p->work + NSVCD__LONG : limit;
   const nsvcd__verdict verdict = nsvcd__prove_motion(p, search);
   if (verdict != NSVCD__UNDECIDED || !p->is_brief)
     return verdict;

@@ -180,8 +180,8 @@ static int check_options(settings *options) {
   if (options->int8)
     sweep->precision = NSVCD_PRECISION_INT8;
   options->encode.no_triangles = sweep->method == NSVCD_METHOD_NETWORK;
-  if (options->encode.no_triangles && (sweep->clearance > 0 || sweep->first > 0))
-    return usage_error("--method network", "it knows neither --clearance nor --first");
+  if (options->encode.no_triangles && (sweep->clearance > 0 || sweep->first > 0 || sweep->skin > 0))
+    return usage_error("--method network", "it knows neither --clearance, --first nor --skin");
   if (!recall_is_known(sweep))
     return usage_error("--recall", "none of 0, 0.99, 0.999, 0.9999");
   return DONE;
@@ -724,27 +724,29 @@ static void help_encode(FILE *out) {
 }
 
 static void help_check(FILE *out) {
-  fprintf(out,
-          "svcd check [--method proof|network] [--points N] [--pairs K] [--model tiny|small|base]\n"
-          "           [--int8] [--recall R] [--clearance METRES] [--first TOLERANCE]\n"
-          "           [--work LIMIT] [--repeat R] FILE\n"
-          "Answers the problems of FILE, a line each on standard output, separated by tabs:\n"
-          "ID LOGIT COLLIDES TIME MOVING_PATCH FIXED_PATCH STATUS MICROSECONDS; a summary on\n"
-          "standard error.\n"
-          "  --method M          proof: a witness or a certificate; network: an opinion (proof)\n"
-          "  --points N          patches of a body, 1..%d (%d and more; %d for the network)\n"
-          "  --pairs K           pairs of patches that the network looks at, 1..%d (8)\n"
-          "  --model M           decoder (base)\n"
-          "  --int8              the decoder in 8-bit integers\n"
-          "  --recall R          share of collisions to be found: 0.99, 0.999, 0.9999 or 0:\n"
-          "                      balanced errors (0)\n"
-          "  --clearance METRES  to come as close as this is a collision (0: to meet is)\n"
-          "  --first TOLERANCE   TIME is that of the first contact, to this share of the motion\n"
-          "                      (0: of any contact)\n"
-          "  --work LIMIT        units that a proof may take (%d)\n"
-          "  --repeat R          time every query R times, report the least (5)\n",
-          NSVCD_MAX_PATCHES, NSVCD_DEFAULT_PATCHES, NSVCD_DEFAULT_NETWORK_PATCHES, NSVCD_MAX_PAIRS,
-          NSVCD_DEFAULT_WORK);
+  fprintf(
+      out,
+      "svcd check [--method proof|network] [--points N] [--pairs K] [--model tiny|small|base]\n"
+      "           [--int8] [--recall R] [--clearance METRES] [--first TOLERANCE]\n"
+      "           [--skin METRES] [--work LIMIT] [--repeat R] FILE\n"
+      "Answers the problems of FILE, a line each on standard output, separated by tabs:\n"
+      "ID LOGIT COLLIDES TIME MOVING_PATCH FIXED_PATCH STATUS MICROSECONDS; a summary on\n"
+      "standard error.\n"
+      "  --method M          proof: a witness or a certificate; network: an opinion (proof)\n"
+      "  --points N          patches of a body, 1..%d (%d and more; %d for the network)\n"
+      "  --pairs K           pairs of patches that the network looks at, 1..%d (8)\n"
+      "  --model M           decoder (base)\n"
+      "  --int8              the decoder in 8-bit integers\n"
+      "  --recall R          share of collisions to be found: 0.99, 0.999, 0.9999 or 0:\n"
+      "                      balanced errors (0)\n"
+      "  --clearance METRES  to come as close as this is a collision (0: to meet is)\n"
+      "  --first TOLERANCE   TIME is that of the first contact, to this share of the motion\n"
+      "                      (0: of any contact)\n"
+      "  --skin METRES       what is touched at the start, no deeper than this, does not count\n"
+      "  --work LIMIT        units that a proof may take (%d)\n"
+      "  --repeat R          time every query R times, report the least (5)\n",
+      NSVCD_MAX_PATCHES, NSVCD_DEFAULT_PATCHES, NSVCD_DEFAULT_NETWORK_PATCHES, NSVCD_MAX_PAIRS,
+      NSVCD_DEFAULT_WORK);
 }
 
 typedef struct command {

@@ -341,6 +341,11 @@ done
 awk '{ t[NR] = $1 } END { exit !(NR == 3 && t[2] <= t[1] && t[3] < t[2] && t[2] < 0.5 && t[3] > 0.3) }' "$dir/times" ||
   fail "times of contact: $(cat "$dir/times")"
 expect 2 'out of range' build/svcd check --clearance -1 "$dir/two.txt"
+# What stands on another, its top at 1, slides along it, and is stopped only without a skin.
+printf 'nsvcd-problems 1\nmesh m cube.obj\nproblem slide m 1 m 1 %s 0 nan 2 1\n0 0 1 0 0 0 1\n0.3 0 0.9999 0 0 0 1\n0 0 0 0 0 0 1\n' "$pose" >"$dir/slide.txt"
+expect 0 '0 of 1 right' build/svcd check --repeat 1 "$dir/slide.txt"
+expect 0 '1 of 1 right' build/svcd check --repeat 1 --skin 0.001 "$dir/slide.txt"
+expect 2 'neither' build/svcd check --method network --skin 0.1 "$dir/slide.txt"
 expect 2 'not a number in 0..1' build/svcd check --first 2 "$dir/two.txt"
 expect 2 'neither' build/svcd check --method network --first 0.1 "$dir/two.txt"
 

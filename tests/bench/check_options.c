@@ -1010,7 +1010,7 @@ static void judge_effort(const scene *s, const ask *k) {
   if (w->status == NSVCD_STATUS_UNDECIDED && w->work < o->work && k->world->least > allowed)
     find(s, GAVE_UP, k, NULL, k->world->least);
   if (w->status == NSVCD_STATUS_UNDECIDED && !k->ladder && !(o->measure > 0) && s->turn < 5 &&
-      k->world->least > allowed + 1e-3)
+      k->world->least > allowed + 1e-3 && (w->work < o->work || o->work >= NSVCD_DEFAULT_WORK))
     find(s, CLEAR_UNDECIDED, k, NULL, k->world->least);
   if (w->status == NSVCD_STATUS_UNDECIDED && !(k->world->at_start > 0) && !k->ladder && !s->rests &&
       !(o->skin > 0))
@@ -1110,7 +1110,7 @@ static void judge_losses(const scene *s, const ask *i, const ask *j, int by) {
     lost = LOST_BY_FIRST;
   if (by == BY_MEASURE && !(x->measure > 0))
     lost = y->clearance > 0 ? LOST_BY_BOTH : LOST_BY_MEASURE;
-  if (by == BY_SKIN && !(x->skin > 0) && i->world == j->world)
+  if (by == BY_SKIN && !(x->skin > 0) && i->world == j->world && 10 * i->answer.work < y->work)
     lost = LOST_BY_SKIN;
   if (by == BY_SEGMENTS && !x->segments && s->turn < 5)
     lost = LOST_BY_SEGMENTS;
@@ -1121,8 +1121,9 @@ static void judge_losses(const scene *s, const ask *i, const ask *j, int by) {
     lost = LOST_BY_TOLERANCE;
   if (lost == KINDS || (is_free && i->world->least < margin))
     return;
-  // what does not meet, or comes no nearer than the clearance, but nearly so, may be undecided
-  if (was == NSVCD_STATUS_WITNESS && i->world->least > (double)y->clearance)
+  // what does not meet, or comes hardly nearer than the clearance, may be undecided
+  if (was == NSVCD_STATUS_WITNESS && i->world->least > 0 &&
+      i->world->least > (double)y->clearance - s->quanta)
     return;
   find(s, lost, j, i, (double)i->answer.work / (double)x->work);
 }
@@ -1140,7 +1141,8 @@ static void judge_pair(const scene *s, const ask *i, const ask *j) {
         y->work < j->options.work / 2)
       find(s, FINER_LATER, j, i, (double)(x->free_until - y->free_until));
     if (y->status == NSVCD_STATUS_WITNESS && x->status == NSVCD_STATUS_WITNESS &&
-        y->contact_time > x->contact_time + to && !(i->options.tolerance > 0))
+        y->contact_time > x->contact_time + to && !(i->options.tolerance > 0) &&
+        y->work < j->options.work / 2)
       find(s, FINER_EARLIER, j, i, (double)(y->contact_time - x->contact_time));
   }
   if (by == BY_MEASURE && j->options.measure < i->options.measure && j->options.measure > 0 &&
