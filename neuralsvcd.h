@@ -11811,7 +11811,7 @@ static double nsvcd__lift_along(nsvcd__d3 n, const nsvcd__d3 *moving, const nsvc
 // Directions that may undo a touch: the normals of the moving triangle, turned about, and of the
 // fixed one; and, if they are apart, that from point to point. All point to where the moving body
 // is.
-static void nsvcd__touch_normals(const nsvcd__touch *t, nsvcd__d3 *out) {
+static NSVCD__APART void nsvcd__touch_normals(const nsvcd__touch *t, nsvcd__d3 *out) {
   out[0] = nsvcd__d3_scale(nsvcd__face_direction(t->moving), -1);
   out[1] = nsvcd__face_direction(t->fixed);
   out[2] = t->apart;
@@ -13043,7 +13043,7 @@ static void nsvcd__proof_restart(nsvcd__proof *p) {
 
 // Searches a motion whose segments have been chosen, and settles what is found. UNDECIDED: the work
 // allowed was not enough.
-static nsvcd__verdict nsvcd__prove_motion(nsvcd__proof *p, nsvcd__search *search) {
+static NSVCD__APART nsvcd__verdict nsvcd__prove_motion(nsvcd__proof *p, nsvcd__search *search) {
   nsvcd__cut_segments(p->motion, p->lengths, nsvcd__clearance_of(p), search);
   nsvcd__search_begin(p->moving.body, p->fixed.body, search);
   p->first = p->share * (double)p->motion->ticks;
@@ -13076,7 +13076,8 @@ static nsvcd__motion nsvcd__end_of(const nsvcd__motion *motion, int at_end) {
 
 // A look at the start alone, or at the end, which takes so many units at most: do triangles meet
 // there? Then that is the contact that is known. If not, all that was known is lost.
-static int nsvcd__meets_at(nsvcd__proof *p, nsvcd__search *search, int at_end, size_t units) {
+static NSVCD__APART int nsvcd__meets_at(nsvcd__proof *p, nsvcd__search *search, int at_end,
+                                        size_t units) {
   nsvcd__motion *whole = p->motion;
   nsvcd__motion still = nsvcd__end_of(whole, at_end);
   const double share = p->share;
@@ -13191,8 +13192,8 @@ static int nsvcd__measure_once(nsvcd__proof *p, nsvcd__search *search) {
 // Brackets the least distance over the motion, when it is known whether they come within the
 // clearance that is asked for. Where half of the work is not enough for that, the rest goes to
 // brackets that get narrower and narrower: the last one that there was work enough for stays.
-static void nsvcd__measure(nsvcd__proof *p, nsvcd__search *search, nsvcd__verdict verdict,
-                           double finest) {
+static NSVCD__APART void nsvcd__measure(nsvcd__proof *p, nsvcd__search *search,
+                                        nsvcd__verdict verdict, double finest) {
   const int is_named = p->known.has_contact || p->known.unsure < NSVCD__NEVER;
   const float lifted = nsvcd__f3_length(p->motion->lift);
   const float gap = nsvcd__motion_gap(p->motion) - p->lengths - 1.0001f * lifted;
@@ -13259,7 +13260,8 @@ static double nsvcd__undone(const nsvcd__proof *p, nsvcd__d3 n) {
 }
 
 // Takes a direction that is better than the best so far.
-static void nsvcd__try_lift(const nsvcd__proof *p, nsvcd__d3 n, double *most, nsvcd__d3 *best) {
+static NSVCD__APART void nsvcd__try_lift(const nsvcd__proof *p, nsvcd__d3 n, double *most,
+                                         nsvcd__d3 *best) {
   const int known = *most > 0 && nsvcd__d3_dot(n, *best) > 0.99999;
   const double good = known ? 0 : nsvcd__undone(p, n);
   if (good > *most)
