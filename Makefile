@@ -139,6 +139,10 @@ BENCHES = $(patsubst tests/bench/%.c,build/%,$(wildcard tests/bench/*.c))
 $(BENCHES): build/%: tests/bench/%.c $(HELPERS) $(PEERS) $(SCENERY) $(LIBRARY) | build
 	$(CC) $(ALL_CFLAGS) -Wno-unused-function $(CCD_CFLAGS) -o $@ $< $(CCD_LIBS) -lm
 
+# The prototype of the proof as one loop, beside the proof: tests/bench/loop/NOTES.md.
+build/loop_bench: tests/bench/loop/bench.c $(wildcard tests/bench/loop/*.h) $(SCENERY) $(LIBRARY) | build
+	$(CC) $(CFLAGS) -fno-math-errno -std=gnu99 -Wall -Wextra -Wno-unused-function -Wno-psabi -Wno-maybe-uninitialized -DNSVCD_NO_DISPATCH -o $@ $< -lm
+
 check-header: | build  # as C99 to C++17, strictly, and what it leaves in the namespace
 	CC="$(CC)" CXX="$(CXX)" tests/header.sh
 check-examples: all build/make_assets  # they run, and they say no as examples/FORMATS.md demands
