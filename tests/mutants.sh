@@ -1,6 +1,6 @@
 #!/bin/sh
 # Are the tests of the proof worth anything? Each mutant is the header with one mistake in it; tests/test_proof.c has to
-# fail on it, or, where its name begins with `level:`, tests/test_level.c. Prints a line for each, and exits with 1 if one
+# fail on it, or, where its name begins with `level:` or `asks:`, tests/test_level.c or test_asks.c. Prints a line for each, and exits with 1 if one
 # survives. An argument runs only the mutants whose name contains it. Some 20 seconds each; PART=0 OF=16 WORK=folder: every
 # 16th of them, in a folder of its own.
 set -u
@@ -9,7 +9,7 @@ cd "$(dirname "$0")/.." || exit 1
 work=${WORK:-build/mutants}
 mkdir -p $work/tests/bench $work/examples/scenery
 cp weights.h $work/
-cp tests/test_proof.c tests/test_level.c tests/*.h $work/tests/
+cp tests/test_proof.c tests/test_level.c tests/test_asks.c tests/*.h $work/tests/
 cp tests/bench/*.h $work/tests/bench/
 cp examples/scenery/*.h $work/examples/scenery/
 
@@ -81,11 +81,11 @@ search without clearance|block->spread[l] += clearance;|block->spread[l] += 0 * 
 clipped without twice the bulge|    block->bulge[l] *= 2;\n    block->drift[l] *= 2;\n|    block->bulge[l] *= 0.1f;\n
 clipped too early|return (double)search->begin[segment] < p->end;|return (double)search->begin[segment] < 0.9 * p->end;
 every other segment|s += NSVCD__IN_ORDER) {|s += 2 * NSVCD__IN_ORDER) {
-contacts end too much|p->end = p->found.tick - p->first;|p->end = 0.9 * p->found.tick - p->first;
-a start that is not asked|  if (p->first > 0 \&\& p->has_contact \&\& nsvcd__clear_until(p) <= 0 \&\& p->found.tick > 0)|  if (0)
-a doubt taken for free|  return fmin(fmin(p->end, p->unsure), p->lost ? p->settled : NSVCD__NEVER);|  return fmin(p->end, p->lost ? p->settled : NSVCD__NEVER);
+contacts end too much|p->end = p->known.found.tick - p->first;|p->end = 0.9 * p->known.found.tick - p->first;
+a start that is not asked|known.has_contact \&\& nsvcd__clear_until(p) <= 0 \&\& known.found.tick > 0|known.has_contact \&\& known.found.tick < 0
+a doubt taken for free|  return fmin(fmin(p->end, p->known.unsure), p->known.lost|  return fmin(p->end, p->known.lost
 half the first distance|return 1.0001 * nsvcd__vertices_apart(|return 0.5 * nsvcd__vertices_apart(
-distance without tolerance|fmax(least, p->found.distance - p->measure);|fmax(least, p->found.distance * 1.01);
+distance without tolerance|    p->clearance = fmax(p->low, p->high - p->measure);|    p->clearance = fmax(p->low, p->high * 1.01);
 exact poses not lifted|at.position = nsvcd__d3_add(at.position, arc->lift);|at.position = nsvcd__d3_add(at.position, nsvcd__d3_scale(arc->lift, 0));
 lift the wrong way|if (lacks > 0)\n        lift = nsvcd__d3_add(|if (lacks > 0)\n        lift = nsvcd__d3_sub(
 a window of another patch|p->window > 0 \&\& p->fixed_blocks[0].first == first|p->window > 0
@@ -101,6 +101,17 @@ level: nearest patches about the middle only|nsvcd__v_fma(r, nsvcd__v_set(NSVCD_
 level: latents of one region|int8_t *latents = parts->latents + NSVCD__LATENT * parts->count;|int8_t *latents = parts->latents;
 level: members of one dipole in two|const size_t member = NSVCD__GROUP * (first + nsvcd__lowest_bit(close));|const size_t member = NSVCD__GROUP * (first + (nsvcd__lowest_bit(close) \& ~(size_t)1));
 margin of small normals|nsvcd__v_pick(square, nsvcd__v_set(1e-30f), nsvcd__v_set(1e30f), limit)|limit
+asks: faces without area|length > 1e-9 * longest|length > 0
+asks: pushed through one face only|n, normals[0]) > -0.3 \|\| nsvcd__d3_dot(n, normals[1]) > -0.3|n, normals[0]) > -0.3 \&\& nsvcd__d3_dot(n, normals[1]) > -0.3
+asks: a lift that is not tried|    more \&= nsvcd__d3_dot(lift, lift) > 0;|    more = 0;
+asks: the longest way off|faces - longest / (p->skin + longest)|faces + longest / (p->skin + longest)
+asks: ends not looked at|p->work + 4 * NSVCD__LONG < limit|p->work + 4 * NSVCD__LONG < 0
+asks: the start only|!(p->share > 0) \&\& nsvcd__meets_at(p, search, 1, NSVCD__LOOK)|0
+asks: a bracket lost|  if (pass != NSVCD__UNDECIDED)\n    p->low|  p->low = 0;\n  if (pass != NSVCD__UNDECIDED)\n    p->low
+asks: a gap lost|p->low = fmax(verdict == NSVCD__FREE ? p->asked : 0, (double)gap);|p->low = 0;
+asks: a bracket as wide as may be|  for (p->measure = p->high - p->low; wide|  for (p->measure = p->high - p->low; 0 \&\& wide
+asks: no question whether they meet|known.lost \|\| known.unsure < NSVCD__NEVER)|known.unsure < 0)
+asks: triangles not named|p->tells \&\& nsvcd__meets_at(|0 \&\& nsvcd__meets_at(
 LIST
 
 survived=0
@@ -110,9 +121,10 @@ while IFS= read -r line; do
   number=$((${number:-0} + 1))
   test -z "${OF:-}" || test $((number % OF)) = "$PART" || continue
   LINE="$line" python3 - <<'PYTHON' >$work/neuralsvcd.h || exit 1
-import os, sys
-name, old, new = os.environ['LINE'].split('|', 2)
-old, new = old.replace('\\n', '\n').replace('\\&', '&'), new.replace('\\n', '\n').replace('\\&', '&').rstrip('|')
+import os, re, sys
+name, old, new = re.split(r'(?<!\\)\|', os.environ['LINE'], maxsplit=2)
+old, new = [part.replace('\\n', '\n').replace('\\&', '&').replace('\\|', '|') for part in (old, new)]
+new = new if name == 'none' or not new.endswith('|') else new.rstrip('|')
 text = open('neuralsvcd.h').read()
 if old and text.count(old) != 1:
     sys.exit(f'{name}: found {text.count(old)} times')
@@ -120,11 +132,13 @@ sys.stdout.write(text.replace(old, new) if old else text)
 PYTHON
   tile=  # those of tiles are looked for where small bodies make several
   file=test_proof.c
+  fused=  # as the Makefile compiles these
   case "$name" in
     tile:*) tile=-DNSVCD__TILE=2 ;;
     level:*) file=test_level.c ;;
+    asks:*) file=test_asks.c fused=-ffp-contract=fast ;;
   esac
-  $CC -O2 -march=native -std=c99 -w -DNSVCD_NO_DISPATCH $tile -DTEST_ALONE -DCHECK_ENDS_EARLY -o $work/test $work/tests/$file -lm || exit 1
+  $CC -O2 -march=native -std=c99 -w -DNSVCD_NO_DISPATCH $tile $fused -DTEST_ALONE -DCHECK_ENDS_EARLY -o $work/test $work/tests/$file -lm || exit 1
   timeout "${LIMIT:-400}" $work/test >$work/out.txt 2>&1
   code=$?
   if [ $code = 124 ]; then echo "NO END    $name: raise LIMIT, seconds"; survived=1; continue; fi

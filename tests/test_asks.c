@@ -176,6 +176,23 @@ static void asks_skin_in_a_corner(void) {
   nsvcd_body_free(corner, NULL);
 }
 
+// What has no area has no direction, however its corners are rounded.
+static void asks_faces_without_area(void) {
+  shapes_rng rng = {26};
+  for (int trial = 0; trial < 10000; trial++) {
+    nsvcd__d3 t[3];
+    double d[3];
+    const double size = pow(10, shapes_uniform(&rng, -9, 6));
+    shapes_direction(&rng, d);
+    t[0] = nsvcd__d3_of(size * shapes_uniform(&rng, -1, 1), size * shapes_uniform(&rng, -1, 1), 0);
+    for (int k = 1; k < 3; k++) {
+      const double way = size * shapes_uniform(&rng, -1, 1);
+      t[k] = nsvcd__d3_add(t[0], nsvcd__d3_of(way * d[0], way * d[1], way * d[2]));
+    }
+    CHECK_EQ(nsvcd__d3_length(nsvcd__face_direction(t)), 0);
+  }
+}
+
 // -------------------------------------------------------------------------------------------------
 // measure
 
@@ -202,7 +219,8 @@ static void asks_measure_loses_nothing(void) {
       for (int m = 0; m < 4; m++) {
         float low = 0;
         question.options.measure = (float)pow(10, -2 - m);
-        for (question.options.work = 16 * (plain.work + 1); question.options.work < 2000000;
+        const size_t least = plain.work ? 16 * (plain.work + 1) : 1;
+        for (question.options.work = least; question.options.work < 2000000;
              question.options.work *= 16) {
           const nsvcd_answer answer = asks(&question);
           CHECK_EQ(answer.status, plain.status);
@@ -324,6 +342,7 @@ static void asks_names_what_meets_inside(void) {
 void test_asks(void) {
   RUN(asks_skin_lifts_what_stands);
   RUN(asks_skin_in_a_corner);
+  RUN(asks_faces_without_area);
   RUN(asks_measure_loses_nothing);
   RUN(asks_first_keeps_what_is_proven);
   RUN(asks_contacts_at_the_ends);
