@@ -13339,8 +13339,10 @@ static NSVCD__APART void nsvcd__lift_motion(nsvcd__proof *p, nsvcd__search *sear
   nsvcd__motion start = nsvcd__end_of(whole, 0);
   p->motion = &start;
   p->normal_count = 0;
-  // what is about to touch is lifted off too
-  p->clearance = p->asked + 0.05 * p->skin;
+  // what is about to touch is lifted off too, and may not touch afterwards
+  const float quanta = p->motion->scale * nsvcd__widest_quantum(&p->moving);
+  const double hair = (double)(quanta + nsvcd__widest_quantum(&p->fixed));
+  p->clearance = p->asked + 0.05 * p->skin + hair;
   p->gathers = 1;
   for (int turns = 0, more = 1; more;) {
     nsvcd__proof_restart(p);
@@ -13356,7 +13358,7 @@ static NSVCD__APART void nsvcd__lift_motion(nsvcd__proof *p, nsvcd__search *sear
     }
     more &= nsvcd__d3_dot(lift, lift) > 0;
     start.lift = more ? nsvcd__f3_round(lift) : nsvcd__f3_of(0, 0, 0);
-    p->clearance = p->asked;
+    p->clearance = p->asked + 0.01 * p->skin + hair;
   }
   p->gathers = 0;
   p->clearance = p->asked;

@@ -964,5 +964,5 @@ def plan(bodies: Sequence[Optional[Body]], pairs: ArrayLike, place: Callable[[Fl
     _check(code)
     joint, pair = (None if index == LEAVE_OUT else index for index in (answer.joint, answer.pair))
     return Plan(control[:answer.via_points + 2].copy(), PlanStatus(answer.status), bool(answer.collides), joint, pair,
-                answer.logit, answer.time, answer.cost, answer.smoothness, answer.seeds, answer.iterations,
+                answer.logit, answer.time, answer.stray, answer.cost, answer.smoothness, answer.seeds, answer.iterations,
                 answer.trajectories, answer.sweeps)
