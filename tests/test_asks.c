@@ -9,6 +9,7 @@
 #include "../neuralsvcd.h"
 
 #include "../examples/scenery/shapes.h"
+#include "ask.h"
 #include "check.h"
 
 void test_asks(void);
@@ -34,17 +35,6 @@ static nsvcd_answer asks(const nsvcd_question *question) {
   memset(&answer, 0, sizeof answer);
   CHECK_EQ(nsvcd_sweep(question, workspace, sizeof workspace, &answer), NSVCD_OK);
   return answer;
-}
-
-static nsvcd_question asks_of(const nsvcd_body *a, const nsvcd_pose *poses, size_t count,
-                              const nsvcd_body *b) {
-  nsvcd_question question;
-  memset(&question, 0, sizeof question);
-  question.a.body = a;
-  question.a.poses = poses;
-  question.a.count = count;
-  question.b.body = b;
-  return question;
 }
 
 // A pose at x, y, z, turned about z.
@@ -117,7 +107,8 @@ static void asks_skin_lifts_what_stands(void) {
       const double way = trial & 8 ? 0.1 : 0;
       const nsvcd_pose path[2] = {asks_pose(x, 0.01, -depth, turn),
                                   asks_pose(x + way, 0.01, -depth, turn)};
-      nsvcd_question question = asks_of(body, path, trial & 8 ? 2 : 1, tables[trial / 16]);
+      nsvcd_question question =
+          question_of(body, path, trial & 8 ? 2 : 1, tables[trial / 16], NULL, NULL);
       question.options.skin = (float)skin;
       const nsvcd_answer answer = asks(&question);
       CHECK_EQ(answer.status == NSVCD_STATUS_CERTIFIED_FREE, k < 7);
@@ -149,7 +140,7 @@ static void asks_skin_in_a_corner(void) {
     for (int k = 0; k < 4; k++) {
       const double in = 0.2 * k * skin;
       const nsvcd_pose pose = asks_pose(0.25 + in, 0.25 + in, 0.05 - in, 0);
-      nsvcd_question question = asks_of(box, &pose, 1, corner);
+      nsvcd_question question = question_of(box, &pose, 1, corner, NULL, NULL);
       question.options.skin = (float)skin;
       const nsvcd_answer answer = asks(&question);
       CHECK_EQ(answer.status, NSVCD_STATUS_CERTIFIED_FREE);
@@ -165,7 +156,7 @@ static void asks_skin_in_a_corner(void) {
     memset(&shape, 0, sizeof shape);
     shapes_box_at(&shape, -0.05, 0, 0, 0.1, 0.1, 0.1);
     const nsvcd_body *held = asks_body(&shape, 0);
-    nsvcd_question question = asks_of(held, NULL, 0, slot);
+    nsvcd_question question = question_of(held, NULL, 0, slot, NULL, NULL);
     question.options.skin = (float)skin;
     const nsvcd_answer answer = asks(&question);
     CHECK_EQ(answer.collides, 1);
@@ -211,7 +202,7 @@ static void asks_measure_loses_nothing(void) {
       path[n] = asks_pose(distances[k], -0.2 + 0.4 * (double)n / 64, 0, 0.01 * (double)n);
     for (int c = 0; c < 3; c++) {
       static const float clearances[3] = {0, 1e-3f, 1e-2f};
-      nsvcd_question question = asks_of(ball, path, k % 2 ? 65 : 2, ball);
+      nsvcd_question question = question_of(ball, path, k % 2 ? 65 : 2, ball, NULL, NULL);
       path[1] = k % 2 ? path[1] : asks_pose(distances[k], 0.2, 0, 0.3);
       question.options.clearance = clearances[c];
       const nsvcd_answer plain = asks(&question);
@@ -268,7 +259,7 @@ static void asks_first_keeps_what_is_proven(void) {
       const double down = start ? fmax(0, 0.2 - 0.02 * n) : 0;  // set down, or there already
       path[n] = asks_pose(-0.4 + 0.8 * fmax(0, (n - 12) / 20.0), 0, hair + down, 0);
     }
-    nsvcd_question question = asks_of(box, path, 33, table);
+    nsvcd_question question = question_of(box, path, 33, table, NULL, NULL);
     const nsvcd_answer plain = asks(&question);
     CHECK_EQ(plain.status, NSVCD_STATUS_WITNESS);
     for (int m = 1; m < 5; m++) {
@@ -303,7 +294,7 @@ static void asks_contacts_at_the_ends(void) {
         const double t = (double)(reversed ? count - 1 - n : n) / (double)(count - 1);
         path[n] = asks_pose(0, 0, 0.3 * t - 0.300005, 3 * t);
       }
-      nsvcd_question question = asks_of(piston, path, count, cylinder);
+      nsvcd_question question = question_of(piston, path, count, cylinder, NULL, NULL);
       const nsvcd_answer answer = asks(&question);
       CHECK_EQ(answer.status, NSVCD_STATUS_WITNESS);
       CHECK_LE(answer.work, 9000);
@@ -323,7 +314,7 @@ static void asks_names_what_meets_inside(void) {
   const nsvcd_body *box = asks_body(&shape, 0);
   const nsvcd_pose path[2] = {asks_pose(0, 0, -0.01, 0), asks_pose(0.2, 0, 0.1, 0)};
   for (int k = 0; k < 4; k++) {
-    nsvcd_question question = asks_of(box, path, 2, table);
+    nsvcd_question question = question_of(box, path, 2, table, NULL, NULL);
     question.options.first = k == 1 ? 0.01f : 0;
     question.options.measure = k == 2 ? 0.01f : 0;
     question.options.skin = k == 3 ? 0.001f : 0;
