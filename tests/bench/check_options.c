@@ -47,8 +47,8 @@
   KIND(LOST_BY_SEGMENTS, "16 segments lose a verdict") \
   KIND(LOST_BY_CLEARANCE, "a verdict that another clearance implies is lost") \
   KIND(LOST_BY_TOLERANCE, "`tolerance` loses a verdict") \
-  KIND(LOST_IN_HASTE, "`first` loses a verdict for which it has 8 times the work") \
-  KIND(MEASURE_IN_HASTE, "`measure` loses a verdict for which it has 8 times the work") \
+  KIND(LOST_IN_HASTE, "`first` loses a verdict for which it has 16 times the work") \
+  KIND(MEASURE_IN_HASTE, "`measure` loses a verdict for which it has 16 times the work") \
   KIND(LOST_FOR_GOOD, "a lost verdict that 16 times the work does not bring back") \
   KIND(FINER_LATER, "finer `first`: free_until earlier") \
   KIND(FINER_EARLIER, "finer `first`: contact_time later") \
@@ -822,7 +822,7 @@ static void put_all(const scene *s) {
       ends += !is_open;
       if (n == 0 && ends == 1)
         enough = o.work;
-      if (is_open && n > 0 && enough > 0 && o.work >= 8 * enough && o.work > 500)
+      if (is_open && n > 0 && enough > 0 && o.work >= 16 * enough && o.work > 500)
         find(s, n < 3 ? LOST_IN_HASTE : MEASURE_IN_HASTE, k, &asks[base], (double)enough);
     }
   }
