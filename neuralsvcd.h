@@ -14922,7 +14922,9 @@ static nsvcd__verdict nsvcd__verdict_of_distance(nsvcd__proof *p, nsvcd__search 
     return verdict;
   if (p->known.has_contact && p->known.found.distance <= p->asked)
     return NSVCD__MEETS;
-  return p->low > 0 && p->low >= p->asked ? NSVCD__FREE : NSVCD__UNDECIDED;
+  // a distance tells nothing of what is inside of what
+  const int is_clear = p->low > 0 && p->low >= p->asked && !p->unclear && !p->within;
+  return is_clear ? NSVCD__FREE : NSVCD__UNDECIDED;
 }
 
 static nsvcd_status nsvcd__status_of(nsvcd__verdict verdict) {
